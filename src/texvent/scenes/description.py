@@ -76,7 +76,6 @@ class Relation:
     """Index of an object."""
     targets: tuple[int, ...]
     """Indices of objects; the subject itself is its target if its copies collide."""
-    way: str = ""
     distance_m: float | None = None
 
 
@@ -136,7 +135,7 @@ def to_description(scene: spec.Scene) -> SceneDescription:
         scene.prompt,
         objects=tuple(map(_object, scene.objects)),
         relations=tuple(
-            Relation(one.kind, number, tuple(map(ids.index, one.to)), one.way or "", one.distance_m)
+            Relation(one.kind, number, tuple(map(ids.index, one.to)), one.distance_m)
             for number, subject in enumerate(scene.objects)
             for one in subject.relations
         ),

@@ -22,7 +22,7 @@ from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_prompt, prepare_video
 from texvent.run.settings import resolve
-from texvent.scenes.read.literals import find_literals
+from texvent.scenes.literals import find_literals
 from texvent.scenes.report import PromptReport
 from texvent.scenes.spec.files import parse_scene
 from texvent.sensor import SensorSize

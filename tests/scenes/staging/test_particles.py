@@ -100,6 +100,17 @@ def test_what_bursts_is_gone_and_its_pieces_fly(kind):
     assert (later[:, 2] > -0.2).all()
 
 
+def test_no_chip_is_seen_right_before_the_camera():
+    scene = stage(effects=(Effect("leaves"),), place="plain")
+    nearest_m, sizes = 0.3 * scene.camera_path.framing.distance_m, []
+    for time_s in np.linspace(0.0, 5.0, 21):
+        maps, camera = small(scene, float(time_s)), scene.camera(float(time_s)).position
+        is_near = np.linalg.norm(maps[:, :, 3] - camera, axis=1) < nearest_m
+        sizes += list(np.linalg.norm(maps[is_near, :, :3], axis=(1, 2)))
+    assert len(sizes) > 0
+    assert max(sizes) <= 2.0 * TINY_M
+
+
 def test_ground_truth_belongs_to_the_surface_behind_the_smoke():
     bare, smoky = staged(), staged(Effect("smoke"))
     smoky = ComposedScene(**{**vars(bare), "particles": smoky.particles})

@@ -6,7 +6,6 @@ understood changes nothing and is reported.
 """
 
 from texvent.scenes.read.draft import Reading
-from texvent.scenes.read.literals import find_literals
 from texvent.scenes.read.scenes import read
 
-__all__ = ["Reading", "find_literals", "read"]
+__all__ = ["Reading", "read"]

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
+from texvent.scenes.read.lexicon import word_set
 from texvent.scenes.read.tokens import NO_TOKEN, Token
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
@@ -27,8 +28,8 @@ class Group:
     unknown: tuple[Token, ...] = ()
     """Tokens without effect: words that are not known, or that another word stands before."""
     article: str = ""
-    of: Group | None = None
-    """Group after "of"."""
+    of: Phrase | None = None
+    """What follows: "of apples"."""
 
     @property
     def is_plural(self) -> bool:
@@ -42,9 +43,8 @@ class Group:
         senses = [one.value for one in self.head.all("noun")]
         is_name = any(one.noun == self.head.text for one in senses)  # "fish", "sheep"
         is_open = is_name and self.article not in ("a", "an")
-        return bool(senses) and (
-            senses[0].is_plural or (is_open and any(one.is_plural for one in senses))
-        )
+        same = [one for one in senses if one.noun == senses[0].noun] if is_open else senses[:1]
+        return any(one.is_plural for one in same)
 
 
 @dataclass(frozen=True)
@@ -62,16 +62,17 @@ class Clause:
     subjects: tuple[Group, ...] = ()
     verb: Token | None = None
     objects: tuple[Group, ...] = ()
-    before: tuple[Phrase, ...] = ()
-    """Phrases between the subject and the verb."""
     after: tuple[Phrase | Token, ...] = ()
-    """Phrases, adverbs and words of the scene, and words that are not known."""
+    """Phrases, adverbs and words of the scene after the subject, and words that are not known."""
     absent: tuple[Group, ...] = ()
     about: str = ""
-    """Subject that is not named here: "camera"; "same", those of the clause before; or "nearest",
-    the last group of it."""
-    is_next: bool = False
-    """Whether it happens after the clause before: "then"."""
+    """Subject that is not named here: "camera"; "same", those of the clause before, or "then",
+    after it; "nearest", its last group; "company", either: "a boat with dolphins jumping"."""
+
+    @property
+    def is_of_effect(self) -> bool:
+        """Whether it is about an effect: "smoke rises"."""
+        return any(one.head is not None and one.head.has("effect") for one in self.subjects)
 
     @property
     def has_subject(self) -> bool:
@@ -90,12 +91,12 @@ def read_clauses(tokens: Sequence[Token]) -> tuple[Clause, ...]:
     return tuple(one for one in _Parser(tokens).clauses() if one != Clause())
 
 
+@dataclass
 class _Parser:
     """Position in the tokens; each method reads on from there."""
 
-    def __init__(self, tokens: Sequence[Token]) -> None:
-        self._tokens = tokens
-        self._at = 0
+    _tokens: Sequence[Token]
+    _at: int = 0
 
     def clauses(self) -> Iterator[Clause]:
         """All clauses; each is begun as the one before says."""
@@ -127,12 +128,16 @@ class _Parser:
         token, word = self._token(), self._token().text
         if token.is_sign:
             self._take()
-            is_list = clause.subjects and not (clause.verb or clause.before or clause.after)
+            is_list = clause.subjects and not (clause.verb or clause.after)
             goes_on = self._starts_group() and not self._token().has("scene", "shot")
             return None if word == "," and is_list and goes_on else Clause()
         if token.has("conjunctions"):
             self._take()
-            return Clause(about="same", is_next=True) if word == "then" else Clause()
+            return Clause(about="then") if word == "then" else Clause()
+        phrase = clause.after[-1] if clause.after else None
+        if isinstance(phrase, Phrase) and phrase.preposition.text == "with" and token.verbs("ing"):
+            is_next = bool(phrase.groups) and phrase.groups[-1].head is self._token(-1)
+            return Clause(phrase.groups, about="company") if is_next else None
         if token.has("relatives") and clause != Clause() and not self._starts_group(1):
             self._take()
             return Clause(about="nearest")
@@ -144,7 +149,7 @@ class _Parser:
         if clause.verb is not None and self._is_verb(Clause(about="same")):
             return Clause(about="same")
         starts = self._starts_group() or self._token().has("camera")
-        return Clause() if clause.verb is not None and starts else None
+        return Clause() if starts and (clause.verb or clause.after) else None
 
     # Parts of a clause: each step gives the clause with what it has read, or None
 
@@ -160,12 +165,9 @@ class _Parser:
         return None
 
     def _read_absence(self, clause: Clause) -> Clause | None:
-        """As "without cars"; a verb that is denied is in no clause, and so not understood."""
+        """As "without cars"; a verb that is denied is not understood."""
         if not self._token().has("negations"):
             return None
-        if self._token(1).verbs("base", "ing", "ed"):
-            self._at += 2
-            return clause
         self._take()
         return replace(clause, absent=(*clause.absent, self._group()))
 
@@ -209,9 +211,7 @@ class _Parser:
             self._take()
             return clause
         self._at += 1 + is_back
-        phrase = Phrase(token, () if is_back else self._groups(is_phrase=True))
-        if clause.verb is None and clause.subjects:
-            return replace(clause, before=(*clause.before, phrase))
+        phrase = Phrase(token, () if is_back else self._groups(token))
         return replace(clause, after=(*clause.after, phrase))
 
     def _read_adverb(self, clause: Clause) -> Clause | None:
@@ -229,19 +229,13 @@ class _Parser:
         if (self._token().is_unknown and is_said) or not self._starts_group():
             return None
         if clause.verb is None:
-            if self._follows_head(clause):
-                return None  # "a woman ties her shoes": a noun that stands where a verb does
             return replace(clause, subjects=(*clause.subjects, self._group()))
         return replace(clause, objects=(*clause.objects, self._group()))
 
-    def _follows_head(self, clause: Clause) -> bool:
-        return bool(clause.subjects) and clause.subjects[-1].head is self._token(-1)
-
     def _read_rest(self, clause: Clause) -> Clause:
         """A word that is not known right after the subject is taken to be its verb."""
-        is_noun = self._follows_head(clause) and self._token().has("noun")
         token = self._take()
-        is_verb = clause.subjects and not clause.verb and (is_noun or token.is_unknown)
+        is_verb = clause.subjects and not clause.verb and token.is_unknown
         if not is_verb or token.text.endswith("ly"):
             return replace(clause, after=(*clause.after, token))
         groups = self._groups() if self._starts_group() else ()
@@ -262,20 +256,31 @@ class _Parser:
             return True
         return token.has("scene") or (token.is_unknown and not token.text.endswith("ly"))
 
-    def _groups(self, *, is_phrase: bool = False) -> tuple[Group, ...]:
-        """Groups with "and" between them, but for one that begins a clause."""
-        found = [self._group(is_phrase=is_phrase)]
+    def _groups(self, preposition: Token = NO_TOKEN) -> tuple[Group, ...]:
+        """Groups with "and" between them, but for one that begins a clause.
+
+        So does one with a like preposition: "a girl with a hat and a boy with a ball".
+        """
+        found = [self._group()]
         while self._token().text == "and" and self._starts_group(1):
             start = self._at
             self._take()
-            group = self._group(is_phrase=is_phrase)
-            if self._is_verb(Clause((group,))):
+            group = self._group()
+            if self._is_verb(Clause((group,))) or self._is_like(preposition):
                 self._at = start
                 break
             found.append(group)
         return tuple(found)
 
-    def _group(self, *, is_phrase: bool = False) -> Group:
+    def _is_like(self, preposition: Token) -> bool:
+        """Whether a preposition is here like the one before, or one with a pronoun."""
+        token, positions = self._token(), word_set("things", "positions") - {"between"}
+        kinds = {one.value for each in (preposition, token) for one in each.all("relation")}
+        is_back = preposition.text != "with" and self._token(1).has("pronouns")
+        is_both = token.has("relation") and preposition.has("relation")
+        return is_both and (token.text == preposition.text or is_back or kinds <= positions)
+
+    def _group(self) -> Group:
         modifiers: list[Token] = []
         unknown: list[Token] = []
         head, article = None, self._token().text
@@ -288,7 +293,7 @@ class _Parser:
                 unknown.append(token)
             elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)
-            elif self._is_compound(is_phrase=is_phrase):
+            elif self._is_compound():
                 unknown.append(token)
             else:
                 head = token
@@ -296,8 +301,7 @@ class _Parser:
             unknown.append(self._take())
         of = None
         if self._token().text == "of" and self._starts_group(1):
-            self._take()
-            of = self._group()
+            of = Phrase(self._take(), (self._group(),))
         return Group(head, tuple(modifiers), tuple(unknown), article, of)
 
     def _ends_group(self, first: int) -> bool:
@@ -314,13 +318,12 @@ class _Parser:
         is_before = token.has(*_MODIFIERS) and not after.has("relation")
         return is_before and after.has(*_HEADS, "field")
 
-    def _is_compound(self, *, is_phrase: bool) -> bool:
-        """Whether the word that follows is the head: "dog house", "in a traffic jam"."""
+    def _is_compound(self) -> bool:
+        """Whether the word that follows is the head: "dog house"."""
         after, third = self._token(), self._token(1)
-        if after.has("noun", "place") and not after.has("verb", "relation", "adverb"):
-            return not (after.text.endswith("s") and third.has("articles"))
-        is_end = is_phrase and third.is_sign
-        return is_end and after.is_unknown and not after.text.endswith("ly")
+        is_verb = after.text.endswith("s") and third.has("articles")
+        is_head = after.has("noun", "place") and not after.has("verb", "relation", "adverb")
+        return is_head and not is_verb
 
 
 def _is_alone(token: Token) -> bool:

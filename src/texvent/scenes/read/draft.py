@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from texvent.scenes.read.lexicon import word_set
 from texvent.scenes.read.tokens import Token
 from texvent.scenes.report import Substitution
 from texvent.scenes.spec.data import PLACING, scene_from_data
@@ -41,7 +42,7 @@ class SceneDraft:
     tokens: Sequence[Token]
     things: list[dict[str, Any]] = field(default_factory=list)
     """Fields of objects, whose relations are to indices of others; "is_lost" if what it does is
-    not known."""
+    not known; "act", what it does if nothing else is said."""
     moves: list[dict[str, Any]] = field(default_factory=list)
     effects: list[dict[str, Any]] = field(default_factory=list)
     """Effects, each with the index of its source."""
@@ -101,8 +102,11 @@ class SceneDraft:
             max(self.things, key=lambda one: int(one["count"]))["count"] -= 1
         ids = number_nouns([one["noun"] for one in self.things])
         for one in self.things:
-            if one.pop("is_lost", False) and not one["motions"] and not one["relations"]:
-                one["motions"].append({"kind": "stand"})
+            act = "stand" if one.pop("is_lost", False) else ""
+            act = one.pop("act", act)
+            done = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
+            if act and not done and not one["motions"]:
+                one["motions"].append({"kind": act})
             for relation in one["relations"]:
                 relation["to"] = [ids[target] for target in relation["to"]]
         for each in (self.parts["camera"], *self.effects):

@@ -44,6 +44,8 @@ class NounSense:
     is_plural: bool = False
     is_kind: bool = False
     """Whether the word means a kind that is shown as this noun: "terrier", a dog."""
+    act: str = ""
+    """What one does of whom nothing else is said: "dancer"."""
 
 
 @dataclass(frozen=True)
@@ -51,8 +53,8 @@ class VerbSense:
     """Verb, and what it asks for of its subject and its object."""
 
     who: str = "plain"
-    """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "source" (of an effect)
-    or "plain" (anything)."""
+    """Subject that it needs: "person", "hand", "animal", "camera", "lamp", "source" (of an effect),
+    "machine" or "plain" (anything)."""
     kind: str = ""
     """Motion, activity, camera move or effect."""
     pace: float = 1.0
@@ -116,10 +118,11 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     ]  # fmt: skip
     names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
+    acts = {one: act for act, agents in read_table("words")["agents"].items() for one in agents}
     for noun, kinds in read_table("kinds").items():
         for kind in kinds if noun in nouns else ():
             if kind not in plurals:
-                names.setdefault(kind, NounSense(noun, is_kind=True))
+                names.setdefault(kind, NounSense(noun, is_kind=True, act=acts.get(kind, "")))
     for name, one in names.items():
         yield name, Sense("noun", one)
     for name, one in names.items():

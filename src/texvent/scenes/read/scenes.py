@@ -16,6 +16,8 @@ from texvent.scenes.spec.scene import MAX_BODIES
 
 PLURAL_COUNT, SURROUND_COUNT = 3, 14
 """Copies that a bare plural means, and means all around something."""
+SPOTS = ("left", "right", "centre", "far", "near")
+"""Places in the picture, which are said of the group before: "past a tree on the left"."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 
@@ -45,12 +47,14 @@ class _Reader:
 
     def apply(self, clause: Clause) -> None:
         """Add what a clause says."""
-        self._phase += clause.is_next and bool(self._draft.moves)
+        self._phase += clause.about == "then" and bool(self._draft.moves)
         for head in (group.head for group in clause.absent):
             if head is not None and head.has("noun"):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
                 self._draft.show(head)
-        is_camera = clause.about == "camera" or (self._was_camera and clause.about == "same")
+        is_camera = clause.about == "camera" or (
+            self._was_camera and clause.about in ("same", "then")
+        )
         is_ego = not is_camera and self._is_ego(clause)
         self._was_camera = is_camera
         if is_camera or is_ego:
@@ -59,29 +63,45 @@ class _Reader:
             self._apply_to_things(clause)
 
     def _apply_to_things(self, clause: Clause) -> None:
-        subjects = self._nearest if clause.about == "nearest" else self._subjects
-        if clause.subjects:
-            subjects = [index for group in clause.subjects for index in self._name(group)]
-        for phrase in clause.before:
-            self._relate(phrase, subjects, subjects)
+        told = subjects = self._find_subjects(clause)
+        phrases = [one for one in clause.after if isinstance(one, Phrase)]
+        first = clause.verb.at if clause.verb is not None else 0
+        before = [one for one in phrases if one.preposition.at < first]
+        for phrase in before:
+            told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
+        if clause.verb and not objects and _is_passive(clause.verb, phrases[len(before) :]):
+            objects, subjects = list(subjects), self._introduce(phrases[len(before)])
+            before.append(phrases[len(before)])
         self._subjects, moved = list(subjects), subjects
         if clause.verb is not None:
             is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
             found = self._act(clause.verb, subjects, objects, has_object=is_unknown)
             kinds = {one.value.kind for one in clause.verb.all("verb")}
-            of_effect = any(one.head and one.head.has("effect") for one in clause.subjects)
-            if not subjects and of_effect and kinds & word_set("effects", "motions"):
+            if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
                 found = []  # "smoke rises from a chimney", as it does by itself
                 self._draft.show(clause.verb)
             for index in subjects if found is None else ():  # what it does is not made up
                 self._draft.things[index]["is_lost"] = True
             subjects, moved = ([], []) if found is None else (subjects, found or subjects)
-        for one in clause.after:
+            told = moved
+        for one in (each for each in clause.after if each not in before):
             if isinstance(one, Phrase):
-                self._relate(one, subjects, moved, is_of_verb=bool(objects))
+                told = self._relate(one, subjects, moved) or moved
             elif not self._set_scene(one):
-                self._say(one, moved)
+                adverb = one.first("adverb")
+                is_spot = adverb and adverb.value in (("placement", spot) for spot in SPOTS)
+                self._say(one, told if is_spot else moved)
+
+    def _find_subjects(self, clause: Clause) -> list[int]:
+        """Objects that a clause is about; in company, those that go by themselves."""
+        if clause.about == "company":
+            nouns = {one: self._nouns[self._draft.things[one]["noun"]] for one in self._nearest}
+            going = [one for one, noun in nouns.items() if noun.speed_m_s > 0.0]
+            return [] if clause.is_of_effect else going or self._subjects
+        if clause.subjects:
+            return [index for group in clause.subjects for index in self._name(group)]
+        return self._nearest if clause.about == "nearest" else self._subjects
 
     # Noun groups
 
@@ -92,7 +112,7 @@ class _Reader:
         """
         head = group.head
         words = [one.text.removesuffix("s") for one in (*group.unknown, head) if one is not None]
-        of = None if word_set("things", "likenesses").intersection(words) else group.of
+        is_likeness = word_set("things", "likenesses").intersection(words)
         found: list[int] = []
         if head is not None and self._is_place(head, relation):
             self._set_place(group, head, relation)
@@ -103,10 +123,21 @@ class _Reader:
                 effect = token.first("effect")
                 if not self._set_scene(token) and effect is not None:
                     self._add_effect(token, effect.value, owners)
-        if of is not None and of.head is not None and not _is_liquid(of.head):
-            inside = self._name(of)
-            self._nearest = found or inside
+        if group.of is not None and not is_likeness:
+            self._fill(found, group.of)
         return found
+
+    def _fill(self, vessels: Sequence[int], of: Phrase) -> None:
+        """Add what is in something, as "of apples"."""
+        draft, head = self._draft, of.groups[0].head
+        if head is None or _is_liquid(head):
+            return
+        inside = self._name(of.groups[0])
+        if inside and vessels:
+            self._nearest = list(vessels)
+            is_vessel = draft.things[vessels[0]]["noun"] in word_set("things", "vessels")
+            if not is_vessel or not draft.relate(inside[0], "in", vessels):
+                draft.mark(of.preposition, "lost")
 
     def _is_place(self, head: Token, relation: str) -> bool:
         is_thing = head.has("noun", "pose") or _is_liquid(head)
@@ -119,16 +150,13 @@ class _Reader:
             return []
         draft.show(head)
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.value.noun]
-        if (
-            known
-            and group.article in ("the", "its", "his", "her", "their")
-            and not group.modifiers
-            and not group.unknown
-        ):
+        is_plain = not group.modifiers and not group.unknown
+        if known and is_plain and group.article in ("the", "its", "his", "her", "their"):
             self._nearest = known[-1:]  # "the car", where there is one
             return known[-1:]
         if noun is not None:
             thing = {"noun": noun.value.noun, "motions": []}
+            thing |= {"act": noun.value.act} if noun.value.act else {}
             if noun.value.is_kind:
                 draft.mark(head, noun.value.noun)
         else:
@@ -163,19 +191,18 @@ class _Reader:
                 _set_field(thing, said.kind, field, value)
         else:
             if not self._set_scene(token) and things and token.verbs("ing", "ed"):
-                self._act(token, subjects, [], forms=("ing", "ed"))
+                self._act(token, subjects, [], has_object=False)
             return
         draft.show(token)
 
     # Verbs
 
     def _act(
-        self, verb: Token, subjects: Sequence[int], objects: Sequence[int], *,
-        has_object: bool = False, forms: tuple[str, ...] = ("base", "s", "ing", "ed"),
-    ) -> list[int] | None:  # fmt: skip
+        self, verb: Token, subjects: Sequence[int], objects: Sequence[int], *, has_object: bool
+    ) -> list[int] | None:
         """Apply the first sense that the subjects can do; who moves, or None: there is none."""
         draft, has_object = self._draft, has_object or bool(objects)
-        acts = (one.value for one in verb.verbs(*forms) if subjects)
+        acts = (one.value for one in verb.all("verb") if subjects)
         act = next((one for one in acts if self._fits(one, subjects, has_object)), None)
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
@@ -216,6 +243,8 @@ class _Reader:
                 return names <= HAND_NOUNS and not has_object
             case "animal":
                 return all(verb.kind in self._nouns[one].acts for one in names)
+            case "machine":
+                return not has_object and all(self._nouns[one].is_working for one in names)
             case "source" | "lamp":
                 return not has_object and not is_acting
         if verb.who == "camera" or (verb.kind == "drive" and names & PERSON_NOUNS):
@@ -228,33 +257,41 @@ class _Reader:
 
     # Prepositions
 
-    def _relate(
-        self, phrase: Phrase, subjects: Sequence[int], moved: Sequence[int], *,
-        is_of_verb: bool = False,
-    ) -> None:  # fmt: skip
-        """Apply a preposition with its groups; `moved` are those that the verb moves."""
+    def _relate(self, phrase: Phrase, subjects: Sequence[int], moved: Sequence[int]) -> list[int]:
+        """Apply a preposition with its groups, and give what they name.
+
+        `moved` are those that the verb moves; "behind them" is said of the nearest group.
+        """
         draft, token = self._draft, phrase.preposition
         sense = token.first("relation")
         kind = sense.value if sense is not None else ""
         if not phrase.groups:
-            draft.mark(token, "lost")
+            others = [] if set(self._nearest) & set(subjects) or not kind else self._nearest
+            if not any([self._relate_one(kind, one, subjects) for one in others if subjects]):
+                draft.mark(token, "lost")
+            return []
         place, targets = draft.parts["place"].get("name"), list[int]()
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
         for group in phrase.groups:
             targets += self._name(group, kind or token.text, owners)
         done = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
-        is_route = is_of_verb and kind in word_set("things", "routes")
         if not targets:
             if draft.parts["place"].get("name") != place:
-                self._go_to_place(token, subjects, moved)
+                self._go_to_place(token, subjects or self._nearest, moved)
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
-            able = () if is_route and done & word_set("things", "sending") else subjects
+            is_sent = kind in word_set("things", "routes") and done & word_set("things", "sending")
+            able = () if is_sent else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
-            draft.show(token)
-            if not any(placed):
-                draft.mark(token, "lost")
+            draft.mark(token, "shown" if any(placed) else "lost")
+        return targets
+
+    def _introduce(self, phrase: Phrase) -> list[int]:
+        """Add what a phrase names whose preposition relates nothing: "chased by a dog"."""
+        found = self._relate(phrase, [], [])
+        self._draft.mark(phrase.preposition, "shown")
+        return found
 
     def _go_to_place(self, token: Token, subjects: Sequence[int], moved: Sequence[int]) -> None:
         """As "across a field"; "a dog on a road", which is no vehicle, stands on it."""
@@ -262,11 +299,9 @@ class _Reader:
         for index in moved if token.text == "across" else ():
             for motion in draft.things[index]["motions"][-1:]:
                 motion.setdefault("direction", "across")
-        for thing in (draft.things[index] for index in subjects if token.text == "on"):
-            if (
-                draft.parts["place"]["name"] == "road"
-                and self._nouns[thing["noun"]].motion != "drive"
-            ):
+        is_road = token.text == "on" and draft.parts["place"]["name"] == "road"
+        for thing in (draft.things[index] for index in subjects if is_road):
+            if self._nouns[thing["noun"]].motion != "drive":
                 thing.setdefault("placement", "lane")
 
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
@@ -320,7 +355,8 @@ class _Reader:
         travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
         heads = [group.head for group in clause.subjects]
         is_place = all(one is not None and self._is_place(one, "") for one in heads)
-        return travels and is_place and not self._draft.things and clause.about != "nearest"
+        is_new = not self._draft.things and clause.about not in ("nearest", "company")
+        return travels and is_place and is_new
 
     def _apply_to_camera(self, clause: Clause, *, is_ego: bool) -> None:
         draft, targets = self._draft, list[int]()
@@ -329,13 +365,14 @@ class _Reader:
             self._name(group, "in")
         for group in clause.objects if not is_ego else ():
             targets += self._name(group)
-        for one in (*clause.before, *clause.after):
+        for one in clause.after:
             if not isinstance(one, Phrase):
                 self._set_scene(one)
             elif targets:  # as "orbits a car in front of a house"
                 self._relate(one, targets, targets)
             else:
-                targets += self._aim(one)
+                found, sense = self._introduce(one), one.preposition.first("relation")
+                targets += found if sense and sense.value in word_set("things", "aims") else []
         if move is not None:
             self._add_move(move)
             if targets:
@@ -347,15 +384,11 @@ class _Reader:
         if move.get("means") == "fly":
             self._draft.parts["camera"].setdefault("view", "aerial")
 
-    def _aim(self, phrase: Phrase) -> list[int]:
-        """Add what a phrase of a camera's clause names; the objects that it looks at."""
-        sense = phrase.preposition.first("relation")
-        kind, place = sense.value if sense else "", dict(self._draft.parts["place"])
-        found = [one for group in phrase.groups for one in self._name(group, kind or "with")]
-        if not found and self._draft.parts["place"] != place:
-            self._go_to_place(phrase.preposition, self._nearest, [])
-        self._draft.show(phrase.preposition)
-        return found if kind in word_set("things", "aims") else []
+
+def _is_passive(verb: Token, phrases: Sequence[Phrase]) -> bool:
+    """Whether a verb says what is done to its subject: "chased by a dog"."""
+    done = {one.value.relation for one in verb.verbs("ed")} & word_set("things", "doing")
+    return bool(done) and bool(phrases) and phrases[0].preposition.text == "by"
 
 
 def _is_liquid(head: Token) -> bool:

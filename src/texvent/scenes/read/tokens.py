@@ -7,8 +7,8 @@ import unicodedata
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from texvent.scenes.literals import find_literals
 from texvent.scenes.read.lexicon import LONGEST_PHRASE, Lexicon, Sense, word_set
-from texvent.scenes.read.literals import find_literals
 
 MOST_WORDS = 1000
 """Words of a prompt that are read; later ones are not understood, all together."""
@@ -112,16 +112,18 @@ def _without_chance(
     """Senses of several words that do not stand together by chance.
 
     As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street", "a bus stops"
-    (no things).
+    (no things), "steps out from behind a car" (no view).
     """
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
-    is_verb = words[end].endswith("ing") and after in word_set("senses", "articles")
+    articles = word_set("senses", "articles")
+    is_verb = words[end].endswith("ing") and after in articles
     is_single = bool(before) and before[-1].text in ("a", "an")
     is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
     return tuple(
         one for one in senses
         if (one.kind != "noun" or not (is_verb or (is_single and one.value.is_plural)))
         and (one.kind != "verb" or one.value.who != "camera" or is_of_camera)
+        and (one.kind != "scene" or one.value[1] != "view" or after not in articles)
     )  # fmt: skip
 
 

@@ -46,10 +46,6 @@ RelationKind: TypeAlias = Literal[
     "hold", "carry", "wear", "ride", "ride along", "push", "pull", "kick", "hit", "throw", "catch",
     "collide",
 ]  # fmt: skip
-Way: TypeAlias = Literal[
-    "into", "onto", "out of", "off", "against", "across", "along", "opposite", "at", "up", "down",
-    "lead",
-]  # fmt: skip
 Material: TypeAlias = Literal[
     "wood", "brick", "stone", "marble", "concrete", "metal", "brass", "glass", "plastic",
     "ceramic", "cloth", "leather", "rubber", "paper", "rust", "ice",
@@ -90,10 +86,6 @@ class Motion:
     """Repetitions per second of an oscillation: a swing, a shake."""
     start_s: Seconds | None = None
     """Start time, s; left out: time 0, or the end of the motion before."""
-    shore: Literal["into", "out of", "towards", "away from", "in"] | None = None
-    """Direction of travel with respect to the water of the place."""
-    is_stuck: bool = False
-    """Whether the object creeps along in traffic."""
 
     @property
     def is_moving(self) -> bool:
@@ -109,8 +101,6 @@ class Relation:
     """Position ("on", "left of"), route ("past", "follow") or action ("hold", "kick")."""
     to: tuple[str, ...]
     """Ids of the other objects; its own id stands for the copies of a group among each other."""
-    way: Way | None = None
-    """Direction of the relation: "into" a box, "off" a table."""
     distance_m: Metres | None = None
     """Distance on the ground from middle to middle, m, of "left of", "right of", "front", "behind"
     and "beside"."""
@@ -303,8 +293,6 @@ class Place:
     """Whether scenery and furniture are left out."""
     has_snow: bool = False
     """Whether snow lies on the ground."""
-    has_dust: bool = False
-    """Whether moving objects raise dust."""
     wave_height: Annotated[float, Between(0.0, 20.0)] = 1.0
     """Height of water waves, as a multiple of those in a light breeze."""
 

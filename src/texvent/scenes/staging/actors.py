@@ -111,6 +111,16 @@ class Actor:
         """Whether its origin is at its middle, not on the ground below."""
         return is_centred(self.noun)
 
+    @property
+    def lift_m(self) -> float:
+        """Height of its middle above its origin, m."""
+        return 0.0 if self.is_centred else 0.5 * self.model.height
+
+    @property
+    def foot_m(self) -> float:
+        """Height of its origin above its lowest point, m."""
+        return 0.5 * self.model.height if self.is_centred else 0.0
+
     @cached_property
     def _has_limbs(self) -> bool:
         return has_places(self.model)
@@ -168,9 +178,8 @@ class Actor:
 
     def middle(self, time_s: float) -> Float64Array:
         """[3] world position of its middle, m."""
-        lift = 0.0 if self.is_centred else 0.5 * self.model.height
         to_world = self.trajectory.at(time_s).to_world()
-        return np.asarray(to_world @ np.array([0.0, 0.0, lift, 1.0]))
+        return np.asarray(to_world @ np.array([0.0, 0.0, self.lift_m, 1.0]))
 
     def corners(self, time_s: float) -> Float64Array:
         """[8, 3] corners of its box in the world, m."""
@@ -189,7 +198,7 @@ class Actor:
         if self._has_limbs or pose.activity in self.noun.acts:
             return bounds(self.own_parts(pose))
         half = 0.5 * np.array([self.model.length, self.model.width, self.model.height])
-        lift = np.array([0.0, 0.0, 0.0 if self.is_centred else half[2]])
+        lift = np.array([0.0, 0.0, self.lift_m])
         return lift - half, lift + half
 
 

@@ -26,12 +26,12 @@ from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import plan_travel
 from texvent.scenes.staging.particles.choose import (
-    Setting,
     Staged,
     gone,
     stage_effects,
     with_headroom,
 )
+from texvent.scenes.staging.particles.shapes import Setting
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
 from texvent.scenes.staging.preparation import choose_levels, prepare
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
@@ -98,21 +98,11 @@ class ComposedScene:
     def environment(self, time_s: float) -> Environment:
         """Surroundings and light at that instant."""
         effects = self.particles.effects
-        lamps = np.concatenate(
-            [
-                self.lamps.rows(time_s),
-                *(effect.lamps(time_s) for effect in effects),
-            ]
-        )
+        lamps = np.vstack([self.lamps.rows(time_s), *(one.lamps(time_s) for one in effects)])
         lamps[:, 3:6] *= self.animated_environment.flicker(time_s)
-        puffs = [np.zeros((0, PUFF_COLUMNS)), *(effect.puffs(time_s) for effect in effects)]
+        puffs = np.vstack([np.zeros((0, PUFF_COLUMNS)), *(one.puffs(time_s) for one in effects)])
         surroundings = self.animated_environment.at(time_s)
-        return replace(
-            surroundings,
-            lamps=lamps,
-            puffs=np.concatenate(puffs),
-            has_highlights=self.has_highlights,
-        )
+        return replace(surroundings, lamps=lamps, puffs=puffs, has_highlights=self.has_highlights)
 
     @property
     def flicker_hz(self) -> float | None:
@@ -182,7 +172,7 @@ def compose_scene(
         strength=choose_lighting(PLACES[place], description.light).lamps,
         instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
     )  # fmt: skip
-    setting = Setting(actors, camera_path.framing, place, duration_s, seed)
+    setting = Setting(actors, camera_path, place, duration_s, seed)
     particles = stage_effects(description, setting)
     return ComposedScene(
         tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,

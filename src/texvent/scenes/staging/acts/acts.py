@@ -75,16 +75,6 @@ def size_of(model: Model) -> float:
     return float(getattr(model, "scale", 1.0))
 
 
-def lift_of(thing: Actor) -> float:
-    """Height of its middle above its origin, m."""
-    return 0.0 if thing.is_centred else 0.5 * thing.model.height
-
-
-def foot_of(thing: Actor) -> float:
-    """Height of its origin above its lowest point, m."""
-    return 0.5 * thing.model.height if thing.is_centred else 0.0
-
-
 def scaled(point: Vector, size: float) -> Vector:
     """A point of an adult's body on one of that size."""
     return (size * point[0], size * point[1], size * point[2])

@@ -15,9 +15,7 @@ from texvent.scenes.staging.actors import Actor, Tether
 from texvent.scenes.staging.acts.acts import (
     HeldAt,
     Performed,
-    foot_of,
     is_person,
-    lift_of,
     scaled,
     size_of,
 )
@@ -97,7 +95,7 @@ def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
     worn = trait_value("worn", target.noun.name) or {"place": "crown"}
     turn = rotation(worn.get("yaw", 0.0), worn.get("pitch", 0.0), 0.0)
     x, y, z = scaled(worn.get("at", (0.0, 0.0, 0.0)), size_of(subject.model))
-    offset = np.column_stack([turn, np.array([x, y, z + foot_of(target)])])
+    offset = np.column_stack([turn, np.array([x, y, z + target.foot_m])])
     return subject, carried(target, HeldAt(subject, worn["place"], offset), subject)
 
 
@@ -130,13 +128,13 @@ def place_in_hold(style: str, holder: Actor, thing: Actor) -> Hold:
         turn = rotation(0.0, 0.0, -1.05)
         return Hold("torso", np.column_stack([turn, size * np.array([0.20, -0.42, -0.08])]), False)
     if style == "mouth":
-        offset = shift(0.35 * thing.model.length, 0.0, -lift_of(thing))
+        offset = shift(0.35 * thing.model.length, 0.0, -thing.lift_m)
         return Hold("mouth", offset, False)
     return _in_right_hand(style, holder, thing)
 
 
 def _in_right_hand(style: str, holder: Actor, thing: Actor) -> Hold:
-    model, size, foot = thing.model, size_of(holder.model), foot_of(thing)
+    model, size, foot = thing.model, size_of(holder.model), thing.foot_m
     grips: Grips = ()
     if style in _RIGHT_HAND:
         grips = (("right hand", scaled(_RIGHT_HAND[style], size)),)
@@ -171,7 +169,7 @@ def _in_both_arms(thing: Actor, size: float) -> Hold:
     bottom = max(1.08 * size - 0.5 * model.height, 0.75 * size)
     z = min(max(bottom + 0.15 * model.height, 0.9 * size), 1.25 * size)
     turn = rotation(0.5 * math.pi if is_long else 0.0, 0.0, 0.0)
-    offset = np.column_stack([turn, [along, 0.0, bottom + foot_of(thing)]])
+    offset = np.column_stack([turn, [along, 0.0, bottom + thing.foot_m]])
     grips = _both_hands(min(along, 0.42 * size), min(0.5 * wide, 0.34 * size), z)
     return Hold("ground", offset, grips=grips)
 
@@ -198,7 +196,7 @@ def along_tool(thing: Actor) -> Affine:
         # It lies along its y.
         return np.column_stack([rotation(0.0, 0.0, 0.5 * math.pi), [0.0, 0.0, 0.36 * model.width]])
     if model.length < 2.0 * model.height:
-        return shift(0.0, 0.0, foot_of(thing) - 0.12 * model.height)
+        return shift(0.0, 0.0, thing.foot_m - 0.12 * model.height)
     side = -1.0 if thing.noun.name in nouns_with("handle at the rear") else 1.0
     turn = rotation(0.0, 0.5 * math.pi * side, 0.0)
     return np.column_stack([turn, [0.0, 0.0, 0.38 * model.length]])
@@ -227,7 +225,7 @@ def pull(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
         behind = 0.5 * subject.model.length + _HITCH_M
     hand = (-0.34 * size, -0.20 * size, 0.92 * size)
     subject = _performing(subject, "pull along", (("right hand", hand),))
-    end = (0.5 * model.length, 0.0, 0.5 * model.height - foot_of(target))
+    end = (0.5 * model.length, 0.0, 0.5 * model.height - target.foot_m)
     target = _along(subject, target, -(behind + 0.5 * model.length))
     return subject, replace(target, tether=Tether(subject, "right hand", end, 0.025))
 
@@ -240,6 +238,6 @@ def _performing(subject: Actor, activity: str | None, grips: Grips) -> Actor:
 
 def _along(subject: Actor, target: Actor, along_m: float) -> Actor:
     """The thing on the ground so far ahead of who moves it."""
-    offset = shift(along_m, 0.0, foot_of(target))
+    offset = shift(along_m, 0.0, target.foot_m)
     path = HeldAt(subject, "ground", offset, is_upright=True, activity="move")
     return replace(target, trajectory=path, lead_m=subject.lead_m, is_mover=subject.is_mover)

@@ -16,7 +16,6 @@ from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import (
     Cast,
     Performed,
-    foot_of,
     hides_riders,
     is_person,
     scaled,
@@ -93,7 +92,7 @@ def mount(rider: Actor, ridden: Actor, number: int = 0, crew: int = 1) -> Actor:
     doing, props = "sit", rider.props
     grips: Grips = ()
     if not is_person(rider):
-        seat: Vector = (0.0, 0.0, find_support(ridden.model).height + foot_of(rider))
+        seat: Vector = (0.0, 0.0, find_support(ridden.model).height + rider.foot_m)
     elif trait_value("seats", ridden.noun.name) is not None:
         seat, grips = _on_seat(ridden, size, number)
     else:

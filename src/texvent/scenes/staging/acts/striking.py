@@ -21,7 +21,6 @@ from texvent.scenes.staging.acts.acts import (
     HeldAt,
     Performed,
     is_person,
-    lift_of,
     moving,
     size_of,
     vector,
@@ -96,11 +95,10 @@ def throw(
     release_s, home = contact_time(duration_s, 0.35), subject.trajectory.at(0.0)
     path = Performed(Stationary(home.position, home.yaw), "throw", contact_s=release_s)
     subject = moving(subject, path)
-    low = 0.0 if thing.is_centred else -0.5 * thing.model.height
     reach = 0.5 * min(thing.model.length, thing.model.width) + 0.03
     anchor = "right hand" if is_person(subject) else "mouth"
-    held = HeldAt(subject, anchor, shift(reach, 0.0, low))
-    start = about_pivot(held.at(release_s), lift_of(thing))
+    held = HeldAt(subject, anchor, shift(reach, 0.0, -thing.lift_m))
+    start = about_pivot(held.at(release_s), thing.lift_m)
     if catcher is None:
         flight = _fly_off("throw", thing, start, home, (release_s, duration_s))
         flight = replace(flight, tumble_rad_s=6.0)
@@ -110,7 +108,7 @@ def throw(
     place = ahead(home.position, home.yaw, gap, home.position[2])
     catcher = _stand_and_catch(catcher, place, home.yaw + math.pi, catch_s)
     caught = HeldAt(catcher, *_catching(catcher, thing))
-    end = about_pivot(caught.at(catch_s), lift_of(thing))
+    end = about_pivot(caught.at(catch_s), thing.lift_m)
     arc = Arc(start, end, release_s, catch_s, 1.0)
     whole = Switched(Switched(held, arc, release_s), caught, catch_s)
     return subject, _on_its_way(thing, whole), catcher
@@ -121,7 +119,7 @@ def catch(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor
     catch_s, home = contact_time(duration_s, 0.55), subject.trajectory.at(0.0)
     subject = _stand_and_catch(subject, home.position, home.yaw, catch_s)
     caught = HeldAt(subject, *_catching(subject, thing))
-    end = about_pivot(caught.at(catch_s), lift_of(thing))
+    end = about_pivot(caught.at(catch_s), thing.lift_m)
     far = np.array(end.position) + (0.8 + 1.8 * catch_s) * heading_of(home.yaw) - [0.0, 0.0, 0.2]
     arc = Arc(replace(end, position=vector(far)), end, 0.0, catch_s, 1.0)
     return subject, _on_its_way(thing, Switched(arc, caught, catch_s))
@@ -166,8 +164,8 @@ def _on_its_way(thing: Actor, path: Trajectory) -> Actor:
 
 def _at(thing: Actor, middle: Float64Array, yaw: float) -> BodyState:
     """The thing with its middle there."""
-    lift = lift_of(thing)
-    return BodyState(vector(middle - [0.0, 0.0, lift]), yaw, pivot_m=lift)
+    place = vector(middle - [0.0, 0.0, thing.lift_m])
+    return BodyState(place, yaw, pivot_m=thing.lift_m)
 
 
 def _fly_off(
@@ -188,10 +186,9 @@ def _stand_and_catch(catcher: Actor, home: Vector, yaw: float, catch_s: float) -
 
 def _catching(catcher: Actor, thing: Actor) -> tuple[str, Affine]:
     """Place of the body at which a thing is caught, and the thing in its axes."""
-    low = 0.0 if thing.is_centred else -0.5 * thing.model.height
     if is_person(catcher):
-        return "hands", shift(0.4 * thing.model.length, 0.0, low)
-    return "mouth", shift(0.35 * thing.model.length, 0.0, low)
+        return "hands", shift(0.4 * thing.model.length, 0.0, -thing.lift_m)
+    return "mouth", shift(0.35 * thing.model.length, 0.0, -thing.lift_m)
 
 
 def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Actor]:
@@ -225,7 +222,7 @@ def _run_into(mover: Actor, still: Actor, yaw: float, contact_s: float) -> tuple
         place = still.trajectory.at(0.0).position
         still = replace(still, trajectory=Stationary(place, yaw + math.pi))
     is_flying = mover.noun.habitat in ("air", "fixed")  # what cannot go by itself was thrown
-    lift, low_m = lift_of(mover), mover.trajectory.at(0.0).position[2]
+    lift, low_m = mover.lift_m, mover.trajectory.at(0.0).position[2]
     level = float(still.middle(0.0)[2]) - lift if is_flying else low_m
     touching = _find_contact(mover, still, yaw, level)
     if not is_flying:
@@ -245,7 +242,7 @@ def _find_contact(mover: Actor, still: Actor, yaw: float, level_m: float) -> Vec
     parts = still.own_parts(still.pose(0.0))
     parts = moved(parts, frame @ still.trajectory.at(0.0).to_world())
     y = float((frame @ still.middle(0.0))[1])
-    low = level_m + lift_of(mover) - 0.5 * mover.model.height
+    low = level_m + mover.lift_m - 0.5 * mover.model.height
     boxes = [bounds([part]) for part in parts]
     met = [
         box for box in boxes

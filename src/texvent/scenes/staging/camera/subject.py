@@ -68,8 +68,7 @@ two walls, which looks along them."""
 _ELONGATED, _ALONG_IT = 4.5, 0.75
 """What is so many times as long as high is seen at an angle to its side, from nearer its front."""
 _HERD, _HERD_ELEVATION = 6, 0.3
-"""From so many copies on, and in a traffic jam, the camera stands higher, so that those behind are
-seen too."""
+"""From so many copies on the camera stands higher, so that those behind are seen too."""
 
 
 def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
@@ -116,7 +115,6 @@ def choose_angles(
     step = np.subtract(main.trajectory.at(0.5).position, main.trajectory.at(0.0).position)
     is_in_depth = bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
     said, view = description.objects[main.object_index], description.shot.view
-    is_jammed = said.motion is not None and said.motion.is_stuck
     follow = next((move.direction or "" for move in moves if move.kind == "follow"), None)
     if follow in ("behind", "front"):
         azimuth = yaw + 0.1 * wander + (0.5 if follow == "front" else -0.5) * math.pi
@@ -125,7 +123,7 @@ def choose_angles(
     elif is_in_depth:
         azimuth = math.copysign(0.42, wander)
         azimuth = azimuth if follow is None else yaw + math.copysign(0.5, wander)
-    elif _is_elongated(main) or is_jammed:
+    elif _is_elongated(main):
         azimuth = math.copysign(_ALONG_IT, math.cos(yaw))
     else:
         azimuth = wander
@@ -136,7 +134,7 @@ def choose_angles(
     elevation = ELEVATIONS.get(view or "")
     if elevation is None:
         elevation = _choose_elevation(main, follow, place, is_in_depth)
-        if (said.count >= _HERD or is_jammed) and elevation > 0.0:
+        if said.count >= _HERD and elevation > 0.0:
             elevation = max(elevation, _HERD_ELEVATION)
     return azimuth, min(elevation, _LEVEL_ELEVATION) if view in _BEARINGS else elevation
 

@@ -16,41 +16,17 @@ from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.traits import nouns_with, trait_value
 from texvent.scenes.scene import Colour, Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
-from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.particles.emitter import Emitter, Source
 from texvent.scenes.staging.particles.lights import BodyLights, Lightning
-from texvent.scenes.staging.particles.shapes import ParticleEffect
+from texvent.scenes.staging.particles.shapes import ParticleEffect, Setting
 from texvent.scenes.staging.surroundings.environment import FALLS, let_fall
 
 ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""
 _FALL_STEPS = 240
-_NO_GROUND = ("sky", "space", "underwater")
 _BLUE: Colour = (0.06, 0.2, 1.0)
 _BREATH = (1.0, 0.0, 0.3)
 """Direction of what comes from a mouth."""
-
-
-@dataclass(frozen=True)
-class Setting:
-    """What effects need to know about the scene."""
-
-    actors: Sequence[Actor]
-    framing: Framing
-    place: str
-    duration_s: float
-    seed: int
-
-    @property
-    def base(self) -> Float64Array:
-        """[3] the point on the ground below what the camera looks at, m."""
-        return np.array([self.framing.target[0], self.framing.target[1], 0.0])
-
-    @property
-    def away(self) -> Float64Array:
-        """[3] horizontal unit vector away from the camera."""
-        flat = -self.framing.offset * [1.0, 1.0, 0.0]
-        return np.asarray(flat / max(float(np.linalg.norm(flat)), 1e-9))
 
 
 @dataclass(frozen=True)
@@ -63,7 +39,7 @@ class Staged:
 
 
 def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
-    """All effects of a scene, those that some nouns always have, weather and dust.
+    """All effects of a scene, those that some nouns always have, and weather.
 
     An effect whose object has several copies is at each of them.
     """
@@ -86,17 +62,12 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
 
 
 def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEffect]:
-    """Rain and snow, and the dust behind what drives."""
-    said = description.surroundings
-    made: list[ParticleEffect] = []
-    if said.weather is not None and said.weather in FALLS:
-        rng = seeded(setting.seed, said.weather)
-        made.append(let_fall(said.weather, setting.base, 1.4 * setting.framing.distance_m, rng))
-    for actor in setting.actors if said.has_dust else ():
-        if actor.is_mover and actor.noun.habitat == "ground":
-            rng = seeded(setting.seed, "dust", actor.instance)
-            made += _make(Effect("dust"), actor, setting, rng)
-    return made
+    """Rain and snow."""
+    kind = description.surroundings.weather
+    if kind not in FALLS:
+        return []
+    rng = seeded(setting.seed, kind)
+    return [let_fall(kind, setting.base, 1.4 * setting.framing.distance_m, rng)]
 
 
 def with_headroom(description: SceneDescription, actors: Sequence[Actor]) -> list[Actor]:
@@ -137,9 +108,8 @@ def _make(
         source = Source(source.size_m, middle * [1.0, 1.0, 0.0])
     return [
         Emitter.of(
-            _fitted(style, effect.kind, actor), source, rng, colour=colour, start_s=start_s,
-            is_once=words.happens_once, floor_m=-np.inf if setting.place in _NO_GROUND else 0.0,
-            volley=volley,
+            _fitted(style, effect.kind, actor), source, setting, rng, colour=colour,
+            start_s=start_s, is_once=words.happens_once, volley=volley,
         )
         for style in words.emitters
         if style.colours or actor is not None
@@ -166,8 +136,8 @@ def _start(effect: Effect, actor: Actor | None, setting: Setting) -> float:
         return effect.start_s
     if actor is not None and effect.kind in ("splash", "break"):
         times = np.linspace(0.0, setting.duration_s, _FALL_STEPS)
-        low = _lowest_m(actor)
-        heights = np.array([actor.trajectory.at(float(t)).position[2] + low for t in times])
+        places = np.array([actor.trajectory.at(float(t)).position for t in times])
+        heights = places[:, 2] - actor.foot_m
         down = np.flatnonzero((heights[1:] <= 0.01) & (heights[:-1] > 0.01))
         if len(down):
             return float(times[down[0] + 1])
@@ -180,11 +150,6 @@ def _bulk(actor: Actor) -> float:
     return float(np.cbrt(model.length * model.width * model.height))
 
 
-def _lowest_m(actor: Actor) -> float:
-    """Height of a body's lowest point above its origin, m."""
-    return -0.5 * actor.model.height if actor.is_centred else 0.0
-
-
 def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
     """Where an effect comes from."""
     words = EFFECTS[kind]
@@ -195,12 +160,12 @@ def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
         return Source(float(size), target + behind * setting.away)
     bulk, model, noun = _bulk(actor), actor.model, actor.noun.name
     if words.lights is not None:
-        return Source(bulk, np.array([0.0, 0.0, _lowest_m(actor)]), actor)
+        return Source(bulk, np.array([0.0, 0.0, -actor.foot_m]), actor)
     if words.breathed and noun in PERSON_NOUNS:
         mouth = locate(model, "mouth", actor.pose(0.0))
         return Source(words.size * bulk, mouth @ [0.12 * bulk, 0.0, 0.0, 1.0], actor)
     known = (trait_value(trait, noun) for trait in words.anchor_traits)
     x, y, z = next((one for one in known if one is not None), words.anchor)
-    height = _lowest_m(actor) + z * model.height
+    height = z * model.height - actor.foot_m
     point = np.array([0.5 * x * model.length, 0.5 * y * model.width, height])
     return Source(words.size * bulk, point, actor)

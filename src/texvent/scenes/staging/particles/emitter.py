@@ -22,6 +22,7 @@ from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.particles.shapes import (
     TINY_M,
     ParticleEffect,
+    Setting,
     along,
     many_shapes,
     tumbling,
@@ -35,6 +36,8 @@ _FLAME_HZ = 6.0
 _FLAME_LIGHT = np.array([1.0, 0.5, 0.16])
 _EDDY, _EDDY_HZ = 1.6, 0.16
 """Size and rate of eddies, in units of an effect."""
+_NEAREST = 0.3
+"""Least distance of a chip to the camera, as a share of that to what it looks at."""
 _LONG_S = 1e4
 """Life of what has no end."""
 
@@ -133,22 +136,21 @@ class Emitter(ParticleEffect):
     lives: Lives
     colours: Float64Array
     """[k, 3] linear RGB."""
+    setting: Setting
     start_s: float = -math.inf
     """When the first one is born, s."""
-    floor_m: float = -math.inf
-    """Height of the ground, m; -inf = none."""
 
     @classmethod
     def of(
         cls,
         style: EmitterStyle,
         source: Source,
+        setting: Setting,
         rng: np.random.Generator,
         *,
         colour: Colour | None = None,
         start_s: float | None = None,
         is_once: bool = False,
-        floor_m: float = -math.inf,
         volley: int = 0,
     ) -> Emitter:
         """An emitter; `volley` is the number of the salvo that it is, where its style has some.
@@ -158,7 +160,7 @@ class Emitter(ParticleEffect):
         life_s = style.life * math.sqrt(source.size_m / GRAVITY) or _LONG_S
         if style.body == "drop" and style.life == 0.0:
             height = float(source.at(np.zeros(1))[0, 2])
-            height = max(height, 0.02) if math.isfinite(floor_m) else 3.0 * source.size_m
+            height = max(height, 0.02) if math.isfinite(setting.floor_m) else 3.0 * source.size_m
             life_s = 1.1 * math.sqrt(2.0 * height / GRAVITY)
         salvo = volley / style.salvos if style.salvos else None
         lives = Lives.of(style.count, life_s, rng, start_s if is_once else None, salvo)
@@ -168,7 +170,7 @@ class Emitter(ParticleEffect):
         elif not len(colours):
             colours = _colours_of(source, style.count, rng)
         start = -math.inf if start_s is None else start_s
-        return cls(source, style, lives, colours, start, floor_m)
+        return cls(source, style, lives, colours, setting, start)
 
     def at(self, time_s: float) -> Primitives:
         """Its drops or chips at that instant."""
@@ -187,10 +189,18 @@ class Emitter(ParticleEffect):
         if style.body == "drop":
             maps = along(flown.places, flown.heading, half)
             return many_shapes(maps, Shape.ELLIPSOID, self.colours[which], glow)
+        half = np.maximum(half * self._clear(flown.places, time_s), TINY_M)
         rate = style.turns * math.sqrt(GRAVITY / max(self.source.size_m, 0.02))
         starts, turned = flown.draws[:, [0, 2]], rate * flown.age_s[:, None]
         angles = 6.0 * starts + 6.6 * (starts - 0.5) * turned
         return many_shapes(tumbling(flown.places, angles, half), Shape.BOX, self.colours[which])
+
+    def _clear(self, places: Float64Array, time_s: float) -> Float64Array:
+        """[n, 1] share of its size that each chip is shown with: 0 right before the camera."""
+        camera = self.setting.camera
+        away = np.linalg.norm(places - camera.at(time_s).position, axis=1)[:, None]
+        nearest_m = _NEAREST * camera.framing.distance_m
+        return np.asarray(np.clip(away / nearest_m - 1.0, 0.0, 1.0))
 
     def puffs(self, time_s: float) -> Float64Array:
         """[k, 19] its puffs at that instant; those just born or about to go are thin."""
@@ -259,7 +269,7 @@ class Emitter(ParticleEffect):
             eddies = turbulence(places + apart, time_s, _EDDY * size, _EDDY_HZ / unit_s)
             places += style.curl * size * age[:, None] * eddies
         if style.body == "drop":
-            is_there &= places[:, 2] > self.floor_m - style.radius[1] * size
+            is_there &= places[:, 2] > self.setting.floor_m - style.radius[1] * size
         return _Flown(places, heading, age, flown_s, draws, is_there)
 
     def _offsets(self, draws: Float64Array) -> Float64Array:
@@ -284,7 +294,7 @@ class Emitter(ParticleEffect):
 
     def _landing_s(self, above: Float64Array, upward: Float64Array) -> Float64Array:
         """[n] when chips come to rest on the ground, s after their birth."""
-        fall = np.maximum(above - self.floor_m - 0.03 * self.source.size_m, 0.0)
+        fall = np.maximum(above - self.setting.floor_m - 0.03 * self.source.size_m, 0.0)
         pull = max(GRAVITY * self.style.gravity, 1e-6)
         return np.asarray((upward + np.sqrt(upward**2 + 2.0 * pull * fall)) / pull)
 

@@ -1,6 +1,10 @@
-"""Arrays of many small shapes and puffs."""
+"""What effects know of their scene, and arrays of many small shapes and puffs."""
 
 from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -13,9 +17,45 @@ from texvent.scenes.scene import (
     Shape,
     Texture,
 )
+from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.camera.camera_path import CameraPath
+from texvent.scenes.staging.camera.framing import Framing
 
+_NO_GROUND = ("sky", "space", "underwater")
 TINY_M = 5e-6
 """Half extent of a particle that is not there at the moment: the caster leaves it out."""
+
+
+@dataclass(frozen=True)
+class Setting:
+    """What effects need to know about the scene."""
+
+    actors: Sequence[Actor]
+    camera: CameraPath
+    place: str
+    duration_s: float
+    seed: int
+
+    @property
+    def framing(self) -> Framing:
+        """What the camera looks at, and from where."""
+        return self.camera.framing
+
+    @property
+    def base(self) -> Float64Array:
+        """[3] the point on the ground below what the camera looks at, m."""
+        return np.array([self.framing.target[0], self.framing.target[1], 0.0])
+
+    @property
+    def away(self) -> Float64Array:
+        """[3] horizontal unit vector away from the camera."""
+        flat = -self.framing.offset * [1.0, 1.0, 0.0]
+        return np.asarray(flat / max(float(np.linalg.norm(flat)), 1e-9))
+
+    @property
+    def floor_m(self) -> float:
+        """Height of the ground, m; -inf = none."""
+        return -math.inf if self.place in _NO_GROUND else 0.0
 
 
 class ParticleEffect:
