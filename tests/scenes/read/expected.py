@@ -104,5 +104,5 @@ def _say_object(data: dict) -> str:
     for motion in motions:
         parts.append(" ".join(str(one) for one in motion.values()))
     for one in relations:
-        parts.append(" ".join([one["kind"], one.get("way", ""), *one["to"]]).replace("  ", " "))
+        parts.append(" ".join([one["kind"], *one["to"]]))
     return ", ".join(parts)
