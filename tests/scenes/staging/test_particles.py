@@ -101,7 +101,7 @@ def test_what_bursts_is_gone_and_its_pieces_fly(kind):
 
 
 def test_no_chip_is_seen_right_before_the_camera():
-    scene = staged(Effect("leaves"), objects=())
+    scene = stage(effects=(Effect("leaves"),), place="plain")
     nearest_m, sizes = 0.3 * scene.camera_path.framing.distance_m, []
     for time_s in np.linspace(0.0, 5.0, 21):
         maps, camera = small(scene, float(time_s)), scene.camera(float(time_s)).position
