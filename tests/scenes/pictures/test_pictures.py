@@ -9,13 +9,11 @@ import numpy as np
 import pytest
 
 from texvent.errors import InputError
-from texvent.scenes.description import Picture, SceneDescription, SceneObject, Surroundings
+from texvent.scenes.description import Picture
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.pictures import PicturedModel, check_picture, load_picture
-from texvent.scenes.staging.compose import compose_scene
-from texvent.sensor import SensorSize
 
 
 def write_video(path: Path, levels: list[int], pts: list[int]) -> Path:
@@ -82,12 +80,3 @@ def test_a_picture_takes_the_place_of_what_is_usually_printed(noun):
     assert [part.image is not None for part in parts] == [True] + [False] * (len(parts) - 1)
     assert 1 <= len(parts) <= len(model.parts(pose))
     assert len(parts) == len(pictured.parts(Pose(1.0, 0.0, 0.0)))
-
-
-def test_a_scene_shows_the_picture():
-    board = SceneObject("whiteboard", picture=Picture("checkerboard", "9x6"))
-    description = SceneDescription("a board", objects=(board,), surroundings=Surroundings("grass"))
-    scene = compose_scene(description, seed=0, size=SensorSize(64, 48), duration_s=1.0)
-    primitives = scene.primitives(0.0)
-    assert primitives.image is not None
-    assert [one.checks for one in primitives.image if one is not None] == [(9, 6)]

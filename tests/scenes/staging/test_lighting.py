@@ -16,7 +16,6 @@ from texvent.scenes.spec.scene import Camera, Lamp, Light, Place, Scene, SceneOb
 from texvent.scenes.staging.compose import compose_scene
 from texvent.scenes.staging.surroundings.lighting import (
     choose_lighting,
-    tint_of,
     towards_light,
     usual_lighting,
 )
@@ -37,12 +36,6 @@ def test_light_comes_from_where_it_is_said_to(direction, axis, sign):
     low = towards_light(usual, ahead, Illumination(direction=direction, is_low=True))
     assert 0.0 < low[2] < 0.3
     assert towards_light(usual, ahead, Illumination()) is usual
-
-
-@pytest.mark.parametrize(("tint", "sign"), [("warm", 1), ("cold", -1), ("#0000ff", -1)])
-def test_a_tint_has_its_colour(tint, sign):
-    red, _, blue = tint_of(Illumination(tint=tint))
-    assert sign * (red - blue) > 0.0
 
 
 def test_soft_light_casts_no_shadow_and_hard_light_darkens_them():

@@ -13,7 +13,8 @@ from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.compose import ComposedScene
-from texvent.scenes.staging.particles.emitter import TINY_M, flight
+from texvent.scenes.staging.particles.emitter import flight
+from texvent.scenes.staging.particles.shapes import TINY_M
 
 
 def staged(*effects, seed=0):
@@ -100,7 +101,7 @@ def test_what_bursts_is_gone_and_its_pieces_fly(kind):
 
 
 def test_no_chip_is_seen_right_before_the_camera():
-    scene = stage.__wrapped__(effects=(Effect("leaves"),), place="plain", duration_s=1.0)
+    scene = stage(effects=(Effect("leaves"),), place="plain")
     nearest_m, sizes = 0.3 * scene.camera_path.framing.distance_m, []
     for time_s in np.linspace(0.0, 5.0, 21):
         maps, camera = small(scene, float(time_s)), scene.camera(float(time_s)).position

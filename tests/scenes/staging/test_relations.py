@@ -78,12 +78,6 @@ def test_what_begins_after_the_clip_is_reported():
     assert stage(walks, duration_s=8.0).not_shown == ()
 
 
-def test_a_car_comes_out_of_what_it_goes_through():
-    objects = thing("car", ("drive", "towards")), thing("tunnel")
-    car, gate = stage(*objects, relations=(("through", 0, 1),), place="road").actors
-    assert float((car.middle(2.0) - gate.middle(2.0))[1]) < -0.5 * gate.model.length < 0.0
-
-
 @pytest.mark.parametrize("count", [1, 4])
 def test_people_at_a_table_sit_on_chairs_around_it_and_face_it(count):
     objects = thing("person", count=count), thing("table")
@@ -121,17 +115,6 @@ def test_who_is_on_what_moves_goes_along():
     away = [cat.middle(time_s) - bus.middle(time_s) for time_s in (0.0, 1.0, 2.0)]
     np.testing.assert_allclose(away, np.tile(away[0], (3, 1)), atol=1e-6)
     assert np.linalg.norm(bus.middle(2.0) - bus.middle(0.0)) > 1.0
-
-
-def test_a_row_is_straight_and_a_ring_is_round():
-    row, ring = (
-        np.array([one.middle(0.0)[:2] for one in stage(thing("chair", count=5, side=side)).actors])
-        for side in ("row", "ring")
-    )
-    assert np.ptp(row[:, 1]) == pytest.approx(0.0)
-    assert np.diff(row[:, 0]).min() > 0.3
-    radii = np.linalg.norm(ring - ring.mean(axis=0), axis=1)
-    assert radii == pytest.approx(radii[0])
 
 
 def test_objects_without_relations_do_not_touch():

@@ -152,13 +152,6 @@ def test_who_rides_in_a_closed_vehicle_is_not_seen():
     assert [actor.noun.name for actor in scene.actors] == ["bus"]
 
 
-def test_who_looks_at_something_has_the_front_to_it():
-    man, dog = act("look at", "man", "dog").actors
-    way = middle(dog, 1.0) - middle(man, 1.0)
-    heading = man.trajectory.at(1.0).to_world()[:, 0]
-    assert float(way[:2] @ heading[:2]) > 0.95 * np.linalg.norm(way[:2])
-
-
 def gap(one: Actor, other: Actor, time_s: float) -> float:
     """Least distance between boxes of their parts, m."""
     (low, high), (floor, top) = (
