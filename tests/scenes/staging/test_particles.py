@@ -13,8 +13,7 @@ from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.compose import ComposedScene
-from texvent.scenes.staging.particles.emitter import flight
-from texvent.scenes.staging.particles.shapes import TINY_M
+from texvent.scenes.staging.particles.emitter import TINY_M, flight
 
 
 def staged(*effects, seed=0):
