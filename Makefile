@@ -57,7 +57,7 @@ help:
 	@echo "make test-llm     scenes by a real language model behind a llama.cpp server, in $(LLM_VENV)"
 	@echo "make docs         the documentation site, in $(DOCS_OUT)/html"
 	@echo "make linkcheck    links of the site to other hosts; needs the network"
-	@echo "make lint    ruff, mypy, import rules"
+	@echo "make lint    ruff, mypy, import rules, ceilings of rooms"
 	@echo "make licences     licences of every file (REUSE) and of every installed package, in $(AUDIT_VENV)"
 	@echo "make sbom         what an installation without extras consists of, as CycloneDX, in $(SBOM_OUT)"
 	@echo "make requirements the hashed requirements anew from pyproject.toml and constraints.txt"
@@ -108,6 +108,7 @@ lint: $(VENV)/.dev
 	$(VENV)/bin/ruff format --check .
 	$(VENV)/bin/mypy
 	$(VENV)/bin/lint-imports --no-cache
+	$(VENV)/bin/python -m tools.ceilings
 
 dist: $(RELEASE_VENV)/.release
 	rm -f dist/texvent-*.whl dist/texvent-*.tar.gz

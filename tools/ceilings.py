@@ -75,11 +75,11 @@ def faults(ceilings: Ceilings, before: Ceilings, root: Path = ROOT) -> list[str]
 
 def table(ceilings: Ceilings, root: Path = ROOT) -> str:
     """Sizes beside their ceilings, a line for each room."""
-    lines = [f"{'room':24}{'lines of Python':>20}{'lines of data':>18}{'modules':>14}"]
+    lines = [f"{'room':30}{'lines of Python':>20}{'lines of data':>18}{'modules':>14}"]
     for room, limits in ceilings.items():
         size = measure(limits["paths"], root)._asdict()
         cells = {name: f"{now:,} / {limits[name]:,}" for name, now in size.items()}
-        lines.append(f"{room:24}{cells['python']:>20}{cells['data']:>18}{cells['modules']:>14}")
+        lines.append(f"{room:30}{cells['python']:>20}{cells['data']:>18}{cells['modules']:>14}")
     return "\n".join(lines)
 
 
