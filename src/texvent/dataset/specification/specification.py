@@ -42,7 +42,7 @@ class SampleSource:
     words: Mapping[str, tuple[str, ...]] = field(default_factory=dict)
     """Name in the template → its words."""
     scene: tuple[str, ...] = ()
-    """Scene files, or patterns such as "scenes/*.toml"."""
+    """Scene files, or patterns of their names such as `"scenes/*.toml"`."""
     vary: Mapping[str, Any] = field(default_factory=dict)
     """Path of a field, such as "objects[0].colour", in every scene → a list of its values, or a
     range to draw from, as in `Specification.options`."""
