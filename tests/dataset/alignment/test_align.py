@@ -120,11 +120,13 @@ def train(folder: Path, samples: list[Recording]) -> Path:
     words = tokenizer([one.text for one in samples], padding=True, return_tensors="pt")
     pixels = torch.cat([_prepare(DrawnEvents(images=1)(one.load())[0], 32) for one in samples])
     optimiser = torch.optim.Adam(model.parameters(), lr=3e-3)
-    for _ in range(300):
+    for _ in range(1500):
         optimiser.zero_grad()
         loss = model(**words, pixel_values=pixels, return_loss=True).loss
         loss.backward()
         optimiser.step()
+        if loss.item() < 0.02:
+            break
     assert loss.item() < 0.1, loss
     model.save_pretrained(folder)
     return folder
