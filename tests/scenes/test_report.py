@@ -30,10 +30,7 @@ def test_a_report_is_faithful_if_and_only_if_nothing_is_to_refuse(report):
     assert report.is_faithful == (report.refusal() is None) == (not report.faults())
 
 
-def test_metadata_of_older_files_are_read():
-    old = {"understood": ["1 car", "not understood: wug"], "not_understood": ["wug"]}
-    report = PromptReport.of_metadata(old)
-    assert report == PromptReport(scene=("1 car",), not_understood=("wug",))
+def test_metadata_without_a_report_give_none():
     assert PromptReport.of_metadata({"generator": "wan"}) is None
 
 

@@ -117,15 +117,6 @@ class SceneDescription:
     notes: tuple[str, ...] = ()
     """What was decided where the scene leaves it open, as sentences."""
 
-    @property
-    def is_metric(self) -> bool:
-        """Whether anything stands where metres say: nothing is then moved or enlarged."""
-        return (
-            self.shot.position_m is not None
-            or any(one.distance_m is not None for one in self.relations)
-            or any((one.position_m, one.height_m) != (None, None) for one in self.objects)
-        )
-
 
 def to_description(scene: spec.Scene) -> SceneDescription:
     """The description of a scene that `scene_from_data` accepts; what is open stays open."""

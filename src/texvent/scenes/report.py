@@ -136,19 +136,8 @@ class PromptReport:
 
     @classmethod
     def of_metadata(cls, metadata: Mapping[str, Any]) -> PromptReport | None:
-        """The report in the metadata of a video; None where its generator gives none.
-
-        Files of texvent 0.x before `prompt_report` hold "understood" and "not_understood".
-        """
-        if REPORT_KEY in metadata:
-            return cls.from_json(metadata[REPORT_KEY])
-        if "understood" not in metadata:
-            return None
-        lines = (str(line) for line in metadata["understood"])
-        return cls(
-            scene=tuple(line for line in lines if not line.startswith("not understood: ")),
-            not_understood=tuple(metadata.get("not_understood", ())),
-        )
+        """The report in the metadata of a video; None where its generator gives none."""
+        return cls.from_json(metadata[REPORT_KEY]) if REPORT_KEY in metadata else None
 
 
 @dataclass

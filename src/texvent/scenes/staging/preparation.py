@@ -189,7 +189,7 @@ def _mounted(
 
 
 def _with_thirds(objects: Sequence[SceneObject], relations: Sequence[Relation]) -> list[Relation]:
-    """A throw towards somebody is theirs to catch; who holds a racket hits the ball with it."""
+    """The target of a throw catches it; a holder of a racket hits the ball with it."""
     found = list(relations)
     for act in relations:
         if act.kind not in ("throw", "hit") or len(act.targets) != 1:
