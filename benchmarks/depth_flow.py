@@ -27,7 +27,7 @@ from texvent._require import require
 from texvent._version import full_version
 from texvent.bench.machine import describe_environment
 from texvent.events import EventStream
-from texvent.metrics.motion.contrast_maximisation import (
+from texvent.metrics.event_sharpness import (
     estimate_patch_flow,
     estimate_velocity,
     splat_events,

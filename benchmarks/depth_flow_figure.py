@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from benchmarks.depth_flow import angle, load_depth, load_flow, torch
 from texvent._require import require
-from texvent.metrics.pixelwise.depth_error import FARTHEST_M
+from texvent.metrics.dense_errors import FARTHEST_M
 from texvent.train.checkpoint import WEIGHTS_FILE
 from texvent.train.depth.config import DepthConfig
 from texvent.train.depth.log_depth import decode_depth

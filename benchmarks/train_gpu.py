@@ -28,8 +28,7 @@ from texvent._require import require
 from texvent.bench.document import write_document
 from texvent.bench.machine import describe_environment
 from texvent.errors import MissingDependencyError
-from texvent.metrics.lpips.layout import LAYOUTS, LpipsNet
-from texvent.metrics.lpips.weights import LpipsWeights
+from texvent.metrics.lpips import LAYOUTS, LpipsNet, LpipsWeights
 from texvent.train.reconstruction.config import ReconstructionConfig, ReconstructionLoss
 from texvent.train.reconstruction.network import new_network
 from texvent.train.reconstruction.sequence_loss import SequenceLoss

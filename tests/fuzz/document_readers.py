@@ -10,8 +10,8 @@ from texvent.bench.fidelity.page import page_files
 from texvent.bench.fidelity.results import read_report
 from texvent.bench.selftest.run import SelftestRow
 from texvent.bench.selftest.table import read_selftest, selftest_document, selftest_table
-from texvent.metrics.lpips import weights as lpips_weights
-from texvent.metrics.lpips.weights import read_lpips_weights, write_lpips_weights
+from texvent.metrics import lpips
+from texvent.metrics.lpips import read_lpips_weights, write_lpips_weights
 
 from ..bench.synthetic_report import synthetic_report
 from ..metrics.lpips.lpips_files import NARROW, narrow_weights, write_published
@@ -68,6 +68,6 @@ def _make_published(folder: Path) -> Path:
 
 def _read_weights(path: Path) -> str:
     # The published network has 10 MB; a narrow one of the same layers is read by the same code.
-    lpips_weights.LAYOUTS = (NARROW,)
+    lpips.LAYOUTS = (NARROW,)
     arrays = read_lpips_weights(path).arrays
     return digest(arrays[name] for name in sorted(arrays))

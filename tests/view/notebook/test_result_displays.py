@@ -18,8 +18,7 @@ from texvent.bench.fidelity.results import read_report
 from texvent.bench.selftest.table import read_selftest
 from texvent.dataset.loading.stored_samples import StoredSample
 from texvent.events import EventStream
-from texvent.metrics.compare import load_metric
-from texvent.metrics.scores import Scores
+from texvent.metrics.compare import Scores, load_metric
 from texvent.sensor import SensorSize
 
 RESULTS = Path(__file__).parents[3] / "docs/results"

@@ -19,7 +19,7 @@ from texvent.bench.real.frame_recording import FrameRecording, open_recording
 from texvent.bench.real.scene import WITH_FRAMES, RealScene, locate_source, open_scene
 from texvent.data.pull import find_pulled
 from texvent.errors import InputError, MissingDependencyError
-from texvent.metrics.rvt.eqs import load_eqs
+from texvent.metrics.latent_similarity import load_eqs
 from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
 
 NETWORKS = {1: "e2vid", 7: "e2vid", 8: "et-net"}

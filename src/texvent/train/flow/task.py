@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Final
 
 from texvent._require import require
 from texvent.errors import ConfigError
-from texvent.metrics.pixelwise.flow_error import FlowError
+from texvent.metrics.dense_errors import FlowError
 from texvent.networks.weight_files import STATE, Tensor
 from texvent.train.batches import Batches
 from texvent.train.flow.config import FlowConfig

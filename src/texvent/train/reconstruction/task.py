@@ -16,7 +16,7 @@ from texvent._require import require
 from texvent.dataset.targets import Target
 from texvent.errors import ConfigError
 from texvent.metrics.image_measures import Float64Array, load_measures
-from texvent.metrics.lpips.weights import find_lpips_weights, read_lpips_weights
+from texvent.metrics.lpips import find_lpips_weights, read_lpips_weights
 from texvent.networks.weight_files import STATE, Tensor
 from texvent.reconstruct.checkpoint import Checkpoint
 from texvent.reconstruct.protocol import PublishedNetwork

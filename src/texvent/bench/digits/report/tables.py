@@ -6,11 +6,9 @@ from collections.abc import Iterable, Sequence
 
 from texvent.bench.classification.classify import binomial_error
 from texvent.bench.digits.report.results import DigitsReport, SetScore
-from texvent.bench.digits.report.statistics import difference_interval
+from texvent.bench.digits.report.statistics import SIGNIFICANCE, difference_interval, holm
 from texvent.bench.markdown import markdown_table
 from texvent.metrics.summary import summarise
-from texvent.metrics.uncertainty.difference import SIGNIFICANCE
-from texvent.metrics.uncertainty.permutation import holm
 
 REPRESENTATION_TITLES = {
     "histogram": "Counts (histogram of three movements)",

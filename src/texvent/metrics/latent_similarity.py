@@ -1,22 +1,24 @@
-"""LFS: cosine similarity of latent features, patch by patch, under any backbone."""
+"""LFS and EQS: similarity of two streams in the features of a network."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.metrics.protocol import UNDEFINED, Metric
+from texvent.metrics.rvt_backbone import WHERE_FROM, Features, RvtBackbone, read_rvt_weights
 from texvent.metrics.windows import flat_index, occupied_windows, rate_of_window
 from texvent.represent.array_ops import columns_of
 from texvent.represent.stacked_histogram import BINS, CUTOFF, stacked_histogram, time_bins
 
-Features: TypeAlias = NDArray[np.float32]
 Backbone: TypeAlias = Callable[[Features], Sequence[Features]]
 """Stacked histogram [20, H, W] → feature maps [C, H', W'], one per stage."""
 
@@ -119,3 +121,48 @@ def _histogram_patches(events: EventStream) -> NDArray[np.float64]:
     patch = flat_index((channel, shape[0]), (row // PATCH, shape[1]), (column // PATCH, shape[2]))
     total = np.bincount(patch, np.minimum(counts, CUTOFF), minlength=math.prod(shape))
     return total.reshape(shape) / PATCH**2
+
+
+@dataclass(frozen=True, kw_only=True)
+class EventQualityScore(Metric):
+    """Mean cosine of 3×3 patches of RVT's features, over stages 1-3 and windows of 50 ms.
+
+    Never read it without the scores of its controls (`bench.selftest.controls`): it barely sees
+    time, and rewards noise.
+
+    Source: K. Chanda et al., "Event quality score (EQS): assessing the realism of simulated event
+        camera streams via distances in latent space" (CVPR workshops 2025).
+    Deviation: the paper publishes neither code nor which RVT it used, does not say how patches lie,
+        and pads images without saying what becomes of the padding. Here patches do not overlap,
+        and the padding's features are left out.
+    """
+
+    name = "eqs"
+    better = "higher"
+    range = (-1.0, 1.0)
+    blind_to = "small time errors; added noise can improve it: see its controls"
+
+    backbone: RvtBackbone | None = None
+    """RVT's backbone with published weights; see `load_eqs`."""
+
+    def missing(self) -> str | None:
+        """As `Metric.missing`."""
+        if self.backbone is not None:
+            return None
+        return f"it needs RVT's weights, pass --rvt-weights FILE; {WHERE_FROM}"
+
+    def _score(self, predicted: EventStream, reference: EventStream) -> float:
+        if self.backbone is None:
+            raise ConfigError(f"metric eqs cannot be computed: {self.missing()}")
+        return LatentSimilarity(backbone=self.backbone)(predicted, reference)
+
+
+def load_eqs(path: Path) -> EventQualityScore:
+    """EQS with the weights of a published checkpoint.
+
+    Raises:
+        InputError: there is no such file.
+        FileFormatError: it does not hold RVT's backbone.
+        MissingDependencyError: torch is not installed.
+    """
+    return EventQualityScore(backbone=RvtBackbone(read_rvt_weights(path)))

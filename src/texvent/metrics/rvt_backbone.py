@@ -1,18 +1,168 @@
-"""RVT's backbone for inference: a stacked histogram in, the features of its stages out."""
+"""RVT's backbone: its three published sizes, and the tensors that its checkpoint holds.
+
+Source: M. Gehrig, D. Scaramuzza, "Recurrent vision transformers for object detection with event
+cameras" (CVPR 2023), and the configurations released with it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
 from types import ModuleType
-from typing import Any
+from typing import Any, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent._require import require
-from texvent.metrics.rvt.latent_similarity import Features
-from texvent.metrics.rvt.layout import ATTENTIONS, STRIDES, RvtLayout, kernel_side
-from texvent.metrics.rvt.weights import EXTRA, RvtWeights
-from texvent.networks.weight_files import Tensor
+from texvent.errors import FileFormatError, InputError
+from texvent.networks.layer_shapes import Shapes, layer_norm, linear
+from texvent.networks.weight_files import (
+    Tensor,
+    check_finite,
+    describe_mismatch,
+    named_tensors,
+    read_mapping,
+    shapes_of,
+)
+
+Features: TypeAlias = NDArray[np.float32]
+
+INPUT_CHANNELS = 20
+"""Of the stacked histogram: 2 polarities of 10 bins."""
+STRIDES = (4, 2, 2, 2)
+"""By how much each stage reduces the image it is given."""
+MLP_RATIO = 4
+ATTENTIONS = ("att_window", "att_grid")
+"""Parts of a stage, in order: attention inside a window, then across the image."""
+GATES = 4
+"""Of the LSTM: forget, input, output, and the new content."""
+
+
+@dataclass(frozen=True)
+class RvtLayout:
+    """One size of the backbone."""
+
+    name: str
+    embed_channels: int
+    """Channels of the first stage; each later one has twice as many."""
+    head_channels: int
+    """Channels of one attention head."""
+
+    def channels(self, stage: int) -> int:
+        """Channels of a stage, 0..3."""
+        return int(self.embed_channels * 2**stage)
+
+    def tensor_shapes(self) -> Shapes:
+        """Name → shape of every tensor of the four stages, without the checkpoint's prefix."""
+        shapes: Shapes = {}
+        channels_in = INPUT_CHANNELS
+        for stage, stride in enumerate(STRIDES):
+            width, at = self.channels(stage), f"stages.{stage}"
+            side = kernel_side(stride)
+            shapes[f"{at}.downsample_cf2cl.conv.weight"] = (width, channels_in, side, side)
+            shapes |= layer_norm(f"{at}.downsample_cf2cl.norm", width)
+            for part in ATTENTIONS:
+                shapes |= _attention_shapes(f"{at}.att_blocks.0.{part}", width)
+            shapes[f"{at}.lstm.conv1x1.weight"] = (GATES * width, 2 * width, 1, 1)
+            shapes[f"{at}.lstm.conv1x1.bias"] = (GATES * width,)
+            channels_in = width
+        return shapes
+
+
+def kernel_side(stride: int) -> int:
+    """Side of the convolution that reduces by `stride`: neighbours overlap."""
+    return 2 * (stride - 1) + 1
+
+
+def _attention_shapes(at: str, width: int) -> Shapes:
+    shapes: Shapes = {}
+    if at.endswith("att_grid"):
+        # The window's input is normalised already, by the layer before.
+        shapes |= layer_norm(f"{at}.norm1", width)
+    shapes |= linear(f"{at}.self_attn.qkv", 3 * width, width)
+    shapes |= linear(f"{at}.self_attn.proj", width, width)
+    shapes[f"{at}.ls1.gamma"] = (width,)
+    shapes |= layer_norm(f"{at}.norm2", width)
+    shapes |= linear(f"{at}.mlp.net.0.0", MLP_RATIO * width, width)
+    shapes |= linear(f"{at}.mlp.net.2", width, MLP_RATIO * width)
+    shapes[f"{at}.ls2.gamma"] = (width,)
+    return shapes
+
+
+LAYOUTS: tuple[RvtLayout, ...] = (
+    RvtLayout("rvt-t", 32, 32),
+    RvtLayout("rvt-s", 48, 24),
+    RvtLayout("rvt-b", 64, 32),
+)
+
+
+EXTRA = "torch"
+"""The texvent extra that brings torch."""
+PREFIX = "mdl.backbone."
+"""Before the backbone's names in a checkpoint of the whole detector."""
+FIRST_TENSOR = "stages.0.downsample_cf2cl.conv.weight"
+WHERE_FROM = (
+    "the published files are rvt-t.ckpt, rvt-s.ckpt and rvt-b.ckpt, to which the project "
+    "uzh-rpg/RVT on GitHub links"
+)
+
+
+@dataclass(frozen=True, eq=False)
+class RvtWeights:
+    """The tensors of one backbone."""
+
+    layout: RvtLayout
+    tensors: Mapping[str, Tensor]
+    """Names of `layout.tensor_shapes()` → tensor, float32, on the CPU."""
+
+
+def read_rvt_weights(path: Path) -> RvtWeights:
+    """The backbone's weights from a published checkpoint.
+
+    Args:
+        path: `rvt-t.ckpt`, `rvt-s.ckpt` or `rvt-b.ckpt`, trained on Gen1 or on 1 Mpx; which one is
+            recognised from its tensors.
+
+    Raises:
+        InputError: there is no such file.
+        FileFormatError: the file is damaged, or a tensor is missing, unknown or of another shape.
+        MissingDependencyError: torch is not installed.
+    """
+    if not path.is_file():
+        raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
+    state = read_mapping(path, WHERE_FROM, extra=EXTRA).get("state_dict")
+    if not isinstance(state, Mapping):
+        raise FileFormatError(f"{path} holds no state_dict; it is not RVT's: {WHERE_FROM}")
+    tensors = {
+        name.removeprefix(PREFIX): tensor
+        for name, tensor in named_tensors(state, extra=EXTRA).items()
+        if name.startswith(PREFIX)
+    }
+    layout = _recognise_layout(tensors, path)
+    problem = describe_mismatch(shapes_of(tensors), layout.tensor_shapes())
+    if problem is not None:
+        raise FileFormatError(f"{path} is not {layout.name}: {PREFIX[:-1]} {problem}; {WHERE_FROM}")
+    check_finite(tensors, path)
+    return RvtWeights(layout, tensors)
+
+
+def _recognise_layout(tensors: Mapping[str, Tensor], path: Path) -> RvtLayout:
+    if FIRST_TENSOR not in tensors:
+        raise FileFormatError(
+            f"{path} has no tensor {PREFIX}{FIRST_TENSOR}; it is not RVT's: {WHERE_FROM}"
+        )
+    width = tensors[FIRST_TENSOR].shape[0]
+    for layout in LAYOUTS:
+        if layout.embed_channels == width:
+            return layout
+    sizes = ", ".join(f"{one.embed_channels} ({one.name})" for one in LAYOUTS)
+    raise FileFormatError(
+        f"{path} is of a backbone with {width} channels in its first stage; known are {sizes}. "
+        f"{WHERE_FROM}"
+    )
+
 
 PARTITION_PX = 64
 """The image is padded to a multiple of this; attention works on parts of (height / 64,

@@ -6,7 +6,7 @@ import pytest
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
-from texvent.metrics.uncertainty.window_scores import score_windows
+from texvent.metrics.uncertainty import score_windows
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(8, 6)
@@ -70,9 +70,9 @@ def test_every_two_candidates_are_compared_by_every_metric():
 
 
 def test_infinite_and_undefined_windows_are_left_out():
-    scores = windows_of({"a": TRUTH}, "ef_psnr", "cadence")
+    scores = windows_of({"a": TRUTH}, "ef_psnr", "fwl")
     assert np.isnan(scores.values["ef_psnr", "a"]).all()  # equal frames: infinite
-    assert scores.mean("cadence", "a").windows == 0
+    assert scores.mean("fwl", "a").windows == 0
 
 
 def test_a_reference_without_events_has_no_windows():
