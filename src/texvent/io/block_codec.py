@@ -1,7 +1,7 @@
-"""A codec whose files are read and written block by block: what nearly every format is.
+"""Base classes of formats that are read, and mostly written, block by block.
 
-A format states its limits and brings two parts. `inspect` reads the beginning of a file; what it
-returns gives the events block by block. `start` opens a file and takes them.
+`inspect` reads the beginning of a file and returns a reader of its events; `start` opens a file
+and returns a writer.
 """
 
 from __future__ import annotations
@@ -58,17 +58,15 @@ class FileContents:
     """For files that can find a time."""
 
 
-class BlockCodec(ABC):
-    """Reads and writes one format; see `EventCodec`."""
+class BlockReader(ABC):
+    """Reads one format; see `EventReader`."""
 
     name: ClassVar[str]
     extensions: ClassVar[tuple[str, ...]] = ()
-    limits: ClassVar[FormatLimits]
-    has_sidecar: ClassVar[bool] = False
-    """Whether size and metadata are written beside the file."""
     has_checksums: ClassVar[bool] = False
     """Whether events that were changed by damage are noticed; `texvent validate` says where not."""
-    writer: ClassVar[type[BlockWriter]] = BlockWriter
+    is_folder: ClassVar[bool] = False
+    """Whether a recording is a folder of files."""
 
     def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
         """Events of a file, block by block; the file is opened anew for each pass.
@@ -78,13 +76,31 @@ class BlockCodec(ABC):
             FileFormatError: the file is damaged or of another format.
             MissingDependencyError: reading it needs a package that is not installed.
         """
-        path = self.find(path)
+        path = existing_folder(path) if self.is_folder else existing_file(path)
         contents = self.inspect(path)
         final_size = stored_or_given_size(path, contents.size, size)
         packets = BlockPackets(path, contents, final_size)
         if contents.seek is not None:
             packets = SeekableBlockPackets(path, contents, final_size, contents.seek)
         return EventPackets(packets, final_size, contents.metadata)
+
+    @abstractmethod
+    def inspect(self, path: Path) -> FileContents:
+        """Facts that an existing file states, and a function that reads its events.
+
+        Raises:
+            InputError: it does not say enough to be read.
+            FileFormatError: the file is damaged or of another format.
+        """
+
+
+class BlockCodec(BlockReader):
+    """Reads and writes one format; see `EventCodec`."""
+
+    limits: ClassVar[FormatLimits]
+    has_sidecar: ClassVar[bool] = False
+    """Whether size and metadata are written beside the file."""
+    writer: ClassVar[type[BlockWriter]] = BlockWriter
 
     def open_writer(
         self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
@@ -110,62 +126,16 @@ class BlockCodec(ABC):
                 writer.append(packet)
 
     @abstractmethod
-    def inspect(self, path: Path) -> FileContents:
-        """What an existing file states, and how to read its events.
-
-        Raises:
-            InputError: it does not say enough to be read.
-            FileFormatError: the file is damaged or of another format.
-        """
-
-    @abstractmethod
     def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Open the file `part`; see `block_writer.StartFile`."""
 
-    def find(self, path: Path) -> Path:
-        """The path of a readable file.
-
-        Raises:
-            InputError: there is none.
-        """
-        return existing_file(path)
-
-    def check_target(self, target: FileTarget) -> None:  # noqa: B027  # most refuse no more
+    def check_target(self, target: FileTarget) -> None:  # most refuse no more
         """Refuse, before a file is made, what `limits` do not say.
 
         Raises:
             InputError: the format cannot hold this sensor.
             MissingDependencyError: writing needs a package that is not installed.
         """
-
-
-class FolderCodec(BlockCodec):
-    """A format that is a folder of files."""
-
-    def find(self, path: Path) -> Path:
-        """The path of a readable folder.
-
-        Raises:
-            InputError: there is none.
-        """
-        return existing_folder(path)
-
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start a folder; see `EventCodec.open_writer`."""
-        target = FileTarget(path, size, metadata, overwrite)
-        return self.writer(
-            target,
-            partial(self.start, target),
-            limits=self.limits,
-            copy=self.copy,
-            is_own=self.is_own,
-        )
-
-    @abstractmethod
-    def is_own(self, path: Path) -> bool:
-        """True if a file has a name that this format gives; other files are never replaced."""
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,6 @@ A format opens a file, adds columns to it, and knows how it begins and ends.
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
@@ -16,7 +15,7 @@ from typing import Any, Self, TypeAlias
 
 from texvent.errors import InputError, OutputError, warn
 from texvent.events import EventStream
-from texvent.io.atomic import atomic_file, atomic_folder, check_output, check_output_folder
+from texvent.io.atomic import atomic_file, check_output
 from texvent.io.limits import LABELLED, FormatLimits
 from texvent.io.metadata import metadata_to_json, sidecar_path, sidecar_text
 from texvent.io.protocol import Columns
@@ -57,8 +56,6 @@ class BlockWriter:
         limits: what the format holds.
         copy: copies a complete file of the format, with other metadata; see `add_metadata`.
         has_sidecar: whether size and metadata are written beside the file.
-        is_own: for formats that are folders: tells from its path whether a file is of the format,
-            so that the folder may be replaced. None: the format is one file.
 
     Raises:
         OutputError: the file exists already, its folder refuses it, or the disk is full.
@@ -75,12 +72,8 @@ class BlockWriter:
         limits: FormatLimits,
         copy: CopyFile,
         has_sidecar: bool = False,
-        is_own: Callable[[Path], bool] | None = None,
     ) -> None:
-        if is_own is None:
-            check_output(target.path, overwrite=target.overwrite)
-        else:
-            check_output_folder(target.path, overwrite=target.overwrite, is_own=is_own)
+        check_output(target.path, overwrite=target.overwrite)
         if has_sidecar:
             check_output(sidecar_path(target.path), overwrite=target.overwrite)
         limits.check_size(target.path, target.size)
@@ -91,7 +84,6 @@ class BlockWriter:
         self._copy = copy
         self._added: dict[str, Any] = {}
         self._has_sidecar = has_sidecar
-        self._is_own = is_own
         self._stack = ExitStack()
         self._part = self._beside = target.path
         self._write: WriteBlock | None = None
@@ -110,7 +102,7 @@ class BlockWriter:
                     atomic_file(sidecar_path(target.path), overwrite=target.overwrite)
                 )
                 self._write_sidecar(target.metadata)
-            self._part = stack.enter_context(self._place())
+            self._part = stack.enter_context(atomic_file(target.path, overwrite=target.overwrite))
             stack.push(self._store_added)
             # Entered last: the file is closed before it gets its name.
             self._write = stack.enter_context(self._start(self._part))
@@ -166,18 +158,10 @@ class BlockWriter:
         part = self._part
         copy = part.with_stem(f"{part.stem}-copy")
         self._copy(part, FileTarget(copy, self._target.size, metadata, overwrite=True))
-        if part.is_dir():
-            shutil.rmtree(part)
         os.replace(copy, part)
 
     def _write_sidecar(self, metadata: Mapping[str, Any]) -> None:
         self._beside.write_text(sidecar_text(self._target.size, metadata), encoding="utf-8")
-
-    def _place(self) -> AbstractContextManager[Path]:
-        path, overwrite = self._target.path, self._target.overwrite
-        if self._is_own is None:
-            return atomic_file(path, overwrite=overwrite)
-        return atomic_folder(path, overwrite=overwrite, is_own=self._is_own)
 
     @property
     def keeps_labels(self) -> bool:

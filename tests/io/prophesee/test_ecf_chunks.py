@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError
-from texvent.io.prophesee import ecf_chunks
+from texvent.io.prophesee import prophesee_ecf as ecf_chunks
 
 from .ecf_bodies import Event, make_chunk
 

@@ -10,9 +10,8 @@ import pytest
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.io.files import codec_for, codec_that_reads, load, open_events, save
-from texvent.io.prophesee import ecf_hdf5
-from texvent.io.prophesee.ecf_dataset import ECF_FILTER
-from texvent.io.prophesee.ecf_hdf5 import CHUNK_EVENTS, EVENT
+from texvent.io.prophesee import prophesee_ecf as ecf_hdf5
+from texvent.io.prophesee.prophesee_ecf import CHUNK_EVENTS, ECF_FILTER, EVENT
 
 from .ecf_bodies import make_chunk
 from .prophesee_files import SIZE, at_times, events_of, row_bursts

@@ -1,4 +1,4 @@
-"""Bytes of Event Stream files ↔ events; the layout is described in `texvent.io.atis.es`."""
+"""Events of the bytes of Event Stream files; the layout is described in `event_stream2.py`."""
 
 from __future__ import annotations
 
@@ -12,44 +12,6 @@ RESET = 0xFE
 """Both are larger than the first byte of every event."""
 OVERFLOW_US = 127
 EVENT_BYTES = 5
-
-
-@jit
-def encode_events(
-    x: NDArray[np.uint16],
-    y: NDArray[np.uint16],
-    t: NDArray[np.int64],
-    p: NDArray[np.uint8],
-    start: tuple[int, int],
-    data: NDArray[np.uint8],
-) -> int:
-    """Fill `data`; returns the number of bytes.
-
-    Args:
-        x: column, pixels, [n].
-        y: row, pixels from the top, [n].
-        t: time, µs, [n].
-        p: polarity, [n].
-        start: time of the event before the first, µs, and y of the top row as stored.
-        data: long enough for everything.
-    """
-    last, top = start
-    place = 0
-    for index in range(len(t)):
-        delta = t[index] - last
-        last = t[index]
-        while delta >= OVERFLOW_US:
-            data[place] = OVERFLOW
-            place += 1
-            delta -= OVERFLOW_US
-        row = top - y[index]
-        data[place] = delta << 1 | p[index]
-        data[place + 1] = x[index] & 0xFF
-        data[place + 2] = x[index] >> 8
-        data[place + 3] = row & 0xFF
-        data[place + 4] = row >> 8
-        place += EVENT_BYTES
-    return place
 
 
 @jit

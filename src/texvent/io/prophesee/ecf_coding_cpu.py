@@ -1,4 +1,4 @@
-"""Bodies of ECF chunks ↔ events; the layout is described in `texvent.io.prophesee.ecf_chunks`.
+"""Events of the bodies of ECF chunks; the layout is described in `prophesee_ecf.py`.
 
 Decoders return how many bytes they used, or −1 where the body is damaged. They never read beyond
 the body nor write beyond the columns, whatever the bytes say.
@@ -22,58 +22,6 @@ STOP_US = 1 << 62
 """Times lie below; with a step more they would leave 64 bits."""
 MASK_BITS = 5
 GROUP = 4
-
-
-@jit
-def encode_times(t: NDArray[np.int64], body: Bytes) -> int:
-    """Fill `body` with runs of equal times; returns the number of bytes."""
-    count = 0
-    current = np.int64(t[0])
-    i = 0
-    while i < t.size:
-        time = np.int64(t[i])
-        step = time - current
-        if step >= EXTENSION:
-            while step > 0:
-                body[count] = (EXTENSION << 4) | (step & 0xF)
-                count += 1
-                step >>= 4
-        current = time
-        start = i
-        while i < t.size and t[i] == time:
-            i += 1
-        run = i - start
-        if run < EXTENSION:
-            body[count] = (step << 4) | run
-            count += 1
-        else:
-            body[count] = (step << 4) | EXTENSION
-            body[count + 1] = run & 0xFF
-            body[count + 2] = run >> 8
-            count += 3
-    return count
-
-
-@jit
-def encode_packed(columns: tuple[NDArray[Any], ...], body: Bytes) -> int:
-    """Fill `body` with 24 bits per event, in groups of four; returns the number of bytes."""
-    x, y, p = columns
-    count = 0
-    group = np.zeros(GROUP, dtype=np.int64)
-    for start in range(0, x.size, GROUP):
-        for j in range(GROUP):
-            i = start + j
-            group[j] = 0
-            if i < x.size:
-                group[j] = (np.int64(y[i]) << 12) | (np.int64(x[i]) << 1) | np.int64(p[i])
-        first = (group[0] << 8) | (group[1] & 0xFF)
-        second = ((group[1] >> 8) << 16) | (group[2] & 0xFFFF)
-        third = ((group[2] >> 16) << 24) | group[3]
-        for word in (first, second, third):
-            for shift in (0, 8, 16, 24):
-                body[count] = (word >> shift) & 0xFF
-                count += 1
-    return count
 
 
 @jit

@@ -5,29 +5,23 @@
     0xFF     127 µs pass · 0xFE  reset, read over
 
 Rows count from the bottom, as faery and the format's cameras have it; programs that do not flip
-them show the image upside down. Silence takes one byte per 127 µs, so times stay below 2^36 µs
-(19 h), which would be 540 MB of silence: clock times (since 1970) do not fit. How the events
-were made lies beside the file, in `NAME.es.json`.
+them show the image upside down.
 
 Source: Neuromorphic Vision, Event Stream specification, version 2.0.
 """
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
-from typing import BinaryIO, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.io.block_codec import BLOCK_BYTES, BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.block_codec import BLOCK_BYTES, BlockReader, FileContents
 from texvent.io.input_checks import begins_with
-from texvent.io.limits import FormatLimits
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
 
@@ -36,20 +30,14 @@ VERSION = b"\x02\x00\x00"
 TYPE = 1
 TYPES = {0: "generic", 1: "dvs", 2: "atis", 3: "asynchronous", 4: "color"}
 HEADER_BYTES = len(MAGIC) + len(VERSION) + 1 + 4
-STOP_US = 1 << 36
 EVENT_BYTES = 5
-MAX_SILENCE_US = 1 << 27
-"""Longer silence is written a megabyte at a time."""
-OVERFLOW_US = 127
 
 
-class EsCodec(BlockCodec):
+class EventStream2Codec(BlockReader):
     """Event Stream files of change-detection events."""
 
     name: ClassVar[str] = "es"
     extensions: ClassVar[tuple[str, ...]] = (".es",)
-    limits: ClassVar[FormatLimits] = FormatLimits("Event Stream", 1 << 16, STOP_US)
-    has_sidecar: ClassVar[bool] = True
 
     def recognises(self, path: Path) -> bool:
         """True if the file begins as Event Stream files do."""
@@ -60,47 +48,6 @@ class EsCodec(BlockCodec):
         width, height = _read_size(path)
         _, metadata = read_sidecar(path)
         return FileContents((width, height), metadata, partial(_read_blocks, path, height - 1))
-
-    @contextmanager
-    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
-        """Write the header."""
-        sides = b"".join(side.to_bytes(2, "little") for side in target.size)
-        with part.open("wb") as file:
-            file.write(MAGIC + VERSION + bytes([TYPE]) + sides)
-            yield _EventWriter(file, target.size.height - 1).write
-
-
-class _EventWriter:
-    """Writes events, each with the time since the one before it."""
-
-    def __init__(self, file: BinaryIO, top: int) -> None:
-        self._file = file
-        self._top = top
-        self._last_us = 0
-
-    def write(self, columns: Columns) -> None:
-        t = columns["t"]
-        silences = np.diff(t, prepend=self._last_us) > MAX_SILENCE_US
-        bounds = [0, *np.flatnonzero(silences).tolist(), len(t)]
-        for start, stop in itertools.pairwise(bounds):
-            if start < stop:
-                self._write_part({name: columns[name][start:stop] for name in "xytp"})
-
-    def _write_part(self, columns: Columns) -> None:
-        """Write events with no long silence except before the first."""
-        from texvent.io.atis.es_coding import encode_events  # brings Numba
-
-        t = columns["t"]
-        while int(t[0]) - self._last_us > MAX_SILENCE_US:
-            self._file.write(b"\xff" * (MAX_SILENCE_US // OVERFLOW_US))
-            self._last_us += MAX_SILENCE_US // OVERFLOW_US * OVERFLOW_US
-        room = EVENT_BYTES * len(t) + (int(t[-1]) - self._last_us) // OVERFLOW_US
-        data = np.empty(room, dtype=np.uint8)
-        count = encode_events(
-            columns["x"], columns["y"], t, columns["p"], (self._last_us, self._top), data
-        )
-        self._last_us = int(t[-1])
-        self._file.write(data[:count].data)
 
 
 def _read_size(path: Path) -> tuple[int, int]:
@@ -126,7 +73,7 @@ def _read_size(path: Path) -> tuple[int, int]:
 
 
 def _read_blocks(path: Path, top: int) -> Iterator[Columns]:
-    from texvent.io.atis.es_coding import decode_events  # brings Numba
+    from texvent.io.atis.event_stream2_cpu import decode_events  # brings Numba
 
     rest = b""
     now = 0
