@@ -16,7 +16,7 @@ from texvent.events import EventStream
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import PALETTES
-from texvent.view.windows.cut import cut_windows
+from texvent.view.windows import cut_windows
 
 from .event_nodes import EVENTS, RATE
 from .model_nodes import CATEGORY

@@ -181,7 +181,7 @@ class EventPackets(EventEdits):
     ) -> dict[str, str]:
         """What a notebook shows: what is known without going through the packets."""
         from texvent.view.notebook.bundle import mime_bundle
-        from texvent.view.notebook.events import packets_html
+        from texvent.view.notebook.displays import packets_html
 
         return mime_bundle(self, lambda: packets_html(self), include, exclude)
 

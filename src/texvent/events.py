@@ -325,7 +325,7 @@ class EventStream(EventEdits):
             ConfigError: unknown kind or option, or axes that do not fit it.
             MissingDependencyError: matplotlib is not installed.
         """
-        from texvent.view.plots.plot import plot
+        from texvent.view import plots as plot
 
         return plot(self, kind, ax=ax, **options)
 
@@ -334,7 +334,7 @@ class EventStream(EventEdits):
     ) -> dict[str, str]:
         """What a notebook shows: the busiest moment, a cloud to turn, the event rate, facts."""
         from texvent.view.notebook.bundle import mime_bundle
-        from texvent.view.notebook.events import stream_html
+        from texvent.view.notebook.displays import stream_html
 
         return mime_bundle(self, lambda: stream_html(self), include, exclude)
 

@@ -40,7 +40,7 @@ def case(request: pytest.FixtureRequest) -> FormatCase:
 
 
 def sweep_in_another_process(folder: Path) -> None:
-    code = "import sys, pathlib, texvent.io.hidden_parts as h; h.sweep(pathlib.Path(sys.argv[1]))"
+    code = "import sys, pathlib, texvent.io.atomic as a; a.sweep(pathlib.Path(sys.argv[1]))"
     subprocess.run([sys.executable, "-c", code, str(folder)], check=True)
 
 

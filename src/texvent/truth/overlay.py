@@ -16,10 +16,10 @@ from texvent.sensor import SensorSize
 from texvent.truth.source import Snapshot
 from texvent.video import PREVIEW_MARK, Frame
 from texvent.view.atomic_output import AtomicOutput
-from texvent.view.drawing.annotations import ARROW_US, Annotations, flow_arrows
 from texvent.view.drawing.canvas import Image, blank, draw_label, enlarge, tile
 from texvent.view.drawing.event_image import frame_image
 from texvent.view.drawing.palettes import Colour
+from texvent.view.drawing.panels import ARROW_US, Annotations, flow_arrows
 from texvent.view.video.encoder import VideoEncoder
 
 PANEL_WIDTH = 640

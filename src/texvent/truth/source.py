@@ -23,7 +23,7 @@ from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
 from texvent.truth.parts import PARTS
 from texvent.video import Frame, FrameStream, Motion
-from texvent.view.drawing.annotations import GroundTruthStream
+from texvent.view.drawing.panels import GroundTruthStream
 
 ON_FRAMES = {"flow", "flow-back", "depth", "ids", "boxes", "overlay"}
 """Parts that take an image of the truth."""

@@ -18,7 +18,7 @@ from texvent.data.pull import ARCHIVES, Progress, data_folder, describe, fetch_a
 from texvent.data.unpack import unpack
 from texvent.errors import FileFormatError
 from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
-from texvent.io.hidden_parts import hidden_folder
+from texvent.io.atomic import hidden_folder
 from texvent.metrics.lpips import read_lpips_weights, write_lpips_weights
 from texvent.runtime.cache_folder import cache_folder, make_folder
 from texvent.weights.published import NetworkKind, PublishedWeights, find_weights

@@ -6,8 +6,8 @@
 
 Coordinates below 32768. The time counter turns after 2^31 µs; `time turns` of the packet counts
 this, so long recordings are whole. The sensor's size follows from the camera named in
-`#Source 1: DVS128` (or from `#Size: WIDTHxHEIGHT`), or is asked for. Packets of other types (frames, IMU samples,
-triggers) and events marked invalid are read over.
+`#Source 1: DVS128` (or from `#Size: WIDTHxHEIGHT`), or is asked for. Packets of other types
+(frames, IMU samples, triggers) and events marked invalid are skipped.
 
 Source: iniVation, AEDAT 3.1 file format.
 """

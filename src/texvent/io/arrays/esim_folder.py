@@ -1,7 +1,7 @@
 """ESIM's folders: `0000000000.npz`, `0000000001.npz` …, arrays x, y, t (ns), p (-1 or +1).
 
-ESIM's folders have no sensor size, so it is asked for, unless a file `texvent.json` states it. Times
-that are no whole µs are rounded down.
+ESIM's folders have no sensor size, so it is asked for, unless a file `texvent.json` states it.
+Times that are no whole µs are rounded down.
 
 Trap: tools that expect µs read these times 1000 times too long.
 

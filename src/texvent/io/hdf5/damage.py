@@ -12,7 +12,6 @@ import h5py
 
 from texvent._require import require
 from texvent.errors import FileFormatError, MissingDependencyError
-from texvent.io.hidden_parts import is_hidden_part
 from texvent.io.input_checks import reporting_damage
 
 HDF5_DAMAGE = (
@@ -31,11 +30,9 @@ def open_hdf5(path: Path) -> Iterator[Any]:
     Raises:
         FileFormatError: the file is damaged.
     """
-    # The writer that reads its own hidden part again holds its lock.
-    locking = False if is_hidden_part(path) else None
     with (
         reporting_damage(path, "an HDF5 event file", HDF5_DAMAGE),
-        h5py.File(path, "r", locking=locking) as file,
+        h5py.File(path, "r") as file,
     ):
         yield file
 

@@ -23,9 +23,9 @@ from typing import Any, ClassVar
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, one_line
+from texvent.io.atomic import hidden_folder
 from texvent.io.block_codec import BlockCodec, FileContents, split_by_time
 from texvent.io.block_writer import FileTarget, WriteBlock
-from texvent.io.hidden_parts import hidden_folder
 from texvent.io.limits import FormatLimits
 from texvent.io.metadata import parse_sidecar, sidecar_text
 from texvent.io.prophesee.evt3 import Evt3Codec

@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
-from texvent.view.page.template import palette_properties, viewer_file
+from texvent.view.page.html_parts import palette_properties, viewer_file
 
 DARK_HOSTS = (
     'body[data-jp-theme-light="false"]',

@@ -1,20 +1,29 @@
-"""The window with the most events as an image, found in one pass."""
+"""Still images: the busiest window, the contact sheet, instants of a scene."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+import math
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
 from texvent.events import EventStream
 from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
-from texvent.view.drawing.canvas import png_bytes
+from texvent.video import RenderableStream
+from texvent.view.drawing.canvas import Image, png_bytes, tile
+from texvent.view.drawing.event_image import frame_image
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
-from texvent.view.drawing.panels import PanelLayout
-from texvent.view.windows.cut import still_window_us
-from texvent.view.windows.draw_window import compose_window
-from texvent.view.windows.event_window import EventWindow
+from texvent.view.drawing.panels import SURROUND, TARGET_WIDTH, PanelLayout
+from texvent.view.windows import EventWindow, compose_window, still_window_us
+
+
+def busiest_start(events: EventStream, window_us: int) -> int:
+    """Start of the window with the most events, µs; 0 without events."""
+    if len(events) == 0:
+        return 0
+    counts = np.searchsorted(events.t, events.t + window_us) - np.arange(len(events))
+    return int(events.t[int(counts.argmax())])
 
 
 class BusiestWindow:
@@ -98,3 +107,56 @@ def busiest_window_png(events: EventStream, *, title: str) -> bytes | None:
     window = find_busiest((events,), still_window_us(extent))
     still = BusiestWindow(size=events.size, side_by_side=False, title=title)
     return None if window is None else still.draw(window)
+
+
+GAP = 4
+NARROWEST_PANEL = 360.0
+"""So that the caption of a panel can be read."""
+
+
+def draw_contact_sheet(
+    windows: Iterable[EventWindow],
+    panels: int,
+    *,
+    size: SensorSize,
+    palette: str,
+    side_by_side: bool,
+) -> Image:
+    """The windows in reading order, on a sheet of about 3:2.
+
+    Args:
+        windows: at least one, at most `panels`.
+        panels: how many the sheet is laid out for.
+        size: sensor size, pixels.
+        palette: colours, by name.
+        side_by_side: whether each panel also shows its frame.
+    """
+    across = size.width * (2 if side_by_side else 1)
+    columns = max(1, min(panels, round(math.sqrt(panels * 1.5 * size.height / across))))
+    layout = PanelLayout(
+        size,
+        get_palette(palette),
+        side_by_side=side_by_side,
+        target_width=max(NARROWEST_PANEL, TARGET_WIDTH / columns),
+    )
+    composed = [compose_window(one, layout, title=one.caption, facts="") for one in windows]
+    return tile(composed, columns, SURROUND, gap=GAP)
+
+
+GAP_PX = 4
+
+
+def draw_stills(video: RenderableStream, times_us: Sequence[int]) -> bytes:
+    """The frames at some instants in a row, as a PNG file in memory.
+
+    Args:
+        video: one that can be rendered at any instant.
+        times_us: the instants, µs, at least one.
+    """
+    size = video.size
+    width = len(times_us) * (size.width + GAP_PX) - GAP_PX
+    row = np.full((size.height, width, 3), 255, np.uint8)
+    for number, t_us in enumerate(times_us):
+        left = number * (size.width + GAP_PX)
+        row[:, left : left + size.width] = frame_image(video.at(t_us))
+    return png_bytes(row)
