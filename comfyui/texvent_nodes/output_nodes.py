@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent._registry import CODECS
+from texvent.io.files import extension_of, writable_formats
 from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
 from texvent.video import MICROSECONDS
@@ -92,14 +92,14 @@ class TexventSaveEvents:
             "required": {
                 "events": (EVENTS,),
                 "filename_prefix": ("STRING", prefix),
-                "format": (list(CODECS.builtin), {"default": "hdf5"}),
+                "format": (writable_formats(), {"default": "hdf5"}),
             }
         }
 
     def save(self, events: Any, filename_prefix: str, format: str) -> dict[str, Any]:
         """Write the file; the page shows its name."""
         events = _checked(events)
-        extension = next(iter(CODECS.load(format).extensions), "")
+        extension = extension_of(format)
         path = output_path(filename_prefix, extension)
         events.save(path, format=format)
         text = f"{path.name}: {len(events):,} events, {events.size}"

@@ -10,8 +10,8 @@ from texvent._registry import CODECS
 from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.io.input_checks import refuse_other_kind
 from texvent.io.protocol import EventCodec, EventReader, EventWriter, RecognisingCodec
-from texvent.io.wrong_kind import refuse_other_kind
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import SensorSize, SizeLike, as_size
@@ -45,7 +45,7 @@ def codec_for(path: str | Path, format: str | None = None) -> EventCodec:
 
 def writable_formats() -> list[str]:
     """Names of the formats that are written, in the order of the registry."""
-    return [name for name in CODECS.names() if issubclass(CODECS.load(name), EventCodec)]
+    return [name for name in CODECS.names() if hasattr(CODECS.load(name), "open_writer")]
 
 
 def codec_that_reads(path: str | Path, format: str | None = None) -> EventReader:

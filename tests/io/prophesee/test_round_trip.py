@@ -109,7 +109,6 @@ def test_a_sensor_that_is_too_large_is_refused_before_any_file_exists(
         ("evt21", (2**34,), r"EVT2\.1 holds times below 17179869184 µs"),
         ("evt3", (2**42,), r"EVT3 holds times below 4398046511104 µs"),
         ("dat", (2**32,), r"DAT holds times below 4294967296 µs \(1\.19 h\)"),
-        ("prophesee-hdf5", (0, 2**35 + 1), r"events span 9\.54 h; .* holds up to 9\.54 h"),
         *[(format, (-1,), "time -1 µs; event files start at 0") for format in FORMATS],
     ],
 )
@@ -173,8 +172,7 @@ def test_a_disk_that_fills_up_leaves_nothing(
 
     place = {
         "dat": "texvent.io.prophesee.dat._encode",
-        "prophesee-hdf5": "os.pwrite",
-    }.get(format, "texvent.io.prophesee.word_coding.WordEncoder.encode")
+    }.get(format, "texvent.io.prophesee.evt.WordEncoder.encode")
     monkeypatch.setattr(place, fail)
     with pytest.raises(OutputError, match="the disk is full") as caught:
         save(tmp_path / f"e{EXTENSIONS[format]}", at_times(1, 2), format=format)

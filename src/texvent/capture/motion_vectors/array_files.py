@@ -79,7 +79,7 @@ def _named(names: Sequence[str], role: Role, path: Path) -> dict[str, str]:
 
 @contextmanager
 def _hdf5(path: Path) -> Iterator[Any]:
-    from texvent.io.hdf5.damage import open_hdf5  # brings h5py
+    from texvent.io.hdf5.storage import open_hdf5  # brings h5py
 
     if not begins_with(path, b"\x89HDF"):
         raise FileFormatError(f"{path} is no HDF5 file")
@@ -89,7 +89,7 @@ def _hdf5(path: Path) -> Iterator[Any]:
 
 def stack_of_hdf5(path: Path, role: Role) -> FieldStack:
     """The fields of all frames in an HDF5 file, read one by one; errors as `read_npz`."""
-    from texvent.io.hdf5.damage import check_claims, check_filters
+    from texvent.io.hdf5.storage import check_claims, check_filters
 
     names: list[str] = []
     with _hdf5(path) as file:

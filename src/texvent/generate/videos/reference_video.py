@@ -14,7 +14,7 @@ from av.video.reformatter import ColorRange
 
 from texvent.errors import FileFormatError, InputError, warn
 from texvent.generate.videos.stored_video import reopen
-from texvent.io.wrong_kind import refuse_missing
+from texvent.io.input_checks import refuse_missing
 from texvent.transfer import Transfer
 from texvent.video import PixelArray, transfer_of
 

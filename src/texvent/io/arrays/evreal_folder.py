@@ -24,10 +24,9 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
 from texvent.io.arrays.npy_file import StoredArray
-from texvent.io.block_codec import BlockReader, FileContents
+from texvent.io.block_codec import BlockReader, FileContents, TimedRows, read_rows, seek_rows
 from texvent.io.metadata import metadata_from_json
 from texvent.io.protocol import Columns
-from texvent.io.timed_rows import TimedRows, read_rows, seek_rows
 
 TIMES, PLACES, POLARITIES = "events_ts.npy", "events_xy.npy", "events_p.npy"
 FACTS = "metadata.json"

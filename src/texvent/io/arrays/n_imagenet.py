@@ -23,9 +23,8 @@ from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.io.arrays.npz import read_arrays, stored_contents
 from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.files import load
-from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_to_json
 from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize

@@ -39,11 +39,10 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
 from texvent.events import COLUMN_TYPES
-from texvent.io.block_codec import BlockReader, FileContents
-from texvent.io.hdf5.damage import check_claims, open_hdf5
+from texvent.io.block_codec import BlockReader, FileContents, TimedRows, read_rows, seek_rows
 from texvent.io.hdf5.native import read_metadata, stored_size
+from texvent.io.hdf5.storage import check_claims, open_hdf5
 from texvent.io.protocol import Columns
-from texvent.io.timed_rows import TimedRows, read_rows, seek_rows
 
 MAX_EVENTS = 65_535
 MAX_START_US = 1 << 62

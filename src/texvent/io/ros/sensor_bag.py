@@ -28,7 +28,7 @@ from texvent._require import require
 from texvent.events import EventStream
 from texvent.io.atomic import hidden_folder
 from texvent.io.block_codec import split_by_time
-from texvent.io.prophesee.evt3 import Evt3Codec
+from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.ros.bags import (
     EXTRA,
     FACTS_TOPIC,

@@ -18,13 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
+from texvent.io.arrays.npz import find_columns
 from texvent.io.block_codec import BlockCodec, FileContents, write_records
-from texvent.io.block_writer import FileTarget, WriteBlock
-from texvent.io.column_names import find_columns
-from texvent.io.limits import FormatLimits
+from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
-from texvent.io.text.rows import parse_table, read_text_blocks, whole_numbers
+from texvent.io.text.event_camera_dataset import parse_table, read_text_blocks, whole_numbers
 
 HEADER = b"t,x,y,p\n"
 HEADLESS = ("x", "y", "p", "t")

@@ -18,12 +18,11 @@ from typing import BinaryIO, ClassVar, cast
 
 from texvent.errors import FileFormatError
 from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import ZIP_DAMAGE, check_zip, reporting_damage
-from texvent.io.limits import FormatLimits
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
-from texvent.io.text.rows import (
+from texvent.io.text.event_camera_dataset import (
     STOP_US,
     make_rows,
     parse_rows,
