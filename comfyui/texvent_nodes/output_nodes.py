@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.io.files import extension_of, writable_formats
 from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
+from texvent.io.files import extension_of, writable_formats
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import PALETTES

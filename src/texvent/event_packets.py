@@ -209,7 +209,7 @@ class EventPackets(EventEdits):
         Raises:
             ConfigError: unknown name or option, or both or none of `duration_us` and `count`.
         """
-        from texvent.represent.packet_slices import represent_slices
+        from texvent.represent.slices import represent_slices
 
         return represent_slices(
             name, self, duration_us=duration_us, count=count, device=device, **options

@@ -12,8 +12,9 @@ import pytest
 from tests.comfyui import comfy_interface as comfy
 
 import texvent
-from texvent._registry import CODECS, SIMULATORS
+from texvent._registry import SIMULATORS
 from texvent.errors import ConfigError, InputError, TexventError
+from texvent.io.files import writable_formats
 
 CLASSES, TITLES = comfy.load()
 IMAGES = np.random.default_rng(2).random((4, 12, 16, 3), dtype=np.float32)

@@ -8,7 +8,7 @@ import pytest
 from texvent.bench.real.frame_recording import open_recording
 from texvent.data.pull import find_pulled
 from texvent.reconstruct.reconstructor import load_reconstructor
-from texvent.represent.packet_slices import slice_between
+from texvent.represent.slices import slice_between
 
 pytestmark = pytest.mark.torch
 pytest.importorskip("torch")

@@ -3,13 +3,11 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
 
 import pytest
 
 import texvent
-from texvent._registry import CODECS
 from texvent.errors import InputError, TexventError
 from texvent.io.files import extension_of
 from texvent.scenes.report import PromptReport
@@ -185,4 +183,3 @@ def test_a_format_that_cannot_hold_the_events_says_so(tmp_path: Path, source: st
     with pytest.raises(InputError, match="256"):
         convert(ConvertJob(source=source, folder=str(tmp_path), format="atis"))
     assert not list(tmp_path.iterdir())
-

@@ -17,7 +17,7 @@ from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.rvt_backbone import WHERE_FROM, Features, RvtBackbone, read_rvt_weights
 from texvent.metrics.windows import flat_index, occupied_windows, rate_of_window
 from texvent.represent.array_ops import columns_of
-from texvent.represent.stacked_histogram import BINS, CUTOFF, stacked_histogram, time_bins
+from texvent.represent.histogram import BINS, CUTOFF, stacked_histogram, time_bins
 
 Backbone: TypeAlias = Callable[[Features], Sequence[Features]]
 """Stacked histogram [20, H, W] → feature maps [C, H', W'], one per stage."""

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.transform.filters.hot_pixels import mask_hot_pixels
+from texvent.transform.filters.noise_filters import mask_hot_pixels
 
 MAX_DUPLICATES = 1e-3
 """Share of events that repeat another one exactly, above which a recording is suspicious."""

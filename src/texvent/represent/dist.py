@@ -14,7 +14,7 @@ from collections.abc import Callable
 import numpy as np
 
 from texvent.represent.array_ops import Array, ArrayOps, Events, columns_of, flat_index
-from texvent.represent.timestamp_image import NEVER, latest_events
+from texvent.represent.time_surface import NEVER, latest_events
 
 DISCOUNT = 3
 """α of the paper."""

@@ -21,7 +21,7 @@ from texvent.scenes.models.class_ids import BACKGROUND, UNNAMED, class_ids_of
 from texvent.scenes.raycast.ground_truth import Box
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
-from texvent.truth.parts import PARTS
+from texvent.truth.layout import PARTS
 from texvent.video import Frame, FrameStream, Motion
 from texvent.view.drawing.panels import GroundTruthStream
 

@@ -6,10 +6,10 @@ import os
 from typing import Any
 
 from texvent._registry import SIMULATORS
-from texvent.io.files import writable_formats
 from texvent._require import require
 from texvent.config import RunConfig
 from texvent.errors import ConfigError, TexventError
+from texvent.io.files import writable_formats
 from texvent.run.settings import DEFAULT_SENSOR, sensor_preset
 from texvent.sensor import SENSORS, parse_sensor
 from texvent.web.answer_html import (

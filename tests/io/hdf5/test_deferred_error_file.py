@@ -43,7 +43,9 @@ def test_a_failed_write_is_remembered_and_ends_writing(
         assert file.write(b"ef") == 2
         file.truncate()
         file.seek(0)
-        assert file.read(6) == b"ab\0\0\0\0"
+        found = bytearray(6)
+        assert file.readinto(found) == 6
+        assert found == b"ab\0\0\0\0"
         with pytest.raises(OSError, match="full"):
             file.raise_failure()
     assert path.read_bytes() == b"ab"

@@ -11,7 +11,7 @@ from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.train.classification.augmentation import augment, take_run
 from texvent.train.classification.config import Augmentation
-from texvent.transform.region import resize
+from texvent.transform.edits import resize
 
 from ...represent.definitions import rows, streams
 

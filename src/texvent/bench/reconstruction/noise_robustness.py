@@ -14,7 +14,7 @@ from texvent.bench.reconstruction.run import ReconstructionPlan, ReconstructionS
 from texvent.bench.selftest.perturbations import add_background, scatter
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.represent.packet_slices import slice_between
+from texvent.represent.slices import slice_between
 
 NoiseKind: TypeAlias = Literal["scattered", "background"]
 """A share of the events moved to random places, or background activity at a rate per pixel."""

@@ -28,7 +28,7 @@ from texvent.metrics.image_measures import Measures
 from texvent.options.fields import option_names
 from texvent.pipeline import Simulation, video_to_events
 from texvent.reconstruct.reconstructor import Intensity, Reconstructor
-from texvent.represent.packet_slices import slice_between
+from texvent.represent.slices import slice_between
 from texvent.simulate.thresholds import contrast_threshold_of
 from texvent.video import MICROSECONDS
 

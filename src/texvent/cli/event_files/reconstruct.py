@@ -19,7 +19,7 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.reconstruct.config import ReconstructConfig
 from texvent.reconstruct.reconstructor import Reconstructor, load_reconstructor
-from texvent.represent.packet_slices import slice_by_count, slice_regularly
+from texvent.represent.slices import slice_by_count, slice_regularly
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.video import MICROSECONDS
 from texvent.view.video.writer import check_image_output, open_image_sink

@@ -13,7 +13,7 @@ from texvent.events import EventStream
 from texvent.options.parts import make_part, read_part
 from texvent.sensor import SensorSize
 from texvent.simulate.packets.unsorted_events import UnsortedEvents
-from texvent.transform.filters.protocol import EventFilter
+from texvent.transform.filters.apply import EventFilter
 
 READOUT_FILTERS = ("event-trail", "anti-flicker", "background-activity", "refractory", "rate-limit")
 """Names in `FILTERS` of those that need no look ahead and whose options are numbers and words."""

@@ -23,7 +23,7 @@ from texvent.train.classification.samples import ChosenSamples, open_training, o
 from texvent.train.history import STANDARD_ERROR
 from texvent.train.schedule import EXTRA
 from texvent.train.task import Score
-from texvent.transform.region import resize
+from texvent.transform.edits import resize
 
 IMAGE, CLASS, CLASSES = "image", "class_number", "classes"
 NO_AUGMENTATION = Augmentation(shift=0)

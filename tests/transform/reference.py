@@ -1,20 +1,18 @@
-"""The definitions of the filters that look at one event after the other, in plain Python.
-
-`kernels_cpu` is the compiled form; tests hold both to equal results.
-"""
+"""The rules of the event filters as plain loops: the compiled kernels must agree with them."""
 
 from __future__ import annotations
-
-from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-NEVER = -(2**62)
-"""Stands for the time of a pixel that has not fired, µs; no event is that early."""
-
-UInt16Array = NDArray[np.uint16]
-Int64Array = NDArray[np.int64]
+from texvent.transform.filters.apply import (
+    BLOCK,
+    MOST_BURSTS,
+    NEVER,
+    FlickerLimits,
+    Int64Array,
+    UInt16Array,
+)
 
 
 def find_supported(
@@ -27,18 +25,7 @@ def find_supported(
     support: int,
     radius: int,
 ) -> NDArray[np.bool_]:
-    """Which events enough neighbours support, [n].
-
-    Args:
-        x: columns, [n].
-        y: rows, [n].
-        t: times, µs, [n], non-decreasing.
-        plane: which plane of `last_us` an event is in, [n].
-        last_us: time of the last event of each pixel, [planes, H, W]; changed.
-        window_us: how long an event supports its neighbours, µs.
-        support: neighbours that must have fired.
-        radius: of the neighbourhood, pixels.
-    """
+    """See the kernel of this name."""
     supported = np.zeros(len(t), np.bool_)
     for event in range(len(t)):
         column, row, seen = int(x[event]), int(y[event]), last_us[plane[event]]
@@ -56,15 +43,7 @@ def find_supported(
 def find_rested(
     x: UInt16Array, y: UInt16Array, t: Int64Array, kept_us: Int64Array, period_us: int
 ) -> NDArray[np.bool_]:
-    """Which events come at least a period after the one before of their pixel that was kept, [n].
-
-    Args:
-        x: columns, [n].
-        y: rows, [n].
-        t: times, µs, [n], non-decreasing.
-        kept_us: time of the last event of each pixel that was kept, [H, W]; changed.
-        period_us: the refractory period, µs.
-    """
+    """See the kernel of this name."""
     rested = np.zeros(len(t), np.bool_)
     for event in range(len(t)):
         pixel = int(y[event]), int(x[event])
@@ -83,20 +62,7 @@ def find_places_in_bursts(
     burst: NDArray[np.uint8],
     threshold_us: int,
 ) -> NDArray[np.uint8]:
-    """Which event of its burst each event is, [n]: 1, 2, or 3 for all later ones.
-
-    A burst is a series of events of one pixel and one polarity, each less than the threshold after
-    the one before.
-
-    Args:
-        x: columns, [n].
-        y: rows, [n].
-        t: times, µs, [n], non-decreasing.
-        p: polarities, [n].
-        last_us: time of the last event of each pixel, [H, W]; changed.
-        burst: its polarity and its place in its burst, [2, H, W]; changed.
-        threshold_us: time without an event after which a burst is over, µs.
-    """
+    """See the kernel of this name."""
     places = np.zeros(len(t), np.uint8)
     polarity, place = burst
     for event in range(len(t)):
@@ -112,27 +78,6 @@ def find_places_in_bursts(
     return places
 
 
-BLOCK = 4
-"""Side of the blocks of pixels in which flicker is found, as in the IMX636."""
-MOST_BURSTS = 7
-"""Where the count of periodic bursts stops: 3 bits."""
-
-
-class FlickerLimits(NamedTuple):
-    """What counts as flicker."""
-
-    shortest_us: int
-    """Period of the highest frequency, µs."""
-    longest_us: int
-    """Period of the lowest frequency, µs."""
-    hold_us: int
-    """Time after the start of a burst in which no other one starts, µs."""
-    begin: int
-    """Periodic bursts from which a block flickers."""
-    end: int
-    """Periodic bursts below which it no longer does."""
-
-
 def find_flicker(
     x: UInt16Array,
     y: UInt16Array,
@@ -142,22 +87,7 @@ def find_flicker(
     state: NDArray[np.uint8],
     limits: FlickerLimits,
 ) -> NDArray[np.bool_]:
-    """Which events lie in a block of pixels that flickers, [n].
-
-    A burst of a block starts at an ON event that follows an OFF event of the block. A burst that
-    starts within the band's periods after the one before counts up, an earlier one counts down,
-    and a later one starts anew.
-
-    Args:
-        x: columns, [n].
-        y: rows, [n].
-        t: times, µs, [n], non-decreasing.
-        p: polarities, [n].
-        start_us: when the last burst of each block started, [H, W] in blocks; changed.
-        state: whether its last event was ON, its count, and whether it flickers, [3, H, W];
-            changed.
-        limits: what counts as flicker.
-    """
+    """See the kernel of this name."""
     found = np.zeros(len(t), np.bool_)
     was_on, count, flickers = state
     for event in range(len(t)):
@@ -180,3 +110,20 @@ def find_flicker(
         was_on[block] = p[event]
         found[event] = flickers[block] == 1
     return found
+
+
+def fire_blocks(
+    block: NDArray[np.int64],
+    p: NDArray[np.uint8],
+    pixels: NDArray[np.int64],
+    sums: NDArray[np.int64],
+) -> NDArray[np.int8]:
+    """See the kernel of this name."""
+    fired = np.full(len(block), -1, np.int8)
+    for event in range(len(block)):
+        one = block[event]
+        sums[one] += 1 if p[event] else -1
+        if abs(sums[one]) == pixels[one]:
+            fired[event] = 1 if sums[one] > 0 else 0
+            sums[one] = 0
+    return fired
