@@ -47,7 +47,6 @@ FILTERS: dict[str, dict[str, Any]] = {
     "2 of 8, same polarity": {"support": 2, "polarity": True},
     "3 of 24": {"support": 3, "radius": 2},
 }
-REFERENCE_EVENTS = 20_000
 EVENTS = 1_000_000
 VGA = SensorSize(640, 480)
 
@@ -180,7 +179,6 @@ def print_speed() -> None:
     eventcv: Any = require("eventcv", extra="readers")
     stacked = np.stack([events.x, events.y, events.t, events.p], axis=1).astype(np.int64)
     theirs = eventcv.from_numpy(stacked, sensor_size=tuple(VGA), time_unit="us")
-    few = events[:REFERENCE_EVENTS]
 
     def supported(module: Any, part: EventStream) -> Callable[[], Any]:
         def call() -> Any:

@@ -38,7 +38,7 @@ BLOCK_BYTES = 2**21
 
 @dataclass(frozen=True)
 class TimeSeek:
-    """How a file finds a time without reading all before it."""
+    """Search for a time without reading all before it."""
 
     time_range: Callable[[], tuple[int, int] | None]
     """Half-open range of the event times, µs; None without events."""
@@ -48,13 +48,13 @@ class TimeSeek:
 
 @dataclass(frozen=True)
 class FileContents:
-    """What a file states, and its events."""
+    """Facts stated by a file, and a reader of its events."""
 
     size: tuple[int, int] | None
     """Width and height, pixels; None where the file does not state them."""
     metadata: Mapping[str, Any]
     blocks: Callable[[], Iterator[Columns]]
-    """Gives columns x, y, t, p, and label if known, block by block, anew at each call."""
+    """Gives columns x, y, t, p, and label if known, block by block, from the start at each call."""
     seek: TimeSeek | None = None
     """For files that can find a time."""
 
@@ -70,7 +70,7 @@ class BlockReader(ABC):
     """Whether a recording is a folder of files."""
 
     def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, block by block; the file is opened anew for each pass.
+        """Events of a file, block by block; each pass opens the file again.
 
         Raises:
             InputError: no such file, or it stores no sensor size and none is given.
@@ -230,7 +230,7 @@ class TimedRows:
     """Events that the file keeps in one piece: reading begins at a multiple."""
 
     def find(self, t_us: int) -> int:
-        """How many units begin before a time; the rest of the file is not read."""
+        """Number of units that begin before a time; the rest of the file is not read."""
         units = range(-(-self.count // self.unit))
         return bisect_left(units, t_us, key=lambda unit: self.time_of(unit * self.unit))
 
@@ -246,7 +246,7 @@ def read_rows(open_rows: OpenRows) -> Iterator[Columns]:
 
 
 def seek_rows(path: Path, open_rows: OpenRows) -> TimeSeek:
-    """How such a file finds a time; every time that is read on the way must be in order."""
+    """`TimeSeek` of such a file; every time that is read on the way must be in order."""
     return TimeSeek(partial(_time_range, path, open_rows), partial(_read_between, path, open_rows))
 
 

@@ -37,11 +37,11 @@ class FormatLimits:
     max_side: int
     """Largest width and height, pixels."""
     stop_us: int
-    """Events lie before this time, µs."""
+    """Exclusive upper limit of event times, µs."""
     max_span_us: int | None = None
     """Longest time from the origin of the file's times to the last event, µs, where limited."""
     start_us: int = 0
-    """Events lie at this time or later, µs."""
+    """Lower limit of event times, µs."""
     keeps_labels: bool = False
     """Whether it has a place for the signal/noise label, the instance and the class of events; else
     they are left out, with a warning."""
@@ -59,7 +59,7 @@ class FormatLimits:
             )
 
     def origin_us(self, first_us: int) -> int:
-        """What the file's times count from, µs, for the span: the time of its first event."""
+        """Origin of the file's times, µs, for the span: the time of its first event."""
         return first_us
 
     def check_packet(self, path: Path, packet: EventStream, first_us: int) -> None:
@@ -121,9 +121,9 @@ class BlockWriter:
     """Checks packets, gathers them into blocks and hands these to the format; memory stays flat.
 
     Args:
-        target: what to write.
+        target: the file to write.
         start: opens the file when the `with` block is entered.
-        limits: what the format holds.
+        limits: of the format.
         copy: copies a complete file of the format, with other metadata; see `add_metadata`.
         has_sidecar: whether size and metadata are written beside the file.
 

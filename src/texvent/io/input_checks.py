@@ -47,7 +47,7 @@ def refuse_missing(path: Path, what: str = "file") -> None:
 
     Args:
         path: a file, folder or camera.
-        what: what a path without a folder's or a camera's name should be.
+        what: expected kind of a path without a folder's or a camera's name.
 
     Raises:
         InputError: see above; a missing camera, or the first folder that is missing, is named.
@@ -140,8 +140,8 @@ def reporting_damage(path: Path, kind: str, damage: tuple[type[Exception], ...])
 
     Args:
         path: the file.
-        kind: what it should be, such as "an HDF5 event file".
-        damage: what the library raises.
+        kind: expected kind, such as "an HDF5 event file".
+        damage: exceptions of the library.
 
     Raises:
         FileFormatError: one of `damage` was raised inside the block.
@@ -176,7 +176,7 @@ def check_time_unit(path: Path, stored: Any) -> None:
 
     Args:
         path: the file.
-        stored: what it states, ms per unit, of any type.
+        stored: stated value, ms per unit, of any type.
 
     Raises:
         FileFormatError: see above.

@@ -41,7 +41,7 @@ class Scores(dict[str, float]):
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
-        """What a notebook shows: a table with units and what is good."""
+        """Notebook display: a table with units and the direction of good values."""
         nothing = ("", "", "")
         rows = [
             _cells(name, value, *self._facts.get(name, nothing)) for name, value in self.items()
@@ -85,7 +85,7 @@ def compare(
         metrics: a name from the registry, a metric with parameters of its own, or several of them;
             default: see `default_metrics`.
         span_us: compare only events with `start <= t < stop`, µs; default: all.
-        progress: told of each metric.
+        progress: receives each metric.
 
     Returns:
         Name → value, NaN where a metric is undefined for these streams: a dict that notebooks

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from texvent.errors import InputError
 
 FARTHEST_M = 80.0
-"""What is farther counts as sky, m."""
+"""Points beyond this distance count as sky, m."""
 RATIO = 1.25
 WITHIN_M = (10, 20, 30)
 """Depths up to which the mean error is given as well, m."""

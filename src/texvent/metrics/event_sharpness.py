@@ -39,7 +39,7 @@ def estimate_velocity(
 
     Args:
         events: a short span; times count from its first event.
-        window_us: length of the span, µs: what a velocity is worth in px.
+        window_us: length of the span, µs.
         most_speed_px_s: the search goes to ± this along both axes, px/s.
 
     Returns:
@@ -197,7 +197,7 @@ def flow_warp_sharpness(
         least_events: windows with fewer events are left out.
 
     Returns:
-        1 where warping changes nothing, more where events lie on moving edges; NaN if no window
+        1 where warping changes nothing, more where events are on moving edges; NaN if no window
         has enough events. It rewards streams that are cleaner than a real sensor's.
 
     Source: Stoffregen et al., "Reducing the sim-to-real gap for event cameras" (ECCV 2020), FWL.
@@ -239,7 +239,7 @@ class FlowWarpRatio(Metric):
     window_us: int = SHARPNESS_WINDOW_US
     """Length of a window, µs."""
     most_windows: int = 3
-    """How many are used: the velocity of each has to be found."""
+    """Number of windows used: the velocity of each has to be found."""
 
     def __post_init__(self) -> None:
         check_range("window_us", self.window_us, 1, 10**9)

@@ -24,7 +24,7 @@ Float64Array = NDArray[np.float64]
 
 
 def structural_similarity(a: Float64Array, b: Float64Array, *, data_range: float = 1.0) -> float:
-    """Mean SSIM over all pixels whose 11×11 window lies inside the image.
+    """Mean SSIM over all pixels whose 11×11 window is inside the image.
 
     The same as scikit-image's with `gaussian_weights=True, use_sample_covariance=False`.
 
@@ -73,7 +73,7 @@ Compare: TypeAlias = Callable[[Float64Array, Float64Array], float]
 
 @dataclass(frozen=True)
 class ImageMeasure:
-    """How two images, 0..1, are compared."""
+    """Comparison of two images, 0..1."""
 
     name: str
     better: Better
@@ -82,7 +82,7 @@ class ImageMeasure:
 
 @dataclass(frozen=True, kw_only=True)
 class Measures:
-    """What is measured here, and what cannot be."""
+    """Available measures, and reasons for missing ones."""
 
     chosen: tuple[ImageMeasure, ...]
     absent: Mapping[str, str] = field(default_factory=dict)

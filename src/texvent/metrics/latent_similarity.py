@@ -47,7 +47,7 @@ class LatentSimilarity(Metric):
     blind_to = "a little added noise; with a real backbone also small jitter"
 
     backbone: Backbone = keep_input
-    """What turns a stacked histogram into feature maps."""
+    """Feature maps of a stacked histogram."""
     window_us: int = 50_000
     """Length of a window, µs; windows start at multiples of it."""
 
@@ -132,8 +132,8 @@ class EventQualityScore(Metric):
 
     Source: K. Chanda et al., "Event quality score (EQS): assessing the realism of simulated event
         camera streams via distances in latent space" (CVPR workshops 2025).
-    Deviation: the paper publishes neither code nor which RVT it used, does not say how patches lie,
-        and pads images without saying what becomes of the padding. Here patches do not overlap,
+    Deviation: the paper publishes neither code nor which RVT it used, does not state the layout of
+        patches, and pads images without saying what becomes of the padding. Here patches do not overlap,
         and the padding's features are left out.
     """
 

@@ -142,7 +142,7 @@ def weights_file_name(net: LpipsNet) -> str:
 
 
 def where_from(net: LpipsNet) -> str:
-    """How to get the weights of a network."""
+    """Command that fetches the weights of a network."""
     return f"fetch them with: texvent weights pull {'lpips' if net == 'alex' else f'lpips-{net}'}"
 
 

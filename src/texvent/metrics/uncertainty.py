@@ -247,7 +247,7 @@ class Verdict(NamedTuple):
     difference: Mean
     """First minus second, of values; of metrics that are good near 1, of distances from 1."""
     better: Better
-    """Which values are closer: low or high ones."""
+    """Whether low or high values are closer."""
     unit: str
 
     @property
@@ -320,7 +320,7 @@ def score_windows(
     Args:
         candidates: name → stream to judge, of the reference's sensor.
         reference: the true stream.
-        metrics: what to compute.
+        metrics: metrics to compute.
         window_us: length of a window, a multiple of 50,000 µs; default: 100,000, more where the
             reference has more than 50 of these.
         progress: receives the number of each window.

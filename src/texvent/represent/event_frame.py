@@ -21,7 +21,7 @@ def event_frame(events: Events, kind: EventFrameKind = "signed") -> Array:
 
     Args:
         events: the slice to show; cut it with `events.between(start_us, stop_us)`.
-        kind: what each pixel holds.
+        kind: value of each pixel.
 
             * `"signed"`: sum of polarities Σ±1, [H, W] int32, 0 without events.
             * `"binary"`: 1 where at least one event fell, [H, W] uint8.

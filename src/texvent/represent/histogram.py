@@ -46,7 +46,7 @@ def histogram_3d(
 ) -> Array:
     """Events per polarity, equal bin of time and cell of the sensor.
 
-    Bins are those of the window, wherever in it the events lie. `stacked_histogram` instead scales
+    Bins are those of the window, wherever in it the events are. `stacked_histogram` instead scales
     its bins to the first and last event.
 
     Args:
@@ -112,7 +112,7 @@ def stacked_histogram(events: Events, *, bins: int = BINS, cutoff: int = CUTOFF)
     Source: M. Gehrig, D. Scaramuzza, "Recurrent vision transformers for object detection with
         event cameras", CVPR 2023, and its code.
     Deviation: counts are clipped; the code's fast mode lets them wrap around at 256. Bins are
-        exact; the code divides in float32, which can move an event that lies on an edge.
+        exact; the code divides in float32, which can move an event on an edge.
     """
     check_range("bins", bins, 1, MAX_BINS)
     check_range("cutoff", cutoff, 1, 255)

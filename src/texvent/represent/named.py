@@ -19,7 +19,7 @@ from texvent.represent.array_ops import Array, Events
 from texvent.represent.tensors import put_events
 
 WINDOW_OPTIONS: Mapping[str, int] = {"start_us": 0, "stop_us": 1, "at_us": 1}
-"""Options of representations that say where the window lies: 0 = its start, 1 = its end."""
+"""Options of representations for the position in the window: 0 = its start, 1 = its end."""
 
 
 def represent(name: str, events: Events, *, device: str | None = None, **options: Any) -> Array:

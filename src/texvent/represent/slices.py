@@ -30,7 +30,7 @@ def slices(
         events: the recording.
         duration_us: length of a slice, µs; slices are half-open, and may be empty.
         count: events per slice. Give either this or `duration_us`.
-        overlap: what a slice shares with the one before, in µs or in events; less than a slice.
+        overlap: length shared with the slice before, in µs or in events; less than a slice.
         start_us: start of the first slice of fixed time, µs; default: the first event.
         keep_partial: also give a last slice that ends after the last event, or has fewer than
             `count` events.

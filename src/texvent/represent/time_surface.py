@@ -121,7 +121,7 @@ def event_image(events: Events) -> Array:
 
 
 def sorted_time_surface(events: Events) -> Array:
-    """Rank of the last event per polarity and pixel: what came later is brighter.
+    """Rank of the last event per polarity and pixel: later events are brighter.
 
     Last events of one time share a rank. Ranks of each polarity are scaled to 0 (the first of
     them, and where no event fell) to 1 (the last of them).

@@ -173,7 +173,7 @@ class Crop:
     height: int
     """Of the region, pixels."""
     centre: bool = False
-    """Whether the region lies in the middle; otherwise every place is as likely."""
+    """Whether the region is in the middle; otherwise every place is as likely."""
 
     def __post_init__(self) -> None:
         check_range("width", self.width, 1, MAX_SIDE)
@@ -313,7 +313,7 @@ class Augment:
 
         Args:
             events: the sample.
-            number: tells it from the others of an epoch, 0 or more.
+            number: index within an epoch, 0 or more.
             epoch: which pass over the samples, 0 or more.
 
         Raises:

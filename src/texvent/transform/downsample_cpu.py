@@ -15,7 +15,7 @@ def fire_blocks(
     pixels: NDArray[np.int64],
     sums: NDArray[np.int64],
 ) -> NDArray[np.int8]:
-    """Which events make their block fire, and how: 1, 0 or -1, [n].
+    """Polarity with which each event makes its block fire: 1, 0, or -1 for none, [n].
 
     Args:
         block: of each event, [n].

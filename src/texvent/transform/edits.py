@@ -158,8 +158,8 @@ def keep_time(events: EventPackets, start_us: int, stop_us: int) -> EventPackets
     """The events with `start_us <= t < stop_us`; what comes later is not even read.
 
     Raises:
-        InputError: the stop is not after the start, or the recording lies elsewhere (found while
-            reading, where the format does not tell its times before).
+        InputError: the stop is not after the start, or the recording is elsewhere in time (found
+            while reading, unless the format states its times).
     """
     if not start_us < stop_us:
         raise InputError(

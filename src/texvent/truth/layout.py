@@ -94,7 +94,7 @@ def is_own_file(folder: Path) -> Callable[[Path], bool]:
 
 
 def truth_folder(events: Path) -> Path:
-    """Where the truth of an event file lies.
+    """Folder of the truth of an event file.
 
     Example:
         >>> truth_folder(Path("runs/out.h5")).as_posix()

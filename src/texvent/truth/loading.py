@@ -1,7 +1,7 @@
 """Optical flow as 16-bit PNG, as DSEC stores it.
 
 Three channels, in the order of the file (RGB): `u · 128 + 2¹⁵`, `v · 128 + 2¹⁵`, 1 where the
-flow is valid. Steps are 1/128 px; displacements lie in ±256 px.
+flow is valid. Steps are 1/128 px; displacements are within ±256 px.
 
 Source: Gehrig et al., E-RAFT: Dense Optical Flow from Event Cameras, 3DV 2021, whose ground truth
 DSEC publishes.
@@ -73,9 +73,9 @@ class Truth:
     """
 
     folder: Path
-    """Where it lies."""
+    """Folder of the truth."""
     facts: Mapping[str, Any]
-    """What truth.json says."""
+    """Content of truth.json."""
     times_us: NDArray[np.int64]
     """[N] times of the frames, µs, on the clock of the events."""
 
@@ -109,7 +109,7 @@ class Truth:
 
     @property
     def metadata(self) -> Mapping[str, Any]:
-        """What made the run: prompt, seed, options, version."""
+        """Provenance: prompt, seed, options, version."""
         run: Mapping[str, Any] = self.facts["run"]
         return run
 

@@ -1,4 +1,4 @@
-"""Ground truth written while a run goes on; `texvent.truth.layout` says what lies where."""
+"""Writer of ground truth during a run; `texvent.truth.layout` describes the files."""
 
 from __future__ import annotations
 
@@ -68,8 +68,8 @@ class TruthWriter(AtomicOutput):
     Args:
         path: the folder.
         video: the frames, whose truth is known.
-        parts: what is written; see `texvent.truth.layout.PARTS`.
-        metadata: what made the run, stored with the truth.
+        parts: parts to write; see `texvent.truth.layout.PARTS`.
+        metadata: provenance of the run, stored with the truth.
         overwrite: whether a folder of truth may be replaced.
         on_events: given all events in order, with the ids of their objects, where "events" is among
             the parts; a few frames late.
@@ -187,7 +187,7 @@ class TruthWriter(AtomicOutput):
         return file
 
     def _taken_intervals(self) -> list[Interval]:
-        """The events gathered, which are gathered anew from here."""
+        """The events gathered so far; gathering restarts."""
         taken, self._intervals = self._intervals, []
         return taken
 
@@ -296,7 +296,7 @@ def write_png(path: Path, pixels: NDArray[np.uint16]) -> None:
 
 
 OF_FRAMES = ",".join(part for part in PARTS if part != "events")
-"""What is known without events."""
+"""Parts that are known without events."""
 
 
 def save_truth(

@@ -36,7 +36,7 @@ from texvent.view.windows import (
 
 @dataclass(frozen=True, kw_only=True)
 class RenderConfig:
-    """How events are made visible."""
+    """Options of rendering."""
 
     render_fps: Fraction = Fraction(30)
     """Images per second of video."""
@@ -114,7 +114,7 @@ def render_events(
 
     Args:
         events: a recording, whole or packet by packet; images read packets twice.
-        path: what to write; the extension decides: .mp4, .gif, .png or .html.
+        path: file to write; its extension decides: .mp4, .gif, .png or .html.
         config: how to show them.
         frames: the source video, of the same size and clock.
         overwrite: whether an existing file may be replaced.

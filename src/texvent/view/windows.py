@@ -45,7 +45,7 @@ class EventWindow:
 
     @property
     def event_count(self) -> int:
-        """How many events there are."""
+        """Number of events."""
         return int(self.counts.sum())
 
     @property
@@ -254,7 +254,7 @@ def draw_window(window: EventWindow, palette: Palette, *, ceiling: float | None 
     """The events of a window, faded by age if it has `fading`, else counted.
 
     Args:
-        window: what happened.
+        window: events to draw.
         palette: the colours.
         ceiling: events per pixel at full strength, for counts; default: from the window.
 

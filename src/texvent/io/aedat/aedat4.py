@@ -2,7 +2,7 @@
 
 The container is that of `aedat4_container`; a packet of events is a table EVTS.
 Coordinates are i2: sensors up to 32768 pixels a side. Times are i8 µs. Packets hold 10 ms, as
-DV's do, so that its player can seek. How the events were made lies in the XML of the header, as
+DV's do, so that its player can seek. Provenance is in the XML of the header, as
 attribute `texvent`. The first stream of events is read; frames, IMU samples and triggers beside
 it are read over (`texvent.capture.aedat4_frames` reads the frames).
 

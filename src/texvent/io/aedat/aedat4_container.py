@@ -148,7 +148,7 @@ class Container:
         return next((one for one in self.streams if one.identifier == identifier), None)
 
     def count_packets(self, stream: StreamInfo) -> int:
-        """How many packets a stream has; only their heads are read.
+        """Number of packets of a stream; only their heads are read.
 
         Raises:
             FileFormatError: the file was cut off.
@@ -223,7 +223,7 @@ def stored_size(path: Path, stream: StreamInfo) -> tuple[int, int] | None:
     """Width and height that a stream states, pixels; None if it states none.
 
     Raises:
-        FileFormatError: what it states is no number.
+        FileFormatError: the stated value is no number.
     """
     try:
         return int(stream.attributes["sizeX"]), int(stream.attributes["sizeY"])

@@ -146,7 +146,7 @@ class PacketEntry:
 
 @dataclass(frozen=True)
 class StreamInfo:
-    """What the header says about one stream."""
+    """Header entry of one stream."""
 
     number: int
     identifier: str

@@ -30,7 +30,7 @@ class AedatHeader:
     """Bytes up to the first record."""
 
     def metadata(self, path: Path) -> dict[str, Any]:
-        """How the events were made, or the header another program wrote.
+        """Provenance of the events, or the header of another program.
 
         Raises:
             FileFormatError: the line of texvent is damaged.
@@ -41,7 +41,7 @@ class AedatHeader:
         return {"header": list(self.lines[1:])} if len(self.lines) > 1 else {}
 
     def value(self, key: str) -> str | None:
-        """What follows `#key: ` or `# key: `, if a line begins so."""
+        """Value of the line `#key: ` or `# key: `, if there is one."""
         for line in self.lines:
             name, colon, value = line.removeprefix("#").partition(":")
             if colon and name.strip() == key:

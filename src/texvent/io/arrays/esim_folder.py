@@ -41,7 +41,7 @@ class EsimFolderCodec(BlockReader):
         return path.is_dir() and bool(_numbered(path) or _is_empty_recording(path))
 
     def inspect(self, path: Path) -> FileContents:
-        """Size and metadata lie in a file of texvent's own."""
+        """Size and metadata are in a file of texvent's own."""
         facts = path / FACTS
         size: tuple[int, int] | None = None
         metadata: dict[str, Any] = {}

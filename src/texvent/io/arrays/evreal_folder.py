@@ -46,7 +46,7 @@ class EvrealFolderCodec(BlockReader):
         return all((path / name).is_file() for name in (TIMES, PLACES, POLARITIES))
 
     def inspect(self, path: Path) -> FileContents:
-        """Size and metadata lie in metadata.json."""
+        """Size and metadata are in metadata.json."""
         _open_arrays(path)
         size, metadata = _read_facts(path)
         rows = partial(_open_rows, path)

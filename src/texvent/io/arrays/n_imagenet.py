@@ -2,7 +2,7 @@
 
 Older files call them x_pos, y_pos, timestamp and polarity.
 
-Beside it lie width, height and texvent (all metadata as JSON), which its loader does not look
+Further arrays are width, height and texvent (all metadata as JSON), which its loader does not look
 for; files of the data set itself have none: it is 640x480, to be given. As with every npz, writer
 and reader hold the whole recording in memory (13 bytes per event).
 

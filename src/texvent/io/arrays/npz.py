@@ -1,7 +1,7 @@
 """NumPy archives: x, y, t, p and width, height, timestamp_scale_ms; read by eventcv and evutils.
 
 More arrays hold what those do not look for: `texvent`, all metadata as JSON, and `label`
-(1 = noise), `instance` and `class_id` where the run was told to store them.
+(1 = noise), `instance` and `class_id` if the run stores them.
 
 The format holds each column as one array, so writer and reader need the whole recording in
 memory (13 bytes per event). Use HDF5 for long recordings.
@@ -51,7 +51,7 @@ def find_columns(path: Path, names: Iterable[str], *, kind: str = "column") -> d
     Args:
         path: the file, for messages.
         names: all names in the file, with capitals or without.
-        kind: what the names are of, such as "array".
+        kind: kind of the named objects, such as "array".
 
     Raises:
         FileFormatError: a column is missing or there twice; the message says what is accepted.

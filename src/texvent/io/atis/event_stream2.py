@@ -44,7 +44,7 @@ class EventStream2Codec(BlockReader):
         return begins_with(path, MAGIC)
 
     def inspect(self, path: Path) -> FileContents:
-        """The header states the size; metadata lies beside the file."""
+        """The header states the size; metadata is in a sidecar file."""
         width, height = _read_size(path)
         _, metadata = read_sidecar(path)
         return FileContents((width, height), metadata, partial(_read_blocks, path, height - 1))

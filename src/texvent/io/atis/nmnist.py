@@ -52,7 +52,7 @@ class NMnistCodec(BlockCodec):
             )
 
     def inspect(self, path: Path) -> FileContents:
-        """Size and metadata lie beside the file."""
+        """Size and metadata are in a sidecar file."""
         size, metadata = read_sidecar(path)
         return FileContents(size, metadata, partial(_read_blocks, path))
 

@@ -1,7 +1,7 @@
 """Universal HDF5: DSEC's layout with absolute times, read by most event-camera software.
 
     events/x  u2   events/y  u2   events/t  i8, µs   events/p  u1, 1 = ON
-    events/label u1, 1 = noise, where the run was told to store it
+    events/label u1, 1 = noise, if the run stores it
     events/instance u2, events/class_id u2: the object of each event, with --truth events
     ms_to_idx u8   ms_to_idx[m] = index of the first event with t >= 1000 m (n if there is none)
     t_offset  i8   added to events/t; 0
@@ -143,7 +143,7 @@ class NativeSink(Hdf5Sink):
         """As `Hdf5Sink.complete`."""
         self._extend("ms_to_idx", np.array([self.written], dtype=np.uint64))
         self._file["t_offset"] = np.int64(self._offset_us)
-        # A single value has no checksum; attributes lie in the header, which has one.
+        # A single value has no checksum; attributes are in the header, which has one.
         self._file.attrs["t_offset"] = np.int64(self._offset_us)
 
 
@@ -240,7 +240,7 @@ def _whole_attribute(node: Any, name: str) -> int:
 def write_metadata(node: Any, metadata: Mapping[str, Any]) -> None:
     """All metadata as JSON, in an attribute of the root or a group, or beside it if too long.
 
-    It has a fixed length, so it lies in the checksummed header. HDF5 keeps text of variable length
+    It has a fixed length, so it is in the checksummed header. HDF5 keeps text of variable length
     in a heap without checksums, where one flipped bit can hang it.
     """
     fixed = np.bytes_(metadata_to_json(metadata).encode("ascii"))
@@ -273,7 +273,7 @@ def _is_plain_attribute(value: Any) -> bool:
 
 
 def read_metadata(node: Any, path: Path) -> dict[str, Any] | None:
-    """What `write_metadata` wrote, or None."""
+    """Metadata that `write_metadata` stored, or None."""
     text = node.attrs.get("texvent")
     if text is None and isinstance(node.get("texvent"), h5py.Dataset):
         check_claims(node["texvent"], path)

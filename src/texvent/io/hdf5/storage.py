@@ -107,7 +107,7 @@ def append_chunks(dataset: Any, values: NDArray[Any]) -> None:
 
     Args:
         dataset: one-dimensional h5py dataset; its length is a multiple of its chunks'.
-        values: what to append; the last chunk is filled up with zeros beyond the dataset's end.
+        values: values to append; the last chunk is filled up with zeros beyond the dataset's end.
     """
     known, chunk = dataset.shape[0], dataset.chunks[0]
     dataset.resize((known + len(values),))
@@ -250,7 +250,7 @@ class Hdf5Sink(ABC):
 
     Args:
         file: h5py's, new and open.
-        target: what is written.
+        target: the file to write.
         limits: of the format.
     """
 

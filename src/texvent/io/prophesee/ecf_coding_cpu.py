@@ -19,7 +19,7 @@ EXTENSION = 15
 """High nibble of a byte that carries four bits of a long time step."""
 MAX_STEP_NIBBLES = 16
 STOP_US = 1 << 62
-"""Times lie below; with a step more they would leave 64 bits."""
+"""Exclusive limit of times: with a step more they would leave 64 bits."""
 MASK_BITS = 5
 GROUP = 4
 

@@ -32,11 +32,11 @@ from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_
 from texvent.io.protocol import Columns
 
 Words: TypeAlias = bytes | memoryview | NDArray[Any]
-"""Whole words, as they lie in the file."""
+"""Whole words, as stored in the file."""
 
 
 class WordKernels(Protocol):
-    """What the module of compiled loops of a format offers."""
+    """Interface of the compiled loops of a format."""
 
     @property
     def START(self) -> tuple[int, ...]:  # noqa: N802  # modules name constants in capitals

@@ -32,7 +32,7 @@ WORD = "<u4"
 START = (0x8000_0000, 0)
 """TIME_HIGH 0: see `texvent.io.prophesee.evt`."""
 DECODER_STATE = (0, -1)
-"""How often TIME_HIGH wrapped, and its value (−1: none yet)."""
+"""Number of wraps of TIME_HIGH, and its value (−1: none yet)."""
 ENCODER_STATE = (0, 0)
 TIME_HIGH = 8
 HALF_TURN = 1 << 27

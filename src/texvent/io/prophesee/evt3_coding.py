@@ -1,4 +1,4 @@
-"""EVT3 words ↔ events: words of 16 bits, little-endian; each tells only what changes.
+"""EVT3 words ↔ events: words of 16 bits, little-endian, each coding only a change.
 
     bits 15..12   type; value in bits 11..0
      0 ADDR_Y       row of the events that follow, bits 10..0

@@ -57,7 +57,7 @@ OPEN_MESSAGE = {EVENT_ARRAY: open_event_array, EVENT_PACKET: open_event_packet}
 
 
 class BagCodec(BlockCodec):
-    """What both kinds of bag share."""
+    """Base of both kinds of bag."""
 
     module: ClassVar[str]
     """Package that reads and writes the file."""

@@ -34,7 +34,7 @@ MICROSECONDS = 1_000_000
 DAY_S, RAREST_HZ = 86_400, 100
 """Longer recordings with fewer events per second are hardly meant."""
 STOP_US = 1 << 63
-"""Events lie before this time, µs."""
+"""Exclusive upper limit of event times, µs."""
 EXACT_S = 2**32
 """Below this (136 years) the nearest float64 of a time in seconds gives back its µs."""
 
@@ -76,7 +76,7 @@ def parse_table(
     Args:
         block: the text.
         path: the file, for messages.
-        rows: what it should hold, for messages.
+        rows: expected rows, for messages.
         **options: of `np.loadtxt`, such as `delimiter`.
 
     Raises:
@@ -165,7 +165,7 @@ class EcdCodec(BlockCodec):
     has_sidecar: ClassVar[bool] = True
 
     def inspect(self, path: Path) -> FileContents:
-        """Size and metadata lie beside the file."""
+        """Size and metadata are in a sidecar file."""
         size, metadata = read_sidecar(path)
         return FileContents(size, metadata, partial(_read, path))
 

@@ -26,7 +26,7 @@ MOST_BURSTS = 7
 
 
 class FlickerLimits(NamedTuple):
-    """What counts as flicker."""
+    """Limits of flicker."""
 
     shortest_us: int
     """Period of the highest frequency, µs."""
@@ -96,7 +96,7 @@ def filter_events(events: Recording, which: str | EventFilter, **options: Any) -
 
 
 def _checked(mask: Any, packet: EventStream, which: str | EventFilter) -> NDArray[np.bool_]:
-    """What a filter gave, if it is a mask.
+    """Result of a filter, if it is a mask.
 
     Raises:
         InputError: see above, with the filter's name.

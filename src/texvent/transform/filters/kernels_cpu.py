@@ -27,7 +27,7 @@ def find_supported(
     support: int,
     radius: int,
 ) -> NDArray[np.bool_]:
-    """Which events enough neighbours support, [n].
+    """Mask of the events that enough neighbours support, [n].
 
     Args:
         x: columns, [n].
@@ -59,7 +59,7 @@ def find_supported(
 def find_rested(
     x: UInt16Array, y: UInt16Array, t: Int64Array, kept_us: Int64Array, period_us: int
 ) -> NDArray[np.bool_]:
-    """Which events come at least a period after the one before of their pixel that was kept, [n].
+    """Mask of the events at least a period after the last kept one of their pixel, [n].
 
     Args:
         x: columns, [n].
@@ -87,7 +87,7 @@ def find_places_in_bursts(
     burst: NDArray[np.uint8],
     threshold_us: int,
 ) -> NDArray[np.uint8]:
-    """Which event of its burst each event is, [n]: 1, 2, or 3 for all later ones.
+    """Number of each event in its burst, [n]: 1, 2, or 3 for all later ones.
 
     A burst is a series of events of one pixel and one polarity, each less than the threshold after
     the one before.
@@ -126,11 +126,11 @@ def find_flicker(
     state: NDArray[np.uint8],
     limits: FlickerLimits,
 ) -> NDArray[np.bool_]:
-    """Which events lie in a block of pixels that flickers, [n].
+    """Mask of the events in a flickering block of pixels, [n].
 
     A burst of a block starts at an ON event that follows an OFF event of the block. A burst that
     starts within the band's periods after the one before counts up, an earlier one counts down,
-    and a later one starts anew.
+    and a later one starts again.
 
     Args:
         x: columns, [n].
@@ -140,7 +140,7 @@ def find_flicker(
         start_us: when the last burst of each block started, [H, W] in blocks; changed.
         state: whether its last event was ON, its count, and whether it flickers, [3, H, W];
             changed.
-        limits: what counts as flicker.
+        limits: limits of flicker.
     """
     found = np.zeros(len(t), np.bool_)
     for event in range(len(t)):

@@ -36,7 +36,7 @@ class BackgroundActivityFilter:
     """
 
     window_us: int = 10_000
-    """How long an event supports those around it, µs, included."""
+    """Time for which an event supports those around it, µs, included."""
     support: int = 1
     """Neighbours that must have fired."""
     radius: int = 1
@@ -129,7 +129,7 @@ class EventTrailFilter:
     """
 
     mode: Literal["trail", "stc-cut-trail", "stc-keep-trail"] = "stc-cut-trail"
-    """Which events of a burst stay: the first, the second, or all from the second on."""
+    """Events of a burst to keep: the first, the second, or all from the second on."""
     threshold_us: int = 10_000
     """Time without an event after which a burst is over, µs."""
 
@@ -191,7 +191,7 @@ def find_hot_pixels(
     factor: float = FACTOR,
     least_events: int = LEAST_EVENTS,
 ) -> NDArray[np.bool_]:
-    """Which pixels of a recording are hot, [H, W] bool; packets are read once, with flat memory."""
+    """Mask of hot pixels of a recording, [H, W] bool; packets are read once, with flat memory."""
     counts = np.zeros(events.size.width * events.size.height, np.int64)
     for packet in packets_of(events):
         pixel = packet.y.astype(np.int64) * events.size.width + packet.x
@@ -204,7 +204,7 @@ def find_hot_pixels(
 def mask_hot_pixels(
     counts: NDArray[np.int64], *, factor: float = FACTOR, least_events: int = LEAST_EVENTS
 ) -> NDArray[np.bool_]:
-    """Which pixels are hot, [H, W] bool.
+    """Mask of the hot pixels, [H, W] bool.
 
     A pixel is compared with its neighbours, not with the sensor: a busy scene is busy in
     neighbouring pixels too, and the statistics of a sensor depend on the scene.

@@ -28,7 +28,7 @@ class AntiFlickerFilter:
 
     A burst of a block starts at an ON event that follows an OFF event of the block. The time since
     the burst before is a period. Each period in the band counts one up, to 7; a shorter one counts
-    one down; after a longer one the count begins anew. A block flickers from the event on with
+    one down; after a longer one the count restarts. A block flickers from the event on with
     which its count reaches `start_bursts`, until it falls below `stop_bursts` or no burst starts
     for longer than the longest period of the band.
 
@@ -71,7 +71,7 @@ class AntiFlickerFilter:
 
     @property
     def limits(self) -> FlickerLimits:
-        """What counts as flicker, in the sensor's units of time."""
+        """Limits of flicker in the sensor's units of time."""
         shortest, longest = (1_000_000 // hz // TICK_US for hz in (self.high_hz, self.low_hz))
         off = min(int(DUTY_STEPS * (100.0 - self.duty_cycle) / 100.0 + 0.5), DUTY_STEPS - 1)
         return FlickerLimits(

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
 
 
 def title_of(metadata: Mapping[str, Any]) -> str:
-    """What a recording shows: its prompt, else the name of its source, else nothing."""
+    """Title of a recording: its prompt, else the name of its source, else nothing."""
     for key in ("prompt", "title", "source", "input"):
         value = metadata.get(key)
         if isinstance(value, Mapping):
@@ -64,7 +64,7 @@ class GroundTruthStream(FrameStream, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Annotations:
-    """What is drawn over an image, in pixels of the sensor."""
+    """Boxes and arrows over an image, in pixels of the sensor."""
 
     boxes: tuple[Box, ...] = ()
     arrows: NDArray[np.float32] | None = None
@@ -176,7 +176,7 @@ class PanelLayout:
         Args:
             frame: RGB image of the sensor's size, [H, W, 3], or None if there is none.
             events: RGB image of the events, [H, W, 3].
-            title: what is shown; cut if it is too long.
+            title: title; cut if it is too long.
             facts: time and counts, at the right of the caption.
             annotations: drawn over both panels.
 
@@ -229,7 +229,7 @@ class PanelLayout:
 
 
 def draw_legend(palette: Palette, text_height: int) -> Image:
-    """Which colour is ON and which is OFF, as a strip with the palette's background.
+    """Legend of ON and OFF colours, a strip with the palette's background.
 
     Args:
         palette: the colours.

@@ -308,7 +308,7 @@ def stream_html(events: EventStream, more: Mapping[str, Any] | None = None) -> s
 
 
 def packets_html(packets: EventPackets) -> str:
-    """What is known of packets without going through them; of a file that seeks, a glance."""
+    """HTML of packets without reading them through; of a seekable file, one window."""
     span, still = None, ""
     try:
         if isinstance(packets.packets, SeekablePackets):  # this alone may read the file

@@ -40,7 +40,7 @@ def fill_template(
 
     Args:
         name: file in viewer/.
-        parts: what to insert, as HTML.
+        parts: HTML to insert.
         palette: the colours; in dark mode those of its dark twin.
         style: file in viewer/, for `{{style}}`.
         scripts: files in viewer/, for `{{script}}`.
@@ -264,7 +264,7 @@ def viewer_json(
 def cloud_data(
     sample: EventStream, extent: tuple[int, int], *, palette: Palette, seen: int
 ) -> dict[str, Any]:
-    """What the cloud is drawn from: events, size, times and colours.
+    """Data of the cloud: events, size, times and colours.
 
     Args:
         sample: the events of the cloud.

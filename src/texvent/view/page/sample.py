@@ -21,7 +21,7 @@ def rate_counts(events: EventStream, extent: tuple[int, int], bins: int) -> NDAr
 
     Args:
         events: any number.
-        extent: where the first bin begins and the last one ends, µs; what lies outside is left out.
+        extent: where the first bin begins and the last one ends, µs; events outside are left out.
         bins: how many, 1 or more.
 
     Example:

@@ -165,7 +165,7 @@ def show(
     """Make the page of a recording and, unless a path is given, open it in the browser.
 
     Args:
-        events: what to show.
+        events: events to show.
         path: where to save the page; then nothing is opened. Default: a temporary file.
         overwrite: whether an existing file may be replaced.
 

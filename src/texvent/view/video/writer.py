@@ -61,7 +61,7 @@ def open_image_sink(
     """A video (.mp4, .gif) or else a folder, complete when the `with` block ends without error.
 
     Args:
-        path: what to write.
+        path: file to write.
         size: of every image, pixels.
         fps: nominal rate; the times given with the images are what counts.
         facts: how they were made (JSON-serialisable); a folder keeps them, a video cannot.
@@ -180,7 +180,7 @@ class VideoWriter(AtomicOutput):
         """Add one video frame.
 
         Args:
-            window: what it shows.
+            window: events of the image.
             video_start_us: when it appears, µs from the start of the video; default: as long
                 after the first window as in the recording.
         """
