@@ -42,6 +42,13 @@ DVS = SensorSize(128, 128)
 ANY = SensorSize(65_535, 65_535)
 SHORT = SensorSize(32_768, 32_768)
 ALL_CASES = (
+    FormatCase("hdf5", "e.h5", ANY),
+    FormatCase("npz", "e.npz", ANY),
+    FormatCase("ecd", "e.txt", ANY),
+    FormatCase("evt3", "e.raw", SensorSize(2048, 2048), 2**42),
+    FormatCase("evt2", "e.raw", SensorSize(2048, 2048), 2**34),
+    FormatCase("evt21", "e.raw", SensorSize(2048, 2048), 2**34),
+    FormatCase("dat", "e.dat", SensorSize(16_384, 16_384), 2**32),
     FormatCase("aedat2", "e.aedat", DAVIS, 2**31, is_exact_size=True, is_written=False),
     FormatCase("aedat2-davis346", "e.aedat", DAVIS, 2**31, is_exact_size=True, is_written=False),
     FormatCase("aedat2-jaer-dvs128", "e.aedat", DVS, 2**31, is_exact_size=True, is_written=False),

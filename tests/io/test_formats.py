@@ -22,11 +22,11 @@ from texvent.sensor import SensorSize
 
 from .format_cases import CASES, METADATA, STREAMS, FormatCase, at_times, random_events
 
-EMPTY_FILES = ("atis", "csv")
+EMPTY_FILES = ("atis", "csv", "ecd")
 """Formats without a header: an empty file is a recording without events."""
 ANY_BYTES = ("atis",)
 """Every file of the right length is a recording."""
-LABELLED = ("dsec", "dsec-blosc")
+LABELLED = ("hdf5", "npz", "dsec", "dsec-blosc")
 """Formats that keep the noise label."""
 LIMITED = [case for case in CASES if case.largest.width < 65_535]
 
