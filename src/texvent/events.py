@@ -325,7 +325,7 @@ class EventStream(EventEdits):
             ConfigError: unknown kind or option, or axes that do not fit it.
             MissingDependencyError: matplotlib is not installed.
         """
-        from texvent.view import plots as plot
+        from texvent.view.plots import plot
 
         return plot(self, kind, ax=ax, **options)
 

@@ -20,7 +20,8 @@ RADIUS_PX = 5
 LUMINANCE, CONTRAST = 0.01, 0.03
 """K1 and K2 of the paper."""
 
-Float64Array = NDArray[np.float64]
+Float64Array: TypeAlias = NDArray[np.float64]
+Compare: TypeAlias = Callable[[Float64Array, Float64Array], float]
 
 
 def structural_similarity(a: Float64Array, b: Float64Array, *, data_range: float = 1.0) -> float:
@@ -65,10 +66,6 @@ def gaussian_window() -> Float64Array:
     offset = np.arange(-RADIUS_PX, RADIUS_PX + 1)
     weights = np.exp(-(offset**2) / (2 * SIGMA_PX**2))
     return np.asarray(weights / weights.sum())
-
-
-Float64Array: TypeAlias = NDArray[np.float64]
-Compare: TypeAlias = Callable[[Float64Array, Float64Array], float]
 
 
 @dataclass(frozen=True)
