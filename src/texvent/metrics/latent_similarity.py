@@ -133,8 +133,8 @@ class EventQualityScore(Metric):
     Source: K. Chanda et al., "Event quality score (EQS): assessing the realism of simulated event
         camera streams via distances in latent space" (CVPR workshops 2025).
     Deviation: the paper publishes neither code nor which RVT it used, does not state the layout of
-        patches, and pads images without saying what becomes of the padding. Here patches do not overlap,
-        and the padding's features are left out.
+        patches, and pads images without saying what becomes of the padding. Here patches do not
+        overlap, and the padding's features are left out.
     """
 
     name = "eqs"
