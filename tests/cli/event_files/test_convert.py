@@ -144,7 +144,7 @@ def test_validate_gives_a_verdict_and_an_exit_code(
 def test_info_knows_every_format(
     recording: EventStream, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for name, format in (("a.aedat4", "aedat4"), ("b.raw", "evt2"), ("c.npz", "n-imagenet")):
+    for name, format in (("a.aedat4", "aedat4"), ("b.csv", "csv"), ("c.npz", "n-imagenet")):
         run("convert", "in.h5", name, "--format", format, "-q")
         assert run("info", name, "--json") == 0
         facts = json.loads(capsys.readouterr().out)
