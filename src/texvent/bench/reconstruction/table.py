@@ -20,8 +20,8 @@ COLUMNS = {"mse": "MSE ↓", "psnr": "PSNR, dB ↑", "ssim": "SSIM ↑", "lpips"
 DIGITS = {"mse": 4, "psnr": 2, "ssim": 3, "lpips": 3}
 ALL = "all recordings"
 MARK_NOTE = (
-    "(best): of the simulated events, on average. (≈): cannot be told apart from it (p > .05, "
-    "adjusted for the column). (?): too few independent frames to tell. Neighbouring frames are "
+    "(best): of the simulated events, on average. (≈): no significant difference from it (the "
+    "intervals of a column hold together). (?): too few independent frames. Neighbouring frames are "
     "alike and count by blocks.\n"
 )
 
