@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent.bench.selftest.controls import CONTROLS
 from texvent.cli.app import main
 from texvent.events import EventStream
+from texvent.metrics.controls import CONTROLS
 from texvent.sensor import SensorSize
 
 

@@ -13,14 +13,14 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.bench.document import read_document
-from texvent.bench.fidelity.results import read_report
-from texvent.bench.selftest.table import read_selftest
 from texvent.dataset.loading.stored_samples import StoredSample
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
 from texvent.metrics.scores import Scores
 from texvent.sensor import SensorSize
+from texvent_lab.bench.document import read_document
+from texvent_lab.bench.fidelity.results import read_report
+from texvent_lab.bench.selftest.table import read_selftest
 
 RESULTS = Path(__file__).parents[3] / "docs/results"
 EVENTS = EventStream([1, 2], [0, 0], [100, 900], [1, 0], SensorSize(4, 3))
