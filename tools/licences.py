@@ -182,7 +182,7 @@ def requires(name: str, packages: dict[str, Package]) -> tuple[str, ...]:
 
 def parts_of_texvent() -> dict[str, list[str]]:
     """Requirements of the base and of each extra, and those of the laboratory."""
-    parts = {}
+    parts: dict[str, list[str]] = {}
     for folder, base, prefix in ((".", "base", ""), ("lab", "lab", "lab ")):
         text = (ROOT / folder / "pyproject.toml").read_text(encoding="utf-8")
         project = tomllib.loads(text)["project"]

@@ -17,6 +17,8 @@ torch = pytest.importorskip("torch")
 transformers = pytest.importorskip("transformers")
 torch.set_num_threads(1)
 
+from tests.generate import tiny_pipelines  # noqa: E402
+
 from texvent.cli.app import main  # noqa: E402
 from texvent.events import EventStream  # noqa: E402
 from texvent.generate.videos.clip_model import ClipModel, _prepare  # noqa: E402
@@ -30,9 +32,8 @@ from texvent_lab.alignment.recordings import (  # noqa: E402
 from texvent_lab.alignment.views import DrawnEvents  # noqa: E402
 from texvent_lab.nt_imagenet.files import read_captioned  # noqa: E402
 
-from ...generate import tiny_pipelines  # noqa: E402
-from ...reconstruct.network_files import save_published  # noqa: E402
 from ..nt_imagenet.tiny_data import WNIDS, stream_id, write_n_imagenet  # noqa: E402
+from ..reconstruct.network_files import save_published  # noqa: E402
 
 CAPTIONS = ["a red car drives left", "a dog runs", "a ball bounces", "a blue bus drives right"]
 

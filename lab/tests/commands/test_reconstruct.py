@@ -8,8 +8,8 @@ import pytest
 
 from texvent.cli.app import main
 
-from ...bench.reconstruction.synthetic_network import SIZE, moving_bar
-from ...reconstruct.network_files import save_published
+from ..bench.reconstruction.synthetic_network import SIZE, moving_bar
+from ..reconstruct.network_files import save_published
 
 pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")

@@ -11,7 +11,7 @@ pytest.importorskip("OpenEXR")
 
 from texvent_lab.measure.blender.__main__ import main
 
-SAMPLE = Path(__file__).parents[1] / "capture" / "motion_vectors" / "blender_sample"
+SAMPLE = Path(__file__).parents[3] / "tests" / "capture" / "motion_vectors" / "blender_sample"
 
 
 def test_a_film_against_itself(tmp_path, monkeypatch, capsys):

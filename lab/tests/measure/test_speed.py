@@ -21,7 +21,7 @@ from texvent_lab.measure.speed.tables import BEGIN, END, as_markdown, put_into_p
 from texvent_lab.measure.speed.targets import TARGETS, check_targets
 from texvent_lab.measure.speed.timing import Quartiles, cpu_in_turns, rounded
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 SCHEMA = json.loads((ROOT / "docs/results/speed.schema.json").read_text(encoding="utf-8"))
 COMMITTED = ROOT / "docs/results/speed.json"
 SPREAD = {"median": 2.0, "q1": 1.0, "q3": 3.0, "n": 3}

@@ -16,6 +16,8 @@ torch = pytest.importorskip("torch")
 transformers = pytest.importorskip("transformers")
 torch.set_num_threads(1)
 
+from tests.generate import tiny_pipelines  # noqa: E402
+
 from texvent.cli.app import main  # noqa: E402
 from texvent_lab.nt_imagenet.caption_store import FILE  # noqa: E402
 from texvent_lab.nt_imagenet.captioner import Captioner  # noqa: E402
@@ -25,7 +27,6 @@ from texvent_lab.nt_imagenet.similar_captions import (  # noqa: E402
     find_similar,
 )
 
-from ...generate import tiny_pipelines  # noqa: E402
 from .tiny_data import WNIDS, contents, stream_id, write_imagenet, write_n_imagenet  # noqa: E402
 
 CHAT = (

@@ -13,7 +13,7 @@ from texvent_lab.reconstruct.reconstructor import load_reconstructor
 pytestmark = pytest.mark.torch
 pytest.importorskip("torch")
 
-WEIGHTS = Path(__file__).parents[3] / "shared" / "weights"
+WEIGHTS = Path(__file__).parents[4] / "shared" / "weights"
 SKIPPED = 10
 
 

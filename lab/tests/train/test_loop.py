@@ -12,13 +12,14 @@ from texvent.cli.app import main
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
+from tests.dataset.loading.written_set import write_shard  # noqa: E402
+
 from texvent.errors import TexventError  # noqa: E402
 from texvent_lab.train.classification.config import ClassificationConfig  # noqa: E402
 from texvent_lab.train.classification.task import ClassificationTask  # noqa: E402
 from texvent_lab.train.run import train_from_file  # noqa: E402
 from texvent_lab.train.schedule import Hardware, Schedule  # noqa: E402
 
-from ..dataset.loading.written_set import write_shard  # noqa: E402
 from .written_samples import LABELS, bar, write_bars  # noqa: E402
 
 pytestmark = pytest.mark.torch

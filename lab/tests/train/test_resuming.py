@@ -13,7 +13,7 @@ import pytest
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from tests.latents.tiny_autoencoder import write_autoencoder  # noqa: E402
+from lab.tests.latents.tiny_autoencoder import write_autoencoder  # noqa: E402
 
 from texvent.extending import full_version  # noqa: E402
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from tests.dataset.loading.written_set import write_shard
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-
-from ..dataset.loading.written_set import write_shard
 
 SIZE = SensorSize(16, 12)
 LABELS = ("bus", "car")

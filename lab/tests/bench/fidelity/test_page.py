@@ -13,7 +13,7 @@ from texvent_lab.bench.fidelity.table import BASELINE
 
 from ..synthetic_report import synthetic_report
 
-RESULTS = Path(__file__).parents[3] / "docs" / "results"
+RESULTS = Path(__file__).parents[4] / "docs" / "results"
 
 
 @pytest.mark.parametrize(

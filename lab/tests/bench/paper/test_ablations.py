@@ -9,7 +9,7 @@ from texvent_lab.bench.fidelity.run import FidelityPlan, run_fidelity
 from texvent_lab.bench.fidelity.table import fidelity_tables
 from texvent_lab.bench.paper.config_entry import read_ablations
 
-PAPER = Path(__file__).parents[3] / "configs" / "paper"
+PAPER = Path(__file__).parents[4] / "configs" / "paper"
 
 
 def test_the_paper_has_twelve_ablations_in_their_order():

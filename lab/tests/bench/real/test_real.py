@@ -5,6 +5,7 @@ import shutil
 
 import numpy as np
 import pytest
+from tests.capture.dsec_sequence import write_sequence
 
 from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError
@@ -17,8 +18,6 @@ from texvent_lab.bench.fidelity.table import fidelity_tables, motion_table
 from texvent_lab.bench.paper.config_entry import ConfigEntry
 from texvent_lab.bench.real.run import HALVES, RealPlan, adapt_settings, real_entries, run_real
 from texvent_lab.bench.real.scene import RecordingPart, open_scene
-
-from ...capture.dsec_sequence import write_sequence
 
 PLAN = RealPlan(
     metrics=("stpp", "count_ratio"),

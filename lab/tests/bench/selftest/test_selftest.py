@@ -19,7 +19,7 @@ from texvent_lab.bench.selftest.perturbations import PERTURBATIONS, SERIES, pert
 from texvent_lab.bench.selftest.run import DETECTED, SelftestRow, evaluate_metric, run_selftest
 from texvent_lab.bench.selftest.table import read_selftest, selftest_document, selftest_table
 
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 SIZE = SensorSize(20, 15)
 
 

@@ -6,14 +6,13 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.represent.definitions import rows, streams
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.transform.region import resize
 from texvent_lab.train.classification.augmentation import augment, take_run
 from texvent_lab.train.classification.config import Augmentation
-
-from ...represent.definitions import rows, streams
 
 pytestmark = pytest.mark.torch
 pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")

@@ -17,7 +17,7 @@ from texvent_lab.train.classification.config import ClassificationConfig  # noqa
 from texvent_lab.train.reading import read_training  # noqa: E402
 
 pytestmark = pytest.mark.torch
-ROOT = Path(__file__).parents[3]
+ROOT = Path(__file__).parents[4]
 FILES = ROOT / "configs" / "training"
 
 

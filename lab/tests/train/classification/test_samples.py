@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.dataset.loading.written_set import write_shard
 
 import texvent.dataset
 from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
-from ...dataset.loading.written_set import write_shard
 from ..written_samples import SIZE, bar, write_bars
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")

@@ -12,7 +12,7 @@ from texvent.cli.app import main
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from tests.latents.tiny_autoencoder import write_autoencoder  # noqa: E402
+from lab.tests.latents.tiny_autoencoder import write_autoencoder  # noqa: E402
 
 from texvent_lab.latents.head import load_head  # noqa: E402
 from texvent_lab.latents.sampling import sample_packets  # noqa: E402

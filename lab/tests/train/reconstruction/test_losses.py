@@ -2,11 +2,10 @@
 
 import numpy as np
 import pytest
+from tests.metrics.lpips.lpips_files import narrow_weights
 
 from texvent.metrics.lpips.distance import lpips_distance
 from texvent.metrics.structural_similarity import structural_similarity
-
-from ...metrics.lpips.lpips_files import narrow_weights
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 

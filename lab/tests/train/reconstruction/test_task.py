@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from tests.metrics.lpips.lpips_files import narrow_weights
 
 from texvent.cli.app import main
 from texvent.metrics.image_measures import mean_squared_error
@@ -17,7 +18,6 @@ from texvent.metrics.structural_similarity import structural_similarity
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.registries import RECONSTRUCTORS
 
-from ...metrics.lpips.lpips_files import narrow_weights
 from ..sequences.windowed_specification import TEXT, write_specification
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")

@@ -1,7 +1,8 @@
 """A small network that tells digits apart, trained on images that were made before.
 
 `texvent_lab.train.loop` validates, keeps checkpoints and counts epochs. A training here takes
-seconds, keeps its last network, and counts steps, so that few samples are trained on for as long as many.
+seconds, keeps its last network, and counts steps, so that few samples are trained on for as long
+as many.
 """
 
 from __future__ import annotations

@@ -38,7 +38,7 @@ CALIBRATED_FRAMES_PER_PIXEL = 2.0
 sensor's constants."""
 SENSOR_FILE = Path(__file__).parents[1] / "oracle" / "sensor.toml"
 THRESHOLD_FILE = SENSOR_FILE.with_name("sensor_thresholds.npz")
-"""Their options and the thresholds of each pixel, which `texvent_lab.measure.oracle_sensor` finds."""
+"""Their options and the thresholds of each pixel, from `texvent_lab.measure.oracle_sensor`."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -29,7 +29,7 @@ HEAVY_SIZE = SensorSize(346, 260)
 HEAVY_FPS = Fraction(24)
 HEAVY_GAMMA = 0.92
 """Brings the embedded heavy clip's mean |Δ ln I| to 0.27."""
-EXCERPT = Path(__file__).parents[2] / "tests" / "clips" / "bigbuckbunny_excerpt.mp4"
+EXCERPT = Path(__file__).parents[5] / "tests" / "clips" / "bigbuckbunny_excerpt.mp4"
 DENSE_FPS = 200
 
 
