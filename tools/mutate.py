@@ -47,7 +47,7 @@ class Mutation(NamedTuple):
     """Text that is there once."""
     new: str
     tests: tuple[str, ...]
-    """Those that should notice, as pytest names them: below `tests`, or `lab/` and below lab/tests."""
+    """Those that should notice, as pytest names them; below `tests`, or `lab/` and below that."""
 
 
 def source_path(file: str) -> Path:
