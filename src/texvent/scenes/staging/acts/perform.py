@@ -14,7 +14,6 @@ from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.staging.actors import Actor, Tether
 from texvent.scenes.staging.acts import holding, striking
 from texvent.scenes.staging.acts.acts import ACTS, Cast, is_person, size_of
-from texvent.scenes.staging.acts.riding import board
 from texvent.scenes.staging.trajectories.trajectory import Stationary, ahead
 
 _ORDER = ("push", "pull", "kick", "throw", "catch", "hit", "collide", "hold", "carry", "wear")
@@ -46,7 +45,7 @@ def perform_acts(
     towed = [r for r in acts if r.kind in ("push", "pull") and r.targets[0] in ridden]
     for relation in towed:
         _perform(cast, relation, duration_s)
-    board(cast, acts)
+    holding.board(cast, acts)
     for kind in _ORDER:
         for relation in (one for one in acts if one.kind == kind and one not in towed):
             _perform(cast, relation, duration_s)

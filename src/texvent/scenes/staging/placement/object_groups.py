@@ -62,8 +62,6 @@ class ObjectGroup:
     """Heading of each copy, where they differ."""
     on_chairs: bool = False
     """Whether each of its people sits on a chair that comes with them."""
-    lag: tuple[ObjectGroup, float] | None = None
-    """Whose line it follows, and how far behind, m."""
 
     @property
     def size_m(self) -> float:
@@ -150,9 +148,12 @@ def match_pace(group: ObjectGroup, partner: ObjectGroup, kind: str) -> None:
     What follows goes behind the partner, which is placed already; what is overtaken or passed goes
     the same way, slower, unless the scene says how it goes.
     """
+    motion = group.plan.motion
+    if kind == "follow" and partner.plan.path is not None and group.plan.is_path:
+        group.plan = replace(group.plan, yaw=partner.plan.yaw, path=partner.plan.path)
+        return
     if not (partner.plan.is_path and group.plan.is_path):
         return
-    motion = group.plan.motion
     if kind in ("follow", "with"):
         if kind == "follow" and partner.plan.motion.speed_m_s is None:
             partner.go(speed_m_s=max(partner.plan.speed_m_s, group.plan.speed_m_s))

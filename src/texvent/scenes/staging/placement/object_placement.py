@@ -15,7 +15,7 @@ from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
-from texvent.scenes.staging.acts.acts import OnPart
+from texvent.scenes.staging.acts.acts import on_part
 from texvent.scenes.staging.acts.perform import perform_acts
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer
@@ -45,8 +45,8 @@ from texvent.scenes.staging.preparation import settle_motions
 from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
-from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath, bend_path
-from texvent.scenes.staging.trajectories.trajectory import Riding, Trajectory, Vector
+from texvent.scenes.staging.trajectories.steered_path import bend_path
+from texvent.scenes.staging.trajectories.trajectory import Attached, Trajectory, Vector
 
 _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
@@ -295,11 +295,6 @@ class ObjectPlacer:
         """The trajectory of a copy that is at `home` in the middle of the clip."""
         if group.orbits is not None:
             return orbit(group, group.orbits, number, self._duration_s)
-        if group.lag is not None:
-            leader, gap = group.lag
-            path = self._choose(leader, leader.models[0], _tuple(leader.centre), 0, rng)
-            if isinstance(path, SteeredPath):
-                return Lagging(path, gap + number * 1.3 * model.length)
         if group.carrier is not None:
             return self._ride_on(group, group.carrier, home)
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
@@ -314,8 +309,8 @@ class ObjectPlacer:
         place = (x * cosine + y * sine, y * cosine - x * sine, z)
         activity = group.plan.gesture or "sit"
         if group.carried_on is not None:
-            return OnPart(carrier, below.models[0], group.carried_on, place, activity)
-        return Riding(carrier, place, activity)
+            return on_part(carrier, below.models[0], group.carried_on, place, activity)
+        return Attached.seated(carrier, place, activity)
 
 
 def _tuple(centre: Float64Array) -> Vector:

@@ -115,8 +115,6 @@ def _place_follower(group: ObjectGroup, targets: Sequence[ObjectGroup], height: 
     target, own = targets[0], group.models[0]
     reach = 0.5 * (target.models[0].length + own.length)
     group.half = 0.5 * np.array([own.length, own.width, own.height])
-    if target.plan.path is not None:
-        group.lag = (target, 1.3 * reach + 0.4)
     return Goal(target.to_world(-1.6 * reach - 0.4, 0.0, height - target.centre[2]), _FIXED)
 
 

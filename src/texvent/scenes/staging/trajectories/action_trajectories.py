@@ -204,16 +204,3 @@ def about_pivot(state: BodyState, pivot_m: float) -> BodyState:
     turn = rotation(state.yaw, state.pitch, state.roll)
     x, y, z = state.to_world()[:, 3] + turn @ pivot - pivot
     return replace(state, position=(float(x), float(y), float(z)), pivot_m=pivot_m)
-
-
-@dataclass(frozen=True)
-class Switched:
-    """One trajectory up to an instant, another from then on."""
-
-    before: Trajectory
-    after: Trajectory
-    at_s: float
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        return (self.before if time_s < self.at_s else self.after).at(time_s)
