@@ -43,27 +43,25 @@ RelationKind: TypeAlias = Literal[
     "on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
     "between", "around", "surround", "among",
     "past", "overtake", "through", "towards", "away from", "from", "follow", "with", "look at",
-    "hold", "carry", "wear", "ride", "ride along", "push", "pull", "kick", "hit", "throw", "catch",
+    "hold", "carry", "wear", "ride", "push", "pull", "kick", "hit", "throw", "catch",
     "collide",
 ]  # fmt: skip
 Material: TypeAlias = Literal[
     "wood", "brick", "stone", "marble", "concrete", "metal", "brass", "glass", "plastic",
     "ceramic", "cloth", "leather", "rubber", "paper", "rust", "ice",
 ]  # fmt: skip
-Placement: TypeAlias = Literal[
-    "left", "right", "centre", "far", "near", "lane", "row", "ring", "together"
-]
+Placement: TypeAlias = Literal["left", "right", "centre", "far", "near", "row", "ring", "together"]
 MoveKind: TypeAlias = Literal[
     "static", "pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "follow",
     "crane", "dolly zoom", "handheld", "dutch", "travel",
 ]  # fmt: skip
 MoveDirection: TypeAlias = Literal[
     "left", "right", "up", "down", "in", "out", "clockwise", "counter-clockwise", "forward",
-    "backward", "behind", "front", "side", "above", "slower", "all axes",
+    "backward", "behind", "front", "side", "above", "all axes",
 ]  # fmt: skip
 Waveform: TypeAlias = Literal["sine", "strobe", "switch"]
 View: TypeAlias = Literal[
-    "aerial", "top", "high", "low", "level", "side", "front", "back", "shoulder", "first person"
+    "aerial", "top", "high", "low", "level", "side", "front", "back", "first person"
 ]
 
 
@@ -138,8 +136,8 @@ class SceneObject:
     material: Material | None = None
     """Material of the surface."""
     placement: Placement | None = None
-    """Region of the image ("left", "right", "centre", "far", "near"), the road ("lane"), or the
-    formation of the copies ("row", "ring", "together")."""
+    """Region of the image ("left", "right", "centre", "far", "near"), or the formation of the
+    copies ("row", "ring", "together")."""
     motions: tuple[Motion, ...] = ()
     """Motions in their order; left out: the usual one where nothing else moves, else rest."""
     relations: tuple[Relation, ...] = ()

@@ -7,7 +7,6 @@ from functools import partial
 
 import numpy as np
 
-from texvent.scenes.description import RIDES
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.models.shapes import Affine, compose, shift
@@ -23,7 +22,7 @@ from texvent.scenes.staging.trajectories.trajectory import (
 
 SINGLE = frozenset({"kick", "hit", "throw", "catch", "collide"})
 """Acts with one instant of contact."""
-ACTS = SINGLE | {"hold", "carry", "wear", "push", "pull", *RIDES}
+ACTS = SINGLE | {"hold", "carry", "wear", "push", "pull", "ride"}
 """Relations that are acts of the subject on its first target."""
 _UPRIGHT = 0.7
 """Least z of a part's third axis for its axes to be those of what is on it."""
@@ -78,11 +77,6 @@ def size_of(model: Model) -> float:
 def scaled(point: Vector, size: float) -> Vector:
     """A point of an adult's body on one of that size."""
     return (size * point[0], size * point[1], size * point[2])
-
-
-def vector(values: Float64Array) -> Vector:
-    """Three numbers of an array as a tuple of floats."""
-    return (float(values[0]), float(values[1]), float(values[2]))
 
 
 def moving(actor: Actor, path: Trajectory) -> Actor:

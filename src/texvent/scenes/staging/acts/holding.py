@@ -9,7 +9,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import RIDES, Relation
+from texvent.scenes.description import Relation
 from texvent.scenes.models.people.outfit import CLOTHES
 from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.protocol import Pose
@@ -118,7 +118,7 @@ def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
 
 def carried(target: Actor, held: Trajectory, holder: Actor) -> Actor:
     """The thing on a trajectory that its holder gives it."""
-    return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0, extras=())
+    return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0)
 
 
 def choose_style(holder: Actor, thing: Actor) -> str:
@@ -265,22 +265,16 @@ def board(cast: Cast, relations: Sequence[Relation]) -> None:
     The first person on a bicycle is the one that its model brings; those in a closed vehicle are
     not seen.
     """
-    crews: dict[int, list[int | None]] = {}
-    seated: set[int] = set()
-    for relation in (one for kind in RIDES for one in relations if one.kind == kind):
+    crews: dict[int, list[int]] = {}
+    for relation in (one for one in relations if one.kind == "ride"):
         mounts = cast.copies(relation.targets[0])
         for turn, rider in enumerate(cast.copies(relation.subject) if mounts else ()):
             at = mounts[turn % len(mounts)]
-            crew = crews.setdefault(at, [])
-            if relation.kind == "ride along" and not crew and style_of(cast.get(at)) == "built-in":
-                crew.append(None)
-            if rider != at and rider not in seated:
-                crew.append(rider)
-                seated.add(rider)
+            if rider != at and not any(rider in crew for crew in crews.values()):
+                crews.setdefault(at, []).append(rider)
     for at, crew in crews.items():
-        for number, one in enumerate(crew):
-            if one is not None:
-                _seat(cast, one, at, number, len(crew))
+        for number, rider in enumerate(crew):
+            _seat(cast, rider, at, number, len(crew))
 
 
 def _seat(cast: Cast, rider: int, at: int, number: int, crew: int) -> None:

@@ -10,23 +10,21 @@ import numpy as np
 
 from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import STANDING, SceneDescription, SceneObject
-from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.people.outfit import CLOTHES
 from texvent.scenes.models.people.person import dress
 from texvent.scenes.models.people.posture import SEAT
 from texvent.scenes.models.people.props import HOLDS, Prop, list_props
-from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
-from texvent.scenes.models.shapes import bounds, moved, post
+from texvent.scenes.models.protocol import Model, Noun, Pose
+from texvent.scenes.models.shapes import bounds, moved
 from texvent.scenes.models.support_surface import find_support
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.trajectories.action_trajectories import Swing
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.steered_path import sample_places
-from texvent.scenes.staging.trajectories.trajectory import Trajectory, Vector
+from texvent.scenes.staging.trajectories.trajectory import Vector
 
 GAP_M = 0.25
 """Least space between two objects, in units of the smaller one's size."""
@@ -280,18 +278,13 @@ def stand_in_ring(group: ObjectGroup, radius_m: float) -> None:
 
 
 def part_in_midst(group: ObjectGroup, room_m: float) -> None:
-    """Set the copies of a group in two rows, left and right of a gap of twice that room."""
-    count, model = len(group.models), group.models[0]
-    if count < 2:
-        return
-    size = max(model.length, model.width)
-    group.offsets = []
-    for number in range(count):
-        row, side = number // 2, -1.0 if number % 2 == 0 else 1.0
-        rows = (count + 1 - number % 2) // 2
-        deep = (row - 0.5 * (rows - 1)) * 1.3 * size
-        group.offsets.append((side * (room_m + 0.5 * size), deep, 0.0))
-    group.fit()
+    """Move every second copy of a group to the left, the others to the right, by that room."""
+    if len(group.models) > 1:
+        group.offsets = [
+            (x + (room_m if number % 2 else -room_m), y, z)
+            for number, (x, y, z) in enumerate(group.offsets)
+        ]
+        group.fit()
 
 
 _SEAT_BACK_M = 0.03
@@ -340,13 +333,3 @@ def _draw_chair(scale: float) -> Prop:
     axes = np.column_stack([np.eye(3), np.array([-_SEAT_BACK_M * scale, 0.0, -low])])
     placed = moved(model.parts(Pose(0.0, 0.0, 0.0, "stand")), axes)
     return Prop("ground", lambda _: placed)
-
-
-def hang_rope(trajectory: Trajectory, model: Model) -> tuple[ModelPart, ...]:
-    """The rope of what swings, m in body coordinates."""
-    if not isinstance(trajectory, Swing):
-        return ()
-    low, high = 0.9 * model.height, trajectory.length_m
-    thick = 2.0 * (0.012 + 0.004 * model.height)
-    size = (thick, thick, high - low)
-    return (post(Material((0.25, 0.2, 0.14)), (0.0, 0.0, 0.5 * (high + low)), size),)

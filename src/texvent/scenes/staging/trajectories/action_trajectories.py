@@ -14,6 +14,7 @@ import numpy as np
 
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
+    Stationary,
     Trajectory,
     Vector,
     rotation,
@@ -47,25 +48,6 @@ class Spin:
         return replace(state, pitch=turn) if self.axis == "pitch" else replace(state, roll=turn)
 
 
-@dataclass(frozen=True)
-class Swing:
-    """Hangs from a point above and swings as a pendulum of that length does (small angles)."""
-
-    home: Vector
-    """Where its origin hangs at rest."""
-    length_m: float
-    """From the body's origin up to the point it hangs from."""
-    amplitude_rad: float
-    pace: float = 1.0
-    yaw: float = 0.0
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        rate = self.pace * math.sqrt(GRAVITY_M_S2 / self.length_m)
-        angle = self.amplitude_rad * math.cos(rate * time_s)
-        return BodyState(self.home, self.yaw, pitch=angle, activity="swing", pivot_m=self.length_m)
-
-
 class Wave(NamedTuple):
     """A sine that is added to one coordinate of a body."""
 
@@ -93,6 +75,13 @@ class Oscillating:
             values[wave.axis] += wave.amplitude * math.sin(angle)
         x, y, z, yaw, pitch, roll = values.values()
         return replace(state, position=(x, y, z), yaw=yaw, pitch=pitch, roll=roll)
+
+
+def swing(home: Vector, length_m: float, amplitude_rad: float, pace: float = 1.0) -> Oscillating:
+    """A pendulum of small angles; its origin hangs at `home`, `length_m` below its pivot."""
+    rate_hz = pace * math.sqrt(GRAVITY_M_S2 / length_m) / (2.0 * math.pi)
+    hanging = Stationary(home, activity="swing", pivot_m=length_m)
+    return Oscillating(hanging, (Wave("pitch", amplitude_rad, rate_hz, 0.5 * math.pi),))
 
 
 def hover(path: Trajectory, amplitude_m: float, phase: float = 0.0) -> Oscillating:

@@ -57,6 +57,11 @@ class BodyState:
         return np.column_stack([turn, offset])
 
 
+def vector(values: Float64Array) -> Vector:
+    """Three numbers of an array as a tuple of floats."""
+    return (float(values[0]), float(values[1]), float(values[2]))
+
+
 def ahead(home: Vector, yaw: float, along_m: float, height_m: float) -> Vector:
     """The point `along_m` from `home` along a heading, at a height, m."""
     x, y, _ = home
@@ -106,11 +111,14 @@ class Stationary:
     tempo: float = 1.0
     gain_per_s: float = 0.0
     """By how much the tempo grows each second."""
+    pivot_m: float = 0.0
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         mean = self.tempo + 0.5 * self.gain_per_s * time_s
-        return BodyState(self.home, self.yaw, activity=self.activity, tempo=mean)
+        return BodyState(
+            self.home, self.yaw, activity=self.activity, tempo=mean, pivot_m=self.pivot_m
+        )
 
 
 @dataclass(frozen=True)
