@@ -25,7 +25,7 @@ from texvent.scenes.models.tables import nouns_with, trait_value
 
 SWAY = CameraMove("handheld", pace=0.4)
 """Move of the camera where nothing else moves: a still image has no events."""
-_ACTS = frozenset({"push", "pull", "kick", "hit", "throw", "catch", "collide"})
+_ACTS = frozenset({"push", "kick", "hit", "throw", "catch", "collide"})
 """Relations in which something moves."""
 _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of", "right of",
                       "around", "look at"})  # fmt: skip

@@ -43,7 +43,7 @@ RelationKind: TypeAlias = Literal[
     "on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
     "between", "around", "surround", "among",
     "past", "overtake", "through", "towards", "away from", "from", "follow", "with", "look at",
-    "hold", "carry", "wear", "ride", "push", "pull", "kick", "hit", "throw", "catch",
+    "hold", "carry", "wear", "ride", "push", "kick", "hit", "throw", "catch",
     "collide",
 ]  # fmt: skip
 Material: TypeAlias = Literal[
@@ -256,14 +256,10 @@ class Light:
     """Whether the sun or moon casts shadows."""
     tint: Annotated[str, Colour("light")] | None = None
     """Colour of the light: "warm", "golden", "cold", a name or an sRGB code."""
-    hardness: Literal["soft", "hard"] | None = None
-    """Edges of shadows."""
-    brightness: Literal["bright", "gloomy", "dim"] | None = None
+    brightness: Literal["bright", "dim"] | None = None
     """Exposure."""
     direction: Literal["left", "right", "back", "front", "above"] | None = None
     """Position of the light source, seen from the camera."""
-    is_low: bool = False
-    """Whether the light source is near the horizon."""
     lamps: tuple[Lamp, ...] = ()
     """Lamps beside those of the objects; at most 16."""
 

@@ -97,7 +97,7 @@ class Actor:
     props: tuple[Prop, ...] = ()
     """What a person's activity needs, such as a guitar."""
     tether: Tether | None = None
-    """What ties it to who flies or pulls it, or to the point that it hangs from."""
+    """What ties it to who flies it, or to the point that it hangs from."""
     enters: bool = False
     """Whether it comes into the picture only after the clip has begun."""
     leaves: bool = False

@@ -22,7 +22,7 @@ from texvent.scenes.staging.trajectories.trajectory import (
 
 SINGLE = frozenset({"kick", "hit", "throw", "catch", "collide"})
 """Acts with one instant of contact."""
-ACTS = SINGLE | {"hold", "carry", "wear", "push", "pull", "ride"}
+ACTS = SINGLE | {"hold", "carry", "wear", "push", "ride"}
 """Relations that are acts of the subject on its first target."""
 _UPRIGHT = 0.7
 """Least z of a part's third axis for its axes to be those of what is on it."""

@@ -1,4 +1,4 @@
-"""Holding, wearing, riding, pushing, pulling: where bodies are fixed, and where hands are then."""
+"""Holding, wearing, riding and pushing: where bodies are fixed, and where hands are then."""
 
 from __future__ import annotations
 
@@ -59,8 +59,6 @@ _KITE_YAW = 0.3 - 0.5 * math.pi - 1.0
 _SWAY_M = 0.28
 """How far the wind takes a kite to and fro, m."""
 _STRING_M = 0.008
-_HITCH_M = 0.5
-"""Between a vehicle and what it tows."""
 _STRETCH = 0.60
 """From the shoulder to the palm of an arm that is nearly straight, m."""
 
@@ -228,27 +226,9 @@ def push(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
         reach = size * (0.10 + math.sqrt(max(_STRETCH**2 - drop**2, 0.04)))
     side = min(0.16 * size, 0.45 * model.width)
     grips = (("left hand", (reach, side, height)), ("right hand", (reach, -side, height)))
-    subject = _performing(subject, "push along", grips)
+    if is_person(subject):
+        subject = replace(subject, trajectory=Performed(subject.trajectory, "push along", grips))
     return subject, _along(subject, target, reach + 0.02 + 0.5 * model.length)
-
-
-def pull(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
-    """A rope from the hand, or from the rear of a vehicle, to the thing's front."""
-    size, model = size_of(subject.model), target.model
-    behind = 0.9 * size
-    if subject.noun.motion == "drive":
-        behind = 0.5 * subject.model.length + _HITCH_M
-    hand = (-0.34 * size, -0.20 * size, 0.92 * size)
-    subject = _performing(subject, "pull along", (("right hand", hand),))
-    end = (0.5 * model.length, 0.0, 0.5 * model.height - target.foot_m)
-    target = _along(subject, target, -(behind + 0.5 * model.length))
-    return subject, replace(target, tether=Tether(subject, "right hand", end, 0.025))
-
-
-def _performing(subject: Actor, activity: str | None, grips: Grips) -> Actor:
-    if not is_person(subject):
-        return subject
-    return replace(subject, trajectory=Performed(subject.trajectory, activity, grips))
 
 
 def _along(subject: Actor, target: Actor, along_m: float) -> Actor:

@@ -15,9 +15,9 @@ from texvent.scenes.staging.acts import holding, striking
 from texvent.scenes.staging.acts.acts import ACTS, Cast, is_person, size_of
 from texvent.scenes.staging.trajectories.trajectory import Stationary, ahead
 
-_ORDER = ("push", "pull", "kick", "throw", "catch", "hit", "collide", "hold", "carry", "wear")
+_ORDER = ("push", "kick", "throw", "catch", "hit", "collide", "hold", "carry", "wear")
 """What moves bodies comes before what hangs on them."""
-_TIED = frozenset({"at", "on", "in", "ride", "push", "pull"})
+_TIED = frozenset({"at", "on", "in", "ride", "push"})
 """Relations that give their subject its heading."""
 
 
@@ -41,12 +41,12 @@ def perform_acts(
     _look_at(cast, description.relations, duration_s)
     _face_each_other(cast, [n for n, one in enumerate(actors) if one.object_index not in bound])
     ridden = {one.targets[0] for one in acts if one.kind == "ride"}
-    towed = [r for r in acts if r.kind in ("push", "pull") and r.targets[0] in ridden]
-    for relation in towed:
+    pushed = [r for r in acts if r.kind == "push" and r.targets[0] in ridden]
+    for relation in pushed:
         _perform(cast, relation, duration_s)
     holding.board(cast, acts)
     for kind in _ORDER:
-        for relation in (one for one in acts if one.kind == kind and one not in towed):
+        for relation in (one for one in acts if one.kind == kind and one not in pushed):
             _perform(cast, relation, duration_s)
     _take_off_doubles(cast, actors)
     return cast.actors()
@@ -72,7 +72,6 @@ def _perform(cast: Cast, relation: Relation, duration_s: float) -> None:
 _Act = Callable[[Actor, Actor, Actor | None, float], tuple[Actor | None, ...]]
 _ACTS: Mapping[str, _Act] = {
     "push": lambda who, what, _, __: holding.push(who, what),
-    "pull": lambda who, what, _, __: holding.pull(who, what),
     "hold": lambda who, what, _, __: holding.hold(who, what),
     "carry": lambda who, what, _, __: holding.hold(who, what),
     "wear": lambda who, what, _, __: holding.wear(who, what),

@@ -61,8 +61,8 @@ def _settle(
         return replace(subject, motion=None, then=()), still
     if kind in SINGLE:
         return replace(subject, motion=ObjectMotion(kind, way), then=()), still
-    if kind in ("push", "pull"):
-        if motion.kind in ("push", "pull", "stand"):
+    if kind == "push":
+        if motion.kind in ("push", "stand"):
             subject = replace(subject, motion=ObjectMotion("walk", motion.direction))
         return subject, still
     if kind == "wear":

@@ -1,10 +1,4 @@
-"""Relations as positions: on, in, at, under, between, beside, past, behind and so on.
-
-What rests is on a supporting surface, in it or around it. Other relations are a place beside the box
-of what is placed already, and a direction to look for room in.
-"""
-
-from __future__ import annotations
+"""Relations as positions: on, in, at, under, between, beside, past, behind and so on."""
 
 import math
 from collections.abc import Callable, Mapping, Sequence

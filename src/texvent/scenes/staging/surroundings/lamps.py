@@ -241,7 +241,7 @@ def plan_lamps(
         light, reach = description.light, framing.distance_m
         rows.append(hidden_lamp(focus, reach, strength, light, looking))
     still = np.array(rows, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
-    if description.light.shadows is not False and description.light.hardness != "soft":
+    if description.light.shadows is not False:
         _choose_casters(lit, still, instant_s, focus)
     return LampPlan(description.light.lamps, tuple(lit), still)
 
