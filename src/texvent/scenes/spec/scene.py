@@ -50,7 +50,9 @@ Material: TypeAlias = Literal[
     "wood", "brick", "stone", "marble", "concrete", "metal", "brass", "glass", "plastic",
     "ceramic", "cloth", "leather", "rubber", "paper", "rust", "ice",
 ]  # fmt: skip
-Placement: TypeAlias = Literal["left", "right", "centre", "far", "near", "row", "ring", "together"]
+Placement: TypeAlias = Literal[
+    "left", "right", "centre", "far", "near", "lane", "row", "ring", "together"
+]
 MoveKind: TypeAlias = Literal[
     "static", "pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "follow",
     "crane", "dolly zoom", "handheld", "dutch", "travel",
@@ -136,8 +138,8 @@ class SceneObject:
     material: Material | None = None
     """Material of the surface."""
     placement: Placement | None = None
-    """Region of the image ("left", "right", "centre", "far", "near"), or the formation of the
-    copies ("row", "ring", "together")."""
+    """Region of the image ("left", "right", "centre", "far", "near"), the road ("lane"), or the
+    formation of the copies ("row", "ring", "together")."""
     motions: tuple[Motion, ...] = ()
     """Motions in their order; left out: the usual one where nothing else moves, else rest."""
     relations: tuple[Relation, ...] = ()

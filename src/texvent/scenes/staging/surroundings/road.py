@@ -75,7 +75,9 @@ def find_road(
 ) -> RoadLine:
     """The road along the path of the first object on the ground that moves, or at `usual_y`, m."""
     shape, lane_m = description.surroundings.road, 0.5 * place.road_m
-    has_pavement = place.ground is Ground.CITY
+    has_pavement = place.ground is Ground.CITY and all(
+        one.side != "lane" for one in description.objects
+    )
     road = _straight_road(actors, usual_y, lane_m, has_pavement=has_pavement)
     if shape == "curved" and not road.crossings:
         return replace(road, curvature=_bend_of(actors, lane_m))
