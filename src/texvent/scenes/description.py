@@ -56,7 +56,7 @@ class SceneObject:
 
 @dataclass(frozen=True)
 class Effect:
-    """A particle effect or a light show."""
+    """A particle effect."""
 
     kind: str
     source: int | None = None

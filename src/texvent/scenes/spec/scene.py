@@ -162,10 +162,10 @@ class SceneObject:
 
 @dataclass(frozen=True)
 class Effect:
-    """A particle effect or a light show: smoke, sparks, rain of leaves, lasers."""
+    """A particle effect: smoke, sparks, rain of leaves."""
 
     kind: Annotated[str, Word("effect")]
-    """Kind of particles or lights."""
+    """Kind of particles."""
     source: str | None = None
     """Id of the object that it comes from; left out: all around, or the middle of the scene."""
     colour: Annotated[str, Colour("effect")] | None = None
@@ -257,7 +257,7 @@ class Light:
     shadows: bool | None = None
     """Whether the sun or moon casts shadows."""
     tint: Annotated[str, Colour("light")] | None = None
-    """Colour of the light: "warm", "golden", "cold", a name or an sRGB code."""
+    """Colour of the light: "warm", "cold", a name or an sRGB code."""
     brightness: Literal["bright", "dim"] | None = None
     """Exposure."""
     direction: Literal["left", "right", "back", "front", "above"] | None = None
@@ -302,7 +302,7 @@ class Scene:
     objects: tuple[SceneObject, ...] = ()
     """Bodies, the subject first."""
     effects: tuple[Effect, ...] = ()
-    """Particles and light shows."""
+    """Particle effects."""
     camera: Camera = field(default_factory=Camera)
     """Camera."""
     light: Light = field(default_factory=Light)
