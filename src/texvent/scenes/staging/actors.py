@@ -35,6 +35,11 @@ def is_centred(noun: Noun) -> bool:
     return noun.habitat in ("air", "water") and noun.name not in AFLOAT
 
 
+def size_of(model: Model) -> float:
+    """Scale of a model: 1 = the usual size."""
+    return float(getattr(model, "scale", 1.0))
+
+
 @dataclass(frozen=True)
 class PlacedModel:
     """Parts of one object with the pose of its body in the world."""

@@ -69,11 +69,6 @@ def is_person(actor: Actor) -> bool:
     return actor.noun.name in PERSON_NOUNS
 
 
-def size_of(model: Model) -> float:
-    """Scale of a model: 1 = the usual size."""
-    return float(getattr(model, "scale", 1.0))
-
-
 def scaled(point: Vector, size: float) -> Vector:
     """A point of an adult's body on one of that size."""
     return (size * point[0], size * point[1], size * point[2])

@@ -16,14 +16,13 @@ from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import Affine, shift
 from texvent.scenes.models.support_surface import find_support, top_heights
 from texvent.scenes.models.tables import nouns_with, trait_value
-from texvent.scenes.staging.actors import Actor, Tether
+from texvent.scenes.staging.actors import Actor, Tether, size_of
 from texvent.scenes.staging.acts.acts import (
     Cast,
     held_at,
     hides_riders,
     is_person,
     scaled,
-    size_of,
 )
 from texvent.scenes.staging.trajectories.action_trajectories import hover
 from texvent.scenes.staging.trajectories.trajectory import (

@@ -10,9 +10,9 @@ import numpy as np
 
 from texvent.scenes.description import Relation, SceneDescription
 from texvent.scenes.models.people.activities import PAIR_GAPS
-from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.actors import Actor, size_of
 from texvent.scenes.staging.acts import holding, striking
-from texvent.scenes.staging.acts.acts import ACTS, Cast, is_person, size_of
+from texvent.scenes.staging.acts.acts import ACTS, Cast, is_person
 from texvent.scenes.staging.trajectories.trajectory import Stationary, ahead
 
 _ORDER = ("push", "kick", "throw", "catch", "hit", "collide", "hold", "carry", "wear")

@@ -16,12 +16,11 @@ from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.shapes import Affine, bounds, moved, shift
 from texvent.scenes.models.tables import trait_value
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.actors import Actor, size_of
 from texvent.scenes.staging.acts.acts import (
     held_at,
     is_person,
     moving,
-    size_of,
 )
 from texvent.scenes.staging.acts.holding import along_tool
 from texvent.scenes.staging.trajectories.action_trajectories import (

@@ -21,7 +21,7 @@ from texvent.scenes.models.shapes import bounds, moved
 from texvent.scenes.models.support_surface import find_support
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import is_centred
+from texvent.scenes.staging.actors import is_centred, size_of
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.steered_path import sample_places
 from texvent.scenes.staging.trajectories.trajectory import Vector
@@ -243,7 +243,7 @@ def _stand_in_row(group: ObjectGroup, *, is_close: bool) -> None:
     long, wide = model.length, model.width
     cosine, sine = math.cos(plan.yaw), math.sin(plan.yaw)
     if is_close and group.noun.name in PERSON_NOUNS and plan.motion.kind != "lie":
-        long = wide = _SHOULDERS_M * float(getattr(model, "scale", 1.0))
+        long = wide = _SHOULDERS_M * size_of(model)
     if is_close and plan.is_path:
         ahead, aside = 0.75 * long, 1.25 * wide
         step = (ahead * cosine - aside * sine, ahead * sine + aside * cosine)
@@ -312,7 +312,7 @@ def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Pro
     shown = {scene_object.noun for scene_object in description.objects}
     said = (group.scene_object.motion or STANDING, *group.scene_object.then)
     kinds = dict.fromkeys(motion.kind for motion in said)
-    size = float(getattr(group.models[0], "scale", 1.0))
+    size = size_of(group.models[0])
     props = [prop for kind in kinds for prop in list_props(kind, size)]
     props = props or list(HOLDS.get(group.noun.name, ()))
     if group.on_chairs and not shown & nouns_with("seat at a table"):

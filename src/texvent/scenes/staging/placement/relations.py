@@ -20,7 +20,7 @@ from texvent.scenes.models.shapes import bounds
 from texvent.scenes.models.support_surface import Support, find_support, top_heights
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import is_centred
+from texvent.scenes.staging.actors import is_centred, size_of
 from texvent.scenes.staging.placement.object_groups import (
     GAP_M,
     ObjectGroup,
@@ -284,9 +284,9 @@ def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
 
 def _seat_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
     """People on a seat, or on the part of it that moves: the board of a swing."""
-    scale = float(getattr(group.models[0], "scale", 1.0))
+    scale = size_of(group.models[0])
     is_seat = target.noun.name in nouns_with("seat")
-    seat_m = SEAT * float(getattr(target.models[0], "scale", 1.0))
+    seat_m = SEAT * size_of(target.models[0])
     support = find_support(target.models[0], near_m=seat_m if is_seat else None)
     _line_up(group, target, support, neighbours)
     x, y = support.middle
@@ -326,7 +326,7 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     """
     said = (group.scene_object.motion, *group.scene_object.then)
     kinds = {one.kind for one in said if one is not None and one.kind != "stand"}
-    scale = float(getattr(group.models[0], "scale", 1.0))
+    scale = size_of(group.models[0])
     is_person = group.noun.name in PERSON_NOUNS
     group.on_chairs = is_person and (not kinds or bool(kinds & {"sit", "sit down", *DONE_SEATED}))
     reach = (_SEATED_M if group.on_chairs else _STANDING_M) * scale
