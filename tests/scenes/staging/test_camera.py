@@ -12,10 +12,10 @@ from texvent.scenes.description import CameraMove, ObjectMotion, SceneObject, Sh
 from texvent.scenes.projection import project
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framing import (
-    aim,
     come_near,
     fit,
     image_of,
+    look_at,
     measure_prominence,
 )
 
@@ -55,7 +55,7 @@ def test_fit_gives_the_nearest_station_that_holds_all_points():
     framing = fit(points, azimuth=0.0, elevation=0.0, aspect=0.75, fill=0.8, focal=1.0)
     assert framing.distance_m == pytest.approx(2.0 * 2.0 / 0.8)
     away = framing.distance_m * framing.offset
-    camera = aim(framing.target + away, -away, framing.focal)
+    camera = look_at(framing.target + away, framing.target, framing.focal)
     assert 2.0 * np.abs(image_of(camera, points)[:, 0]).max() == pytest.approx(0.8)
 
 

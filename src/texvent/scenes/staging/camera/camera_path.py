@@ -12,7 +12,7 @@ import numpy as np
 from texvent.scenes.description import CameraMove
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.camera.framing import MOST_PITCH_RAD, Framing, aim, direction
+from texvent.scenes.staging.camera.framing import Framing, direction, look_at
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
@@ -39,6 +39,7 @@ STEP_M = 0.02
 """Amplitude of the bob of a camera that walks."""
 LOWEST_M = 0.25
 """The camera stays at least this high above the ground."""
+MOST_PITCH_RAD = 1.5
 EASE = 0.2
 """Share of a move in which it starts or stops, where it does so within the clip."""
 USUAL_S = 2.0
@@ -208,8 +209,8 @@ class CameraPath:
         near = self._channels.below_most
         focal = self.framing.focal * ZOOM ** near("zoom", time_s)
         focal *= DOLLY_ZOOM ** -near("dolly zoom", time_s)
-        right, up = self._turn(time_s)
-        return aim(position, ahead, focal, right=right, up=up, roll=roll + self._roll(time_s))
+        camera = look_at(position, position + _turned(ahead, *self._turn(time_s)), focal)
+        return _rolled(camera, roll + self._roll(time_s))
 
     def _stand(self, time_s: float) -> tuple[Float64Array, Float64Array]:
         """Position and target of a camera that looks at its subject, m."""
@@ -286,3 +287,25 @@ def _ride(journey: Journey, time_s: float) -> tuple[Float64Array, Float64Array, 
         bob = STEP_M * math.sin(2.0 * math.pi * state.distance_m / journey.step_m)
     position = np.array([x, y, z + journey.height_m + bob])
     return position, position - direction(state.yaw - 0.5 * math.pi, journey.pitch_rad), -state.roll
+
+
+def _rolled(camera: Camera, angle: float) -> Camera:
+    """The camera turned about its optical axis; positive = clockwise seen from behind it."""
+    if angle == 0.0:
+        return camera
+    cosine, sine = math.cos(angle), math.sin(angle)
+    right, down, forward = camera.rotation
+    axes = np.stack([cosine * right + sine * down, cosine * down - sine * right, forward])
+    return Camera(camera.position, axes, camera.focal)
+
+
+def _turned(forward: Float64Array, right: float, up: float) -> Float64Array:
+    """The vector turned to the right about the vertical, then up."""
+    cosine, sine = math.cos(right), math.sin(right)
+    x, y, z = forward
+    x, y = x * cosine + y * sine, y * cosine - x * sine
+    flat = math.hypot(x, y)
+    angle = min(max(math.atan2(z, flat) + up, -MOST_PITCH_RAD), MOST_PITCH_RAD)
+    length = math.hypot(flat, z)
+    scale = length * math.cos(angle) / max(flat, 1e-9)
+    return np.array([x * scale, y * scale, length * math.sin(angle)])

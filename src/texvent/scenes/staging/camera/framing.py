@@ -14,7 +14,6 @@ USUAL_FOCAL = 1.1
 """Focal length over image width."""
 NEAREST_M = 0.04
 """Least distance from the camera to what it looks at, m."""
-MOST_PITCH_RAD = 1.5
 _LARGE = 0.3
 """Geometric mean of the shares of the image's width and height that a subject should extend over:
 a person two thirds as high as the image, a car four tenths as wide. What is thin comes nearer."""
@@ -68,25 +67,15 @@ def direction(azimuth: float, elevation: float) -> Float64Array:
     return np.array([flat * math.sin(azimuth), -flat * math.cos(azimuth), math.sin(elevation)])
 
 
-def aim(
-    position: Float64Array, ahead: Float64Array, focal: float, *, right: float = 0.0,
-    up: float = 0.0, roll: float = 0.0,
-) -> Camera:  # fmt: skip
-    """A camera that looks along a direction [3], turned to the right, up, and about its axis, rad.
-
-    A positive roll is clockwise seen from behind it.
-    """
-    x, y, z = ahead
-    yaw, pitch = math.atan2(y, x) - right, math.atan2(z, math.hypot(x, y)) + up
-    pitch = min(max(pitch, -MOST_PITCH_RAD), MOST_PITCH_RAD)
-    forward = np.array(
-        [*(math.cos(pitch) * np.array([math.cos(yaw), math.sin(yaw)])), math.sin(pitch)]
-    )
-    side = np.array([math.sin(yaw), -math.cos(yaw), 0.0])
-    down = np.cross(forward, side)
-    cosine, sine = math.cos(roll), math.sin(roll)
-    axes = np.stack([cosine * side + sine * down, cosine * down - sine * side, forward])
-    return Camera(np.asarray(position, dtype=np.float64), axes, focal)
+def look_at(position: Float64Array, target: Float64Array, focal: float) -> Camera:
+    """A camera at `position` that looks at `target`, the horizon level."""
+    forward = np.asarray(target - position, dtype=np.float64)
+    forward = forward / np.linalg.norm(forward)
+    right = np.array([forward[1], -forward[0], 0.0])
+    right = right / max(float(np.linalg.norm(right)), 1e-9)
+    (fx, fy, fz), (rx, ry, rz) = forward, right
+    down = (fy * rz - fz * ry, fz * rx - fx * rz, fx * ry - fy * rx)
+    return Camera(np.asarray(position, dtype=np.float64), np.array([right, down, forward]), focal)
 
 
 def fit(
