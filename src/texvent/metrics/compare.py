@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import math
 from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Any
 
 from texvent._registry import METRICS
 from texvent.errors import ConfigError
@@ -137,3 +138,21 @@ def describe_metrics() -> Mapping[str, Metric]:
 def default_metrics() -> list[Metric]:
     """Every registered metric with its defaults, without those whose weights are missing."""
     return [metric for metric in describe_metrics().values() if find_missing(metric) is None]
+
+
+def plain_values(value: Any, *, digits: int | None = None) -> Any:
+    """Values as JSON holds them: None for what is NaN or infinite.
+
+    Args:
+        value: numbers, texts, and mappings and sequences of them.
+        digits: significant digits that numbers keep; None keeps all.
+    """
+    if isinstance(value, Mapping):
+        return {key: plain_values(item, digits=digits) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain_values(item, digits=digits) for item in value]
+    if not isinstance(value, float):
+        return value
+    if not math.isfinite(value):
+        return None
+    return float(value) if digits is None else float(f"{value:.{digits}g}")

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, NamedTuple
 
-from texvent.bench.selftest.controls import CONTROLLED, run_controls
 from texvent.cli.event_files.comparison_output import Candidate, Findings, show
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
@@ -18,6 +17,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.files import load
 from texvent.metrics.compare import compare, describe_metrics, load_metric
+from texvent.metrics.controls import CONTROLLED, run_controls
 from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric
 from texvent.metrics.stpp import Stpp

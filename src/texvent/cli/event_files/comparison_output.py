@@ -13,9 +13,8 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from texvent.bench.document import plain_values
 from texvent.cli.notices import result_console
-from texvent.metrics.compare import GOOD, score_text
+from texvent.metrics.compare import GOOD, plain_values, score_text
 from texvent.metrics.protocol import Metric
 from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS
 from texvent.metrics.uncertainty import LEAST_WINDOWS, Verdict, WindowScores
