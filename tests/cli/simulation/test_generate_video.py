@@ -69,7 +69,7 @@ def test_any_other_video_can_stand_for_the_prompts_video(folder):
     assert len(texvent.load("blinks.h5")) > 0
 
 
-@pytest.mark.parametrize("flag", ["--duration", "--generator", "--video-only", "--upsample"])
+@pytest.mark.parametrize("flag", ["--duration", "--generator", "--video-only"])
 def test_a_flag_that_makes_a_video_is_refused_beside_a_ready_one(folder, capsys, flag):
     value = [] if flag == "--video-only" else ["procedural" if flag == "--generator" else "3"]
     assert run("generate", "a ball", "--from-video", "ball.avi", flag, *value) == 2
