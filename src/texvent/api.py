@@ -339,7 +339,9 @@ def _simulation(
     Raises:
         InputError: the same is given by two names.
     """
-    from texvent.capture.motion_vectors.attach import own_motion  # brings the readers of frames
+    from texvent.capture.motion_vectors.attach import (
+        find_motion_sidecar,  # brings the readers of frames
+    )
 
     given: dict[str, Any] = dict(options)
     for name, other in (("motion", "flow"), ("motion_back", "flow_back")):
@@ -356,7 +358,7 @@ def _simulation(
     has_motion = is_moving or getattr(source, "has_motion", False)
     settings = resolve("simulate", given, config=config, has_motion=has_motion)
     if not has_motion and settings.source.motion is None:
-        found = own_motion(source)
+        found = find_motion_sidecar(source)
         if found is not None:
             settings = resolve("simulate", {**given, "motion": found}, config=config)
     return settings, arrays
