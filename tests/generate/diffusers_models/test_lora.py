@@ -237,5 +237,5 @@ def test_source_weight_and_transformer_are_told_apart(text, source, weight, nois
     "text", ["", ":0.5", "a.safetensors:nan", "a.safetensors:1.2.3", "hub:name", "hub:a/b/c.bin"]
 )
 def test_other_forms_are_refused_as_an_option(text):
-    with pytest.raises(ConfigError, match="lora is .*write FILE"):
+    with pytest.raises(ConfigError, match=r"lora is .*write FILE"):
         DiffusersConfig(lora=(text,))

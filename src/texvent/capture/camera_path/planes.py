@@ -18,7 +18,7 @@ Float64Array = NDArray[np.float64]
 
 STEP_PX = 0.25
 """Neighbouring planes part by at most about this many px of the sensor, unless they are `MOST`."""
-MOST = 24
+MOST = 32
 MOST_HIDDEN = 64
 """A farther plane goes on behind a nearer one by at most this many px of the image."""
 NEAR_PERCENT, FAR_PERCENT = 1.0, 99.0
@@ -60,10 +60,11 @@ class Planes:
         for index in range(len(self.nearness)):
             is_own = self.plane == index
             mask = (is_own | (behind == index)).astype(np.float32)
-            alpha = self._warp(mask, place, index)
-            levels *= 1 - alpha
-            levels += self._warp(mask * np.where(is_own, self.levels, behind_levels), place, index)
-            seen[alpha > 0.5] = index
+            content = np.where(is_own, self.levels, behind_levels)
+            both = self._warp(cv2.merge([mask * content, mask]), place, index)
+            levels *= 1 - both[..., 1]
+            levels += both[..., 0]
+            seen[both[..., 1] > 0.5] = index
         return levels, seen
 
     def depth(self, place: CameraPose, seen: NDArray[np.uint8]) -> Float32Array:
@@ -177,8 +178,7 @@ def _parting_px(view: View, places: Sequence[CameraPose], nearness: Sequence[flo
 def _centres(chosen: NDArray[np.bool_]) -> Float64Array:
     """[n, 3] centres of the chosen pixels, homogeneous."""
     if chosen.all():  # without a search: most images are one plane
-        columns, rows = np.meshgrid(np.arange(chosen.shape[1]), np.arange(chosen.shape[0]))
-        rows, columns = rows.ravel(), columns.ravel()
+        rows, columns = (one.ravel() for one in np.indices(chosen.shape))
     else:
         rows, columns = np.nonzero(chosen)
     return np.stack([columns + 0.5, rows + 0.5, np.ones(len(rows))], axis=1)
