@@ -181,21 +181,17 @@ def _open_video(address: _Address) -> FrameStream:
 
 
 SOURCES = (
-    _Source("live video (a device, an address, a pipe, -)", lambda a: a.is_live, _open_live),
+    _Source("live video", lambda a: a.is_live, _open_live),
     _Source("EVREAL folder", lambda a: is_evreal(a.path), lambda a: EvrealFrames(a.path, a.times)),
     _Source(
         "DSEC sequence",
         lambda a: is_dsec(a.path) and a.has_own_times,
         lambda a: DsecFrames(a.path),
     ),
-    _Source("folder of images", lambda a: a.path.is_dir(), _open_images),
-    _Source(
-        ".npy array", lambda a: a.path.suffix.lower() == ".npy" and a.path.is_file(), _open_npy
-    ),
-    _Source(
-        "AEDAT4 recording", lambda a: is_aedat4(a.path), lambda a: Aedat4Frames(a.path, a.times)
-    ),
-    _Source("still image (with --camera)", lambda a: is_still(a.path), _refuse_still),
+    _Source("image folder", lambda a: a.path.is_dir(), _open_images),
+    _Source(".npy", lambda a: a.path.suffix.lower() == ".npy" and a.path.is_file(), _open_npy),
+    _Source("AEDAT4", lambda a: is_aedat4(a.path), lambda a: Aedat4Frames(a.path, a.times)),
+    _Source("still image", lambda a: is_still(a.path), _refuse_still),
     _Source("video file", lambda a: True, _open_video),
 )
 """Sources in the order in which they are tried: by address, content, extension."""

@@ -18,7 +18,7 @@ Float64Array = NDArray[np.float64]
 
 STEP_PX = 0.25
 """Neighbouring planes part by at most about this many px of the sensor, unless they are `MOST`."""
-MOST = 32
+MOST = 64
 MOST_HIDDEN = 64
 """A farther plane goes on behind a nearer one by at most this many px of the image."""
 NEAR_PERCENT, FAR_PERCENT = 1.0, 99.0

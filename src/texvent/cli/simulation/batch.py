@@ -58,7 +58,6 @@ class BatchOptions:
     loaded once per process."""
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         check_range("jobs", self.jobs, 1, 256)
 
 
