@@ -12,13 +12,12 @@ pytest.importorskip("transformers")
 torch.set_num_threads(1)
 
 from PIL import Image  # noqa: E402
+from tests.generate import tiny_pipelines  # noqa: E402
 
 from texvent.batch.list_files import read_list  # noqa: E402
 from texvent.cli.app import main  # noqa: E402
 from texvent.errors import FileFormatError, InputError, TexventError  # noqa: E402
 from texvent_lab.nt_imagenet.captioner import Captioner, find_images  # noqa: E402
-
-from .. import tiny_pipelines  # noqa: E402
 
 TEMPLATE = (
     "{% for m in messages %}ASK: {% for c in m['content'] %}"

@@ -49,6 +49,8 @@ class Planes:
     """[H, W] plane of each pixel; None: one plane."""
     hidden_px: int = 0
     """Px by which farther planes go on behind nearer ones."""
+    step: float = 0.0
+    """Planes whose nearness differs by at most this are of one surface, without gaps."""
 
     def render(self, place: CameraPose) -> tuple[Float32Array, NDArray[np.uint8]]:
         """Levels and planes that the camera sees, [h, w]; the image is mirrored at its border."""
@@ -56,9 +58,10 @@ class Planes:
         seen = np.zeros(levels.shape, np.uint8)
         if self.plane is None:
             return levels, seen
-        behind, behind_levels = self._behind
+        near, (behind, behind_levels) = self.nearness, self._behind
         for index in range(len(self.nearness)):
-            is_own = self.plane == index
+            following = index + 1 < len(near) and near[index + 1] - near[index] <= self.step
+            is_own = (self.plane == index) | (following & (self.plane == index + 1))
             mask = (is_own | (behind == index)).astype(np.float32)
             content = np.where(is_own, self.levels, behind_levels)
             both = self._warp(cv2.merge([mask * content, mask]), place, index)
@@ -115,12 +118,14 @@ class Planes:
 
         Planes are -1 where no farther one is near.
         """
+        near = np.array(self.nearness)
         farther = np.asarray(self.plane, np.int16)
+        least = near[farther] - self.step
         levels, is_open = self.levels.copy(), np.ones(farther.shape, np.bool_)
         for _ in range(min(self.hidden_px, MOST_HIDDEN)):
             before, level_before = farther.copy(), levels.copy()
             for to, of in NEIGHBOURS:
-                is_farther = is_open[to] & (before[of] < farther[to])
+                is_farther = is_open[to] & (near[before[of]] < least[to])
                 farther[to] = np.where(is_farther, before[of], farther[to])
                 levels[to] = np.where(is_farther, level_before[of], levels[to])
                 is_open[to] &= ~is_farther
@@ -146,6 +151,7 @@ def split_planes(
     share = (np.clip(near, least, most) - least) / max(most - least, 1e-12)
     plane = np.minimum((share * count).astype(np.int64), count - 1) + 1
     plane[np.isinf(depth)] = 0  # no surface
+    step = 2 * (most - least) / count
     _, plane = np.unique(plane, return_inverse=True)
     plane = plane.reshape(depth.shape)
     clipped = np.where(np.isinf(depth), 0.0, np.clip(near, least, most))
@@ -153,7 +159,7 @@ def split_planes(
     nearness = tuple((sums / np.bincount(plane.ravel())).tolist())
     if len(nearness) == 1:
         return Planes(view, levels, nearness)
-    return Planes(view, levels, nearness, plane.astype(np.uint8), int(np.ceil(hidden)) + 2)
+    return Planes(view, levels, nearness, plane.astype(np.uint8), int(np.ceil(hidden)) + 2, step)
 
 
 def depth_range(depth: Float32Array) -> tuple[float, float]:
