@@ -12,7 +12,7 @@ from texvent.interpolate.protocol import Interpolator
 from texvent.video import MICROSECONDS, FlickeringStream, Frame, FrameStream
 
 if TYPE_CHECKING:
-    from texvent.interpolate.dis_flow.pair_flow import PairFlow
+    from texvent.interpolate.flow import PairFlow
 
 
 MOTION_LIMIT = 2
@@ -120,7 +120,7 @@ def _flicker_hz(stream: FrameStream, config: InterpolateConfig) -> float | None:
 
 def _pair_flow(interpolator: Interpolator) -> PairFlow:
     """The flow that the interpolator computes anyway, or a new one."""
-    from texvent.interpolate.dis_flow.pair_flow import PairFlow  # only counting motion needs numba
+    from texvent.interpolate.flow import PairFlow  # only counting motion needs numba
 
     shared: PairFlow | None = getattr(interpolator, "pair_flow", None)
     return shared or PairFlow()
