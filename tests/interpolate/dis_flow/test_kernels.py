@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from tests.interpolate.dis_flow import compiled, reference
+
 from texvent.interpolate.dis_flow.definitions import MARGIN, size_of
 from texvent.interpolate.dis_flow.estimator import (
     coarse_to_fine,

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from tests.interpolate.dis_flow import compiled, reference
+
 from texvent.interpolate.dis_flow.estimator import DisFlow, make_pyramid
 from texvent.interpolate.dis_flow.frame_motion import find_shift, leads_outside
 

@@ -1,7 +1,7 @@
 """Motion of the whole frame, tried for every patch: a shift, a zoom, a turn, or a mixture.
 
-The search looks `SEARCH_RADIUS` pixels around on the coarsest level, so a shift of more than a tenth
-of the width is lost to it. `find_shift` correlates thumbnails of both frames at every shift instead.
+The search looks `SEARCH_RADIUS` pixels around on the coarsest level, so a shift of more than a
+tenth of the width is lost to it. `find_shift` correlates thumbnails of both frames at every shift.
 
 Where the camera zooms or turns, the middle of the frame moves little, and its patches are found;
 those near the borders are out of reach. `find_motions` fits an affine motion to the flow that both
