@@ -50,10 +50,7 @@ class CountPolicy:
                 say it.
         """
         self._config = config
-        self._balance = balance if config.count_balance is None else config.count_balance
-        self._threshold = (
-            contrast_threshold if config.count_threshold is None else config.count_threshold
-        )
+        self._balance, self._threshold = balance, contrast_threshold
         self._is_limited = config.frames_per_pixel is None
         self._per_pixel = 1.0 if config.frames_per_pixel is None else config.frames_per_pixel
         if self._is_limited:
@@ -88,7 +85,6 @@ class CountPolicy:
             second,
             balance=self._balance,
             contrast_threshold=self._threshold,
-            percentile=config.count_percentile,
             cap=cap,
         )
         limit = min(cap, MOTION_LIMIT * count) if self._is_limited else cap

@@ -86,7 +86,7 @@ class MotionInterpolator:
     def _draw(
         self, pair: MotionPair, places: Sequence[float], times_us: Sequence[int]
     ) -> Iterator[Frame]:
-        """Frames at τ = `places`, a few at a time; pixels that motion does not explain are rendered."""
+        """Frames at τ = `places`, a few at a time; unexplained pixels are rendered."""
         step = max(1, min(count_threads(), MOST_AT_ONCE))
         for start in range(0, len(places), step):
             drawn = run_parts(pair.draw, places[start : start + step])

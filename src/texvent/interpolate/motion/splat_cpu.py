@@ -39,8 +39,9 @@ class NearestLayer(NamedTuple):
 
 
 class OccludedLayer(NamedTuple):
-    """Accumulated samples of the occluded layer, for pixels that two layers overlap; row 0 is
-    unused.
+    """Accumulated samples of the occluded layer, for pixels that two layers overlap.
+
+    Row 0 is unused.
     """
 
     places: Floats
