@@ -244,9 +244,8 @@ def check_video(frames: Iterable[Frame]) -> VideoReport:
 
 def evaluate(measurements: Measurements) -> VideoReport:
     """The report of a video's measurements, with or without those of motion and rate."""
-    found = [
-        check for check in CHECKS if check.needs in measurements and check.is_found(measurements)
-    ]
+    made = [check for check in CHECKS if check.needs in measurements]
+    found = [check for check in made if check.is_found(measurements)]
     return VideoReport(
         problems=tuple(check.name for check in found if check.is_failure),
         measurements=dict(measurements),

@@ -234,7 +234,7 @@ def test_memory_that_runs_out_says_what_to_change(build, monkeypatch):
         raise RuntimeError("CUDA out of memory. Tried to allocate 20 GiB")
 
     monkeypatch.setattr(interpolator._network, "forward", fail)
-    with pytest.raises(InputError, match=r"memory of device cpu; choose a smaller sensor"):
+    with pytest.raises(InputError, match=r"memory of device cpu; choose a smaller `sensor`"):
         frames_of(interpolator, *noise())
 
 

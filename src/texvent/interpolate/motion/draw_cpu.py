@@ -6,7 +6,7 @@
 3. The nearer layer covers the farther one by its share of the pixel, in linear light. Where both
    frames see a layer, they are mixed by time.
 
-`motion_reference.py` defines the same readably.
+`tests/interpolate/motion/reference.py` defines the same readably.
 """
 
 from __future__ import annotations
