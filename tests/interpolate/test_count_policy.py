@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from texvent.interpolate.dis_flow.pair_flow import PairFlow
+from texvent.interpolate.flow import PairFlow
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.config import InterpolateConfig
