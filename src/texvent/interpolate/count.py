@@ -1,4 +1,4 @@
-"""How many intermediate frames a pair needs (Eq. 4)."""
+"""Number of intermediate frames that a pair needs (Eq. 4)."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ def count_intermediate(
     contrast_threshold: float,
     cap: int = DEFAULT_CAP,
 ) -> int:
-    """How many intermediate frames the brightness change between two frames needs.
+    """Number of intermediate frames that the brightness change between two frames needs.
 
     It is 0 exactly when no pixel can fire from a fresh reference, and under a steady logarithmic
     change every sub-step stays below the threshold, so a pixel fires at most once per sub-step.
@@ -79,7 +79,7 @@ def count_intermediate(
 def count_for_flicker(
     first_us: int, second_us: int, flicker_hz: float | None, *, cap: int = DEFAULT_CAP
 ) -> int:
-    """How many intermediate frames show light that beats faster than the frames come.
+    """Number of intermediate frames that show light which beats faster than the frame rate.
 
     Args:
         first_us: time of the earlier frame, µs.
@@ -104,7 +104,7 @@ def count_for_flicker(
 
 
 def longest_vector_px(first: Motion | None, second: Motion | None) -> float:
-    """How far the fastest part of a pair moves, where motion is known.
+    """Displacement of the fastest part of a pair whose motion is known.
 
     Args:
         first: motion of the earlier frame; its vectors to the later one count.

@@ -1,4 +1,4 @@
-"""How many intermediate frames a pair gets: Eq. 4 within the limits that the user set."""
+"""Number of intermediate frames of a pair: Eq. 4 within the limits that the user set."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ class CountPolicy:
         Args:
             config: the options.
             stream: the source frames; it may know the frequency of flickering light.
-            interpolator: its optical flow is used, where it has one, to see how far things move.
+            interpolator: its optical flow is used, where it has one, to measure motion.
             balance: the simulator's α.
             contrast_threshold: the simulator's δ.
             counts_motion: whether motion counts, up to `MOTION_LIMIT`, where the options do not
@@ -62,7 +62,7 @@ class CountPolicy:
         self._flicker_hz = _flicker_hz(stream, config)
 
     def count(self, first: Frame, second: Frame) -> int:
-        """How many intermediate frames go between two source frames.
+        """Number of intermediate frames between two source frames.
 
         Args:
             first: the earlier source frame.

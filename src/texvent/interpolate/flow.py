@@ -83,7 +83,7 @@ class PairFlow:
         return self._flows
 
     def motion_px(self, first: Frame, second: Frame) -> float:
-        """How far the fastest part of a pair moves.
+        """Displacement of the fastest part of a pair.
 
         Returns:
             Length of the `FAST_PERCENTILE` of the flow from first to second, px.

@@ -125,7 +125,7 @@ def load_strictly(network: Any, tensors: Mapping[str, Tensor], path: Path, hint:
     """Fill a network with the tensors of a file.
 
     Args:
-        network: a torch module; it may lie on the device "meta".
+        network: a torch module; it may be on the device "meta".
         tensors: name → tensor, float32.
         path: of the file, for messages.
         hint: where to get the right file.

@@ -48,7 +48,7 @@ def plan_pairs(
         threads: ends the threads when it is closed.
         balance: the simulator's α, for Eq. 4.
         contrast_threshold: the simulator's δ, for Eq. 4.
-        counts_motion: whether the simulator gains from more frames where things move fast; then
+        counts_motion: whether the simulator gains from more frames under fast motion; then
             motion counts unless `config.frames_per_pixel` is set.
 
     Raises:

@@ -42,7 +42,7 @@ TOLERANCE = 0.002
 def steady_frames(frames: Iterator[Frame]) -> Iterator[Frame]:
     """The frames with fast changes of their global gain divided out.
 
-    The gain starts anew at a cut or a flash.
+    The gain restarts at a cut or a flash.
 
     Args:
         frames: source frames in time order.
@@ -79,7 +79,7 @@ def global_gain(first: Frame, second: Frame) -> float:
 
 
 def measure_gain(first: Frame, second: Frame) -> tuple[float, float]:
-    """As `global_gain`, but whatever motion may explain, and the standard error of it.
+    """The gain, even if motion alone may explain it, and its standard error.
 
     Returns:
         (the median of ln(I₂ / I₁) over cells, its error); (0, 0) where too few cells can be used.

@@ -29,8 +29,8 @@ VISIBLE_PX2 = 0.1
 is the usual occlusion test (Sundaram, Brox and Keutzer 2010), made gradual."""
 
 UNSEEN_WEIGHT = 0.2
-"""What a frame still counts at a point that it seems not to show, as far as the other frame is not
-trusted either."""
+"""Weight of a frame at a point that it seems not to show, as far as the other frame is not trusted
+either."""
 
 LOST_RELATIVE = 0.5
 LOST_PX2 = 2.0
@@ -46,11 +46,11 @@ CLEARLY_BETTER = 0.3
 """By how much more the flows must confirm another path (0..2) to take it instead of the mean."""
 
 SWEPT = 1.5
-"""How well the flows must confirm what passes in front, 0..2."""
+"""How well the flows must confirm a surface that passes in front, 0..2."""
 
 LEAST_SWEEP_PX2, MOST_SWEEP_PX2 = 9.0, 2304.0
-"""What moves less, squared, covers each pixel of its path in one of the frames. What moves more is
-not followed along its path, which would take too long."""
+"""A surface that moves less, squared, covers each pixel of its path in one of the frames. One that
+moves more is not followed along its path, which would take too long."""
 
 MOST_PX2 = 1e9
 """Squares of longer paths and larger errors count as this, so that float32 can hold the products
@@ -71,7 +71,7 @@ _0, _HALF, _1 = np.float32(0.0), np.float32(0.5), np.float32(1.0)
 
 @jit(error_model="numpy")
 def find_sweep(forward: Floats, backward: Floats) -> Floats:
-    """Motion of what passes each pixel between the frames but lies there in neither.
+    """Motion of surfaces that pass a pixel between the frames but are there in neither.
 
     Args:
         forward: [H, W, 2] px.
@@ -153,7 +153,7 @@ def _apart2(flow: Floats, x: int, y: int, other: Vector) -> np.float32:
 
 @jit(error_model="numpy")
 def mark_contested(forward: Floats, backward: Floats, sweep: Floats) -> NDArray[np.uint8]:
-    """Where a path has to be chosen, [H · W]; empty where nowhere."""
+    """Pixels whose path has to be chosen, [H · W]; empty if there are none."""
     height, width, _ = forward.shape
     marks, number = np.zeros(height * width, np.uint8), 0
     for y in range(height):
@@ -225,7 +225,7 @@ def choose_path(
 def _confirmed(
     forward: Floats, backward: Floats, pixel: Vector, path: Vector, position: np.float32
 ) -> np.float32:
-    """How well the flows at both ends of a path agree with it, 0..2."""
+    """Agreement of the flows at both ends of a path with it, 0..2."""
     length2 = min(path[0] * path[0] + path[1] * path[1], _MOST)
     visible = _VISIBLE_RELATIVE * length2 + _VISIBLE_PX2
     visible = visible * visible

@@ -10,7 +10,7 @@ Source: the piecewise parabolic interpolator of Erup, Gardner and Harris (IEEE T
     Communications 41, 1993) with α = 1/4. The sum of both axes and the limit are ours.
 
 Gathering pixels is what costs time: it takes no vector instructions. So what belongs to a place
-lies in words of two float32, and four of them hold the pixels around it and their bends.
+is held in words of two float32, and four of them hold the pixels around it and their bends.
 """
 
 from __future__ import annotations
@@ -62,7 +62,7 @@ class Samples(NamedTuple):
 
 
 class Corners(NamedTuple):
-    """Scratch memory: what lies around the places; [n]."""
+    """Scratch memory: pixels around the places; [n]."""
 
     upper: Words
     """Intensity of the corner and its right neighbour."""

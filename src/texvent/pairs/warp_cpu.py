@@ -96,7 +96,7 @@ class Points(NamedTuple):
     later: Floats
     """Intensity in the later frame."""
     contested: Numbers
-    """How many of the points are contested, then their numbers; [n + 1]."""
+    """Number of contested points, then their indices; [n + 1]."""
 
 
 class Room(NamedTuple):
@@ -129,7 +129,7 @@ def warp_between(
 
 
 def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Floats) -> WarpPair:
-    """What all intermediate frames of a pair share; see `warp_between`."""
+    """Prepare what all intermediate frames of a pair share; see `warp_between`."""
     # Read-only throughout, because Numba compiles for each kind of array again.
     frames = [read_only(first), read_only(second)]
     prepared = *list_words(frames[0]), *list_words(frames[1])

@@ -76,7 +76,7 @@ CHECKS = (
         is_found=lambda one: one["still_share"] > FROZEN_SHARE and not one.get("pattern_period"),
         value=lambda one: f"{one['still_share']:.0%} of pairs still",
         limit=f"{FROZEN_SHARE:.0%}",
-        effect="noise alone while it stands still",
+        effect="noise alone while it rests",
         help=f"--start, --stop; {ANOTHER_SEED}",
     ),
     Check(
@@ -126,7 +126,7 @@ CHECKS = (
         is_found=lambda one: one["bright_end"] < DARK_LEVEL,
         value=lambda one: f"95 % below level {one['bright_end']:.0f}",
         limit=f"{DARK_LEVEL:g}",
-        effect="few events of things, many of noise",
+        effect="few events of the scene, many of noise",
         help="lower --balance, --contrast-threshold; --noise none",
     ),
     Check(
@@ -164,7 +164,7 @@ CHECKS = (
         is_found=lambda one: one["motion_share"] > MOTION_SHARE,
         value=_motion,
         limit=f"{MOTION_SHARE:.0%} of the side",
-        effect="interpolation loses things that move this far: ghosts instead of edges",
+        effect="interpolation loses motion this fast: ghosts instead of edges",
         help="more frames per second; --motion of a renderer; generate: --interpolate exact",
     ),
     Check(
@@ -254,5 +254,5 @@ def evaluate(measurements: Measurements) -> VideoReport:
 
 
 def has_all_measurements(measurements: Measurements) -> bool:
-    """Whether all that a pass measures today is there: a cache may be older."""
+    """Whether no measurement of a pass is missing: those in a cache may be older."""
     return set(VideoMeasurer().measurements()) <= set(measurements)

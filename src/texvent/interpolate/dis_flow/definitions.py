@@ -38,7 +38,7 @@ PATCH = 8
 STEP = 3
 """Distance of patches, px."""
 MARGIN = 16
-"""Repeated pixels at each edge: a patch may lie outside the image."""
+"""Repeated pixels at each edge: a patch may be outside the image."""
 MOST_STEPS = 2
 """Most Gauss-Newton steps."""
 SMALL_STEP2 = 1e-3
@@ -60,8 +60,8 @@ LEAST_DIFFERENCE = 1.0
 CHANGED = 24.0
 """Change of brightness along its flow from which a pixel is not explained by it, of 255 levels."""
 SAME_RELATIVE, SAME_PX2 = 0.02, 0.5
-"""The way there and back may end this share of its squared length, plus this, px², from its start,
-squared."""
+"""Flow is confirmed if the path there and back ends, squared, at most this share of its squared
+length, plus this, px², from its start."""
 UNEXPLAINED, NOISE_COST = 0.25, 64.0
 """A patch whose cost exceeds this share of its spread, plus this, was not found, squared levels."""
 

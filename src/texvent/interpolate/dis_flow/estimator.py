@@ -124,7 +124,7 @@ class DisFlow:
 
 
 def count_levels(shape: tuple[int, int]) -> int:
-    """How often an image is halved: until its longer side is about four patches.
+    """Number of times an image is halved: until its longer side is about four patches.
 
     The shorter side stays at least one patch.
     """

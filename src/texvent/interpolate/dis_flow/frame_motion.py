@@ -59,7 +59,7 @@ NO_MOTIONS: tuple[None, None] = None, None
 
 
 def find_shift(start: list[Floats], stop: list[Floats]) -> Floats | None:
-    """How one frame is shifted to the other, if by more than patches are searched for.
+    """Shift of one frame to the other, if it exceeds the reach of the search.
 
     Args:
         start: pyramid of the one; see `estimator.make_pyramid`.
@@ -187,7 +187,7 @@ def pixel_vectors(motion: Floats, shape: tuple[int, int]) -> Floats:
 
 
 def leads_outside(flow: Floats) -> Mask:
-    """Whether each pixel's flow leads out of the image, [H, W]."""
+    """Pixels whose flow leads out of the image, [H, W]."""
     _, height, width = flow.shape
     y, x = np.ogrid[:height, :width]
     to_x, to_y = x + flow[0], y + flow[1]

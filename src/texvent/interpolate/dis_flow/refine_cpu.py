@@ -70,7 +70,7 @@ def _copy(source: Floats, target: Floats, margin: int, new_margin: int) -> None:
 
 @jit(error_model="numpy")
 def change_along(start: Floats, stop: Floats, flow: Floats) -> Floats:
-    """What brightness changes by along a flow, [H, W], levels."""
+    """Change of brightness along a flow, [H, W], levels."""
     _, change = _sample_along(start[0], stop[0], flow)
     return change
 

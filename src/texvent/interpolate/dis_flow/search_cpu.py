@@ -87,7 +87,7 @@ def _compare(
 def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, Sums]:
     """Flat index of the pixel up left of a place, and bilinear weights of it and the others.
 
-    Places lie at most a patch outside the image.
+    Places are at most a patch outside the image.
     """
     x = min(max(_OUTSIDE, x), np.float32(shape[1] - 2 * MARGIN))
     y = min(max(_OUTSIDE, y), np.float32(shape[0] - 2 * MARGIN))

@@ -44,11 +44,11 @@ UNSURE = np.float32(0.015)
 DARK = np.float32(2.0)
 """Added to levels before they are compared."""
 FOLLOWED, MIXED = 0, 1
-"""What `draw` says of a pixel: within one layer and equally bright in both frames, or not."""
+"""Kinds of pixels: within one layer and equally bright in both frames, or not."""
 
 
 class FrameSide(NamedTuple):
-    """One frame of a pair and the way from it to the other."""
+    """One frame of a pair and its paths to the other."""
 
     layers: Layers
     fragments: Floats
@@ -138,7 +138,7 @@ def _compose(
 
 @jit(error_model="numpy", inner=True)
 def _hold(first: Floats, second: Floats, position: np.float32, image: Floats) -> None:
-    """Where no path leads, both frames are mixed in place."""
+    """Mix both frames in place where no path leads."""
     height, width = image.shape
     for y in range(height):
         for x in range(width):
@@ -155,9 +155,9 @@ def _is_alike(one: np.float32, two: np.float32) -> bool:
 
 @jit(error_model="numpy", inner=True)
 def _covered(share_1: np.float32, share_2: np.float32, position: np.float32) -> np.float32:
-    """How much of a pixel the nearer layer covers.
+    """Share of a pixel that the nearer layer covers.
 
-    Mixed by time, unless one frame cannot see the layer: then the other one tells.
+    Mixed by time, unless one frame cannot see the layer: then that of the other one.
     """
     mixed = share_1 + position * (share_2 - share_1)
     apart = (abs(share_1 - share_2) - SIMILAR) / (DIFFERENT - SIMILAR)
@@ -183,7 +183,7 @@ def _mix(
 
 @jit(error_model="numpy", inner=True)
 def _gather(layers: Layers, places: Floats, index: int, pixels: Numbers) -> Floats:
-    """Share and level of a layer in a frame, and whether the place lies within the layer.
+    """Share and level of a layer in a frame, and whether the place is within the layer.
 
     Args:
         layers: the frame.
@@ -291,9 +291,9 @@ def _filled(
     top: np.float32,
     bottom: np.float32,
 ) -> np.float32:
-    """How much of a rectangle in a pixel a surface fills that covers `share` of the pixel.
+    """Share of a rectangle in a pixel that a surface fills which covers `share` of the pixel.
 
-    It lies on the side away from the step across its contour; the contour is taken as straight.
+    It is on the side away from the step across its contour; the contour is taken as straight.
     """
     one = np.float32(1.0)
     if share >= one or (step_x == 0 and step_y == 0):

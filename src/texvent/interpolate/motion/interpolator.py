@@ -40,7 +40,7 @@ can be."""
 NEAREST_M = 1e-3
 """Smaller depths count as this, m."""
 MARGIN_PX = 3
-"""How far around what moves pixels may change."""
+"""Margin around moving pixels in which others may change."""
 
 
 class MotionInterpolator:
@@ -48,7 +48,7 @@ class MotionInterpolator:
 
     Both frames of a pair must carry motion vectors; see `video.Motion`. With vectors to both
     neighbours of a frame, paths are curved. Depth decides what hides what; without it, the faster
-    of two things is taken to be the nearer one.
+    of two surfaces is taken to be the nearer one.
 
     Source: view morphing by depth, McMillan and Bishop, Plenoptic modeling (SIGGRAPH 1995); layers
         of splats as in Niklaus and Liu, Softmax splatting (CVPR 2020), with depth for their weight.
@@ -130,7 +130,7 @@ class MotionPair:
     sides: tuple[FrameSide, FrameSide]
     """Both frames in that part."""
     transfer: Transfer
-    """Of the frames; levels are gamma-coded here whatever it is."""
+    """Of the frames; levels are always gamma-coded here."""
 
     @classmethod
     def of(cls, first: Frame, second: Frame) -> MotionPair:

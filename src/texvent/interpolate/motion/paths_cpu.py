@@ -1,4 +1,4 @@
-"""Where the pixels of a frame are between it and the other frame of its pair."""
+"""Paths of the pixels of a frame to the other frame of its pair."""
 
 from __future__ import annotations
 
@@ -125,7 +125,7 @@ def _bend(path: Floats, vector: Floats, here: Floats, there: Floats, has_other: 
 def _stretch(
     vectors: Floats, order: Floats, tolerance: np.float32, x: int, y: int, axis: int
 ) -> tuple[np.float32, np.float32]:
-    """How the displacement changes from pixel to pixel along an axis, within the layer."""
+    """Change of the displacement from pixel to pixel along an axis, within the layer."""
     height, width = order.shape
     along_x, along_y, number = np.float32(0.0), np.float32(0.0), 0
     for sign in (-1, 1):

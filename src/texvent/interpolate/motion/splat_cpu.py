@@ -54,7 +54,7 @@ class Fragment(NamedTuple):
     """A fragment of surface at an instant."""
 
     shift_x: np.float32
-    """How far it is from where it was in its frame, px."""
+    """Displacement from its place in its frame, px."""
     shift_y: np.float32
     order: np.float32
     """ln depth in its frame."""

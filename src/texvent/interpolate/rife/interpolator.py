@@ -72,7 +72,7 @@ class RifeInterpolator(NetworkInterpolator):
     def between_tensors(
         self, first: Tensor, second: Tensor, positions: Sequence[float]
     ) -> Iterator[Tensor]:
-        """As `between`, for images that may lie on the device already; results stay on it.
+        """As `between`, for images that may be on the device already; results stay on it.
 
         Nothing waits for the device, so the output is not checked: the simulator of
         `texvent.simulate.gpu` refuses NaN and infinite intensities when it counts events.

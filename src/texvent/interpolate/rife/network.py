@@ -52,7 +52,7 @@ class RifeLayout:
     features: int = 0
     """Channels that each block passes to the next, beside flow and mask."""
     replaces_mask: bool = False
-    """True if each block gives the mask anew; else it adds to the one before."""
+    """True if each block replaces the mask; else it adds to the one before."""
 
     @property
     def pad_to(self) -> int:
@@ -98,7 +98,7 @@ def closest_layout(tensors: Mapping[str, Tensor]) -> tuple[RifeLayout, tuple[int
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Where the pixels of an instant are in both frames, and how the frames mix."""
+    """Flow from the pixels of an instant to both frames, and the weights of the frames."""
 
     flow: Tensor
     """[1, 4, H, W] float32, px: to the first frame (x, y), to the second (x, y)."""
