@@ -1,14 +1,14 @@
 """Bounds of the luma of a pixel between two frames, to skip pixels that cannot fire.
 
 Every intermediate frame is, pixel by pixel, a mean of samples of both frames, at most the length of
-the flow away (`pairs.warp_cpu.warp_between`: the displacement to a frame is τ or 1 − τ times
+the flow away (`pairs.warp_reference.warp_between`: the displacement to a frame is τ or 1 − τ times
 a mean of one flow and the other reversed). A sample lies in the range of the four pixels around it.
 So the luma of a pixel lies between the darkest and the brightest that both frames have within that
 distance.
 
 * Up to 1 px of flow, a sample differs from the pixel itself by less than `|dx|` times the steps to
   its left and right neighbours (in the rows it may touch) plus `|dy|` times those up and down, plus
-  the bends of `pairs.sampling_cpu` along x and y times at most `|dx|`, `|dy|` and 1/4.
+  the bends of `pairs.sampling_reference` along x and y times at most `|dx|`, `|dy|` and 1/4.
 * Further out, the extremes over cells of `CELL` pixels that the flow of the pixel's cell reaches.
 """
 

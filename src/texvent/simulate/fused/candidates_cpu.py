@@ -53,7 +53,7 @@ next row whose number is a multiple of `PROBE`."""
 def find_candidates(
     arrays: PairArrays, positions: Float64Array, levels: ReferenceLevels
 ) -> CrossingCandidates:
-    """Every segment at whose end a pixel may fire; see `definitions`."""
+    """Every segment at whose end a pixel may fire; see `candidates_reference.find_candidates`."""
     pair = prepare_pair(*arrays)
     arrays = with_sweep(arrays, pair.sweep)
     prepared = PreparedPair(pair, find_bounds(arrays))

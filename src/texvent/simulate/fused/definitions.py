@@ -48,7 +48,7 @@ def with_sweep(arrays: PairArrays, sweep: Float32Array) -> PairArrays:
 
     Args:
         arrays: of a pair.
-        sweep: [H, W, 2] px, or empty; see `pairs.paths_cpu.find_sweep`.
+        sweep: [H, W, 2] px, or empty; see `pairs.paths_reference.find_sweep`.
     """
     if sweep.size == 0:
         return arrays
