@@ -219,7 +219,7 @@ def write_random_weights(width: int | None, path: Path) -> Path:
     torch = require("torch", extra=EXTRA)
     from texvent.interpolate.rife.network import RIFE_4_6, RifeNetwork  # needs torch
 
-    network = RifeNetwork(RIFE_4_6, width and (width,) * len(RIFE_4_6.widths))
+    network = RifeNetwork(RIFE_4_6, None if width is None else (width,) * len(RIFE_4_6.widths))
     generator = torch.Generator().manual_seed(0)
     with torch.no_grad():
         for parameter in network.parameters():
