@@ -8,7 +8,7 @@ import math
 import numpy as np
 import pytest
 from tests.pairs.reference import sample_along, warp_between
-from tests.simulate.fused import candidates_reference
+from tests.simulate.references import candidates as candidates_reference
 
 from texvent.pairs.warp_cpu import prepare_pair
 from texvent.runtime.read_only import read_only
