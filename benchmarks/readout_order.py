@@ -18,9 +18,9 @@ import numpy as np
 from texvent.data.pull import pull
 from texvent.events import EventStream
 from texvent.io.files import open_events
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
-from texvent.simulate.physical.arbitration.arbiter import Arbiter
+from texvent.simulate.packets import UnsortedEvents
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.physical.readout import Arbiter
 
 SECONDS = 1.0
 """How much of a recording is read, s."""

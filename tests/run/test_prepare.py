@@ -15,7 +15,7 @@ from texvent.generate.videos.stored_video import write_video
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source, prepare_video
 from texvent.run.settings import resolve
 from texvent.runtime.progress import CallbackProgress
-from texvent.simulate.thresholds import contrast_threshold_of
+from texvent.simulate.model_options import contrast_threshold_of
 from texvent.web.job import SimulateJob
 from texvent.web.worker import simulate
 

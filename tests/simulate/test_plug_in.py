@@ -13,7 +13,7 @@ from texvent import _registry
 from texvent.errors import TexventError, TexventWarning
 from texvent.events import EventStream
 from texvent.simulate.esim.simulator import EsimSimulator
-from texvent.simulate.stepping import SteppingSimulator
+from texvent.simulate.streaming import SteppingSimulator
 
 from .pixel_frames import moving_texture
 

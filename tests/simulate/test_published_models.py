@@ -15,8 +15,7 @@ from texvent.simulate.esim.simulator import EsimSimulator
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.senpi.simulator import SenpiSimulator
 from texvent.simulate.v2e.simulator import V2eSimulator
-from texvent.simulate.voltmeter.config import VoltmeterConfig
-from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
+from texvent.simulate.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
 from texvent.video import Frame
 
 from .pixel_frames import moving_texture, run, static

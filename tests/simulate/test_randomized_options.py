@@ -5,10 +5,9 @@ import pytest
 
 from texvent.options.values import plain
 from texvent.simulate.esim.simulator import EsimConfig
+from texvent.simulate.model_options import NOISE, contrast_threshold_of, draw_training_config
 from texvent.simulate.physical.config import PhysicalConfig
-from texvent.simulate.randomized_options import NOISE, draw_training_config
 from texvent.simulate.texvent.simulator import TexventConfig
-from texvent.simulate.thresholds import contrast_threshold_of
 
 SEEDS = range(400)
 

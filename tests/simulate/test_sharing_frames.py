@@ -6,12 +6,11 @@ import importlib
 import numpy as np
 import pytest
 
-from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.senpi.simulator import SenpiSimulator
-from texvent.simulate.v2e.config import V2eConfig
-from texvent.simulate.v2e.simulator import V2eSimulator
+from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
 from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
 from texvent.video import Frame
 

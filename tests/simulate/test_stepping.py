@@ -9,7 +9,7 @@ import texvent
 from texvent._registry import SIMULATORS, Registry
 from texvent.events import EventStream
 from texvent.simulate.esim.simulator import EsimSimulator
-from texvent.simulate.stepping import SteppedPlugIn, with_advance
+from texvent.simulate.streaming import SteppedPlugIn, with_advance
 
 from .pixel_frames import moving_texture
 

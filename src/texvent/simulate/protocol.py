@@ -23,7 +23,7 @@ class Simulator(Protocol):
     events. It may declare `bytes_per_pixel`: memory that its pixels, its packets and the frames
     that wait for it take, measured on moving texture; `run.memory` adds it up. It may declare
     `takes_linear` as True: then frames of linear light reach it as they are, and are gamma-coded
-    before otherwise. It may declare `gains_from_frames` as True: then a pair in which
+    before otherwise. It may declare `benefits_from_denser_frames` as True: then a pair in which
     things move fast gets more frames than Eq. 4 asks for (`interpolate.count_policy`). It may
     declare `slow_change`, a text or None: why slow change may fire nothing, and the options that
     help, which `run.silence` says of a run that has lost its signal. It may declare

@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-
 from texvent.simulate.backend import elementary, elementary_cpu
 
 RANDOM = np.random.default_rng(0)

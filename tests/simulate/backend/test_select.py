@@ -3,14 +3,14 @@
 import sys
 
 import pytest
+from tests.simulate.references import sorting as sorting_reference
+from tests.simulate.references import v2e as reference
+from texvent.simulate.backend import select
 
 from texvent.errors import MissingDependencyError
-from texvent.simulate.backend import select
-from texvent.simulate.esim import crossings_cpu
-from texvent.simulate.esim.crossings import CROSS_THRESHOLDS
-from texvent.simulate.packets import sorting_reference
-from texvent.simulate.packets.sorting import SORT_EVENTS
-from texvent.simulate.v2e import reference
+from texvent.simulate.esim import pixels as crossings_cpu
+from texvent.simulate.esim.pixels import CROSS_THRESHOLDS
+from texvent.simulate.packets import SORT_EVENTS
 from texvent.simulate.v2e.low_pass import APPLY_LOW_PASS
 
 

@@ -5,11 +5,10 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from tests.simulate.references.ramp import cross_ramp
 
 from texvent.simulate.crossing.ramp import Ramp, RefractoryPeriod
-from texvent.simulate.crossing.ramp_reference import cross_ramp
-from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels
-from texvent.simulate.esim.segments import CrossingState
+from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, CrossingState, RampPixels
 from texvent.simulate.random.mismatch import Thresholds
 
 SHAPE = (12,)

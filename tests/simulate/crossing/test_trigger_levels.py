@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.simulate.references.ramp import cross_ramp
 
 from texvent.simulate.crossing.ramp import Ramp, RefractoryPeriod
-from texvent.simulate.crossing.ramp_reference import cross_ramp
 from texvent.simulate.crossing.trigger_levels import BrightnessCurve, TriggerLevels
 from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator, log_intensity
 from texvent.simulate.random.mismatch import (
@@ -17,8 +17,7 @@ from texvent.simulate.random.mismatch import (
     draw_threshold_pair,
     sensor_key,
 )
-from texvent.simulate.senpi.config import SenpiConfig
-from texvent.simulate.senpi.simulator import SenpiSimulator, photons
+from texvent.simulate.senpi.simulator import SenpiConfig, SenpiSimulator, photons
 from texvent.video import Frame
 
 from ..pixel_frames import run
@@ -124,14 +123,14 @@ def test_senpi_with_levels_fires_as_without(dtypes, seed, backend, threshold, si
 def test_only_pixels_outside_their_levels_are_looked_at(backend, dtype):
     first = np.full((2, 300), 100, dtype)
     levels = TriggerLevels(first, BrightnessCurve(1.0, -10.0), backend=backend)
-    assert len(levels.find_outside(first)[0]) == 600
+    assert len(levels.find_outside_levels(first)[0]) == 600
     # Silent from ln(10 + 90.5) to ln(10 + 120).
     reference, pixel = np.full(600, np.log(110.0)), np.arange(600)
     on, off = np.full(600, np.log(130.0 / 110.0)), np.full(600, np.log(110.0 / 100.5))
     levels.set(pixel, reference, Thresholds(on, off))
     second = first.copy()
     second[0, :5] = [90, 91, 119, 120, 130]
-    pixel, before, now = levels.find_outside(second)
+    pixel, before, now = levels.find_outside_levels(second)
     assert pixel.tolist() == [0, 3, 4]
     assert before.tolist() == [100] * 3
     assert now.tolist() == [90, 120, 130]
@@ -148,7 +147,7 @@ def test_levels_by_luma_are_those_of_each_pixel(backend):
     other.set_all(of_luma, thresholds, of_luma=of_luma)
     for shift in (1, 20, 60, 200):
         moved = np.roll(first, shift)
-        found = [levels.find_outside(moved).pixel.tolist() for levels in (one, other)]
+        found = [levels.find_outside_levels(moved).pixel.tolist() for levels in (one, other)]
         assert found[0] == found[1]
         change = of_luma[moved.ravel()] - of_luma
         assert found[0] == np.flatnonzero((change >= 0.2) | (change <= -0.3)).tolist()
@@ -161,7 +160,7 @@ def test_a_pixel_that_always_fires_is_always_looked_at(backend):
     reference, on = np.array([-21.0, 9.5, 2.5]), np.array([1.0, 0.5, -0.5])
     off = np.array([np.inf, 0.5, -0.5])
     levels.set(np.arange(3), reference, Thresholds(on, off))
-    assert levels.find_outside(np.full((1, 3), 0, np.uint8))[0].tolist() == [0, 1, 2]
+    assert levels.find_outside_levels(np.full((1, 3), 0, np.uint8))[0].tolist() == [0, 1, 2]
 
 
 def test_redrawn_thresholds_may_fire_any_pixel(backend):

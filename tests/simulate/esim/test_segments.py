@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.simulate.esim import segments_cpu, segments_reference
-from texvent.simulate.esim.segments import CrossingRules, CrossingState, Segments
+from texvent.simulate.esim.crossings import CrossingRules, CrossingState, Segments
 
 KERNELS = [segments_reference.cross_segments, segments_cpu.cross_segments]
 kernels = pytest.mark.parametrize("cross", KERNELS, ids=["reference", "cpu"])

@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.simulate.references import segments as segments_reference
 
 import texvent
 from texvent.errors import InputError
 from texvent.pairs.motion_interpolation import MotionInterpolation, UndrawnFrame
-from texvent.simulate.esim import segments_reference
 from texvent.simulate.esim import simulator as esim_simulator
-from texvent.simulate.esim.segments import CROSS_SEGMENTS
+from texvent.simulate.esim.crossings import CROSS_SEGMENTS
 from texvent.simulate.fused import candidates, candidates_cpu
 from texvent.simulate.fused.candidates import find_bounds
 from texvent.simulate.texvent import fused as texvent_fused

@@ -14,7 +14,7 @@ from texvent.events import NOISE
 from texvent.represent.voxel_grid import voxel_zhu
 from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator
 from texvent.simulate.physical.simulator import PhysicalConfig
-from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK
+from texvent.simulate.texvent.pixel_memory import NOISE_BLOCK
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 
 from .clips import (

@@ -4,9 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.sensor import SensorSize
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import make_packet
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.packets import FrameInterval, UnsortedEvents, make_packet
 
 KEY = np.uint64(0)
 SIZE = SensorSize(3, 2)

@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.simulate.packets import sorting_cpu, sorting_reference
-from texvent.simulate.packets.sorting import UnsortedEvents
+from texvent.simulate.packets import UnsortedEvents, sorting_cpu, sorting_reference
 
 DURATIONS = (1, 2, 255, 5000, 8192, 41_667, 3_000_000, 2**40)
 

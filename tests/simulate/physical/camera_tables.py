@@ -12,8 +12,8 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from texvent.simulate.physical.cameras.biases import DAVIS, MAPPED, UNMAPPED
-from texvent.simulate.physical.cameras.constants import CAMERAS, Constant
-from texvent.simulate.physical.cameras.presets import camera_table
+
+from texvent.simulate.physical.cameras import CAMERAS, Constant, camera_table
 
 PAGE = Path(__file__).parents[3] / "docs" / "simulators" / "cameras.md"
 

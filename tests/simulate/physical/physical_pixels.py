@@ -3,7 +3,7 @@
 import dataclasses
 import math
 
-from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.simulator import PhysicalSimulator
 
 CLEAN = dataclasses.replace(PRESETS["clean"], gamma=1.0)

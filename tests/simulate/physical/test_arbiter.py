@@ -6,13 +6,18 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
 from texvent.simulate.physical.arbitration import row_arbiter_cpu, row_arbiter_reference
-from texvent.simulate.physical.arbitration.arbiter import Arbiter, ArbiterRules
-from texvent.simulate.physical.arbitration.row_arbiter import LOST, WAITS, RowRules
-from texvent.simulate.physical.arbitration.scan import scan_times_us
+
+from texvent.simulate.packets import UnsortedEvents
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.physical.readout import (
+    LOST,
+    WAITS,
+    Arbiter,
+    ArbiterRules,
+    RowRules,
+    scan_times_us,
+)
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Frame
 

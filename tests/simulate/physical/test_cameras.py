@@ -9,13 +9,12 @@ from pathlib import Path
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from texvent.simulate.physical.cameras.biases import NAMES, UNMAPPED, bias_effect
+from texvent.simulate.physical.cameras.davis import COARSE_PA, parse_current, threshold
 
 from texvent.errors import ConfigError
 from texvent.sensor import SENSORS
-from texvent.simulate.physical.cameras.biases import NAMES, UNMAPPED, bias_effect
-from texvent.simulate.physical.cameras.constants import CAMERAS
-from texvent.simulate.physical.cameras.davis import COARSE_PA, parse_current, threshold
-from texvent.simulate.physical.cameras.presets import NOT_OF_A_CAMERA, PRESETS, camera_table
+from texvent.simulate.physical.cameras import CAMERAS, NOT_OF_A_CAMERA, PRESETS, camera_table
 from texvent.simulate.physical.config import PhysicalConfig
 
 from .camera_tables import PAGE, tables

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from tests.simulate.references.crossing_time import ChangeCurve
 
-from texvent.simulate.backend.elementary import exponential
+from texvent.simulate.kernels.elementary import exponential
 from texvent.simulate.physical import crossing_time_cpu, crossing_time_reference
-from texvent.simulate.physical.crossing_time_reference import ChangeCurve
 
 
 def curve_of(change, slope, transient, cutoff, duration) -> ChangeCurve:

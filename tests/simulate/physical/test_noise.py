@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Frame
 

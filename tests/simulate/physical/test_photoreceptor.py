@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-
-from texvent.simulate.physical import reference
+from tests.simulate.references import physical as reference
 
 from ..pixel_frames import curve, frames_of, moving_texture, run
 from .physical_pixels import clean, intensity

@@ -9,8 +9,7 @@ import pytest
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.packets import FrameInterval, UnsortedEvents
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.readout import Readout, ReadoutRules
 from texvent.simulate.random.draws import frame_key

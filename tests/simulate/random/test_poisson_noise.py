@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.events import NOISE
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.random import poisson_arrivals_cpu
+from texvent.simulate.packets import FrameInterval
+from texvent.simulate.random import poisson_noise as poisson_arrivals_cpu
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.random.poisson_noise import PoissonNoise
 

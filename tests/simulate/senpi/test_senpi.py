@@ -5,8 +5,12 @@ import numpy as np
 import pytest
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.senpi.config import SenpiConfig
-from texvent.simulate.senpi.simulator import SenpiSimulator, photons, shot_noise_rate_hz
+from texvent.simulate.senpi.simulator import (
+    SenpiConfig,
+    SenpiSimulator,
+    photons,
+    shot_noise_rate_hz,
+)
 from texvent.video import Frame
 
 from ..pixel_frames import curve, frames_of, run, static

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from texvent.simulate.texvent.fired_pixels import find_triggered_pixels, generate_event_frame
+from texvent.simulate.texvent.event_frame import find_triggered_pixels, generate_event_frame
 
 BRIGHTNESS = np.array([[0.0, 1.0], [-1.0, 0.25]])
 REFERENCE = np.array([[0.0, 0.5], [0.0, 0.5]])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from texvent.events import SIGNAL, EventStream
-from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.noise import (
     draw_noise,

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.simulate.texvent.pixel_state import brightness_table, least_difference
+from texvent.simulate.texvent.pixel_memory import brightness_table, least_difference
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import HIGHEST_INTENSITY, Frame
 

@@ -237,7 +237,7 @@ def test_negated_contrast_swaps_on_and_off(frames, options):
     """The brightness itself is negated: negated intensities would round differently."""
     options = options | {"noise": "none", "backend": "reference"}
     events = simulate(frames, **options)
-    module = importlib.import_module("texvent.simulate.texvent.reference")
+    module = importlib.import_module("texvent.simulate.texvent.dense_pixels")
     with mock.patch.object(module, "balanced_log", lambda *given: -balanced_log(*given)):
         negated = simulate(frames, **options)
     swapped = EventStream(negated.x, negated.y, negated.t, 1 - negated.p, negated.size)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 from texvent.errors import ConfigError, InputError
-from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati, ldati_reference
 from texvent.simulate.v2ce.ldati import (

@@ -18,12 +18,10 @@ from texvent.options.fields import option_help, option_names
 from texvent.options.values import with_options
 from texvent.pipeline import video_to_events
 from texvent.run.settings import default_settings, resolve
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import make_packet
+from texvent.simulate.packets import FrameInterval, make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati
-from texvent.simulate.v2ce.config import V2ceConfig
-from texvent.simulate.v2ce.simulator import V2ceSimulator, normalise
+from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator, normalise
 from texvent.video import Frame, Video
 
 from ..pixel_frames import moving_texture

@@ -3,13 +3,12 @@ import math
 
 import numpy as np
 import pytest
+from tests.simulate.references.v2e import lin_log
 
 from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.v2e.config import V2eConfig
-from texvent.simulate.v2e.reference import lin_log
-from texvent.simulate.v2e.shot_noise import photoreceptor_noise_rms, relative_intensity
-from texvent.simulate.v2e.simulator import V2eSimulator
+from texvent.simulate.v2e.pixels import photoreceptor_noise_rms, relative_intensity
+from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
 
 from ..pixel_frames import curve, frames_of, run, static
 

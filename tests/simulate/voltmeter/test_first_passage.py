@@ -3,12 +3,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from tests.simulate.references.sorting import sort_events
+from tests.simulate.references.voltmeter import MOST_DISPLACEMENT
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import SortedEvents
-from texvent.simulate.packets.sorting_reference import sort_events
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.packets import FrameInterval, SortedEvents, UnsortedEvents
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.voltmeter.first_passage import (
     FIND_FIRST_PASSAGES,
@@ -16,7 +15,6 @@ from texvent.simulate.voltmeter.first_passage import (
     FirstPassageInput,
     new_voltage,
 )
-from texvent.simulate.voltmeter.reference import MOST_DISPLACEMENT
 
 SHAPE = (3, 4)
 # In thresholds per interval of 1000 µs; 0 and the smallest numbers are edge cases of the formulas.

@@ -3,16 +3,15 @@ import math
 
 import numpy as np
 import pytest
-
-from texvent.events import NOISE, SIGNAL
-from texvent.simulate.voltmeter.config import VoltmeterConfig
-from texvent.simulate.voltmeter.first_passage import Constants
-from texvent.simulate.voltmeter.reference import (
+from tests.simulate.references.voltmeter import (
     drift_and_diffusion,
     first_passage_time,
     probability_along_drift,
 )
-from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
+
+from texvent.events import NOISE, SIGNAL
+from texvent.simulate.voltmeter.first_passage import Constants
+from texvent.simulate.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
 from texvent.video import Frame
 
 from ..pixel_frames import curve, frames_of, run, static

@@ -24,7 +24,7 @@ from texvent.errors import FileFormatError
 from texvent.run.prepare import prepare_video
 from texvent.run.settings import Settings
 from texvent.runtime.cache_folder import make_folder
-from texvent.simulate.thresholds import contrast_threshold_of
+from texvent.simulate.model_options import contrast_threshold_of
 
 SHEET, RANDOM_SHEET = 100, 25
 """Digits per sheet; and where each sheet has a threshold of its own."""

@@ -29,7 +29,7 @@ from texvent.options.fields import option_names
 from texvent.pipeline import Simulation, video_to_events
 from texvent.reconstruct.reconstructor import Intensity, Reconstructor
 from texvent.represent.packet_slices import slice_between
-from texvent.simulate.thresholds import contrast_threshold_of
+from texvent.simulate.model_options import contrast_threshold_of
 from texvent.video import MICROSECONDS
 
 ImageCallback: TypeAlias = Callable[[str, str, int, Intensity], None]

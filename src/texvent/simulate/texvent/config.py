@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
-from texvent.simulate.texvent.brightness_cache import CachePolicy, ResetRule
-from texvent.simulate.texvent.noise import NoiseKind
-from texvent.simulate.texvent.timestamps import TimestampRule
+
+CachePolicy = Literal["local", "global", "none"]
+ResetRule = Literal["current", "step"]
+NoiseKind = Literal["adaptive", "gaussian", "random", "none"]
+TimestampRule = Literal["eq7", "random", "linear", "hyperbolic", "even", "end"]
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,7 +13,7 @@ sub-interval holds, and what they must have added to the second node, and so on.
 exactly the time that made the grid. Where a sub-interval holds several, the grid does not tell
 them apart: their times are drawn from a density that rises or falls as the neighbours' counts do.
 
-`ldati_reference` is the same rule pixel by pixel; docs/simulators/v2ce.md names the deviations.
+docs/simulators/v2ce.md names the deviations.
 """
 
 from __future__ import annotations
@@ -27,9 +27,7 @@ from texvent.config import check_range
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.simulate.packets.interval import FrameInterval, place_in
-from texvent.simulate.packets.sorting import make_packet
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.packets import FrameInterval, UnsortedEvents, make_packet, place_in
 from texvent.simulate.random.draws import Purpose, draw_uniforms, frame_key
 
 Rounding: TypeAlias = Literal["published", "stochastic"]

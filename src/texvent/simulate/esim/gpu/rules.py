@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from texvent.simulate.esim import config
+from texvent.simulate.esim import simulator as config
 from texvent.simulate.gpu.kernel_types import Tensor
 
 THRESHOLD_ON, THRESHOLD_OFF, LOG_EPS = range(3)

@@ -21,8 +21,8 @@ from texvent.simulate.gpu.kernel_types import (
 from texvent.simulate.gpu.launch import to_device
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.gpu.noise_triton import draw_noise
-from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK
 from texvent.simulate.texvent.noise import poisson_cumulative
+from texvent.simulate.texvent.pixel_memory import NOISE_BLOCK
 
 _CELLS = 512
 """Draws of a program at a time."""

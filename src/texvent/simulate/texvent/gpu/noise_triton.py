@@ -9,7 +9,7 @@ from texvent.simulate.gpu import kernel_types
 from texvent.simulate.gpu.blocks_triton import pack_event, place_in, read_now
 from texvent.simulate.gpu.draws_triton import draw_word, to_uniform
 from texvent.simulate.random.draws import Purpose
-from texvent.simulate.texvent.kernels import scan as texvent
+from texvent.simulate.texvent import pixel_memory as texvent
 
 _BLOCK = tl.constexpr(texvent.NOISE_BLOCK)
 _PLACE_SHIFT = tl.constexpr(texvent.NOISE_PLACE_SHIFT)
@@ -47,7 +47,7 @@ def draw_noise(
         LANES: noise blocks of a program.
         DRAWS: events of a block that are drawn at once.
 
-    Equation: (6), section 3.2.2, drawn as `texvent.simulate.texvent.kernels.scan` says.
+    Equation: (6), section 3.2.2, drawn as `texvent.simulate.texvent.pixel_memory` says.
     """
     segment = tl.program_id(1).to(tl.int64)
     lane = tl.program_id(0) * LANES + tl.arange(0, LANES)

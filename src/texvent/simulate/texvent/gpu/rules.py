@@ -12,7 +12,7 @@ from texvent.simulate.crossing.trigger_levels import trigger_factors
 from texvent.simulate.gpu.kernel_types import Tensor
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.pixel_state import needs_levels
+from texvent.simulate.texvent.pixel_memory import needs_levels
 
 BALANCE, THRESHOLD, UP, DOWN, SCALE = range(5)
 """Where each number lies in `TexventRules.numbers`."""
