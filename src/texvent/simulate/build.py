@@ -79,6 +79,7 @@ def check_simulator(simulator: Any) -> None:
         >>> check_simulator("esim")
     """
     kind: Any = SIMULATORS.load(simulator) if isinstance(simulator, str) else simulator
+    name = simulator if isinstance(simulator, str) else kind.__name__
     config = next(iter(kind.presets.values()))
     first, again = (list(_packets(kind(config, seed=3))) for _ in range(2))
     problem = None
@@ -95,7 +96,7 @@ def check_simulator(simulator: Any) -> None:
         elif len(packet) and (packet.x.max() >= 24 or packet.y.max() >= 16 or packet.p.max() > 1):
             problem = "gave events outside the sensor, or of a polarity other than 0 and 1"
     if problem:
-        raise TexventError(f"simulator {simulator!r} {problem}; see texvent/simulate/protocol.py")
+        raise TexventError(f"simulator {name!r} {problem}; see texvent/simulate/protocol.py")
 
 
 def _packets(simulator: Any) -> Iterator[tuple[int, EventStream]]:
@@ -104,4 +105,9 @@ def _packets(simulator: Any) -> Iterator[tuple[int, EventStream]]:
     for number in range(4):
         pixels = 120 + 100 * np.sin(0.7 * (x + 2 * number)) * np.cos(0.9 * y)
         frame = Frame(pixels.astype(np.uint8), 1_000_000 + 20_000 * number)
-        yield frame.t_us - 20_000, simulator.step(frame)
+        packet = simulator.step(frame)
+        if not isinstance(packet, EventStream):
+            kind = type(packet).__name__
+            name = type(simulator).__name__
+            raise TexventError(f"simulator {name!r} gave {kind}; it must give an EventStream")
+        yield frame.t_us - 20_000, packet

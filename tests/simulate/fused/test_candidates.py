@@ -7,12 +7,13 @@ import math
 
 import numpy as np
 import pytest
+from tests.simulate.references import candidates as definition
 
 from texvent.pairs.sampling_reference import sample_along
 from texvent.pairs.warp_cpu import prepare_pair
 from texvent.pairs.warp_reference import warp_between
 from texvent.runtime.read_only import read_only
-from texvent.simulate.fused import candidates_cpu, candidates_reference
+from texvent.simulate.fused import candidates
 from texvent.simulate.fused.bounds import (
     PREVIOUS_FRAME,
     RESET_BY_THRESHOLD,
@@ -21,11 +22,19 @@ from texvent.simulate.fused.bounds import (
     PairArrays,
     PreparedPair,
     ReferenceLevels,
-    find_bounds,
+    bound_cells,
     list_active,
 )
 
-KERNELS = [candidates_reference.find_candidates, candidates_cpu.find_candidates]
+
+def find_candidates(arrays, positions, levels):
+    """All candidates of a pair."""
+    prepared = PreparedPair(prepare_pair(*arrays), bound_cells(arrays))
+    rows = (0, arrays.earlier.shape[0])
+    return candidates.find_in_rows(arrays, positions, levels, prepared, rows)
+
+
+KERNELS = [definition.find_candidates, find_candidates]
 kernels = pytest.mark.parametrize("find", KERNELS, ids=["reference", "cpu"])
 STILL = np.zeros((1, 1, 2), np.float32)
 THIRDS = np.array([1 / 3, 2 / 3])
@@ -104,23 +113,25 @@ def test_compiled_kernel_lists_what_the_definition_lists(shape, speed):
     kept = (arrays.earlier + 30.0) * np.exp(spread)
     places = (np.array([]), np.array([0.2, 0.5, 0.6]))
     for positions, rule, reference in itertools.product(
-        places, (PREVIOUS_FRAME, RESET_TO_CURRENT, RESET_BY_THRESHOLD_ONCE, RESET_BY_THRESHOLD), (np.empty((0, 0)), kept)
+        places,
+        (PREVIOUS_FRAME, RESET_TO_CURRENT, RESET_BY_THRESHOLD_ONCE, RESET_BY_THRESHOLD),
+        (np.empty((0, 0)), kept),
     ):
         levels = ReferenceLevels(reference, 30.0, math.exp(0.1), math.exp(-0.15), rule)
-        got = candidates_cpu.find_candidates(arrays, positions, levels)
-        wanted = candidates_reference.find_candidates(arrays, positions, levels)
+        got = find_candidates(arrays, positions, levels)
+        wanted = definition.find_candidates(arrays, positions, levels)
         for one, other in zip(got, wanted, strict=True):
             np.testing.assert_array_equal(one, other)
 
 
 def test_rows_can_be_searched_in_bands():
     arrays, positions, levels = moving((30, 20), 2.0), np.array([0.5]), own_levels(RESET_TO_CURRENT)
-    prepared = PreparedPair(prepare_pair(*arrays), find_bounds(arrays))
+    prepared = PreparedPair(prepare_pair(*arrays), bound_cells(arrays))
     bands = [
-        candidates_cpu.find_in_rows(arrays, positions, levels, prepared, rows)
+        candidates.find_in_rows(arrays, positions, levels, prepared, rows)
         for rows in ((0, 7), (7, 16), (16, 30))
     ]
-    whole = candidates_cpu.find_candidates(arrays, positions, levels)
+    whole = find_candidates(arrays, positions, levels)
     for joined, column in zip(zip(*bands, strict=True), whole, strict=True):
         np.testing.assert_array_equal(np.concatenate(joined), column)
 
@@ -134,12 +145,13 @@ def test_pixels_that_cannot_fire_are_not_followed():
     fast = np.full((32, 32, 2), 40.0, np.float32)
     active = np.empty(32, np.int64)
     for arrays in (pair_of(ramp, ramp + 1, slow, -slow), pair_of(flat, flat, fast, -fast)):
-        bounds = find_bounds(arrays)
+        bounds = bound_cells(arrays)
         assert [
-            list_active(arrays, own_levels(RESET_TO_CURRENT), bounds, row, active) for row in range(32)
+            list_active(arrays, own_levels(RESET_TO_CURRENT), bounds, row, active)
+            for row in range(32)
         ] == [0] * 32
     arrays = pair_of(ramp, ramp, fast, -fast)
-    bounds = find_bounds(arrays)
+    bounds = bound_cells(arrays)
     assert list_active(arrays, own_levels(RESET_TO_CURRENT), bounds, 3, active) == 32
 
 
@@ -152,7 +164,7 @@ def test_no_pixel_is_left_out_whose_trigger_level_a_sample_reaches(shape, speed)
     shares = itertools.product(np.linspace(-1, 1, 9, dtype=np.float32), repeat=2)
     seen = np.float64([sample_along(image, forward, forward * share)[0] for share in shares])
     arrays = pair_of(image, image, forward, -forward)
-    bounds, active = find_bounds(arrays), np.empty(shape[1], np.int64)
+    bounds, active = bound_cells(arrays), np.empty(shape[1], np.int64)
     for levels in (
         ReferenceLevels((seen.max(axis=0) + 30.0) / UP, 30.0, UP, 1e-9, RESET_TO_CURRENT),
         ReferenceLevels((seen.min(axis=0) + 30.0) * UP, 30.0, 1e9, 1 / UP, RESET_TO_CURRENT),
@@ -166,5 +178,5 @@ def test_some_pixels_of_a_picture_are_those_of_the_whole_picture():
     pixel = np.array([0, 17, 311, 599])
     whole = warp_between(*arrays, 0.3)
     np.testing.assert_array_equal(
-        candidates_cpu.warp_pixels(prepare_pair(*arrays), 0.3, pixel), whole.reshape(-1)[pixel]
+        candidates._warp_pixels(prepare_pair(*arrays), 0.3, pixel), whole.reshape(-1)[pixel]
     )

@@ -18,8 +18,6 @@ Float64Array: TypeAlias = NDArray[np.float64]
 BoolArray: TypeAlias = NDArray[np.bool_]
 
 
-
-
 class ChangeCurve(NamedTuple):
     """The change of some pixels from now on; all [n]."""
 

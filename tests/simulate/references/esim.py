@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from tests.simulate.references.ramp import cross_ramp
+from tests.simulate.references.ramp import Ramp, cross_ramp
 from tests.simulate.references.sorting import sort_events
 
 from texvent.events import SIGNAL
-from texvent.simulate.crossing.ramp import Ramp, RefractoryPeriod
+from texvent.simulate.crossing.ramp import RefractoryPeriod
 from texvent.simulate.esim.crossings import CrossingState, RampPixels
 from texvent.simulate.packets import SortedEvents, UnsortedEvents
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from texvent.simulate.random.draws import Purpose, draw_uniforms, draw_words
-from texvent.simulate.texvent.noise import NoiseBlock, NoisePlaces
-from texvent.simulate.texvent.pixel_memory import NOISE_BLOCK, NOISE_PLACE_SHIFT
-
-TIME_UNIT = 2.0**-NOISE_PLACE_SHIFT
-"""Spacing of the times, as fractions of the interval: what a word has left below the place."""
+from texvent.simulate.texvent.noise import (
+    NOISE_BLOCK,
+    NOISE_PLACE_SHIFT,
+    TIME_UNIT,
+    NoiseBlock,
+    NoisePlaces,
+)
 
 
 def place_noise(noise: NoiseBlock, pixels: int) -> NoisePlaces:

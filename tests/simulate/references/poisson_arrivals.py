@@ -7,9 +7,7 @@ from numpy.typing import NDArray
 
 from texvent.simulate.kernels.elementary import natural_log
 from texvent.simulate.random.draws import draw_uniforms
-from texvent.simulate.random.poisson_noise import FIRST_DRAW, Arrivals
-
-MOST_FRACTION = 1.0 - 2.0**-53
+from texvent.simulate.random.poisson_noise import FIRST_DRAW, MOST_FRACTION, Arrivals
 
 
 def draw_arrivals(

@@ -2,15 +2,43 @@
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.crossing.ramp import (
-    Ramp,
-    RampCrossings,
-    RefractoryPeriod,
-)
+from texvent.simulate.crossing.ramp import RefractoryPeriod
 from texvent.simulate.packets import check_event_number
+
+Float64Array = NDArray[np.float64]
+
+
+class Ramp(NamedTuple):
+    """Change of some pixels against their references, a straight line in time, log units."""
+
+    pixel: NDArray[np.int64]
+    """[n] flat index y · W + x, ascending: all pixels that may fire."""
+    start: Float64Array
+    """[n] change at the start of the interval."""
+    stop: Float64Array
+    """[n] change at its end."""
+    threshold_on: Float64Array
+    """[n] above 0."""
+    threshold_off: Float64Array
+    """[n] above 0."""
+
+
+class RampCrossings(NamedTuple):
+    """Events of one interval, by pixel in row-major order, then in time."""
+
+    pixel: NDArray[np.int64]
+    """[m] flat index."""
+    t: NDArray[np.int64]
+    """[m] times, µs."""
+    p: NDArray[np.uint8]
+    """[m] 1 = ON, 0 = OFF."""
+    steps: NDArray[np.int64]
+    """[n] by how many thresholds the reference of each pixel of the ramp moves; OFF below 0."""
 
 
 def cross_ramp(

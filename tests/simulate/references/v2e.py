@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-from tests.simulate.references.ramp import cross_ramp
+from tests.simulate.references.ramp import Ramp, cross_ramp
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.crossing.ramp import Ramp, RefractoryPeriod
+from texvent.simulate.crossing.ramp import RefractoryPeriod
 from texvent.simulate.packets import UnsortedEvents
 from texvent.simulate.random.mismatch import PixelMismatch
 from texvent.simulate.v2e.emit_and_reset import EmissionRules, LastEvents
 from texvent.simulate.v2e.low_pass import (
     SETTLED,
     CrossingPixels,
-    Float64Array,
     LowPassInput,
     V2ePixelState,
 )

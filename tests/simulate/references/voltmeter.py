@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple, TypeAlias
+from typing import NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,6 @@ from texvent.simulate.voltmeter.first_passage import (
     FIRST_DRAW,
     LONGEST_US,
     MOST_DISPLACEMENT,
-    Constants,
     FirstPassageInput,
     Float64Array,
     Voltage,
