@@ -22,7 +22,7 @@ from texvent.pairs.frame_pair import FramePair
 from texvent.pipeline import video_to_events
 from texvent.run.settings import Settings, resolve
 from texvent.runtime.background_writer import BackgroundWriter
-from texvent.simulate.build import build_simulator, benefits_from_denser_frames
+from texvent.simulate.build import benefits_from_denser_frames, build_simulator
 from texvent.video import Frame, FrameStream
 
 STAGES = ("decode", "luma", "count", "flow", "warp", "simulate", "write")

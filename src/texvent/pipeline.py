@@ -28,7 +28,7 @@ from texvent.run.provenance import describe_run
 from texvent.run.settings import Settings
 from texvent.run.silence import SignalTally
 from texvent.runtime.progress import Progress
-from texvent.simulate.build import build_simulator, benefits_from_denser_frames
+from texvent.simulate.build import benefits_from_denser_frames, build_simulator
 from texvent.simulate.model_options import draw_training_config
 from texvent.video import Frame, FrameStream
 

@@ -67,8 +67,6 @@ class Outside(Plain):
         return EventStream.unchecked(*columns, size=packet.size, label=None)
 
 
-
-
 class EachOther(Plain):
     """Every one that is built gives other events, whatever its seed."""
 
@@ -153,4 +151,3 @@ def test_a_plug_in_that_cannot_be_imported_is_named(install):
     assert "mine" in texvent.simulators()
     with pytest.raises(TexventError, match=r"simulator 'mine' of another package .*mine_module"):
         texvent.presets("mine")
-

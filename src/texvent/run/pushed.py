@@ -24,7 +24,7 @@ from texvent.run.memory import check_memory
 from texvent.run.prepare import check_run, warn_of_unread_weights
 from texvent.run.settings import Settings
 from texvent.sensor import SensorSize
-from texvent.simulate.build import build_simulator, benefits_from_denser_frames
+from texvent.simulate.build import benefits_from_denser_frames, build_simulator
 from texvent.simulate.model_options import draw_training_config
 from texvent.video import Frame
 

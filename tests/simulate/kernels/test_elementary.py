@@ -7,7 +7,8 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
-from texvent.simulate.backend import elementary, elementary_cpu
+
+from texvent.simulate.kernels import elementary, elementary_cpu
 
 RANDOM = np.random.default_rng(0)
 POSITIVE = 10.0 ** RANDOM.uniform(-25, 6, 5000)

@@ -28,7 +28,7 @@ def test_leak_fires_on_events_at_its_rate_labelled_noise(kernels):
 @pytest.mark.parametrize("fps", [24, 240, 1000])
 def test_the_leak_rate_is_per_second_at_any_frame_rate(fps):
     simulator = clean(
-        "cpu", leak_rate_hz=4.0, leak_rate_decades=0.1, initial_phase="random", threshold_sigma=0.03
+        leak_rate_hz=4.0, leak_rate_decades=0.1, initial_phase="random", threshold_sigma=0.03
     )
     events = run(simulator, static(90.0, fps=fps, seconds=1.0, shape=(30, 40)))
     # The first event of a pixel is early: its phase is uniform over both thresholds.

@@ -44,8 +44,8 @@ def test_each_pixel_fires_at_its_own_threshold(kernels, path, end, counts):
 def test_pixels_that_were_not_measured_keep_what_is_drawn(path):
     def thresholds(**options):
         simulator = PhysicalSimulator(PhysicalConfig(sensor_seed=3, **options))
-        simulator._draw_sensor((1, 4))
-        return simulator._mismatch.threshold_on
+        simulator.step(Frame(np.zeros((1, 4)), 0))
+        return simulator._pixels._mismatch.threshold_on
 
     drawn, mixed = thresholds(), thresholds(threshold_map=path)
     assert mixed[3] == drawn[3]

@@ -13,10 +13,11 @@ from tests.simulate.references.crossing_time import (
     ChangeCurve,
     time_to_threshold,
 )
+from tests.simulate.references.sorting import sort_events
 
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.kernels.elementary import decay_and_gain, exponential
-from texvent.simulate.packets import UnsortedEvents
+from texvent.simulate.packets import SortedEvents, UnsortedEvents
 from texvent.simulate.physical.circuit import (
     CircuitState,
     Float64Array,
@@ -44,7 +45,7 @@ def advance_pixels(
     noise: NoiseEvents,
     rules: ResetRules,
     span_us: tuple[int, int],
-) -> UnsortedEvents:
+) -> SortedEvents:
     """Every event between two frames; moves the state to the end of the interval.
 
     The output of a photoreceptor is a first-order low-pass of the brightness. The change since the
@@ -61,7 +62,7 @@ def advance_pixels(
         span_us: start (included) and stop (excluded), µs.
 
     Returns:
-        The events by pixel, then in time; times rounded down, never the stop itself.
+        The events in the order of a packet; times rounded down, never the stop itself.
     """
     brightness, cutoff = _convert(light.before, light)
     brightness_stop, cutoff_stop = _convert(light.now, light)
@@ -88,7 +89,7 @@ def advance_pixels(
     state.output[:] = brightness_stop - lag
     state.level[finished.pixel] = finished.level
     state.since_us[finished.pixel] = span_us[0] + finished.since.astype(np.int64)
-    return finder.events()
+    return sort_events(finder.events(), span_us, light.shape)
 
 
 def _convert(luma: Luma, light: PhotoreceptorInput) -> tuple[Float64Array, Float64Array]:

@@ -1,4 +1,4 @@
-"""Noise by blocks of pixels: equal bits on every backend."""
+"""Noise by blocks of pixels: the bits of the definition."""
 
 import numpy as np
 from hypothesis import given, settings
@@ -7,8 +7,7 @@ from tests.simulate.references import noise_blocks as noise_reference
 
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent import noise as noise_cpu
-from texvent.simulate.texvent.noise import NoiseBlock, poisson_cumulative
-from texvent.simulate.texvent.pixel_memory import NOISE_BLOCK
+from texvent.simulate.texvent.noise import NOISE_BLOCK, NoiseBlock, poisson_cumulative
 
 
 @settings(max_examples=60)

@@ -97,7 +97,9 @@ def test_pixels_with_a_low_threshold_have_more_shot_noise():
     events = run(simulator, static(60.0, fps=24, seconds=1.0, shape=(60, 80)))
     counts = np.zeros((60, 80))
     np.add.at(counts, (events.y, events.x), 1)
-    thresholds = simulator._mismatch.threshold_on + simulator._mismatch.threshold_off
+    thresholds = (
+        simulator._pixels._mismatch.threshold_on + simulator._pixels._mismatch.threshold_off
+    )
     assert np.corrcoef(counts.reshape(-1), 1 / thresholds.reshape(-1))[0, 1] > 0.2
 
 

@@ -129,7 +129,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         super().reset()
         self._on_gpu: Any = None
         if self._backend == "gpu":
-            from texvent.simulate.gpu.frame_steps import FrameSteps  # brings torch
+            from texvent.simulate.gpu.frames import FrameSteps  # brings torch
 
             self._on_gpu = FrameSteps(self.config, self._seed)
 

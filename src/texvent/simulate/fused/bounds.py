@@ -89,7 +89,7 @@ class ReferenceLevels(NamedTuple):
     down: float
     """e^−θ_off."""
     rule: int
-    """How references move: one of PREVIOUS_FRAME, RESET_TO_CURRENT, RESET_BY_THRESHOLD_ONCE, RESET_BY_THRESHOLD."""
+    """How references move: one of the four rules above."""
 
 
 class CrossingCandidates(NamedTuple):

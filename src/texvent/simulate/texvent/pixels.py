@@ -84,7 +84,7 @@ class SparsePixels:
         return self._memory
 
     def advance_to(self, frame: Frame) -> None:
-        """Note the later frame of a pair in which `ensure_reference` was moved along without stepping.
+        """Move to the later frame of a pair whose references were moved without stepping.
 
         Args:
             frame: a source frame.

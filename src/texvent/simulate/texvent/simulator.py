@@ -121,7 +121,7 @@ class TexventSimulator(SteppingSimulator):
         self._fused: FusedPass | None = None
         self._on_gpu: Any = None
         if self._backend == "gpu":
-            from texvent.simulate.gpu.frame_steps import FrameSteps  # brings torch
+            from texvent.simulate.gpu.frames import FrameSteps  # brings torch
 
             self._on_gpu = FrameSteps(self.config, self._seed)
 

@@ -12,6 +12,7 @@ import triton.language as tl
 
 from texvent.simulate.gpu.blocks_triton import (
     count_bad,
+    draw_word,
     find_cell,
     mark_fired,
     own_pixels,
@@ -23,9 +24,9 @@ from texvent.simulate.gpu.blocks_triton import (
     read_order,
     read_share,
     skip_frames,
+    to_uniform,
     write_events,
 )
-from texvent.simulate.gpu.draws_triton import draw_word, to_uniform
 from texvent.simulate.texvent.gpu import rules
 
 _BALANCE = tl.constexpr(rules.BALANCE)
