@@ -72,7 +72,7 @@ def check_simulator(simulator: Any) -> None:
         simulator: the class, or the name of a registered one.
 
     Raises:
-        TexventError: an event lies outside its interval or sensor or is out of order, the first
+        TexventError: an event is outside its interval or sensor or is out of order, the first
             frame gives events, or the seed does not decide them.
 
     Example:

@@ -83,7 +83,7 @@ CLIP_FRAME = -2
 
 
 class Range(NamedTuple):
-    """Where an option is drawn from."""
+    """Range of a drawn option."""
 
     low: float
     high: float
@@ -122,7 +122,7 @@ decade to either side of a DAVIS346. Both papers add their noise to tensors inst
 def draw_training_config(config: Config, recipe: Recipe, *, seed: int) -> Config:
     """A copy of a simulator's options with thresholds and noise drawn for one clip.
 
-    The drawn values depend on the recipe and the seed only, and stand in the returned options, so
+    The drawn values depend on the recipe and the seed only, and are in the returned options, so
     they are stored with every other option. Each option has a draw of its own: a model that lacks
     one draws the same for the others.
 

@@ -98,7 +98,7 @@ class UnsortedEvents(NamedTuple):
 
 
 BYTES_PER_EVENT = 100
-"""What an event takes while its packet is made: columns as drawn, keys, sorted columns."""
+"""Memory of an event while its packet is made: columns as drawn, keys, sorted columns."""
 
 
 def check_event_number(number: float) -> None:

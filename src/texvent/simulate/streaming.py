@@ -35,7 +35,7 @@ class SteppingSimulator(abc.ABC):
 
 Config = TypeVar("Config")
 Backend: TypeAlias = Literal["cpu", "gpu"]
-"""Where a model runs that has both."""
+"""Device of a model that runs on both."""
 IntensityArray = NDArray[Any]
 """Luma on the 0..255 scale, [H, W], uint8 or float32."""
 

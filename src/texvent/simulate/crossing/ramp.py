@@ -26,7 +26,7 @@ Float64Array: TypeAlias = NDArray[np.float64]
 
 
 class RefractoryPeriod(NamedTuple):
-    """How long a pixel cannot fire after an event."""
+    """Refractory period, in which a pixel cannot fire."""
 
     period_us: int
     """µs; 0 is none."""
@@ -111,7 +111,7 @@ def count_crossings(changes: RampChanges, thresholds: Thresholds) -> None:
 
 @jit
 def _add_up(steps: NDArray[np.int64]) -> int:
-    """How many crossings there are in all."""
+    """Number of all crossings."""
     total = 0
     for n in range(steps.size):
         total += abs(steps[n])
@@ -157,7 +157,7 @@ def _list_crossings(
 
 @jit(inline="always")
 def _key(level: float, ends: tuple[float, float], duration: float, low: np.uint64) -> Any:
-    """When the line from begin to end reaches a level, where the time is in a key."""
+    """Time at which the line from begin to end reaches a level, in the bits of a key."""
     begin, end = ends
     fraction = (level - begin) / (end - begin) if begin < level else 0.0
     return np.uint64(np.int64(min(np.floor(fraction * duration), duration - 1.0))) << low

@@ -46,7 +46,7 @@ Luma: TypeAlias = NDArray[Any]
 """[n] 0..255 scale, uint8 or float32."""
 
 MARGIN = 1e-6
-"""By how much trigger levels are moved towards the reference; relative, see above."""
+"""Shift of trigger levels towards the reference; relative, see above."""
 BRIGHTNESS_SLACK = 1e-9
 """Log units by which a brightness must be out of reach, for what is rounded."""
 PIXELS_AT_A_TIME = 1 << 14
@@ -79,7 +79,7 @@ class OutsidePixels(NamedTuple):
 
 
 class BrightnessCurve(NamedTuple):
-    """How brightness and intensity belong together."""
+    """Relation of brightness and intensity."""
 
     scale: float
     """A pixel of brightness v has the intensity `scale · e^v + offset`."""

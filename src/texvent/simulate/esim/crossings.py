@@ -45,7 +45,7 @@ class Segments(NamedTuple):
 
 
 class CrossingRules(NamedTuple):
-    """When a pixel fires."""
+    """Thresholds and refractory period."""
 
     threshold_on: float
     """Log units, above 0."""
@@ -68,7 +68,7 @@ class SegmentCrossings(NamedTuple):
     """Events, by pixel and then in time."""
 
     row: Int64Array
-    """[n] number of the segment that the event lies on."""
+    """[n] number of the event's segment."""
     t: Int64Array
     """[n] µs."""
     p: NDArray[np.uint8]

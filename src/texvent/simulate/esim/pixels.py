@@ -86,7 +86,7 @@ class EsimPixels:
         # Of `ReferenceLevels`; made from the references when a pair is fused.
         self._level: Float64Array | None = None
         self._is_redrawn = config.threshold_sigma > 0 and config.threshold_redraw == "frame"
-        # Any threshold may be drawn anew, but none below the floor.
+        # Thresholds are drawn for every frame, none below the floor.
         self._fixed = FLOOR
         if not self._is_redrawn:
             self._fixed = sensor_thresholds(luma.shape, seed, config)

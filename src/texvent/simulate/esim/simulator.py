@@ -44,7 +44,7 @@ class EsimConfig:
     threshold_sigma: float = 0.0
     """Standard deviation of both thresholds, log units; drawn thresholds are at least 0.01."""
     threshold_redraw: Literal["frame", "never"] = "frame"
-    """With a threshold sigma: draw thresholds anew for every pixel and frame, as ESIM describes
+    """With a threshold sigma: draw thresholds again for every pixel and frame, as ESIM describes
     it (frame), or once per pixel, as mismatch between pixels (never)."""
     log_eps: float = 1e-3
     """Added to intensities on the 0..1 scale before the logarithm, above 0."""

@@ -39,7 +39,7 @@ LumaBounds: TypeAlias = Float32Array
 """Darkest and brightest luma that each cell of a pair can reach; see `bound_cells`."""
 
 PREVIOUS_FRAME, RESET_TO_CURRENT, RESET_BY_THRESHOLD_ONCE, RESET_BY_THRESHOLD = range(4)
-"""How a reference moves: it becomes the level at every instant; where the pixel fires it becomes
+"""Rules by which a reference moves: it becomes the level at every instant; where the pixel fires it becomes
 the level there; it moves by one threshold; it moves by as many thresholds as were passed."""
 
 
@@ -78,7 +78,7 @@ class PreparedPair(NamedTuple):
 
 
 class ReferenceLevels(NamedTuple):
-    """What pixels compare with, and how it moves."""
+    """References of the pixels, and the rule by which they move."""
 
     reference: Float64Array
     """[H, W] A of every pixel at the start, a balanced level; [0, 0]: the earlier frame's own."""
@@ -89,7 +89,7 @@ class ReferenceLevels(NamedTuple):
     down: float
     """e^−θ_off."""
     rule: int
-    """How references move: one of the four rules above."""
+    """One of the four rules above."""
 
 
 class CrossingCandidates(NamedTuple):
@@ -119,7 +119,7 @@ SLACK = 8.0 * MARGIN
 """Relative margin of trigger levels for rounding."""
 _QUARTER, _1 = np.float32(0.25), np.float32(1.0)
 ROUNDING = np.float32(1e-6)
-"""By how much rounding may take a mean past its terms, as a share of the brightest; ten times the
+"""Largest excess of a rounded mean over its terms, as a share of the brightest; ten times the
 error of mixing float32."""
 
 Rows = tuple[
@@ -196,7 +196,7 @@ def _find_cell_extremes(
 
 @jit
 def _count_cells(length: np.float32) -> int:
-    """How many cells away a flow leads."""
+    """Length of a flow, in cells."""
     if length > CELL * FARTHEST:
         return FARTHEST + 1
     # A bilinear sample touches the pixel behind its position too.
@@ -303,7 +303,7 @@ def _find_room(
     dy: NDArray[np.float32],
     room: NDArray[np.float32],
 ) -> None:
-    """By how much a bilinear sample at most (dx, dy) away differs from a row's pixels, at most."""
+    """Largest difference between a row's pixels and bilinear samples at most (dx, dy) away."""
     above, here, below = rows
     last = here.size - 1
     for x in range(0, last + 1, max(last, 1)):  # the edges

@@ -60,7 +60,7 @@ def find_bounds(
     """Luma bounds of a pair, if evaluating single pixels costs less than drawing its frames.
 
     Args:
-        motion: what lies between the two frames.
+        motion: of the pixels between the two frames.
         levels: gives what the pixels are compared with; not called where it makes no difference.
 
     Returns:
@@ -89,7 +89,7 @@ def map_candidates(
 
     Args:
         decide: called in threads, so it must change the pixels of its candidates only.
-        motion: what lies between the two frames; with flow.
+        motion: of the pixels between the two frames; with flow.
         levels: what pixels are compared with.
         bounds: of `find_bounds`.
     """
@@ -111,7 +111,7 @@ def warp_pixels(motion: MotionInterpolation, index: int, pixel: Int64Array) -> F
     """Luma of some pixels of an intermediate frame, [n], or of the later frame after the last one.
 
     Args:
-        motion: what lies between the two frames; with flow.
+        motion: of the pixels between the two frames; with flow.
         index: number of the intermediate frame.
         pixel: [n] flat indices.
     """
@@ -283,7 +283,7 @@ def _move(
     is_down: bool | np.bool_,
     moves: tuple[float, float, int],
 ) -> tuple[float, bool | np.bool_]:
-    """Where a reference stands after an instant, and whether that is unclear."""
+    """The reference after an instant, and whether it is unclear."""
     up, down, rule = moves
     if rule == PREVIOUS_FRAME:
         return shifted, False

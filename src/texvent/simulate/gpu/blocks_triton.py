@@ -33,7 +33,7 @@ def draw_word(key: tl.tensor, y: tl.tensor, x: tl.tensor, draw: tl.tensor) -> tl
 
 @triton.jit
 def to_uniform(word: tl.tensor) -> tl.tensor:
-    """The uniform number in [0, 1) that a word stands for, float64; see `draws.draw_uniforms`."""
+    """Uniform number in [0, 1) of a word, float64; see `draws.draw_uniforms`."""
     return (word >> 11).to(tl.float64) * _UNIT
 
 
@@ -58,7 +58,7 @@ def own_pixels(frames: tl.tuple, ALIGN: tl.constexpr, BLOCK: tl.constexpr) -> tl
 
 @triton.jit
 def skip_frames(frames: tl.tuple, count: tl.tensor, ALIGN: tl.constexpr) -> tl.tensor:
-    """How far behind the first frame of a clip another one lies, pixels."""
+    """Distance of a frame from the first one of its clip, pixels."""
     return tl.multiple_of(tl.cast(count, tl.int64) * frames.frame_stride, ALIGN)
 
 
@@ -146,7 +146,7 @@ def read_share(intervals: tl.tuple, segment: tl.tensor) -> tl.tensor:
 
 @triton.jit
 def read_order(records: tl.tuple, at: tl.tensor, inside: tl.tensor) -> tl.tensor:
-    """Which of its pixel's events a record is."""
+    """Number of a record among its pixel's events."""
     if records.order is not None:
         order = tl.load(records.order + at, mask=inside, other=1)
     else:

@@ -86,7 +86,7 @@ _MAX_WORD = 2**63
 
 @dataclass(eq=False)
 class _Clips:
-    """What is kept of a batch of clips from one call to the next."""
+    """State of a batch of clips from one call to the next."""
 
     size: SensorSize
     clock: Clock
@@ -99,7 +99,7 @@ class GpuSimulator:
     """A pixel model on a batch of clips of one size, a chunk of frames at a time.
 
     Clip b of a batch gives the events that the same model gives on the CPU with clip b's seed: bit
-    for bit from 8-bit frames; from float32 frames wherever no change lies within rounding, about
+    for bit from 8-bit frames; from float32 frames wherever no change is within rounding, about
     10⁻¹⁵ log units, of the threshold. How a clip is cut into chunks changes nothing.
     """
 
@@ -172,7 +172,7 @@ class GpuSimulator:
         return events
 
     def _begin(self, frames: Tensor) -> _Clips:
-        """What clips like these need, before their first frame."""
+        """State of clips like these, before their first frame."""
         check_device(frames.device)
         count, _, height, width = frames.shape
         pixels = _make_pixels(self.config, _seeds_of(self._seed, count))
@@ -242,7 +242,7 @@ def _make_pixels(config: object, seeds: Sequence[int]) -> GpuPixels[Any]:
 
 
 def _seeds_of(seed: int | Sequence[int], clips: int | None) -> tuple[int, ...]:
-    """A seed per clip; `clips` None: as many as are told."""
+    """A seed per clip; `clips` None: as many as are given."""
     if isinstance(seed, int):
         seeds = tuple(range(seed, seed + (clips or 1)))
     else:
@@ -278,7 +278,7 @@ def _check_alike(clips: _Clips, frames: Tensor) -> None:
 
 
 def _rows_in_place(frames: Tensor) -> Tensor:
-    """The frames, copied only if their pixels do not lie one after the other."""
+    """The frames, copied only if their pixels are not contiguous."""
     width = frames.shape[3]
     return frames if frames.stride()[2:] == (width, 1) else frames.contiguous()
 
@@ -291,7 +291,7 @@ def _of_one_type(first: Tensor, frames: Tensor) -> tuple[Tensor, Tensor]:
 
 
 def _no_events(clips: _Clips, frames: Tensor) -> EventBatch:
-    """What the first frame of clips gives."""
+    """The empty batch of the first frame of clips."""
     torch = require("torch", extra=EXTRA)
     count, device = len(frames), frames.device
     columns = order_events(

@@ -152,7 +152,7 @@ def run_passes(
 
 
 def scan_counts(counts: Tensor, segments: int) -> tuple[Tensor, Tensor]:
-    """Where the events of each block and of each segment begin.
+    """First event of each block and of each segment.
 
     Args:
         counts: [S · blocks] int32.

@@ -47,7 +47,7 @@ class MarkedRuns(NamedTuple):
 
 @jit(inline="always")
 def number_of(bit: np.uint64) -> Any:
-    """Which bit of a word is set, of a word in which one is."""
+    """Number of the only bit that is set in a word."""
     return _BIT_NUMBER[bit * _DE_BRUIJN >> _58]
 
 

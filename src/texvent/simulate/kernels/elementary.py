@@ -96,7 +96,7 @@ def cosine_of_turns(turns: Any) -> Any:
     Args:
         turns: u, 0..1, float64, any shape.
 
-    Source: the series of sin, at 2π (|u − ½| − ¼), which lies within a quarter turn.
+    Source: the series of sin, at 2π (|u − ½| − ¼), which is within a quarter turn.
     """
     x = (2.0 * np.pi) * (np.abs(turns - 0.5) - 0.25)
     z = x * x

@@ -15,7 +15,7 @@ from typing import Any, Literal
 from texvent.simulate.physical.config import DAVIS346_NOISE, PhysicalConfig
 
 Basis = Literal["data sheet", "paper", "software", "measured here", "unmeasured"]
-"""Where a value comes from; unmeasured is the model's default."""
+"""Origin of a value; unmeasured is the model's default."""
 
 
 @dataclass(frozen=True)

@@ -37,7 +37,7 @@ BLOCK = 256
 
 
 class Optics(NamedTuple):
-    """How luma is turned into brightness and bandwidth."""
+    """Constants that turn luma into brightness and bandwidth."""
 
     gamma: float
     """Exponent that makes the luma linear; 1 if it is already."""
@@ -65,7 +65,7 @@ class PhotoreceptorInput(NamedTuple):
 
 
 class ResetRules(NamedTuple):
-    """What an event does to its pixel besides resetting it."""
+    """Effects of an event on its pixel, besides the reset."""
 
     refractory_us: int
     """The refractory period: how long the pixel is held in reset, and change is lost; 0 is none."""
@@ -74,7 +74,7 @@ class ResetRules(NamedTuple):
 
 
 class CircuitState(NamedTuple):
-    """What a pixel remembers; a kernel changes it in place.
+    """State of the pixels; a kernel changes it in place.
 
     The change that fires a pixel is `output − level + leak · (t − since)`.
     """

@@ -191,7 +191,7 @@ def _convert(
 def _advance_without_events(
     block: PixelBlock, output: Float64Array, duration: float, is_limited: bool
 ) -> None:
-    """Where the outputs go if nothing fires, and between which bounds.
+    """Outputs of the photoreceptors if nothing fires, and their bounds.
 
     Short loops over few arrays each: Numba fills vector registers in no others.
     """

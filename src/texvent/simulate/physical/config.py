@@ -99,7 +99,7 @@ class PhysicalConfig:
     """Thresholds of each pixel of one sensor, over their mean: a file of texvent calibrate --scene
     flicker. Pixels that it does not know have drawn ones."""
     initial_phase: Literal["random", "zero"] = "zero"
-    """How far each pixel is from its next event at the first frame: anywhere between its
+    """Change of each pixel at the first frame: anywhere between its
     thresholds, as in a sensor that was on before, for frames without grain (random), or just reset
     (zero); leak then begins to fire after 1 / leak_rate_hz."""
     residual_decay_hz: float = 0.0

@@ -81,7 +81,7 @@ def _along_line(rows: Float64Array, size: int) -> None:
 
 @jit(error_model="numpy")
 def _turn(rows: Float64Array, size: int) -> None:
-    """Where the first arc of a curve ends; before its one extremum, or at its end."""
+    """End of the first arc of a curve: its one extremum, or its end."""
     for j in range(size):
         slope, decay_slope = rows[SLOPE, j], rows[CUTOFF, j] * rows[TRANSIENT, j]
         ratio = -decay_slope / slope
@@ -114,7 +114,7 @@ def _turn(rows: Float64Array, size: int) -> None:
 
 @jit(error_model="numpy")
 def _meet(rows: Float64Array, size: int) -> None:
-    """Which arc of each curve meets a threshold."""
+    """The arc of each curve that meets a threshold."""
     for j in range(size):
         slope, last, on, off = rows[SLOPE, j], rows[AT_END, j], rows[ON, j], -rows[OFF, j]
         up, down = 2.0 if last >= on else 0.0, 2.0 if last <= off else 0.0
@@ -170,7 +170,7 @@ def _list_arcs(
 
 @jit(error_model="numpy")
 def _solve(solving: Float64Array, size: int) -> None:
-    """When the changes reach their targets: Halley's method."""
+    """Times at which the changes reach their targets: Halley's method."""
     for j in range(size):
         start, fall = solving[START, j], solving[KEPT_FIRST, j] - solving[KEPT_LAST, j]
         first, line = solving[FIRST, j], solving[END, j] - solving[START, j]

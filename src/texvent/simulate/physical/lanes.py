@@ -107,7 +107,7 @@ class Work(NamedTuple):
     stepping: Int64Array
     firing: Int64Array
     events: Int64Array
-    """How many events each lane has."""
+    """Number of events of each lane."""
 
 
 @jit
@@ -216,10 +216,10 @@ R_NOW, R_AGE, R_SINCE, R_LEVEL, R_LEAK, R_WAITS = range(ROWS, ROWS + 6)
 
 
 class EventRules(NamedTuple):
-    """What an event does, and how its key is made."""
+    """Effect of an event on its pixel, and parts of its key."""
 
     refractory_us: int
-    """How long an event holds its pixel in reset, µs."""
+    """Refractory period, µs."""
     resets_by_noise: bool
     """Whether noise events reset their pixels too."""
     first_pixel: int

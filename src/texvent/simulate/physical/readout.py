@@ -27,7 +27,7 @@ WAITS, LOST = -1, -2
 
 
 class RowRules(NamedTuple):
-    """How long the arbiter is busy with a row, ns."""
+    """Time that the arbiter needs for a row, ns."""
 
     row_ns: int
     """For each row that it serves."""
@@ -219,7 +219,7 @@ class RateLimit:
 
 
 def _order_in_pixel(pixel: NDArray[np.int64]) -> NDArray[np.int64]:
-    """How many earlier events of its pixel there are, for each event; [n]."""
+    """Number of earlier events of its pixel, for each event; [n]."""
     by_pixel = np.argsort(pixel, kind="stable")
     ordered = pixel[by_pixel]
     is_first = np.concatenate([[True], ordered[1:] != ordered[:-1]])[: len(pixel)]

@@ -34,6 +34,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
     """A DVS pixel on video frames; see `simulate.protocol.Simulator`.
 
     Example:
+        >>> import numpy as np
         >>> from texvent.video import Frame
         >>> simulator = PhysicalSimulator(PhysicalSimulator.presets["clean"])
         >>> dark, bright = np.array([[100]], np.uint8), np.array([[160]], np.uint8)

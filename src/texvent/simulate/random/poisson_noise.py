@@ -31,11 +31,11 @@ class Arrivals(NamedTuple):
 MOST_FRACTION = 1.0 - 2.0**-53
 """Largest fraction of an interval: the last float64 below 1."""
 NEAR = 2
-"""How many pixels around a guess are looked at first."""
+"""Pixels around a guess that are searched first."""
 SPREAD = 6.0
 """There is room for the mean number of arrivals and so many standard deviations."""
 GAPS = 16
-"""How many gaps are drawn at a time."""
+"""Gaps drawn at a time."""
 
 
 def draw_arrivals(

@@ -50,7 +50,7 @@ class DensePixels:
         )
 
     def advance(self, frame: Frame, span: FrameInterval, where: str) -> EventStream:
-        """What fires until this frame.
+        """Events until this frame.
 
         Args:
             frame: the next frame, of the same size.

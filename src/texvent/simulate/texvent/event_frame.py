@@ -56,7 +56,7 @@ class ThresholdCrossings(NamedTuple):
 def find_triggered_pixels(
     brightness: NDArray[np.float64], reference: NDArray[np.float64], threshold: float
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
-    """Pixels whose brightness lies `threshold` or more from their reference.
+    """Pixels whose brightness differs by `threshold` or more from their reference.
 
     Args:
         brightness: L(α + I^j), [H, W], log units.
@@ -102,7 +102,7 @@ def generate_event_frame(
 def count_events(
     change: NDArray[np.float64], threshold: float, *, multi_event: bool
 ) -> NDArray[np.int64]:
-    """How many events each change of a threshold or more makes: floor(|change| / δ), or one."""
+    """Number of events of each change of a threshold or more: floor(|change| / δ), or one."""
     if multi_event:
         return np.floor(np.abs(change) / threshold).astype(np.int64)
     return np.ones(change.size, np.int64)

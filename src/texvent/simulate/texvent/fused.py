@@ -104,7 +104,7 @@ class FusedPass:
             yield frame, EventStream.unchecked(x, y, t, p, size=size, label=label)
 
     def _levels(self, pair: FramePair, memory: Memory | None) -> ReferenceLevels:
-        """What the pixels are compared with at the start of a pair, and how it moves."""
+        """References at the start of a pair, and the rule by which they move."""
         config = self._config
         if config.cache == "none":
             rule = PREVIOUS_FRAME

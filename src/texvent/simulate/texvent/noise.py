@@ -46,7 +46,7 @@ Float64Array = NDArray[np.float64]
 NOISE_BLOCK = 4096
 """Pixels per noise block."""
 NOISE_PLACE_SHIFT = 52
-"""By how many bits a place word is shifted to give the pixel in its block."""
+"""Bits of a place word below the pixel in its block."""
 TIME_UNIT = 2.0**-NOISE_PLACE_SHIFT
 """Spacing of the times, as fractions of the interval: the rest of a word below the place."""
 # What a uniform number cannot resolve need not be in the table.
@@ -58,7 +58,7 @@ LARGE_MEAN = 1e4
 def is_background(pixel: NDArray[np.int64], fired: NDArray[np.int64]) -> BoolArray:
     """Whether a pixel is not among those that fired, [n]; `fired` must ascend."""
     place = np.searchsorted(fired, pixel)
-    # Beyond the last one lies what no pixel equals.
+    # −1 after the last one: no pixel equals it.
     return np.asarray(np.append(fired, -1)[place] != pixel)
 
 
@@ -83,7 +83,7 @@ def poisson_cumulative(mean: float) -> Float64Array:
         return read_only(np.ones(1))
     last = math.ceil(mean + 12 * math.sqrt(mean) + 40)
     log_mean = math.log(mean)
-    # What lies so far below a large mean vanishes, as above; the table stays as long.
+    # Numbers so far below a large mean have no probability; the table stays as long.
     first = max(0, math.floor(mean - 12 * math.sqrt(mean))) if mean > LARGE_MEAN else 0
     mass = [math.exp(k * log_mean - mean - math.lgamma(k + 1)) for k in range(first, last)]
     cumulative = np.concatenate([np.zeros(first), np.cumsum(mass)])
@@ -136,7 +136,7 @@ def voltage_noise_sd(threshold: float, mean: float) -> float:
 
 
 class NoisePlaces(NamedTuple):
-    """Where noise would fire if all pixels were noisy, by pixel, then by p."""
+    """Noise events, by pixel, then by p."""
 
     pixel: NDArray[np.int64]
     """[n] flat index y · W + x, ascending."""
@@ -150,7 +150,7 @@ QUIET = NoisePlaces(np.empty(0, np.int64), np.empty(0), np.empty(0, np.uint8))
 
 
 class NoiseBlock(NamedTuple):
-    """What the noise of every block of a frame shares."""
+    """Parameters of the noise of a frame's blocks."""
 
     key: np.uint64
     """Of `draws.frame_key`."""
@@ -213,7 +213,7 @@ def _place_noise(
 
 @jit
 def _count_up_to(chance: float, cumulative: NDArray[np.float64]) -> int:
-    """How many entries are at most `chance`: one by one, because most often it is none or few."""
+    """Number of entries up to `chance`, one by one, because most often it is none or few."""
     count = 0
     while count < cumulative.size and cumulative[count] <= chance:
         count += 1

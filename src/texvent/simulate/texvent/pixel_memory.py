@@ -1,4 +1,4 @@
-"""What the pixels of the Texvent model remember between frames, and trigger levels for them.
+"""Memory of the pixels of the Texvent model between frames, and their trigger levels.
 
 The definition of the model is float64 NumPy on whole frames (`dense_pixels`). The fast form must
 return the same events, bit for bit, without a logarithm per pixel. It can, because an event needs
@@ -53,7 +53,7 @@ precision."""
 
 
 class ScanLevels(NamedTuple):
-    """How a scan finds candidates: `I ≥ R·up + up_offset` or `I ≤ R·down + down_offset`, float32.
+    """Trigger levels of a scan: `I ≥ R·up + up_offset` or `I ≤ R·down + down_offset`, float32.
 
     The trigger levels of above, `(α + R)·e^±δ − α`, moved towards each other by the margin.
     """
@@ -67,7 +67,7 @@ class ScanLevels(NamedTuple):
 
 
 class FireRule(NamedTuple):
-    """What firing is, and what it does to a reference (Eq. 5)."""
+    """Rule by which pixels fire and their references move (Eq. 5)."""
 
     threshold: float
     """δ, log units."""
@@ -106,7 +106,7 @@ class FiredPixels(NamedTuple):
 
 @dataclass(eq=False)
 class Memory:
-    """What a sensor's pixels remember between frames; flat arrays, changed by the kernels."""
+    """Memory of a sensor's pixels between frames; flat arrays, changed by the kernels."""
 
     reference: Intensity
     """[n] intensity that each pixel compares with, of the frames' type; beside `level` float32,
@@ -123,7 +123,7 @@ class Memory:
     """Room that a backend keeps for its results; overwritten by each frame."""
 
     def __getstate__(self) -> dict[str, Any]:
-        """What a copy takes along: not the room for results."""
+        """State of a copy: all but the room for results."""
         return vars(self) | {"work": None}
 
 
@@ -200,7 +200,7 @@ def update_reference(memory: Memory, luma: Intensity, balance: float, share: flo
     """Move every pixel's reference towards the brightness of a frame.
 
     Args:
-        memory: of pixels whose references lie between intensities.
+        memory: of pixels whose references are between intensities.
         luma: of the frame, [n] float32.
         balance: α, 0..255 scale.
         share: of the distance, above 0 up to 1.
@@ -232,7 +232,7 @@ def brightness_table(dtype: str, balance: float) -> Float64Array:
 
 
 def scan_levels(config: TexventConfig, memory: Memory) -> ScanLevels:
-    """How the scan compares this memory with frames."""
+    """Trigger levels for the scan of frames against this memory."""
     is_full_scale = memory.reference.dtype == np.uint16
     balance = config.balance * (UINT16_PER_LEVEL if is_full_scale else 1.0)
     in_reference = 0.0 if memory.level.size else balance

@@ -65,7 +65,7 @@ class SparsePixels:
         self._timing = timing_of(config)
 
     def advance(self, frame: Frame, span: FrameInterval, where: str) -> EventStream:
-        """What fires until this frame; see `reference.DensePixels.advance`."""
+        """Events until this frame; see `DensePixels.advance`."""
         intensity = self._read(frame, where)
         share = self._schedule.share_after(frame.t_us, is_source=frame.is_source)
         fired = self._fire(intensity, share)
@@ -132,7 +132,7 @@ class SparsePixels:
 
 
 def timing_of(config: TexventConfig) -> Timing:
-    """How a configuration gives times to events."""
+    """Timing rules of a configuration."""
     return Timing(
         config.timestamp_rule,
         config.timestamp_scale,

@@ -109,7 +109,7 @@ def _mark_levels(
 
 @jit
 def _bits_of_rest(frame: Intensity, reference: Intensity, levels: ScanLevels) -> np.uint64:
-    """Which pixels after the last whole run are at or beyond their trigger levels."""
+    """Bits of the pixels after the last whole run that are at or beyond their trigger levels."""
     bits, first = _0, frame.size // RUN * RUN
     for i in range(first, frame.size):
         bits |= np.uint64(_is_beyond(frame[i], reference[i], levels)) << np.uint64(i - first)

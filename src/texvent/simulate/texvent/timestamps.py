@@ -105,10 +105,10 @@ def random_time(
 def linear_crossing(
     crossings: ThresholdCrossings, interval: SubInterval, threshold: float
 ) -> Float64Array:
-    """When a straight line from the previous brightness to this one crosses the k-th threshold.
+    """Crossing of the k-th threshold by a straight line from the previous brightness to this one.
 
     (R ± kδ − L^{j−1}) / (L^j − L^{j−1}): exact for linear ramps, with any residual carried over.
-    A crossing that lies before the sub-interval (left over from it) is put at its start.
+    A crossing before the sub-interval (left over from it) is put at its start.
 
     Source: ESIM (Rebecq, Gehrig and Scaramuzza, CoRL 2018).
     """
@@ -126,7 +126,7 @@ def linear_crossing(
 def hyperbolic_crossing(
     crossings: ThresholdCrossings, interval: SubInterval, threshold: float
 ) -> Float64Array:
-    """When a ramp that starts at the reference crosses the k-th threshold: kδ / Δ."""
+    """Crossing of the k-th threshold by a ramp from the reference: kδ / Δ."""
     return np.minimum(crossings.order * threshold / np.abs(crossings.change), 1.0)
 
 
@@ -154,7 +154,7 @@ _RULES: Mapping[str, Callable[[ThresholdCrossings, SubInterval, float], Float64A
 
 
 class Timing(NamedTuple):
-    """How events get their times (Eq. 7), and how many a pixel fires."""
+    """Rules for the times (Eq. 7) and the number of events."""
 
     timestamp_rule: TimestampRule
     scale: float
@@ -250,7 +250,7 @@ def _stamp_events(
 
 @jit
 def _measure(changes: Float64Array, rule: _Rule) -> tuple[int, float, float]:
-    """How many events there are, and the smallest and largest |ΔL|."""
+    """Number of events, and the smallest and largest |ΔL|."""
     number = changes.size
     if rule.multi_event:
         number = 0

@@ -10,8 +10,8 @@ Events Simulator", ICRA 2024); it works on any voxel grid that is linear in time
 An event in sub-interval i, at the fraction τ of its length, added 1 − τ to node i and τ to
 node i + 1. Going along a pixel's nodes undoes this: the first node says how many events its
 sub-interval holds, and what they must have added to the second node, and so on. A lone event gets
-exactly the time that made the grid. Where a sub-interval holds several, the grid does not tell
-them apart: their times are drawn from a density that rises or falls as the neighbours' counts do.
+exactly the time that made the grid. Where a sub-interval holds several, the grid cannot
+resolve them: their times are drawn from a density that rises or falls as the neighbours' counts do.
 
 docs/simulators/v2ce.md names the deviations.
 """
@@ -98,7 +98,7 @@ def sample_events(
     Args:
         voxel: events per node, [2, B, H, W], ON first, then OFF.
         interval: time from node 0 to node B − 1; its key decides the draws.
-        rounding: what becomes of the part of an event that is left where a pixel's sum is not
+        rounding: of the part of an event that is left where a pixel's sum is not
             whole; see `infer_counts`.
         bidirectional: go from both ends to the middle instead of from start to end.
 
@@ -127,7 +127,7 @@ def sample_events(
 
 
 class PlacedCounts(NamedTuple):
-    """How many events each sub-interval holds, and when a lone one happens."""
+    """Number of events of each sub-interval, and the time of a lone one."""
 
     counts: NDArray[np.int64]
     """[2, B − 1, H, W], at least 0."""

@@ -1,4 +1,4 @@
-"""What a file of V2CE weights holds: the name and shape of every tensor.
+"""V2CE's 3-D U-Net for inference: layout and reading of its weights, and the network.
 
 The names are those of the published file, `v2ce_3d.pt`. It describes a 3-D U-Net (Zhang et al.,
 ICRA 2024, section on the network): head, four encoders that halve the image and double the
@@ -45,9 +45,9 @@ MIDDLE = tuple(f"UNet.resblocks.{block}" for block in range(RESIDUAL_BLOCKS))
 DECODERS = tuple(f"UNet.decoders.{level}" for level in range(LEVELS))
 
 SPECTRAL = "module.weight_bar"
-"""What a convolution's weight is called in a spectrally normalised layer: its direction."""
+"""Name of the direction of a spectrally normalised convolution's weight."""
 SPECTRAL_LEFT, SPECTRAL_RIGHT = "module.weight_u", "module.weight_v"
-"""Its first singular vectors, as far as training had come."""
+"""Power-iteration estimate of its first singular vectors, as stored in the checkpoint."""
 BATCH_COUNTER = "num_batches_tracked"
 """A counter that only training reads."""
 

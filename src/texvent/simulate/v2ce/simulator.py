@@ -36,11 +36,11 @@ class V2ceConfig:
     weights: Path | None = None
     """File with the network's weights, v2ce_3d.pt; it is never downloaded."""
     device: Device = "auto"
-    """Where the network runs: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one."""
+    """Device of the network: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one."""
     sequence_length: int = 16
     """Frame pairs that the network sees at once; it was trained on 16."""
     rounding: Rounding = "published"
-    """What becomes of parts of an event: published rounds each pixel's number up or down by where
+    """Rounding of parts of an event: published rounds each pixel's number up or down by where
     the part is; stochastic rounds it by chance, right on average."""
     bidirectional: bool = False
     """Infer times from both ends of the interval instead of from its start."""

@@ -25,7 +25,7 @@ from texvent.simulate.v2e.low_pass import CrossingPixels, Float64Array, V2ePixel
 
 
 class LastEvents(NamedTuple):
-    """What pixels know of their last events; [n] each."""
+    """The pixels' last events; [n] each."""
 
     fired_us: NDArray[np.int64]
     """Time of the last event that counts for the refractory period, µs."""
@@ -36,7 +36,7 @@ class LastEvents(NamedTuple):
 
 
 class EmissionRules(NamedTuple):
-    """Where the events are in time and space, and the refractory period."""
+    """Interval and sensor of the events, and the refractory period."""
 
     interval: FrameInterval
     refractory_us: int
@@ -93,7 +93,7 @@ def emit_and_reset(
 
 
 class _Moves(NamedTuple):
-    """By how much references move; [n] each."""
+    """Moves of the references; [n] each."""
 
     pixel: NDArray[np.int64]
     threshold: Float64Array

@@ -44,7 +44,7 @@ class LowPassInput(NamedTuple):
 
 
 class V2ePixelState(NamedTuple):
-    """What changes in a pixel.
+    """State of the pixels.
 
     The change that fires it is brightness + noise − reference + leak · time since the first frame.
     """

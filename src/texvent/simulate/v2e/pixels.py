@@ -83,7 +83,7 @@ class V2ePixels:
     def _draw_leak(
         self, shape: tuple[int, ...], key: np.uint64, threshold_on: Float64Array
     ) -> NDArray[np.float32]:
-        """By how much references sink, log units per µs; [0] if they do not."""
+        """Leak of the references, log units per µs; [0] without one."""
         config = self._config
         if config.leak_rate_hz == 0:
             return np.empty(0, np.float32)

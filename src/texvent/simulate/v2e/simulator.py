@@ -101,6 +101,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
     """v2e on video frames; see `simulate.protocol.Simulator`.
 
     Example:
+        >>> import numpy as np
         >>> from texvent.video import Frame
         >>> simulator = V2eSimulator(V2eSimulator.presets["peer-common"])
         >>> len(simulator.step(Frame(np.array([[40]], np.uint8), t_us=0)))

@@ -44,14 +44,14 @@ BLOCK = 512
 
 
 class Voltage(NamedTuple):
-    """How the voltages go on while the luma does not change: straight to a threshold; [n] each.
+    """State of the voltages; while the luma does not change, straight to a threshold; [n] each.
 
     The displacement is the voltage since the last event, in thresholds. At a time t it is
     `±1 − rate · (next_crossing − t)`, with the sign of the rate.
     """
 
     next_crossing_us: Float64Array
-    """When the threshold is reached, µs after the first frame."""
+    """Time at which the threshold is reached, µs after the first frame."""
     rate: Float64Array
     """1/µs, never 0: above 0 towards ON, else OFF."""
     has_changed: NDArray[np.bool_]
@@ -63,7 +63,7 @@ class Voltage(NamedTuple):
 
 
 class Constants(NamedTuple):
-    """What turns luma into drift and diffusion: k1 to k6 of the publication."""
+    """Constants of drift and diffusion: k1 to k6 of the publication."""
 
     k1: float
     k2: float

@@ -28,7 +28,7 @@ from texvent.simulate.gpu.blocks_triton import (
 from texvent.simulate.gpu.kernel_types import Tensor
 
 THRESHOLD_ON, THRESHOLD_OFF, LOG_EPS = range(3)
-"""Where each number lies in `EsimRules.numbers`."""
+"""Places in `EsimRules.numbers`."""
 
 
 class EsimRules(NamedTuple):
@@ -47,7 +47,7 @@ class EsimRules(NamedTuple):
 
 
 class State(NamedTuple):
-    """What a pixel remembers."""
+    """State of the pixels."""
 
     level: Tensor
     """[B, area] float64, reference log intensity."""

@@ -44,7 +44,7 @@ class EsimPixels(GpuPixels[EsimConfig]):
             seeds: one per clip.
 
         Raises:
-            ConfigError: thresholds that are drawn anew for every frame.
+            ConfigError: thresholds that are drawn for every frame.
         """
         if config.threshold_sigma > 0 and config.threshold_redraw == "frame":
             raise ConfigError(

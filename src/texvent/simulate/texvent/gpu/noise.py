@@ -105,7 +105,7 @@ def draw_noise(
 def _count_below(
     chance: tl.tensor, intervals: tl.tuple, segment: tl.tensor, rules: tl.tuple
 ) -> tl.tensor:
-    """How many entries of the segment's cumulative Poisson table do not exceed `chance`."""
+    """Number of entries of the segment's cumulative Poisson table up to `chance`."""
     row = rules.cumulative + tl.load(intervals.table + segment) * rules.length
     low = tl.zeros(chance.shape, tl.int32)
     high = tl.full(chance.shape, 0, tl.int32) + rules.length
@@ -139,7 +139,7 @@ _NEVER = 2.0
 
 
 def noise_rules(config: TexventConfig, span: Span, frames: Tensor) -> tuple[NoiseRules, Int64Array]:
-    """How noise is drawn in the intervals of a span.
+    """Noise rules of the intervals of a span.
 
     Args:
         config: options of the model.

@@ -213,7 +213,7 @@ def brightness_of(intensity: tl.tensor, rules: tl.tuple) -> tl.tensor:
 
 @triton.jit
 def count_events(size: tl.tensor, threshold: tl.tensor, rules: tl.tuple) -> tl.tensor:
-    """How many events a change of `size` ≥ δ makes, int32."""
+    """Number of events of a change of `size` ≥ δ, int32."""
     if rules.multi_event:
         # Of intensities that are refused after the pass, the size may be NaN or infinite.
         number = tl.floor(tl.where(size < _LARGEST, size, 0.0) / threshold).to(tl.int32)
