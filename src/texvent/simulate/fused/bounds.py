@@ -39,8 +39,8 @@ LumaBounds: TypeAlias = Float32Array
 """Darkest and brightest luma that each cell of a pair can reach; see `bound_cells`."""
 
 PREVIOUS_FRAME, RESET_TO_CURRENT, RESET_BY_THRESHOLD_ONCE, RESET_BY_THRESHOLD = range(4)
-"""Rules by which a reference moves: it becomes the level at every instant; where the pixel fires it becomes
-the level there; it moves by one threshold; it moves by as many thresholds as were passed."""
+"""Rules by which a reference moves: it becomes the level at every instant; where the pixel fires it
+becomes the level there; it moves by one threshold; it moves by as many as were passed."""
 
 
 class PairArrays(NamedTuple):

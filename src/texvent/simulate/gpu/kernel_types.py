@@ -79,8 +79,8 @@ class Records(NamedTuple):
     pixel: Tensor
     """Flat index y · W + x, int32."""
     order: Tensor
-    """Number of the event among its pixel's in this interval: 1, 2, ...; int32; None where a pixel has
-    one at most."""
+    """Number of the event among its pixel's in this interval: 1, 2, ...; int32; None where a pixel
+    has one at most."""
     reference: Tensor
     """Reference of the pixel: an intensity, in the frames' type, or a brightness, float64."""
 

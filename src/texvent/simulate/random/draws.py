@@ -33,7 +33,7 @@ HALF_UNIT = 2.0**-32
 
 
 class Purpose(IntEnum):
-    """Purposes of a pixel's draws. Each purpose has draws 0, 1, 2, ... of its own in every frame."""
+    """Purposes of a pixel's draws. Each has draws 0, 1, 2, ... of its own in every frame."""
 
     NOISE_COUNT = 0
     NOISE_POLARITY = 1

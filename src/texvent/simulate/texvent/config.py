@@ -38,8 +38,8 @@ class TexventConfig:
     """With --cache global: rate at which a pixel forgets change that has not fired yet, per second;
     0 is never."""
     reset: ResetRule = "step"
-    """Reset of a pixel that fires: its reference becomes the current brightness (current), or moves by one
-    threshold per event, as in the circuit (step)."""
+    """Reset of a pixel that fires: its reference becomes the current brightness (current), or moves
+    by one threshold per event, as in the circuit (step)."""
     multi_event: bool = True
     """Fire one event per threshold crossed, not one per frame; needs a --timestamp-rule other than
     eq7."""

@@ -13,6 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.brightness import Float64Array
 from texvent.runtime.jit import jit
 from texvent.runtime.read_only import read_only
 from texvent.simulate.kernels.active_pixels import (
@@ -28,7 +29,6 @@ from texvent.simulate.random.draws_cpu import allow_wrap_around
 from texvent.simulate.texvent.pixel_memory import (
     FiredPixels,
     FireRule,
-    Float64Array,
     Intensity,
     Memory,
     ScanLevels,
