@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from texvent.networks.layer_shapes import Shapes, batch_norm, convolution
-from texvent.networks.layers import Layers
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layers import Layers
 
 ATOMS = 6
 """Kernels per pixel, of which every output channel takes its own mixture."""

@@ -18,8 +18,8 @@ from texvent.networks.layer_shapes import (
     layer_norm,
     linear,
 )
-from texvent.networks.layers import Layers
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layers import Layers
 
 SCALES = 3
 HEADS = 8

@@ -13,8 +13,8 @@ from texvent.networks.layer_shapes import (
     conv_layer,
     residual_block,
 )
-from texvent.networks.layers import Layers
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layers import Layers
 
 PUBLISHED_HEAD = (16, 5, 3, 3)
 """Shape of the first kernel: channels, bins, side, side."""

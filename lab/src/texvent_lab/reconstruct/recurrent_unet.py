@@ -15,8 +15,8 @@ from texvent.networks.layer_shapes import (
     count_blocks,
     residual_block,
 )
-from texvent.networks.layers import Layers
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layers import Layers
 from texvent_lab.reconstruct.dynamic_decoder import decode_dynamically, dynamic_decoder_shapes
 
 PREFIX = "unetrecurrent"

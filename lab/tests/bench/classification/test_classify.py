@@ -6,10 +6,10 @@ import pytest
 from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.networks.resnet34 import resnet_shapes
 from texvent.sensor import SensorSize
 from texvent_lab.bench.classification.classify import Sample, classify, list_samples, take_slice
 from texvent_lab.bench.classification.resnet34_weights import read_resnet_weights
+from texvent_lab.networks.resnet34 import resnet_shapes
 
 from .torch_resnet import torch_resnet
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.networks.layers import Layers
-from texvent.networks.resnet34 import resnet_scores
 from texvent_lab.bench.classification.resnet34_weights import ResNetWeights
+from texvent_lab.networks.layers import Layers
+from texvent_lab.networks.resnet34 import resnet_scores
 
 
 class ResNetClassifier:

@@ -8,8 +8,6 @@ from pathlib import Path
 
 from texvent.errors import FileFormatError, InputError
 from texvent.networks.layer_shapes import Shape
-from texvent.networks.layers import EXTRA
-from texvent.networks.resnet34 import BLOCKS, count_stages, resnet_shapes
 from texvent.networks.weight_files import (
     Tensor,
     check_finite,
@@ -19,6 +17,8 @@ from texvent.networks.weight_files import (
     state_tensors,
     trained_with,
 )
+from texvent_lab.networks.layers import EXTRA
+from texvent_lab.networks.resnet34 import BLOCKS, count_stages, resnet_shapes
 
 REPRESENTATION, CHANNELS = "binary-event-image", 2
 WHERE_FROM = (

@@ -6,9 +6,9 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 from texvent.networks.layer_shapes import Shapes, batch_norm, linear
-from texvent.networks.layers import Layers
-from texvent.networks.resnet34 import BLOCKS, WIDTH, resnet_scores, resnet_shapes
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layers import Layers
+from texvent_lab.networks.resnet34 import BLOCKS, WIDTH, resnet_scores, resnet_shapes
 from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
 
 SMALL_WIDTH, STAGES = 16, 3
@@ -37,7 +37,7 @@ def small_cnn(channels: int, classes: int, seed: int, *, width: int | None = Non
 
 
 def resnet34(channels: int, classes: int, seed: int, *, width: int | None = None) -> TensorNetwork:
-    """See `texvent.networks.resnet34`; arguments as for `small_cnn`, `width` is 64.
+    """See `texvent_lab.networks.resnet34`; arguments as for `small_cnn`, `width` is 64.
 
     Kernels begin as K. He et al., "Delving deep into rectifiers", ICCV 2015, for outputs; the
     first and the last layer as torch's own, because N-ImageNet's program replaces them.

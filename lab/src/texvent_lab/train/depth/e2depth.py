@@ -6,8 +6,8 @@ from typing import Any
 
 from texvent.extending import require
 from texvent.networks.layer_shapes import Shapes
-from texvent.networks.padding import Padding
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layers import Padding
 from texvent_lab.reconstruct.recurrent_unet import (
     PUBLISHED_BLOCKS,
     PUBLISHED_ENCODERS,

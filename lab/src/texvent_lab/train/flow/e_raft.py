@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from texvent.networks.layers import Layers
-from texvent.networks.padding import Padding
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layers import Layers, Padding
 from texvent_lab.train.flow.correlation import CorrelationPyramid
 from texvent_lab.train.flow.e_raft_shapes import (
     CONTEXT,

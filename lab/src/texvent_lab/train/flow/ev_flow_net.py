@@ -5,9 +5,8 @@ from __future__ import annotations
 from typing import Any
 
 from texvent.networks.layer_shapes import Shapes, conv_layer, residual_block
-from texvent.networks.layers import Layers
-from texvent.networks.padding import Padding
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layers import Layers, Padding
 from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
 
 PREFIX = "multires_unet"
