@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from texvent.networks.layer_shapes import Shapes, batch_norm, convolution
+from texvent.networks.layer_shapes import Shapes
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layer_shapes import batch_norm, convolution
 from texvent_lab.networks.layers import Layers
 
 ATOMS = 6

@@ -6,16 +6,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from texvent.networks.layer_shapes import (
-    Shape,
-    Shapes,
+from texvent.networks.layer_shapes import Shape, Shapes
+from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layer_shapes import (
     conv_gru,
     conv_layer,
     conv_lstm,
     count_blocks,
     residual_block,
 )
-from texvent.networks.weight_files import Tensor
 from texvent_lab.networks.layers import Layers
 from texvent_lab.reconstruct.dynamic_decoder import decode_dynamically, dynamic_decoder_shapes
 

@@ -5,8 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from texvent.networks.layer_shapes import Shapes, batch_norm, linear
+from texvent.networks.layer_shapes import Shapes, linear
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layer_shapes import batch_norm
 from texvent_lab.networks.layers import Layers
 from texvent_lab.networks.resnet34 import BLOCKS, WIDTH, resnet_scores, resnet_shapes
 from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors

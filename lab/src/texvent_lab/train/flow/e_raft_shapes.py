@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from texvent.networks.layer_shapes import Shapes, batch_norm, convolution
+from texvent.networks.layer_shapes import Shapes
+from texvent_lab.networks.layer_shapes import batch_norm, convolution
 
 FEATURES, CONTEXT = "fnet", "cnet"
 """The encoder of both grids, and that of the later one alone."""

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from texvent.networks.layer_shapes import Shapes, conv_layer, residual_block
+from texvent.networks.layer_shapes import Shapes
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layer_shapes import conv_layer, residual_block
 from texvent_lab.networks.layers import Layers, Padding
 from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
 
