@@ -339,7 +339,7 @@ def _simulation(
     Raises:
         InputError: the same is given by two names.
     """
-    from texvent.capture.motion_vectors.attach import (
+    from texvent.capture.motion_vectors.frames import (
         find_motion_sidecar,  # brings the readers of frames
     )
 

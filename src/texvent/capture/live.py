@@ -18,9 +18,9 @@ from av.error import FFmpegError
 from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
-from texvent.capture.decode import coding_facts, decoded_pixels
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
+from texvent.capture.video_file import coding_facts, decoded_pixels
 from texvent.errors import InputError
 from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size

@@ -5,8 +5,8 @@ import pytest
 from tests.capture.motion_vectors import moving_scene as scene
 
 import texvent
-from texvent.capture.motion_vectors.attach import find_motion_sidecar
 from texvent.capture.motion_vectors.exr_image import exr_frame
+from texvent.capture.motion_vectors.frames import find_motion_sidecar
 from texvent.capture.open import open_frames
 from texvent.cli.app import main
 from texvent.config import CaptureConfig

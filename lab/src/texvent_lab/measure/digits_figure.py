@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from texvent.capture.camera_path.saccades import DURATION_US
+from texvent.capture.camera_path.motion import DURATION_US
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.represent.event_frame import count_events

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from abc import ABC
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -67,11 +68,11 @@ class SmoothRows:
 
 
 @dataclass(frozen=True, eq=False)
-class PlaceFile:
-    """A path in pixels of the sensor."""
+class _PathFile(ABC):
+    """A camera path of a file."""
 
     rows: SmoothRows
-    """x, y, px; roll, radians; natural logarithm of the zoom."""
+    kind: ClassVar[str]
 
     @property
     def start_us(self) -> int:
@@ -81,12 +82,18 @@ class PlaceFile:
     @property
     def seconds(self) -> float:
         """From the first row to the last, s."""
-        return _seconds(self.rows)
+        return float(self.rows.times_us[-1] - self.rows.times_us[0]) / MICROSECONDS
 
     @property
     def facts(self) -> Mapping[str, Any]:
-        """What kind of file it is."""
-        return {"camera": "positions"}
+        """The kind of file."""
+        return {"camera": self.kind}
+
+
+class PlaceFile(_PathFile):
+    """A path in pixels of the sensor: x, y, px; roll, radians; natural logarithm of the zoom."""
+
+    kind: ClassVar[str] = "positions"
 
     def __call__(self, t_us: float) -> CameraPose2D:
         """Between two rows."""
@@ -94,27 +101,13 @@ class PlaceFile:
         return CameraPose2D(x, y, roll, math.exp(log_zoom))
 
 
-@dataclass(frozen=True, eq=False)
-class PoseFile:
-    """A path in space. Poses count from the first one: there the image was taken."""
+class PoseFile(_PathFile):
+    """A path in space: position, m, and unit quaternion x, y, z, w of camera-to-world.
 
-    rows: SmoothRows
-    """Position, m, and unit quaternion x, y, z, w of camera-to-world."""
+    Poses count from the first one: there the image was taken.
+    """
 
-    @property
-    def start_us(self) -> int:
-        """Time of the first row, µs."""
-        return int(self.rows.times_us[0])
-
-    @property
-    def seconds(self) -> float:
-        """From the first row to the last, s."""
-        return _seconds(self.rows)
-
-    @property
-    def facts(self) -> Mapping[str, Any]:
-        """What kind of file it is."""
-        return {"camera": "poses"}
+    kind: ClassVar[str] = "poses"
 
     @property
     def moves(self) -> bool:
@@ -259,7 +252,3 @@ def _rotation(quaternion: Float64Array) -> Float64Array:
             [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
         ]
     )
-
-
-def _seconds(rows: SmoothRows) -> float:
-    return float(rows.times_us[-1] - rows.times_us[0]) / MICROSECONDS

@@ -6,10 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent.capture.dsec_frames import EVENTS as DSEC_EVENTS
-from texvent.capture.dsec_frames import is_dsec
-from texvent.capture.evreal_frames import is_evreal
 from texvent.capture.open import open_frames
+from texvent.capture.recorded_frames import DSEC_EVENTS, is_dsec, is_evreal
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
 from texvent.event_packets import EventPackets

@@ -10,7 +10,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.calibrate.recording import WARM_UP_US, TimeSpan
-from texvent.capture.dsec_frames import is_dsec
+from texvent.capture.recorded_frames import is_dsec
 from texvent.data.catalogue import DATA_SETS
 from texvent.data.pull import find_pulled
 from texvent.errors import InputError

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.camera_path.saccades import DURATION_US
+from texvent.capture.camera_path.motion import DURATION_US
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
 from texvent.represent.named import represent_window

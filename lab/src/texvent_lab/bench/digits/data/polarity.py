@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from texvent.capture.camera_path.saccades import DURATION_US
+from texvent.capture.camera_path.motion import DURATION_US
 from texvent.events import EventStream
 from texvent_lab.bench.digits.data.sheet import DigitSheet
 
