@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import math
 from abc import ABC
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
-from io import StringIO
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -14,8 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.camera_path.motion import CameraPose2D, Pose
-from texvent.errors import FileFormatError, InputError, one_line, shown
-from texvent.options.values import parse_fraction
+from texvent.errors import FileFormatError, InputError, one_line
+from texvent.io.text_files import parse_table
 from texvent.runtime.file_names import usable_path
 from texvent.video import LATEST_US, MICROSECONDS
 
@@ -136,54 +135,36 @@ def read_trajectory(path: Path) -> PlaceFile | PoseFile:
         FileFormatError: a row has other columns, something that is no number, a time that does not
             increase, a zoom that is not above 0, or a quaternion whose length is not 1.
     """
-    rows = list(_rows(path))
-    if len(rows) < 2:
-        raise InputError(f"{path} has {len(rows)} row(s); a camera path needs at least two")
-    times, values = np.array([t for t, _ in rows], np.int64), np.array([one for _, one in rows])
+    table = _read_table(path)
+    if len(table) < 2:
+        raise InputError(f"{path} has {len(table)} row(s); a camera path needs at least two")
+    if table.shape[1] not in (*PLACE_COLUMNS, POSE_COLUMNS):
+        raise FileFormatError(f"{path} has rows of {table.shape[1]} columns; allowed: {COLUMNS}")
+    times, values = table[:, 0] * MICROSECONDS, table[:, 1:]
+    _refuse_rows(
+        path, ~(np.abs(times) <= LATEST_US), "a time that is no number of s below 285 years"
+    )
+    _refuse_rows(
+        path, ~(np.abs(values) <= MOST).all(axis=1), f"a number that is not within ±{MOST:g}"
+    )
+    times_us = np.rint(times).astype(np.int64)
+    later = np.diff(times_us, prepend=times_us[0] - 1) <= 0
+    _refuse_rows(path, later, "a time that is not at least 1 µs after the one before")
     if values.shape[1] == POSE_COLUMNS - 1:
-        return PoseFile(SmoothRows(times, _unit_quaternions(path, values)))
-    whole = np.zeros((len(rows), 4))
+        return PoseFile(SmoothRows(times_us, _unit_quaternions(path, values)))
+    whole = np.zeros((len(table), 4))
     whole[:, 3] = 1.0
     whole[:, : values.shape[1]] = values
     whole[:, 2] = np.radians(whole[:, 2])
-    if not (whole[:, 3] > 0).all():
-        number = int(np.argmin(whole[:, 3]))
-        raise FileFormatError(
-            f"{path}, row {number + 1}: zoom is {whole[number, 3]:g}; it must be above 0"
-        )
+    _refuse_rows(path, whole[:, 3] <= 0, "a zoom that is not above 0")
     whole[:, 3] = np.log(whole[:, 3])
-    return PlaceFile(SmoothRows(times, whole))
+    return PlaceFile(SmoothRows(times_us, whole))
 
 
-def _rows(path: Path) -> Iterator[tuple[int, Sequence[float]]]:
-    """Time in µs and the other columns of each row, checked."""
-    columns, last_us, is_first = 0, None, True
-    for number, line in enumerate(_lines(path), start=1):
-        words = line.replace(",", " ").split()
-        if not words or words[0].startswith("#"):
-            continue
-        where = f"{path}, line {number}"
-        if is_first and not any(map(_is_number, words)):  # names of columns
-            is_first = False
-            continue
-        is_first = False
-        columns = columns or len(words)
-        if len(words) != columns or columns not in (*PLACE_COLUMNS, POSE_COLUMNS):
-            expected = f", those before {columns}" if len(words) != columns else ""
-            raise FileFormatError(f"{where} has {len(words)} columns{expected}; allowed: {COLUMNS}")
-        t_us, values = _time_us(words[0], where), [_number(word, where) for word in words[1:]]
-        if last_us is not None and t_us <= last_us:
-            raise FileFormatError(
-                f"{where}: the time {shown(words[0])} s does not come after the one before "
-                f"({last_us / MICROSECONDS:g} s); times must increase by at least 1 µs"
-            )
-        last_us = t_us
-        yield t_us, values
-
-
-def _lines(path: Path) -> list[str]:
+def _read_table(path: Path) -> Float64Array:
+    """The numbers of a text, without comments and a first line of names."""
     try:
-        lines = list(StringIO(usable_path(path).read_text(encoding="utf-8-sig")))
+        text = usable_path(path).read_text(encoding="utf-8-sig").replace(",", " ")
     except FileNotFoundError:
         raise InputError(f"no such camera path: {path}; check --camera") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -191,32 +172,12 @@ def _lines(path: Path) -> list[str]:
             f"camera path {path} cannot be read ({one_line(error)}); it must be a text of rows of "
             f"{COLUMNS}"
         ) from error
+    lines = [line for line in text.split("\n") if line.strip() and not line.strip().startswith("#")]
     if len(lines) > MAX_ROWS:
         raise FileFormatError(f"{path} has {len(lines):,} lines; at most {MAX_ROWS:,} are read")
-    return lines
-
-
-def _time_us(word: str, where: str) -> int:
-    """Seconds as whole µs, from the exact decimal number."""
-    try:
-        t_us = round(parse_fraction(word) * MICROSECONDS)
-    except (ValueError, ZeroDivisionError):
-        raise FileFormatError(f"{where}: {shown(word)} is no time in s") from None
-    if abs(t_us) > LATEST_US:
-        raise FileFormatError(f"{where}: {shown(word)} s is too far away; at most 285 years")
-    return t_us
-
-
-def _number(word: str, where: str) -> float:
-    try:
-        value = float(word)
-    except ValueError:
-        raise FileFormatError(f"{where}: {shown(word)} is no number; columns: {COLUMNS}") from None
-    if not abs(value) <= MOST:
-        raise FileFormatError(
-            f"{where}: {shown(word)} is not allowed; it must be ±{MOST:g} or less"
-        )
-    return value
+    if lines and not any(map(_is_number, lines[0].split())):  # names of columns
+        lines = lines[1:]
+    return parse_table("\n".join(lines).encode(), path, rows=f"a camera path of rows {COLUMNS}")
 
 
 def _is_number(word: str) -> bool:
@@ -227,15 +188,16 @@ def _is_number(word: str) -> bool:
     return True
 
 
+def _refuse_rows(path: Path, is_wrong: NDArray[np.bool_], what: str) -> None:
+    if is_wrong.any():
+        raise FileFormatError(f"{path}, row {int(np.argmax(is_wrong)) + 1}, has {what}")
+
+
 def _unit_quaternions(path: Path, values: Float64Array) -> Float64Array:
     """The rows with quaternions of length 1, signs chosen so that neighbours are near."""
     lengths = np.linalg.norm(values[:, 3:], axis=1)
-    if not (np.abs(lengths - 1) <= UNIT_TOLERANCE).all():
-        number = int(np.argmax(np.abs(lengths - 1)))
-        raise FileFormatError(
-            f"{path}, row {number + 1}: the quaternion qx qy qz qw has length {lengths[number]:g}; "
-            "it must be 1"
-        )
+    is_wrong = ~(np.abs(lengths - 1) <= UNIT_TOLERANCE)
+    _refuse_rows(path, is_wrong, "a quaternion qx qy qz qw whose length is not 1")
     unit = values[:, 3:] / lengths[:, None]
     turns = np.where((unit[1:] * unit[:-1]).sum(axis=1) < 0, -1.0, 1.0)
     unit[1:] *= np.cumprod(turns)[:, None]

@@ -214,7 +214,8 @@ def find_layout(file: Any, path: Path) -> tuple[EventLayout, dict[str, Any]]:
         if all(isinstance(file.get(name), h5py.Dataset) for name in layout.arrays):
             break
     else:
-        missing = next(one for one in UNIVERSAL.arrays if one not in file)
+        sound = [one for one in UNIVERSAL.arrays if isinstance(file.get(one), h5py.Dataset)]
+        missing = next(one for one in UNIVERSAL.arrays if one not in sound)
         raise FileFormatError(
             f"{path} is HDF5 but has no {missing}; texvent reads events/x, events/y, events/t, "
             "events/p, or v2e's rows in `events`"
