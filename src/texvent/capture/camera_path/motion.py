@@ -19,6 +19,18 @@ from texvent.video import MICROSECONDS
 Float64Array = NDArray[np.float64]
 
 
+def rotation_matrix(quaternion: Float64Array) -> Float64Array:
+    """The rotation matrix [3, 3] of a quaternion (x, y, z, w) of any length but 0."""
+    x, y, z, w = quaternion / np.linalg.norm(quaternion)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
 @dataclass(frozen=True)
 class CameraPose2D:
     """Where the camera is, in px of the sensor, as seen from where the image was taken."""

@@ -12,7 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.camera_path.motion import CameraPose2D, Pose
+from texvent.capture.camera_path.motion import CameraPose2D, Pose, rotation_matrix
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.io.text_files import parse_table
 from texvent.runtime.file_names import usable_path
@@ -117,8 +117,8 @@ class PoseFile(_PathFile):
     def __call__(self, t_us: float) -> Pose:
         """Between two rows; the quaternion is brought to length 1 again."""
         first, now = self.rows.values[0], self.rows(t_us)
-        to_first = _rotation(first[3:]).T
-        return Pose(to_first @ _rotation(now[3:]), to_first @ (now[:3] - first[:3]))
+        to_first = rotation_matrix(first[3:]).T
+        return Pose(to_first @ rotation_matrix(now[3:]), to_first @ (now[:3] - first[:3]))
 
 
 def read_trajectory(path: Path) -> PlaceFile | PoseFile:
@@ -202,15 +202,3 @@ def _unit_quaternions(path: Path, values: Float64Array) -> Float64Array:
     turns = np.where((unit[1:] * unit[:-1]).sum(axis=1) < 0, -1.0, 1.0)
     unit[1:] *= np.cumprod(turns)[:, None]
     return np.concatenate([values[:, :3], unit], axis=1)
-
-
-def _rotation(quaternion: Float64Array) -> Float64Array:
-    """[3, 3] of a quaternion (x, y, z, w) of any length."""
-    x, y, z, w = quaternion / np.linalg.norm(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )

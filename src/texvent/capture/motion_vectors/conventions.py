@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -138,6 +138,18 @@ def changes(given: Convention, other: Convention, direction: Direction) -> tuple
     if other.scale != given.scale:
         words.append(f"scale={other.scale:g}")
     return tuple(words)
+
+
+def with_words(text: str, words: Sequence[str]) -> str:
+    """The text of a convention with more words, in place of those of it that they contradict.
+
+    Example:
+        >>> with_words("blender,y-down", ["y-up", "scale=2"])
+        'blender,y-up,scale=2'
+    """
+    fields = {field for word in words for field in _OVERRIDES.get(word, ())}
+    kept = [one for one in text.split(",") if one and not fields & {*_OVERRIDES.get(one, ())}]
+    return ",".join([*kept, *words])
 
 
 def named_convention(text: str | None) -> str | None:

@@ -27,6 +27,7 @@ from texvent.capture.motion_vectors.conventions import (
     parse_convention,
     to_pixels,
     warn_of_unit,
+    with_words,
     wrong_size,
 )
 from texvent.capture.motion_vectors.fields import (
@@ -121,13 +122,13 @@ class MotionFrames(FrameSource):
         if verdict.better is not None:
             given = replace(self._convention, direction=field.direction)
             words = changes(given, verdict.better, field.direction)
-            advice = f"as --motion-convention {_joined(self._text, *words)}; give that"
+            advice = f"as --motion-convention {with_words(self._text, words)}; give that"
             is_named = field.kind != "vectors" or len(self._vectors) > 1
             if is_named and verdict.better.direction != field.direction:
                 words = tuple(word for word in words if word not in ("forward", "backward"))
                 advice = f"{verdict.better.direction}; exchange the two"
                 if words:
-                    advice += f" and give --motion-convention {_joined(self._text, *words)}"
+                    advice += f" and give --motion-convention {with_words(self._text, words)}"
             raise InputError(
                 f"{what} do not fit the frames: warped by them, frames differ by "
                 f"{verdict.error:.1f} grey levels, and by {verdict.better_error:.1f} if the "
@@ -312,11 +313,6 @@ def _with_next(frames: FrameStream) -> Iterator[tuple[Frame, Frame | None]]:
 
 def _seconds(frame: Frame, other: Frame) -> float:
     return abs(other.t_us - frame.t_us) / MICROSECONDS
-
-
-def _joined(*words: str) -> str:
-    """Words of a convention; later ones change earlier ones."""
-    return ",".join(word for word in words if word)
 
 
 OWN_FOLDER = "motion"
