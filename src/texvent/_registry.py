@@ -217,7 +217,7 @@ REPRESENTATIONS = Registry(
         "timestamp-image": "texvent.represent.time_surface:timestamp_image",
         "event-image": "texvent.represent.time_surface:event_image",
         "sorted-time-surface": "texvent.represent.time_surface:sorted_time_surface",
-        "dist": "texvent.represent.dist:dist",
+        "dist": "texvent.represent.time_surface:dist",
     },
 )
 FILTERS = Registry(
