@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from texvent_lab.bench.document import result_name
-from texvent_lab.bench.fidelity.bar_chart import bar_chart
-from texvent_lab.bench.fidelity.detail_charts import level_chart, time_chart
+from texvent_lab.bench.fidelity.charts import level_chart, score_chart, time_chart
 from texvent_lab.bench.fidelity.event_image_grid import event_image_grid
 from texvent_lab.bench.fidelity.results import FidelityReport
 from texvent_lab.bench.fidelity.table import BASELINE, fidelity_tables, motion_table
@@ -56,9 +55,9 @@ def page_files(
 def _chart_files(report: FidelityReport, name: str) -> dict[str, bytes]:
     first = report.references[0]
     charts = {
-        f"{name}-bars.svg": bar_chart(report).encode(),
-        f"{name}-levels.svg": level_chart(report, first.scene, first.target).encode(),
-        f"{name}-times.svg": time_chart(report, first.scene, first.target).encode(),
+        f"{name}-bars.svg": score_chart(report),
+        f"{name}-levels.svg": level_chart(report, first.scene, first.target),
+        f"{name}-times.svg": time_chart(report, first.scene, first.target),
     }
     if report.score_seeds:  # scenes of the oracle, which can be shown again
         charts[f"{name}-events.png"] = event_image_grid(report, first.scene)

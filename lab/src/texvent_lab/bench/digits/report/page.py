@@ -72,9 +72,9 @@ def page_paths(result: Path | None) -> list[Path]:
 
 
 def _chart_files(report: DigitsReport, name: str) -> dict[str, bytes]:
-    charts = {f"{name}{ACCURACY}": accuracy_chart(report).encode()}
+    charts = {f"{name}{ACCURACY}": accuracy_chart(report)}
     if report.few_shot:
-        charts[f"{name}{FEW_SHOT}"] = few_shot_chart(report).encode()
+        charts[f"{name}{FEW_SHOT}"] = few_shot_chart(report)
     return charts
 
 

@@ -2,8 +2,8 @@
 
 Run it with the Python that has bpy, or inside Blender:
 
-    python lab/src/texvent_lab/measure/blender/scene.py scene.blend
-    blender --background --python lab/src/texvent_lab/measure/blender/scene.py -- scene.blend
+    python lab/src/texvent_lab/measure/blender_scene.py scene.blend
+    blender --background --python lab/src/texvent_lab/measure/blender_scene.py -- scene.blend
 
 62 frames at 24 per second, 240x180. Every surface is textured and lit by one sun without a disc, so
 that nothing but the edges depends on the number of samples: shadows are there, noise is not.
