@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import copy
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -16,7 +16,7 @@ import numpy as np
 
 from texvent.errors import OutputError, TexventError, one_line
 from texvent.extending import full_version, require
-from texvent.networks.weight_files import NOTES, TRAINING
+from texvent.networks.weight_files import NOTES, TRAINING, Tensor
 from texvent.runtime.progress import Progress
 from texvent_lab.train.batches import Batches
 from texvent_lab.train.checkpoint import WEIGHTS_FILE, TrainingState, read_state, save, write_state
@@ -111,17 +111,41 @@ def _train_epoch(
     progress: Progress,
 ) -> float:
     """Mean loss of the batches of an epoch."""
-    torch = require("torch", extra=EXTRA)
     device = hardware.find_device()
     network.train()
-    total = 0.0
-    for number, batch in enumerate(batches.epoch(epoch)):
-        with hardware.autocast(device):
-            loss = task.loss(network, batch, device)
+
+    def losses() -> Iterator[Tensor]:
+        for number, batch in enumerate(batches.epoch(epoch)):
+            with hardware.autocast(device):
+                loss = task.loss(network, batch, device)
+            yield loss
+            progress.advance(f"epoch {epoch + 1} of {schedule.epochs}", number + 1, len(batches))
+
+    return descend(losses(), optimizer, network, where=f"epoch {epoch + 1}", schedule=schedule)
+
+
+def descend(
+    losses: Iterable[Tensor], optimizer: Any, network: Any, *, where: str, schedule: Schedule
+) -> float:
+    """One step of the optimiser for each loss; returns their mean.
+
+    Args:
+        losses: scalars; each is computed after the step for the one before.
+        optimizer: of the network's parameters.
+        network: what is trained.
+        where: part of the training, for the message.
+        schedule: whether gradients are clipped.
+
+    Raises:
+        TexventError: a loss is no number.
+    """
+    torch = require("torch", extra=EXTRA)
+    total, number = 0.0, 0
+    for number, loss in enumerate(losses, start=1):
         value = float(loss.detach())
         if not np.isfinite(value):
             raise TexventError(
-                f"the loss is {value} in epoch {epoch + 1}, batch {number + 1}; give a smaller "
+                f"the loss is {value} in {where}, batch {number}; give a smaller "
                 "learning_rate, or clip_gradient = 1"
             )
         optimizer.zero_grad()
@@ -130,8 +154,7 @@ def _train_epoch(
             torch.nn.utils.clip_grad_norm_(network.parameters(), schedule.clip_gradient)
         optimizer.step()
         total += value
-        progress.advance(f"epoch {epoch + 1} of {schedule.epochs}", number + 1, len(batches))
-    return total / len(batches)
+    return total / max(number, 1)
 
 
 def _note_epoch(
