@@ -21,7 +21,7 @@ COLOURS = (
 REFERENCE = "#b04a4a"
 """Colour of lines that others are compared with."""
 GRID, INK = "#d8d8de", "#26262e"
-STYLE = {
+STYLE: Any = {
     "svg.fonttype": "none",
     "svg.hashsalt": "texvent",
     "font.size": 8,

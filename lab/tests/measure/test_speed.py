@@ -10,16 +10,27 @@ import numpy as np
 import pytest
 
 from texvent.sensor import SensorSize
-from texvent_lab.bench.machine import describe_environment
+from texvent_lab.bench.document import describe_environment
 from texvent_lab.measure.speed import kernels, scenes
-from texvent_lab.measure.speed.duel import match_count, measure_duel, ratio_to_fastest
-from texvent_lab.measure.speed.floor import Bandwidth
 from texvent_lab.measure.speed.kernels import Plan, measure_kernels
-from texvent_lab.measure.speed.peers import OURS, PEERS, Contender
+from texvent_lab.measure.speed.peers import (
+    OURS,
+    PEERS,
+    Contender,
+    match_count,
+    measure_duel,
+    ratio_to_fastest,
+)
 from texvent_lab.measure.speed.stages import StageClock, measure_pipeline
-from texvent_lab.measure.speed.tables import BEGIN, END, as_markdown, put_into_page
-from texvent_lab.measure.speed.targets import TARGETS, check_targets
-from texvent_lab.measure.speed.timing import Quartiles, cpu_in_turns, rounded
+from texvent_lab.measure.speed.tables import (
+    BEGIN,
+    END,
+    TARGETS,
+    as_markdown,
+    check_targets,
+    put_into_page,
+)
+from texvent_lab.measure.speed.timing import Bandwidth, Quartiles, cpu_in_turns, rounded
 
 ROOT = Path(__file__).parents[3]
 SCHEMA = json.loads((ROOT / "docs/results/speed.schema.json").read_text(encoding="utf-8"))

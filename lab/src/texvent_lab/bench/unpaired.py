@@ -21,8 +21,8 @@ from texvent.io.files import event_extensions
 from texvent.metrics.summary import normalise
 from texvent.metrics.unpaired.frechet import compare_statistics
 from texvent.metrics.unpaired.patch_statistics import patch_statistics
-from texvent_lab.bench.progress import Progress, no_progress
-from texvent_lab.bench.selftest.perturbations import perturb
+from texvent_lab.bench.jobs import Progress, no_progress
+from texvent_lab.bench.selftest.run import perturb
 
 NULL = "shuffle all times"
 

@@ -36,9 +36,9 @@ from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame, Motion, frame_time_us
 from texvent_lab.bench.oracle import scenes as oracle
-from texvent_lab.bench.oracle.camera import radiance_of
 from texvent_lab.bench.oracle.pixel import IDEAL, PixelArray
 from texvent_lab.bench.oracle.recording import FPS, FRAMES, SIZE, TrueFrames, oracle_scene, record
+from texvent_lab.bench.oracle.scenes import radiance_of
 
 SCENES = ("fast", "mixed", "translate", "slow")
 PROMPTS = (

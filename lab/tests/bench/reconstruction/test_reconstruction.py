@@ -10,9 +10,6 @@ import pytest
 from texvent.errors import ConfigError
 from texvent.metrics.image_measures import load_measures
 from texvent_lab.bench.fidelity.entries import Entry
-from texvent_lab.bench.reconstruction.image_grid import ReconstructionGrid
-from texvent_lab.bench.reconstruction.image_scores import ImageScores
-from texvent_lab.bench.reconstruction.noise_robustness import NoiseLevel, noise_curve
 from texvent_lab.bench.reconstruction.run import (
     DEFAULT_SKIP,
     RECORDED,
@@ -24,8 +21,14 @@ from texvent_lab.bench.reconstruction.run import (
     run_reconstruction,
     simulate_recording,
 )
+from texvent_lab.bench.reconstruction.scores import (
+    ImageScores,
+    NoiseLevel,
+    ReconstructionGrid,
+    noise_curve,
+)
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
-from texvent_lab.bench.selftest.perturbations import add_background, scatter
+from texvent_lab.bench.selftest.run import add_background, scatter
 
 from .synthetic_network import FRAMES, SIZE, STEP_US, StandInReconstructor, moving_bar
 

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from texvent_lab.bench.selftest.chart import FOUND, REWARDED, selftest_chart
 
 from texvent.errors import FileFormatError
 from texvent.events import EventStream
@@ -14,9 +15,15 @@ from texvent.metrics.compare import load_metric
 from texvent.sensor import SensorSize
 from texvent_lab.bench.document import write_document
 from texvent_lab.bench.selftest import run as selftest
-from texvent_lab.bench.selftest.chart import FOUND, REWARDED, selftest_chart
-from texvent_lab.bench.selftest.perturbations import PERTURBATIONS, SERIES, perturb
-from texvent_lab.bench.selftest.run import DETECTED, SelftestRow, evaluate_metric, run_selftest
+from texvent_lab.bench.selftest.run import (
+    DETECTED,
+    PERTURBATIONS,
+    SERIES,
+    SelftestRow,
+    evaluate_metric,
+    perturb,
+    run_selftest,
+)
 from texvent_lab.bench.selftest.table import read_selftest, selftest_document, selftest_table
 
 ROOT = Path(__file__).parents[4]

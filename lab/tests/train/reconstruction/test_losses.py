@@ -10,14 +10,14 @@ from texvent.metrics.structural_similarity import structural_similarity
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from texvent_lab.train.reconstruction.config import ReconstructionLoss  # noqa: E402
-from texvent_lab.train.reconstruction.image_losses import (  # noqa: E402
+from texvent_lab.train.reconstruction.losses import (  # noqa: E402
+    LpipsLoss,
+    SequenceLoss,
     dissimilarity,
     inconsistency,
     l1,
     ssim,
 )
-from texvent_lab.train.reconstruction.lpips import LpipsLoss  # noqa: E402
-from texvent_lab.train.reconstruction.sequence_loss import SequenceLoss  # noqa: E402
 
 pytestmark = pytest.mark.torch
 

@@ -14,9 +14,7 @@ from texvent.interpolate.dis_flow.things.ways import covered, surroundings
 from texvent.interpolate.flow import FlowInterpolator
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent_lab.bench.oracle.camera import camera_level
-from texvent_lab.bench.oracle.scenes import panning_texture
-from texvent_lab.bench.oracle.smooth_texture import ValueNoise
+from texvent_lab.bench.oracle.scenes import ValueNoise, camera_level, panning_texture
 
 WIDTH, HEIGHT = 192, 144
 

@@ -10,14 +10,18 @@ from typing import Any
 
 from texvent.errors import FileFormatError, shown
 from texvent.metrics.scores import plain_values
-from texvent_lab.bench.document import read_document, restore_nan
-from texvent_lab.bench.document_types import check_record
-from texvent_lab.bench.machine import describe_environment
-from texvent_lab.bench.selftest.perturbations import PERTURBATIONS, SERIES
+from texvent_lab.bench.document import (
+    check_record,
+    describe_environment,
+    read_document,
+    restore_nan,
+)
 from texvent_lab.bench.selftest.run import (
     DETECTED,
+    PERTURBATIONS,
     RECORDING_SEEDS,
     SCENE,
+    SERIES,
     TEXTURE_SEED,
     SelftestRow,
     SelftestRows,

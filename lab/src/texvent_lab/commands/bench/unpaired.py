@@ -11,7 +11,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent_lab.bench.machine import describe_environment
+from texvent_lab.bench.document import describe_environment
 from texvent_lab.bench.unpaired import compare_folders
 from texvent_lab.commands.bench.result_options import ResultOptions
 

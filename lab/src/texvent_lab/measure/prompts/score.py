@@ -23,7 +23,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import InputError, shown
-from texvent_lab.measure.prompts.rates import Share
+from texvent_lab.measure.prompts.sheet import Share
 
 COLUMNS = (
     "id", "nouns_asked", "nouns_shown", "motion", "silently_wrong", "fully_right",

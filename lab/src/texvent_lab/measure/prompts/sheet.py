@@ -14,24 +14,285 @@ import argparse
 import csv
 import functools
 import json
+import math
 import re
 import statistics
+import textwrap
 import time
+import unicodedata
+import warnings
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
 from texvent.batch.identity import digest
 from texvent.batch.processes import interruptible, processes
-from texvent.errors import InputError, TexventError, shown
+from texvent.brightness import luma_bt601
+from texvent.errors import InputError, OutputError, TexventError, TexventWarning, shown
 from texvent.extending import full_version
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator, ProceduralVideo
+from texvent.generate.scene_input import list_nouns, understand
 from texvent.io.atomic import atomic_file
-from texvent.scenes.report import PromptReport, ReportTally
-from texvent_lab.measure.prompts import drawing
-from texvent_lab.measure.prompts.measure import SETTINGS, measure_prompt
-from texvent_lab.measure.prompts.rates import Share
+from texvent.pipeline import video_to_events
+from texvent.run.settings import resolve
+from texvent.scenes.report import REPORT_KEY, PromptReport, ReportTally
+from texvent.sensor import SensorSize
+from texvent.video import MICROSECONDS
 from texvent_lab.measure.prompts.score import COLUMNS
+
+Z95 = 1.959964
+"""Standard normal quantile of .975."""
+
+
+@dataclass(frozen=True)
+class Share:
+    """How many of how many.
+
+    Example:
+        >>> str(Share(8, 10)), str(Share(0, 0))
+        ('80 % (49 to 94; 8 of 10)', '-')
+    """
+
+    count: float
+    of: int
+
+    @property
+    def value(self) -> float:
+        """The share, 0..1; NaN of nothing."""
+        return self.count / self.of if self.of else math.nan
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """Wilson's interval at 95 %: E. B. Wilson, J. Am. Stat. Assoc. 22, 209 (1927)."""
+        if not self.of:
+            return math.nan, math.nan
+        share, weight = self.value, Z95**2 / self.of
+        middle = (share + weight / 2) / (1 + weight)
+        half = math.sqrt(share * (1 - share) * weight + weight**2 / 4) / (1 + weight)
+        return max(0.0, middle - half), min(1.0, middle + half)
+
+    @property
+    def tables(self) -> dict[str, float | int | list[float] | None]:
+        """Plain values, ready for JSON."""
+        return {
+            "count": self.count,
+            "of": self.of,
+            "share": round(self.value, 4) if self.of else None,
+            "interval": [round(end, 4) for end in self.interval] if self.of else None,
+        }
+
+    def __str__(self) -> str:
+        if not self.of:
+            return "-"
+        low, high = self.interval
+        return (
+            f"{100 * self.value:.0f} % ({100 * low:.0f} to {100 * high:.0f}; "
+            f"{self.count:g} of {self.of})"
+        )
+
+
+SIZE = SensorSize(173, 130)
+DURATION_S = 2.0
+STILLS = 6
+SEED = 0
+PRESETS = {
+    "paper": {"simulator": "texvent", "preset": "paper"},
+    "physical": {"simulator": "physical", "preset": "default"},
+}
+SETTINGS: dict[str, Any] = {
+    "size": str(SIZE), "duration_s": DURATION_S, "stills": STILLS, "seed": SEED,
+    "presets": PRESETS,
+}  # fmt: skip
+LEAST_SHARE = 0.002
+"""Share of the image, at its largest, below which a thing is hardly in view: 45 pixels."""
+CONTRAST_PX = 9
+"""Side of the window of the local contrast."""
+
+
+def measure_prompt(
+    prompt: str, *, with_events: bool
+) -> tuple[list[NDArray[np.uint8]], dict[str, Any]]:
+    """Stills [H, W, 3] RGB and the facts of a prompt.
+
+    Args:
+        prompt: what to show.
+        with_events: whether events are simulated.
+
+    Raises:
+        InputError: nothing of the prompt is understood.
+    """
+    started = time.perf_counter()
+    generator = ProceduralGenerator(ProceduralConfig(duration=DURATION_S), seed=SEED, size=SIZE)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", TexventWarning)
+        video = generator.generate(prompt)
+        times = [round(t) for t in np.linspace(0, DURATION_S * MICROSECONDS, STILLS)]
+        frames = [np.asarray(video.at(t).pixels, np.float32) for t in times]
+        in_view = measure_view(video, times)
+        facts: dict[str, Any] = {
+            REPORT_KEY: video.metadata[REPORT_KEY],
+            "is_camera_moving": understand(prompt, list_nouns()).shot.is_moving,
+            "in_view": in_view,
+            "hardly_in_view": sorted(
+                {
+                    name
+                    for name in video.class_names.values()
+                    if in_view.get(name, 0.0) < LEAST_SHARE
+                }
+            ),
+            "contrast": round(local_contrast([luma_bt601(frame) for frame in frames]), 4),
+        }
+        if with_events:
+            facts["events"] = {name: _simulate(video, options) for name, options in PRESETS.items()}
+    facts["seconds"] = round(time.perf_counter() - started, 2)
+    return [np.clip(np.rint(frame), 0, 255).astype(np.uint8) for frame in frames], facts
+
+
+def measure_view(video: ProceduralVideo, times_us: list[int]) -> dict[str, float]:
+    """Noun → the largest share of the image that its things fill together, over the instants."""
+    names = video.class_names
+    largest: dict[str, float] = {}
+    rows, columns = np.mgrid[: SIZE.height : 2, : SIZE.width : 2]
+    points = np.stack([columns.ravel(), rows.ravel()], axis=1).astype(np.float64)
+    for t_us in times_us:
+        _, instances = video.instances_at(t_us, points)
+        ids, counts = np.unique(instances, return_counts=True)
+        filled: dict[str, float] = {}
+        for number, count in zip(ids.tolist(), counts.tolist(), strict=True):
+            if number in names:
+                filled[names[number]] = filled.get(names[number], 0.0) + count / len(points)
+        for name, share in filled.items():
+            largest[name] = max(largest.get(name, 0.0), round(share, 4))
+    return largest
+
+
+def local_contrast(lumas: list[NDArray[np.float32]]) -> float:
+    """Median standard deviation of log luma, 0..255 and at least 1, in windows of 9x9 pixels.
+
+    Example:
+        >>> stripes = np.tile(np.float32([[100.0, 200.0]]), (20, 10))
+        >>> round(local_contrast([stripes]), 2)
+        0.34
+    """
+    deviations = []
+    for luma in lumas:
+        log = np.log(np.maximum(luma, 1.0)).astype(np.float64)
+        window = (CONTRAST_PX, CONTRAST_PX)
+        mean, square = cv2.blur(log, window), cv2.blur(log * log, window)
+        deviations.append(np.sqrt(np.maximum(square - mean * mean, 0.0)))
+    return float(np.median(deviations))
+
+
+def _simulate(video: ProceduralVideo, options: dict[str, str]) -> dict[str, float]:
+    settings = resolve("generate", {**options, "sensor": str(SIZE), "seed": SEED,
+                                    "duration": DURATION_S})  # fmt: skip
+    events = video_to_events(video, settings).packets.collect(progress=False)
+    counts = np.zeros((SIZE.height, SIZE.width), np.int64)
+    first = events.t < MICROSECONDS
+    np.add.at(counts, (events.y[first], events.x[first]), 1)
+    return {
+        "per_pixel_and_second": round(len(events) / counts.size / DURATION_S, 4),
+        "pixels_with_two": round(float((counts >= 2).mean()), 4),
+        "on_share": round(float(events.p.mean()), 4) if len(events) else 0.0,
+    }
+
+
+GAP_PX = 2
+LINE_PX, LETTERS = 15, 158
+"""Height of a line of text, and its letters at most."""
+MOST_LINES = 9
+PAGE_COLUMNS = 2
+TILE, LABEL_PX, TILES_PER_ROW = (86, 65), 12, 8
+"""Size of a still in the mosaic, height of its label, px, and prompts in a row."""
+WIDTH = STILLS * SIZE.width + (STILLS - 1) * GAP_PX
+_FONT, _SCALE = cv2.FONT_HERSHEY_SIMPLEX, 0.38
+_PLAIN = {"→": "->", "’": "'", "‘": "'", "“": '"', "”": '"', "–": "-", "—": "-"}
+
+Image = NDArray[np.uint8]
+
+
+def draw_strip(stills: Sequence[Image], caption: Sequence[str]) -> Image:
+    """Stills [H, W, 3] in a row, black where there are none, with lines of text below."""
+    lines = [part for line in caption for part in textwrap.wrap(_ascii(line), LETTERS)]
+    if len(lines) > MOST_LINES:
+        lines = [*lines[: MOST_LINES - 1], f"... {len(lines) - MOST_LINES + 1} more lines"]
+    image = np.full((SIZE.height + LINE_PX * (len(lines) + 1), WIDTH, 3), 255, np.uint8)
+    image[: SIZE.height] = 0
+    for number, still in enumerate(stills):
+        left = number * (SIZE.width + GAP_PX)
+        image[: SIZE.height, left : left + SIZE.width] = still
+    for number, line in enumerate(lines):
+        colour = (0, 0, 0) if number == 0 else (70, 70, 70)
+        place = (3, SIZE.height + LINE_PX * (number + 1))
+        cv2.putText(image, line, place, _FONT, _SCALE, colour, 1, cv2.LINE_AA)
+    return image
+
+
+def draw_page(strips: Sequence[Image]) -> Image:
+    """Strips in two columns, row by row, each row as high as its higher strip."""
+    rows = []
+    for start in range(0, len(strips), PAGE_COLUMNS):
+        row = strips[start : start + PAGE_COLUMNS]
+        height = max(strip.shape[0] for strip in row)
+        band = np.full((height + 8, PAGE_COLUMNS * WIDTH + 10, 3), 255, np.uint8)
+        for number, strip in enumerate(row):
+            left = number * (WIDTH + 10)
+            band[: strip.shape[0], left : left + strip.shape[1]] = strip
+        rows.append(band)
+    return np.concatenate(rows)
+
+
+def draw_tile(strip: Image, name: str) -> Image:
+    """The second and the last but one still of a strip, small, with the name of the prompt."""
+    stills = []
+    for number in (1, STILLS - 2):
+        left = number * (SIZE.width + GAP_PX)
+        still = strip[: SIZE.height, left : left + SIZE.width]
+        stills.append(cv2.resize(still, TILE, interpolation=cv2.INTER_AREA))
+    label = np.full((LABEL_PX, 2 * TILE[0], 3), 255, np.uint8)
+    cv2.putText(label, _ascii(name), (2, LABEL_PX - 3), _FONT, 0.3, (0, 0, 0), 1, cv2.LINE_AA)
+    return np.concatenate([np.concatenate(stills, axis=1), label])
+
+
+def draw_grid(tiles: Sequence[Image]) -> Image:
+    """Tiles of one size, in rows of `TILES_PER_ROW`."""
+    blank = np.full_like(tiles[0], 255)
+    filled = [*tiles, *[blank] * (-len(tiles) % TILES_PER_ROW)]
+    rows = [
+        np.concatenate(filled[start : start + TILES_PER_ROW], axis=1)
+        for start in range(0, len(filled), TILES_PER_ROW)
+    ]
+    return np.concatenate(rows)
+
+
+def write_image(path: Path, image: Image) -> None:
+    """Write RGB as PNG or JPEG, by the name, whole or not at all."""
+    is_made, data = cv2.imencode(path.suffix, image[..., ::-1])
+    if not is_made:
+        raise OutputError(f"cannot encode {path}")
+    with atomic_file(path, overwrite=True) as part:
+        part.write_bytes(data.tobytes())
+
+
+def read_image(path: Path) -> Image:
+    """The RGB image of a file."""
+    image = cv2.imdecode(np.frombuffer(path.read_bytes(), np.uint8), cv2.IMREAD_COLOR)
+    if image is None:
+        raise InputError(f"{path} is no image; run with --again")
+    return np.asarray(image[..., ::-1], np.uint8)
+
+
+def _ascii(text: str) -> str:
+    """The text in the letters that the font has."""
+    for letter, plain in _PLAIN.items():
+        text = text.replace(letter, plain)
+    return unicodedata.normalize("NFKD", text).encode("ascii", "replace").decode()
+
 
 PER_PAGE = 12
 RATES = (0.5, 10.0)
@@ -129,8 +390,8 @@ def make_strip(prompt: Prompt, *, folder: Path, with_events: bool) -> str:
         **asdict(prompt), "key": _key(prompt, with_events), "version": full_version(),
         "error": error, **facts,
     }  # fmt: skip
-    image = drawing.draw_strip(stills, _caption(prompt, result))
-    drawing.write_image(_strip(folder, prompt), image)
+    image = draw_strip(stills, _caption(prompt, result))
+    write_image(_strip(folder, prompt), image)
     with atomic_file(folder / "results" / f"{prompt.id}.json", overwrite=True) as part:
         part.write_text(json.dumps(result) + "\n", encoding="utf-8")
     return f"{prompt.id}: {error or 'drawn'}"
@@ -171,10 +432,8 @@ def _result(folder: Path, prompt: Prompt) -> Any:
 def write_pages(folder: Path, prompts: Sequence[Prompt]) -> None:
     """Contact sheets of twelve strips each."""
     for number, start in enumerate(range(0, len(prompts), PER_PAGE), 1):
-        strips = [
-            drawing.read_image(_strip(folder, one)) for one in prompts[start : start + PER_PAGE]
-        ]
-        drawing.write_image(folder / f"contact-{number:02d}.png", drawing.draw_page(strips))
+        strips = [read_image(_strip(folder, one)) for one in prompts[start : start + PER_PAGE]]
+        write_image(folder / f"contact-{number:02d}.png", draw_page(strips))
 
 
 def write_blank_grades(path: Path, prompts: Sequence[Prompt]) -> None:
@@ -204,10 +463,9 @@ def write_mosaic(options: argparse.Namespace) -> None:
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise InputError(f"{options.folder} holds no sheet; make it with sheet") from error
     tiles = [
-        drawing.draw_tile(drawing.read_image(options.folder / "strips" / f"{name}.png"), name)
-        for name in names
+        draw_tile(read_image(options.folder / "strips" / f"{name}.png"), name) for name in names
     ]
-    drawing.write_image(options.out, drawing.draw_grid(tiles))
+    write_image(options.out, draw_grid(tiles))
 
 
 def summarise(results: Sequence[dict[str, Any]]) -> dict[str, Any]:

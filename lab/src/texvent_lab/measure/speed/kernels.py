@@ -13,9 +13,8 @@ from typing import Any
 from texvent.extending import SIMULATORS
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent_lab.measure.speed.floor import Bandwidth
 from texvent_lab.measure.speed.scenes import Bytes, jumping_pixels, to_and_fro
-from texvent_lab.measure.speed.timing import Quartiles, rounded, seconds
+from texvent_lab.measure.speed.timing import Bandwidth, Quartiles, rounded, seconds
 
 SIZES = (SensorSize(346, 260), SensorSize(1280, 720))
 DENSITIES = (0.001, 0.01, 0.05, 0.2)
