@@ -25,6 +25,7 @@ from texvent_lab.nt_imagenet.captions import (
     read_captions,
 )
 from texvent_lab.nt_imagenet.files import Captioned, find_class_names, find_image
+from texvent_lab.nt_imagenet.pairing import list_pairs
 from texvent_lab.nt_imagenet.report import Report
 from texvent_lab.nt_imagenet.selection import (
     CLASSES,
@@ -33,7 +34,6 @@ from texvent_lab.nt_imagenet.selection import (
     PER_CLASS,
     Selection,
     choose_classes,
-    list_pairs,
     select_streams,
     validation_folder,
 )

@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 
 from texvent_lab.bench.digits.arms import ARMS, Cell
+from texvent_lab.bench.digits.networks import choose_recordings
 from texvent_lab.bench.digits.plan import DigitsPlan, Run, Training, list_trainings
-from texvent_lab.bench.digits.training import choose_recordings
 
 
 def plan(**changes):

@@ -7,7 +7,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent_lab.bench.fidelity.run import FidelityPlan, run_fidelity
 from texvent_lab.bench.fidelity.table import fidelity_tables
-from texvent_lab.bench.paper.run import read_ablations
+from texvent_lab.bench.paper.config_entry import read_ablations
 
 PAPER = Path(__file__).parents[4] / "configs" / "paper"
 

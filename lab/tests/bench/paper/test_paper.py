@@ -11,13 +11,14 @@ from texvent.errors import ConfigError, InputError
 from texvent.metrics.compare import compare
 from texvent.metrics.event_frames import EventFrameLpips
 from texvent_lab.bench.paper import tables
+from texvent_lab.bench.paper.config_entry import read_ablations
 from texvent_lab.bench.paper.published_tables import (
     TABLES,
     OurFigures,
     compare_with_paper,
     join_figures,
 )
-from texvent_lab.bench.paper.run import PaperInputs, measure_table, read_ablations
+from texvent_lab.bench.paper.run import PaperInputs, measure_table
 from texvent_lab.bench.paper.tables import (
     ablation_figures,
     accuracy_figures,

@@ -15,7 +15,7 @@ from texvent_lab.bench.fidelity.entries import Entry
 from texvent_lab.bench.fidelity.page import page_files
 from texvent_lab.bench.fidelity.results import read_report
 from texvent_lab.bench.fidelity.table import fidelity_tables, motion_table
-from texvent_lab.bench.paper.run import ConfigEntry
+from texvent_lab.bench.paper.config_entry import ConfigEntry
 from texvent_lab.bench.real.recording import RecordingPart, open_scene
 from texvent_lab.bench.real.run import HALVES, RealPlan, adapt_settings, real_entries, run_real
 

@@ -10,6 +10,7 @@ import pytest
 from texvent.errors import ConfigError
 from texvent.metrics.image_measures import load_measures
 from texvent_lab.bench.fidelity.entries import Entry
+from texvent_lab.bench.reconstruction.noise_robustness import NoiseLevel, noise_curve
 from texvent_lab.bench.reconstruction.run import (
     DEFAULT_SKIP,
     RECORDED,
@@ -21,12 +22,7 @@ from texvent_lab.bench.reconstruction.run import (
     run_reconstruction,
     simulate_recording,
 )
-from texvent_lab.bench.reconstruction.scores import (
-    ImageScores,
-    NoiseLevel,
-    ReconstructionGrid,
-    noise_curve,
-)
+from texvent_lab.bench.reconstruction.scores import ImageScores, ReconstructionGrid
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent_lab.bench.selftest.run import add_background, scatter
 

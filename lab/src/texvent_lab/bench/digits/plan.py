@@ -16,7 +16,7 @@ from texvent.extending import suggest
 from texvent.run.settings import Settings
 from texvent_lab.bench.digits.arms import CHOICES, WAYS, Arm, Cell, Choice, Step, Way, find_arm
 from texvent_lab.bench.digits.inputs import REPRESENTATIONS, InputSet
-from texvent_lab.bench.digits.simulation import COORDINATES
+from texvent_lab.bench.digits.pair_fit import COORDINATES
 from texvent_lab.train.schedule import Schedule
 
 ALL_DIGITS = 10_000

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError
 from texvent_lab.bench.digits.arms import Cell
 from texvent_lab.bench.digits.inputs import CLASSES
+from texvent_lab.bench.digits.networks import first_of_each
 from texvent_lab.bench.digits.plan import (
     SHOT_REPRESENTATION,
     DigitsPlan,
@@ -23,7 +24,6 @@ from texvent_lab.bench.digits.plan import (
     settings_tables,
     shot_cells,
 )
-from texvent_lab.bench.digits.training import first_of_each
 from texvent_lab.bench.document import MarkdownReport, check_record, describe_environment
 
 

@@ -26,21 +26,17 @@ from texvent_lab.bench.fidelity.comparison import difference_text
 from texvent_lab.bench.fidelity.entries import Entry, simulate_video
 from texvent_lab.bench.fidelity.results import FidelityReport
 from texvent_lab.bench.jobs import Progress
+from texvent_lab.bench.paper.config_entry import ConfigEntry
 from texvent_lab.bench.paper.published_tables import IMAGE_ROWS, TABLES, OurFigures
-from texvent_lab.bench.paper.run import ConfigEntry
 from texvent_lab.bench.real.recording import FrameRecording, RealScene
 from texvent_lab.bench.real.run import RealPlan, run_real
+from texvent_lab.bench.reconstruction.noise_robustness import PAPER_LEVELS, noise_curve
 from texvent_lab.bench.reconstruction.run import (
     ReconstructionPlan,
     ReconstructionScorer,
     run_reconstruction,
 )
-from texvent_lab.bench.reconstruction.scores import (
-    PAPER_LEVELS,
-    ImageScores,
-    noise_curve,
-    pool_scores,
-)
+from texvent_lab.bench.reconstruction.scores import ImageScores, pool_scores
 from texvent_lab.reconstruct.reconstructor import Reconstructor
 
 BASELINE = "Texvent"

@@ -9,8 +9,9 @@ from typing import Any
 from texvent.metrics.scores import plain_values
 from texvent_lab.bench.document import describe_environment, markdown_table, without_tags
 from texvent_lab.bench.fidelity.comparison import Comparison
+from texvent_lab.bench.reconstruction.noise_robustness import NoiseScore
 from texvent_lab.bench.reconstruction.run import RECORDED, ReconstructionReport, ReconstructionRow
-from texvent_lab.bench.reconstruction.scores import ImageScores, NoiseScore, pool_scores
+from texvent_lab.bench.reconstruction.scores import ImageScores, pool_scores
 
 SCHEMA = "texvent-reconstruction-1"
 """Name of the document's layout; docs/reconstruction.md describes it."""

@@ -15,8 +15,9 @@ from texvent_lab.bench.document import describe_environment
 from texvent_lab.bench.fidelity.run import FidelityPlan, run_fidelity
 from texvent_lab.bench.fidelity.table import check_baseline, fidelity_tables
 from texvent_lab.bench.jobs import Progress
+from texvent_lab.bench.paper.config_entry import read_ablations
 from texvent_lab.bench.paper.published_tables import TABLES, compare_with_paper, join_figures
-from texvent_lab.bench.paper.run import PaperInputs, measure_table, read_ablations
+from texvent_lab.bench.paper.run import PaperInputs, measure_table
 from texvent_lab.bench.paper.tables import (
     BASELINE,
     TABLES_HERE,

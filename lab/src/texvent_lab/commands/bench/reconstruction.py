@@ -16,12 +16,13 @@ from texvent.metrics.image_measures import load_measures
 from texvent.sensor import parse_sensor
 from texvent_lab.bench.fidelity.entries import choose_entries
 from texvent_lab.bench.real.recording import FrameRecording, locate_source, open_recording
+from texvent_lab.bench.reconstruction.noise_robustness import NoiseScore, noise_curve
 from texvent_lab.bench.reconstruction.run import (
     ReconstructionPlan,
     ReconstructionScorer,
     run_reconstruction,
 )
-from texvent_lab.bench.reconstruction.scores import NoiseScore, ReconstructionGrid, noise_curve
+from texvent_lab.bench.reconstruction.scores import ReconstructionGrid
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent_lab.commands.bench.result_options import ResultOptions
 from texvent_lab.reconstruct.reconstructor import ReconstructConfig, load_reconstructor
