@@ -20,6 +20,7 @@ COLOURS = (
 """Colours of series, in order."""
 REFERENCE = "#b04a4a"
 """Colour of lines that others are compared with."""
+LONGEST_LABEL = 40
 GRID, INK = "#d8d8de", "#26262e"
 STYLE: Any = {
     "svg.fonttype": "none",
@@ -87,9 +88,9 @@ def dot_chart(
             ax.annotate(name, (x, 1), xycoords=("data", "axes fraction"), color=REFERENCE)
         lowest = min((d.mean - (d.error or 0) for d in panel.dots if d.mean == d.mean), default=0)
         ax.set_xlim(least if least is not None else max(math.floor(lowest * 10), 0) / 10, 1)
-        ax.set_yticks(range(len(names)), names)
+        ax.set_yticks(range(len(names)), [_label(name) for name in names])
         ax.set_ylim(len(names) - 0.5, -0.5)
-        ax.set_title(panel.title, loc="left", pad=12, weight="bold")
+        ax.set_title(_label(panel.title), loc="left", pad=12, weight="bold")
         ax.grid(axis="x", color=GRID)
     used = {dot.series for panel in panels for dot in panel.dots}
     for name, colour in colours.items():
@@ -116,7 +117,7 @@ def matrix_chart(panels: Sequence[Matrix], *, columns: int = 4, note: str = "") 
         ax.set_xticks(range(wide), panel.columns, **turned)
         ax.set_yticks(range(high), panel.rows)
         ax.tick_params(length=0)
-        ax.set_title(panel.title, loc="left", weight="bold", fontsize=7)
+        ax.set_title(_label(panel.title), loc="left", weight="bold", fontsize=7)
     if note:
         figure.supxlabel(note, fontsize=7)
     return _svg(figure)
@@ -133,7 +134,7 @@ def histogram_chart(
         ax.axvline(0, color=REFERENCE, linestyle=":", linewidth=1)
         ax.set_ylim(0, highest)
         ax.set_yticks([])
-        ax.set_title(title, loc="left", weight="bold", fontsize=7)
+        ax.set_title("\n".join(map(_label, title.split("\n"))), loc="left", fontsize=7)
         ax.set_xlabel(unit, fontsize=6)
     return _svg(figure)
 
@@ -158,6 +159,12 @@ def curve_chart(
     ax.grid(axis="y", color=GRID)
     figure.legend(loc="outside right upper", frameon=False)
     return _svg(figure)
+
+
+def _label(text: str) -> str:
+    """A name that leaves room for what it names."""
+    one_line = " ".join(text.split())
+    return one_line if len(one_line) <= LONGEST_LABEL else f"{one_line[: LONGEST_LABEL - 1]}…"
 
 
 def _figure(count: int, columns: int, width: float, height: float) -> tuple[Any, list[Any]]:

@@ -17,9 +17,7 @@ def test_the_fit_finds_the_options_of_a_recording(monkeypatch):
     truth = prepare_video(sheet, arm.settings("exact", fitted=TRUE)).packets.collect()
     recorded = [tile_events(sheet, truth, number) for number in range(1)]
     lines = []
-    found, start, end = pair_fit.fit_to_pairs(
-        sheet, recorded, arm.settings("exact"), lines.append
-    )
+    found, start, end = pair_fit.fit_to_pairs(sheet, recorded, arm.settings("exact"), lines.append)
     assert found["cutoff_hz"] == 60.0
     assert found["refractory_period_us"] == 2000
     assert 0.36 < found["contrast_threshold"] < 0.44
