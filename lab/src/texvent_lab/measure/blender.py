@@ -23,7 +23,7 @@ import numpy as np
 
 import texvent
 from texvent.capture.image_folder import find_images_folder, list_images
-from texvent.capture.motion_vectors.attach import own_motion
+from texvent.capture.motion_vectors.attach import find_motion_sidecar
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.events import EventStream
@@ -90,7 +90,7 @@ def compare(film: Path, dense: Path) -> dict[str, Any]:
 
 def variants(film: Path) -> dict[str, dict[str, Any]]:
     """Name of a row → what is given with the sparse film."""
-    passes = own_motion(film)
+    passes = find_motion_sidecar(film)
     frames = list(open_frames(film, CaptureConfig(motion=passes)))
     motions = [frame.motion for frame in frames if frame.motion is not None]
     backward = [one.backward for one in motions if one.backward is not None]

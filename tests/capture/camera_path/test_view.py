@@ -1,4 +1,4 @@
-"""What sensor pixels see of an image: means over their areas, at exact sub-pixel positions."""
+"""Flat images under a moved camera: means over pixels at sub-pixel positions, and the scale."""
 
 import math
 
@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.capture.camera_path.area_cpu import sample_rows
-from texvent.capture.camera_path.motion import Place, Pose
+from texvent.capture.camera_path.motion import CameraPose2D, Pose
+from texvent.capture.camera_path.planes import Planes
 from texvent.capture.camera_path.view import View, fitted_view
 from texvent.errors import InputError
 from texvent.sensor import SensorSize
@@ -17,9 +17,7 @@ IMAGE = np.random.default_rng(0).integers(0, 256, (14, 18)).astype(np.float32)
 
 
 def sample(view, place, image=IMAGE):
-    out = np.full(view.sensor.shape, np.nan, np.float32)
-    sample_rows(image, view.matrix(place), 0, out)
-    return out
+    return Planes(view, image).render(place)[0]
 
 
 def view_of(width=18, height=14, scale=1.0, image=IMAGE, **options):
@@ -52,30 +50,29 @@ def slow_sample(view, place, fineness=40, image=IMAGE):
 def test_a_shift_by_whole_pixels_gives_the_pixels_exactly(x, y):
     padded, margin = mirrored(IMAGE)
     expected = padded[margin + y : margin + y + 14, margin + x : margin + x + 18]
-    np.testing.assert_array_equal(sample(view_of(), Place(x, y)), expected)
+    np.testing.assert_array_equal(sample(view_of(), CameraPose2D(x, y)), expected)
 
 
 def test_a_half_pixel_is_the_mean_of_two():
     image = np.array([[10, 30, 50, 90]], np.float32)
     view = view_of(4, 1, image=image)
-    assert sample(view, Place(0.5), image).tolist() == [[20, 40, 70, 90]]
-    assert sample(view, Place(-0.25), image).tolist() == [[10, 25, 45, 80]]
+    assert sample(view, CameraPose2D(0.5), image).tolist() == [[20, 40, 70, 90]]
+    assert sample(view, CameraPose2D(-0.25), image).tolist() == [[10, 25, 45, 80]]
 
 
 def test_a_smaller_sensor_averages_over_the_area_of_its_pixels():
     view = view_of(9, 7, scale=2.0)
     blocks = IMAGE.reshape(7, 2, 9, 2).mean(axis=(1, 3))
-    np.testing.assert_array_equal(sample(view, Place()), blocks)
+    np.testing.assert_array_equal(sample(view, CameraPose2D()), blocks)
 
 
 @pytest.mark.parametrize(
     ("scale", "place"),
     [
-        (1.0, Place(0.37, -2.81)),
-        (1.7, Place(1.21, 0.4)),
-        (2.6, Place(-0.77, 0.9)),
-        (0.6, Place(3.3, 1.9)),
-        (1.5, Place(0.3, 0.2, zoom=1.3)),
+        (1.0, CameraPose2D(0.37, -2.81)),
+        (1.7, CameraPose2D(1.21, 0.4)),
+        (2.6, CameraPose2D(-0.77, 0.9)),
+        (1.5, CameraPose2D(0.3, 0.2, zoom=1.3)),
     ],
 )
 def test_fractional_shifts_scales_and_zooms_are_means_over_the_area(scale, place):
@@ -90,22 +87,22 @@ def test_shifts_keep_flat_images_and_ramps(x, y):
     ramp = 3 * columns + rows
     view = view_of(8, 8, image=ramp)
     expected = 3 * (16 + np.arange(8) + x)[None] + (16 + np.arange(8) + y)[:, None]
-    np.testing.assert_allclose(sample(view, Place(x, y), ramp), expected, rtol=1e-6)
+    np.testing.assert_allclose(sample(view, CameraPose2D(x, y), ramp), expected, rtol=1e-6)
     flat = np.full((40, 40), 77, np.float32)
-    np.testing.assert_allclose(sample(view, Place(x, y, 0.3, 1.2), flat), 77, rtol=1e-6)
+    np.testing.assert_allclose(sample(view, CameraPose2D(x, y, 0.3, 1.2), flat), 77, rtol=1e-6)
 
 
 def test_a_quarter_turn_clockwise_turns_the_image_counterclockwise():
     image = IMAGE[:, :14]
     view = view_of(14, 14, image=image)
-    turned = sample(view, Place(roll=math.pi / 2), image)
+    turned = sample(view, CameraPose2D(roll=math.pi / 2), image)
     np.testing.assert_allclose(turned, np.rot90(image), atol=1e-3)
 
 
 def test_small_turns_are_near_the_means_over_the_true_areas():
     smooth = np.kron(IMAGE[:4, :4], np.ones((8, 8), np.float32))
     view = view_of(20, 20, image=smooth)
-    place = Place(0.3, -0.4, math.radians(3))
+    place = CameraPose2D(0.3, -0.4, math.radians(3))
     error = sample(view, place, smooth) - slow_sample(view, place, image=smooth)
     assert np.sqrt((error**2).mean()) < 1.0
 
@@ -127,16 +124,16 @@ def test_a_pose_that_turns_to_the_right_sees_what_is_to_the_right():
 
 def test_the_scale_keeps_the_path_inside_an_image_that_is_large_enough():
     image, sensor = SensorSize(400, 300), SensorSize(40, 30)
-    places = [Place(-5.0), Place(5.0, 2.0)]
+    places = [CameraPose2D(-5.0), CameraPose2D(5.0, 2.0)]
     view = fitted_view(View(image, sensor), places, (1.0,), is_pixelwise=False)
     assert view.scale == pytest.approx(400 / 50)
     assert view.reach(places) == pytest.approx(1.0)
-    still = fitted_view(View(image, sensor), [Place()], (1.0,), is_pixelwise=False)
+    still = fitted_view(View(image, sensor), [CameraPose2D()], (1.0,), is_pixelwise=False)
     assert still.scale == 10.0
 
 
 def test_an_image_is_not_enlarged_for_its_path():
-    image, places = SensorSize(44, 34), [Place(-5.0), Place(5.0)]
+    image, places = SensorSize(44, 34), [CameraPose2D(-5.0), CameraPose2D(5.0)]
     view = fitted_view(View(image, SensorSize(40, 30)), places, (1.0,), is_pixelwise=False)
     assert view.scale == 1.0
     small = fitted_view(View(image, SensorSize(88, 68)), places, (1.0,), is_pixelwise=False)
@@ -147,7 +144,7 @@ def test_a_path_that_leads_far_away_is_refused():
     with pytest.raises(
         InputError, match=r"leads 3\.0 times its size away from the image \(18x14\)"
     ):
-        fitted_view(view_of(), [Place(45.0)], (1.0,), is_pixelwise=True)
+        fitted_view(view_of(), [CameraPose2D(45.0)], (1.0,), is_pixelwise=True)
     backward = Pose(turn(1, math.pi), np.zeros(3))
     with pytest.raises(InputError, match="to its side or behind it"):
         fitted_view(view_of(focal_px=20.0), [backward], (1.0,), is_pixelwise=True)
