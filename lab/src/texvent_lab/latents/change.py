@@ -15,8 +15,7 @@ from texvent.config import check_range
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import make_packet
+from texvent.simulate.packets import FrameInterval, make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce.ldati import sample_events
 from texvent.video import Frame, FrameStream, RenderableStream, frame_time_us

@@ -16,7 +16,7 @@ from texvent.errors import ConfigError, shown
 from texvent.extending import full_version, suggest
 from texvent.run.settings import Settings, resolve
 from texvent.runtime.cache_folder import make_folder
-from texvent.simulate.thresholds import with_contrast_threshold
+from texvent.simulate.model_options import with_contrast_threshold
 from texvent_lab.bench.document import read_document, write_document
 
 Way: TypeAlias = Literal["exact", "flow", "frames"]
