@@ -45,9 +45,9 @@ if TYPE_CHECKING:
     from texvent.run.truth import TruthFolder
     from texvent.sensor import SENSORS, Sensor, SensorSize
     from texvent.simulate.build import check_simulator
-    from texvent.transform.augmentation.augment import Augment
+    from texvent.transform.augment import Augment
     from texvent.truth.loading import load_truth
-    from texvent.truth.saving import save_truth
+    from texvent.truth.writer import save_truth
     from texvent.video import Frame, FrameStream, Video
 
 _HOMES = {
@@ -75,9 +75,9 @@ _HOMES = {
     ),
     "run.truth": ("TruthFolder",),
     "simulate.build": ("check_simulator",),
-    "transform.augmentation.augment": ("Augment",),
+    "transform.augment": ("Augment",),
     "truth.loading": ("load_truth",),
-    "truth.saving": ("save_truth",),
+    "truth.writer": ("save_truth",),
     "sensor": ("SENSORS", "Sensor", "SensorSize"),
     "video": ("Frame", "FrameStream", "Video"),
 }

@@ -28,7 +28,7 @@ from texvent.networks.weight_files import (
     state_tensors,
     trained_with,
 )
-from texvent.represent.binary_event_image import binary_event_image
+from texvent.represent.event_frame import binary_event_image
 from texvent_lab.bench.jobs import Progress, no_progress
 
 REPRESENTATION, CHANNELS = "binary-event-image", 2

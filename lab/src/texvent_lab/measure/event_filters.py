@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 import texvent
 from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
-from texvent.transform.filters.hot_pixels import find_hot_pixels
-from texvent.transform.merge import merge
+from texvent.transform.edits import merge
+from texvent.transform.filters.noise_filters import find_hot_pixels
 
 SCENES = {
     "car": "a red car drives left past two trees, the camera follows it",

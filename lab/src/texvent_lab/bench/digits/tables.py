@@ -5,10 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from texvent.metrics.summary import summarise
-from texvent.metrics.uncertainty.difference import SIGNIFICANCE
-from texvent.metrics.uncertainty.permutation import holm
 from texvent_lab.bench.classification import binomial_error
-from texvent_lab.bench.digits.results import DigitsReport, SetScore, difference_interval
+from texvent_lab.bench.digits.results import (
+    SIGNIFICANCE,
+    DigitsReport,
+    SetScore,
+    difference_interval,
+    holm,
+)
 from texvent_lab.bench.document import markdown_table
 
 REPRESENTATION_TITLES = {

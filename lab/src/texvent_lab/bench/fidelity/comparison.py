@@ -12,18 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.metrics.motion.contrast_maximisation import estimate_velocities
-from texvent.metrics.motion.flow_warp import flow_warp_sharpness
-from texvent.metrics.spike_trains.nearest import time_to_nearest
-from texvent.metrics.spike_trains.trains import Trains
+from texvent.metrics.event_sharpness import estimate_velocities, flow_warp_sharpness
+from texvent.metrics.spike_trains import Trains, time_to_nearest
 from texvent.metrics.stpp import Stpp
 from texvent.metrics.summary import summarise
-from texvent.metrics.uncertainty.bootstrap import LEAST_WINDOWS
-from texvent.metrics.uncertainty.difference import (
-    Difference,
-    PairedDifferences,
-    differences_from,
-)
+from texvent.metrics.uncertainty import LEAST_WINDOWS, Mean, paired_differences
 
 ALIKE = "≈"
 """Marks a difference that cannot be told from none."""
@@ -34,7 +27,7 @@ class Behind(NamedTuple):
 
     best: str
     """The best entry."""
-    difference: Difference
+    difference: Mean
     """The best one minus this one."""
 
 
@@ -64,9 +57,14 @@ class Comparison:
         """Mean of the windows where it is defined; NaN if there are none."""
         return summarise(self.values[entry]).mean
 
-    def differences(self, baseline: str) -> PairedDifferences[str]:
-        """All other entries minus one, tested together."""
-        return differences_from(baseline, self.values, is_in_sequence=self.is_in_sequence)
+    def differences(self, baseline: str) -> dict[str, Mean]:
+        """All other entries minus one."""
+        return self._differences(baseline, self.values)
+
+    def _differences(self, baseline: str, values: Mapping[str, Sequence[float]]) -> dict[str, Mean]:
+        known = {name: np.asarray(one, np.float64) for name, one in values.items()}
+        columns = {name: one - known[baseline] for name, one in known.items() if name != baseline}
+        return paired_differences(columns, is_in_sequence=self.is_in_sequence)
 
     @cached_property
     def behind_best(self) -> Mapping[str, Behind]:
@@ -77,7 +75,7 @@ class Comparison:
             if best is None:
                 continue
             values = {name: self.values[name] for name in self._candidates(track)}
-            against = differences_from(best, values, is_in_sequence=self.is_in_sequence)
+            against = self._differences(best, values)
             for entry in values:
                 if entry != best:
                     found[entry] = Behind(best, against[entry].reversed())
@@ -113,10 +111,10 @@ class Comparison:
             return "(best)" if is_best and len(self.tracks) > 1 else ""
         if not behind.difference.is_enough:
             return "(?)"
-        return "" if behind.difference.is_told else f"({ALIKE})"
+        return "" if behind.difference.is_significant else f"({ALIKE})"
 
 
-def difference_text(difference: Difference, *, sign: str = "") -> str:
+def difference_text(difference: Mean, *, sign: str = "") -> str:
     """A cell: difference, 95 % interval, and `≈` where it may be none.
 
     Args:
@@ -128,7 +126,7 @@ def difference_text(difference: Difference, *, sign: str = "") -> str:
     mean, low, high = (f"{one:{sign}.3f}" for one in (difference.mean, *difference.interval))
     if not difference.is_enough:
         return f"{mean} (too few)"
-    return f"{mean} [{low}, {high}]{'' if difference.is_told else f' {ALIKE}'}"
+    return f"{mean} [{low}, {high}]{'' if difference.is_significant else f' {ALIKE}'}"
 
 
 def comparison_note(windows: int, kind: str) -> str:
@@ -145,9 +143,9 @@ def comparison_note(windows: int, kind: str) -> str:
         )
     return (
         f"Behind the best: of the entries that get the same frames. [ ]: 95 % interval over "
-        f"{windows} {kind}. {ALIKE}: cannot be told apart (p > .05, adjusted for all that are "
-        "compared with the same entry). (too few): too few are defined, or independent of their "
-        "neighbours.\n"
+        f"{windows} {kind}. {ALIKE}: no significant difference (the intervals of all that are "
+        "compared with the same entry hold together). (too few): too few are defined, or "
+        "independent of their neighbours.\n"
     )
 
 

@@ -22,7 +22,7 @@ from texvent.events import EventStream
 from texvent.metrics.image_measures import Measures
 from texvent.options.fields import option_names
 from texvent.pipeline import Simulation, video_to_events
-from texvent.represent.packet_slices import slice_between
+from texvent.represent.slices import slice_between
 from texvent.simulate.model_options import contrast_threshold_of
 from texvent.video import MICROSECONDS
 from texvent_lab.bench.document import MarkdownReport

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import FileFormatError, shown
-from texvent.metrics.scores import plain_values
+from texvent.metrics.compare import plain_values
 from texvent_lab.bench.document import (
     check_record,
     describe_environment,

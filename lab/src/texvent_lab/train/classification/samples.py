@@ -12,9 +12,7 @@ from numpy.typing import NDArray
 from texvent.errors import InputError, shown
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.transform.orientation import flip, shift
-from texvent.transform.reversal import reverse_time
-from texvent.transform.window import start_at_zero
+from texvent.transform.edits import flip, reverse_time, shift, start_at_zero
 from texvent_lab.train.classification.config import Augmentation, ClassificationConfig, Source
 from texvent_lab.train.classification.sources import (
     DataSetSamples,

@@ -18,7 +18,7 @@ from texvent.networks.resnet34 import BLOCKS, WIDTH, resnet_scores, resnet_shape
 from texvent.networks.weight_files import Tensor, read_mapping, state_tensors, trained_with
 from texvent.options.values import plain
 from texvent.represent.named import represent_window
-from texvent.transform.region import resize
+from texvent.transform.edits import resize
 from texvent_lab.train.classification.config import Augmentation, ClassificationConfig
 from texvent_lab.train.classification.samples import (
     ChosenSamples,

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, ClassVar, Final
 
 from texvent.extending import require
-from texvent.metrics.pixelwise.depth_error import FARTHEST_M, DepthError
+from texvent.metrics.dense_errors import FARTHEST_M, DepthError
 from texvent.networks.layer_shapes import Shapes
 from texvent.networks.padding import Padding
 from texvent.networks.weight_files import STATE, Tensor

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Final
 
 from texvent.errors import ConfigError
 from texvent.extending import require
-from texvent.metrics.pixelwise.flow_error import FlowError
+from texvent.metrics.dense_errors import FlowError
 from texvent.networks.layer_shapes import Shapes, conv_layer, residual_block
 from texvent.networks.layers import Layers
 from texvent.networks.padding import Padding

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.extending import require
-from texvent.metrics.lpips.distance import LEAST_LENGTH, SHIFT, SPREAD
-from texvent.metrics.lpips.layout import COLOURS
-from texvent.metrics.lpips.weights import LpipsWeights
-from texvent.metrics.structural_similarity import CONTRAST, LUMINANCE, RADIUS_PX, gaussian_window
+from texvent.metrics.image_measures import CONTRAST, LUMINANCE, RADIUS_PX, gaussian_window
+from texvent.metrics.lpips import Lpips, LpipsWeights
 from texvent.networks.weight_files import Tensor
 from texvent_lab.train.reconstruction.config import ReconstructionLoss
 from texvent_lab.train.schedule import EXTRA
@@ -64,67 +62,6 @@ def add_hot_pixels(
     # A pixel that is drawn twice gets the sum.
     np.add.at(offset, places, chance.standard_normal(count, np.float32) * np.float32(deviation))
     return np.asarray(voxels + offset)
-
-
-class LpipsLoss:
-    """The distance of grey images."""
-
-    def __init__(self, weights: LpipsWeights) -> None:
-        """Copy the weights to torch's order."""
-        torch = require("torch", extra=EXTRA)
-        self._layout = weights.layout
-        # Kernels are [rows, columns, channels in, channels out].
-        self._tensors: dict[str, Tensor] = {
-            name: torch.from_numpy(array.transpose(3, 2, 0, 1).copy() if array.ndim > 1 else array)
-            for name, array in weights.arrays.items()
-        }
-        self._tensors |= {"shift": torch.from_numpy(SHIFT), "spread": torch.from_numpy(SPREAD)}
-
-    @property
-    def least_side(self) -> int:
-        """Of images that can be compared, px."""
-        return self._layout.least_side
-
-    def to(self, device: object) -> LpipsLoss:
-        """Move the weights."""
-        self._tensors = {name: one.to(device) for name, one in self._tensors.items()}
-        return self
-
-    def __call__(self, images: Tensor, true: Tensor) -> Tensor:
-        """See `texvent.metrics.lpips.distance.lpips_distance`.
-
-        Args:
-            images: [n, 1, H, W], 0..1; values beyond are taken as they are.
-            true: alike.
-
-        Returns:
-            Of each image, [n].
-        """
-        linalg = require("torch", extra=EXTRA).linalg
-        total: Tensor = 0
-        pairs = zip(self._features(images), self._features(true), strict=True)
-        for number, maps in enumerate(pairs):
-            # vector_norm has a gradient of 0 at features that are all 0; a square root has none.
-            one, other = (
-                x / (linalg.vector_norm(x, dim=1, keepdim=True) + float(LEAST_LENGTH))
-                for x in (y.float() for y in maps)
-            )
-            head = self._tensors[f"head{number}"][:, None, None]
-            total = total + ((one - other) ** 2 * head).sum(dim=1).mean(dim=(1, 2))
-        return total
-
-    def _features(self, images: Tensor) -> Iterator[Tensor]:
-        functional = require("torch", extra=EXTRA).nn.functional
-        shift, spread = (self._tensors[name][:, None, None] for name in ("shift", "spread"))
-        x = (2 * images.expand(-1, COLOURS, -1, -1) - 1 - shift) / spread
-        for number, layer in enumerate(self._layout.convolutions):
-            if layer.pools:
-                x = functional.max_pool2d(x, layer.pools, stride=2)
-            kernel, bias = self._tensors[f"kernel{number}"], self._tensors[f"bias{number}"]
-            x = functional.conv2d(x, kernel, bias, stride=layer.stride, padding=layer.padding)
-            x = functional.relu(x)
-            if layer.is_compared:
-                yield x
 
 
 LEAST_SUM = 1e-5
@@ -231,7 +168,7 @@ class SequenceLoss:
             weights: those of LPIPS; None: it has no part.
         """
         self._options = options
-        self._lpips = None if weights is None else LpipsLoss(weights)
+        self._lpips = None if weights is None else Lpips(weights)
         parts: list[tuple[float, Comparison]] = [
             (options.l1, l1),
             (options.ssim, dissimilarity),

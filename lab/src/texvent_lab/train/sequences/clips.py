@@ -18,7 +18,7 @@ from texvent.dataset.targets import Clip, Target, record_clip, target_of
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
-from texvent.io.hdf5.damage import open_hdf5
+from texvent.io.hdf5.storage import open_hdf5
 from texvent.runtime.cache_folder import cache_folder, make_folder
 from texvent.sensor import SensorSize
 from texvent_lab.train.sequences.config import SequenceData
