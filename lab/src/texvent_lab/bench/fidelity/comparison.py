@@ -92,7 +92,10 @@ class Comparison:
     def document(self, entry: str) -> dict[str, Any] | None:
         """How far an entry is behind, as plain values; None for the best and for no candidate."""
         behind = self.behind_best.get(entry)
-        return behind and {"best": behind.best, **behind.difference.document()}
+        if behind is None:
+            return None
+        verdict = {"is_significant": behind.difference.is_significant}
+        return {"best": behind.best, **behind.difference.document(), **verdict}
 
     def behind_text(self, entry: str) -> str:
         """Cell of a table: how far an entry is behind the best; empty for what is no candidate."""
