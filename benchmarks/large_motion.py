@@ -27,8 +27,8 @@ from texvent.bench.oracle.recording import FPS, TrueFrames
 from texvent.events import EventStream
 from texvent.interpolate.protocol import Interpolator
 from texvent.metrics.compare import compare
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.video import Video
 
 WIDTH, HEIGHT = 192, 144

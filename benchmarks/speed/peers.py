@@ -15,7 +15,7 @@ from typing import Any
 
 from texvent._registry import SIMULATORS
 from texvent.pipeline import video_to_events
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.simulate.thresholds import with_contrast_threshold
 from texvent.video import Video
 

@@ -20,8 +20,8 @@ from texvent.interpolate.pairing import pair_frames
 from texvent.io.files import open_writer
 from texvent.pairs.frame_pair import FramePair
 from texvent.pipeline import video_to_events
-from texvent.run.settings import Settings, resolve
 from texvent.runtime.background_writer import BackgroundWriter
+from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.build import build_simulator, gains_from_frames
 from texvent.video import Frame, FrameStream
 

@@ -23,12 +23,12 @@ from texvent.options.signatures import naming_options
 from texvent.options.values import with_options
 from texvent.pipeline import Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
-from texvent.run.settings import Settings, resolve
-from texvent.run.silence import SignalTally
 from texvent.run.truth import TruthFolder, run_with_truth
 from texvent.runtime.progress import ProgressOption, open_progress
 from texvent.scenes.spec.scene import Scene
 from texvent.sensor import SizeLike
+from texvent.settings.resolution import Settings, resolve
+from texvent.simulate.signal_tally import SignalTally
 from texvent.truth.parts import check_generator
 from texvent.video import FrameStream
 

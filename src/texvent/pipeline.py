@@ -17,19 +17,19 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent.capture.prepare import PreparedFrames
+from texvent.capture.transfer_adaptation import adapt_transfer
 from texvent.config import CaptureConfig, RunConfig
 from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.generate.scene_input import Subject, check_takes, prompt_of
 from texvent.interpolate.pairing import plan_pairs
 from texvent.pairs.frame_pair import OnSceneChange, notify_scene_change
-from texvent.run.light import suit_light
-from texvent.run.provenance import describe_run
-from texvent.run.settings import Settings
-from texvent.run.silence import SignalTally
 from texvent.runtime.progress import Progress
+from texvent.settings.provenance import describe_run
+from texvent.settings.resolution import Settings
 from texvent.simulate.build import build_simulator, gains_from_frames
 from texvent.simulate.randomized_options import draw_training_config
+from texvent.simulate.signal_tally import SignalTally
 from texvent.video import Frame, FrameStream
 
 
@@ -77,8 +77,8 @@ def video_to_events(
     if recipe != "none":
         drawn = draw_training_config(settings.simulate, recipe, seed=settings.run.seed)
         settings = replace(settings, simulate=drawn)
-    video, settings = suit_light(video, settings)
-    return Simulation(video=video, settings=settings, prompt=prompt)
+    video, config = adapt_transfer(video, settings.run.simulator, settings.simulate)
+    return Simulation(video=video, settings=replace(settings, simulate=config), prompt=prompt)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

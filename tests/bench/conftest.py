@@ -6,8 +6,8 @@ import pytest
 
 from texvent.bench.oracle.smooth_texture import ValueNoise
 from texvent.pipeline import video_to_events
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.video import Video
 
 SIZE = SensorSize(64, 48)

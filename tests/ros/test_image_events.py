@@ -15,8 +15,8 @@ from texvent.ros.config import RosConfig
 from texvent.ros.image_events import ImageEvents
 from texvent.ros.node import fill_packet
 from texvent.ros.packet_messages import PacketMaker
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 
 SIZE = SensorSize(16, 12)
 FRAMES = np.random.default_rng(3).integers(0, 256, (4, 12, 16), dtype=np.uint8)

@@ -13,8 +13,8 @@ from texvent.errors import ConfigError, InputError, MissingDependencyError
 from texvent.generate.procedural import ProceduralGenerator
 from texvent.generate.videos.stored_video import write_video
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source, prepare_video
-from texvent.run.settings import resolve
 from texvent.runtime.progress import CallbackProgress
+from texvent.settings.resolution import resolve
 from texvent.simulate.thresholds import contrast_threshold_of
 from texvent.web.job import SimulateJob
 from texvent.web.worker import simulate

@@ -7,8 +7,8 @@ import texvent
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.run.pushed import PushedSimulation
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.video import Frame
 
 FRAMES = np.random.default_rng(7).integers(0, 256, (4, 12, 16), dtype=np.uint8)

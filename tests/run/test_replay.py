@@ -9,7 +9,7 @@ from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.pipeline import text_to_events
 from texvent.run.replay import COMPARED, describe_differences, prepare_replay, render_again
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 
 OPTIONS = {"duration": 0.2, "fps": 10, "sensor": "48x36", "seed": 4, "samples": 1}
 

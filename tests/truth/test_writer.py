@@ -15,11 +15,11 @@ import texvent
 from texvent.errors import ConfigError, InputError, OutputError
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run
-from texvent.run.settings import resolve
 from texvent.scenes.models.class_ids import CLASS_IDS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.video import Frame, Motion, Video
 
 from .hand_video import DEPTH_M, SPEED_PX_PER_FRAME, board_video, level

@@ -5,7 +5,7 @@ import pytest
 import texvent
 from texvent.config import RunConfig
 from texvent.errors import ConfigError
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.web.gradio_page import NO_SENSOR, _options, _presets
 
 FIRST = (RunConfig.simulator, _presets(RunConfig.simulator)[0], NO_SENSOR)

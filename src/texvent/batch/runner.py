@@ -27,10 +27,10 @@ from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.io.files import open_events
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import is_strict, prepare_prompt, prepare_source, report_prompt
-from texvent.run.settings import Settings
-from texvent.run.silence import SignalTally
 from texvent.runtime.progress import NoProgress, Progress
 from texvent.scenes.report import PromptReport
+from texvent.settings.resolution import Settings
+from texvent.simulate.signal_tally import SignalTally
 from texvent.video import Frame
 
 BATCH_KEY = "batch_key"

@@ -14,8 +14,8 @@ from texvent.cli.wording import name_flags
 from texvent.config import RunConfig
 from texvent.errors import ConfigError
 from texvent.options.fields import option_names
-from texvent.run.presets import preset_help
-from texvent.run.settings import DECIDING, Command, Settings, apply_options, base_settings
+from texvent.settings.presets import preset_help
+from texvent.settings.resolution import DECIDING, Command, Settings, apply_options, base_settings
 
 
 @dataclass(frozen=True, kw_only=True)

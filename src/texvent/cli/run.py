@@ -21,10 +21,10 @@ from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_source
-from texvent.run.settings import Settings, unmeasured_sensor
-from texvent.run.silence import SignalTally
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.report import PromptReport
+from texvent.settings.resolution import Settings, unmeasured_sensor
+from texvent.simulate.signal_tally import SignalTally
 from texvent.video import MICROSECONDS, Frame, FrameStream
 
 SIGNALLED = 128

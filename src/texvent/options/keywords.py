@@ -34,7 +34,6 @@ class RunOptions(TypedDict, total=False):
     events: Literal["all", "signal", "noise"] | None
     label_noise: bool | None
     target_rate: float | None
-    memory: str | None
     randomize: Literal["none", "stoffregen", "v2v"] | None
 
 

@@ -13,8 +13,8 @@ from texvent.ros.config import RosConfig
 from texvent.ros.image_message import read_image, stamp_ns
 from texvent.ros.packet_messages import PacketMaker, check_side
 from texvent.run.pushed import PushedSimulation, check_pushable
-from texvent.run.settings import Settings
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import Settings
 from texvent.video import Frame
 
 Notify = Callable[[str], None]

@@ -25,7 +25,7 @@ from texvent.represent.event_frame import count_events
 from texvent.ros.config import RosConfig
 from texvent.ros.image_events import Answer, ImageEvents
 from texvent.ros.packet_messages import PacketMaker, check_side
-from texvent.run.settings import Settings
+from texvent.settings.resolution import Settings
 
 LATE_NS = 100_000_000
 """A video that lags by more than this is warned of."""

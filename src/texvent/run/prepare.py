@@ -10,21 +10,25 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import GENERATORS, INTERPOLATORS
-from texvent.calibrate.rate import reach_target_rate
+from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.generate.scene_input import Subject, check_takes, prompt_of, read
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
-from texvent.run.memory import check_memory
-from texvent.run.provenance import describe_weights
-from texvent.run.settings import Settings
+from texvent.run.rate_search import reach_target_rate
+from texvent.runtime.memory import usable_bytes
 from texvent.runtime.progress import Progress
 from texvent.scenes.report import PromptReport
 from texvent.scenes.spec.scene import Scene
+from texvent.sensor import SensorSize
+from texvent.settings.provenance import describe_weights
+from texvent.settings.resolution import Settings
 from texvent.simulate.build import build_simulator
 from texvent.video import FrameStream
+
+UNMEASURED = 200
+"""Bytes per pixel of a part that declares none."""
 
 
 def check_run(settings: Settings) -> None:
@@ -41,6 +45,35 @@ def check_run(settings: Settings) -> None:
         check_memory(settings, settings.size)
     if settings.run.backend != "auto":
         build_simulator(settings.run, settings.simulate)
+
+
+def estimate_bytes(settings: Settings, size: SensorSize) -> int:
+    """Memory for the frames, the interpolator and the pixels of a run, bytes.
+
+    Simulators and interpolators declare `bytes_per_pixel`, measured on moving texture; the frames
+    in the queue count to the simulator. Memory does not grow with the length of a clip.
+    """
+    parts = (
+        SIMULATORS.load(settings.run.simulator),
+        INTERPOLATORS.load(settings.interpolate.interpolate),
+    )
+    per_pixel = sum(getattr(part, "bytes_per_pixel", UNMEASURED) for part in parts)
+    return size.width * size.height * per_pixel
+
+
+def check_memory(settings: Settings, size: SensorSize) -> None:
+    """Refuse frames that do not fit into the memory of the machine: the system would end the run.
+
+    Raises:
+        InputError: they do not fit.
+    """
+    needed, usable = estimate_bytes(settings, size), usable_bytes()
+    if needed > usable:
+        raise InputError(
+            f"frames of {size} pixels need about {needed / 1e9:.3g} GB of memory with "
+            f"{settings.run.simulator} and interpolator {settings.interpolate.interpolate}; "
+            f"{usable / 1e9:.3g} GB are usable here: give a smaller sensor"
+        )
 
 
 def warn_of_unread_weights(config: InterpolateConfig) -> None:

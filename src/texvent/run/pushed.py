@@ -14,16 +14,15 @@ from fractions import Fraction
 from typing import Any
 
 from texvent.capture.linear_light import decode_light
+from texvent.capture.transfer_adaptation import adapt_transfer
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.interpolate.pairing import plan_pairs
 from texvent.pipeline import select_events
-from texvent.run.light import suit_light
-from texvent.run.memory import check_memory
-from texvent.run.prepare import check_run, warn_of_unread_weights
-from texvent.run.settings import Settings
+from texvent.run.prepare import check_memory, check_run, warn_of_unread_weights
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import Settings
 from texvent.simulate.build import build_simulator, gains_from_frames
 from texvent.simulate.randomized_options import draw_training_config
 from texvent.video import Frame
@@ -45,7 +44,7 @@ class PushedSimulation:
 
     Example:
         >>> import numpy as np
-        >>> from texvent.run.settings import resolve
+        >>> from texvent.settings.resolution import resolve
         >>> run = PushedSimulation(resolve("simulate", {"noise": "none"}), SensorSize(2, 1))
         >>> len(run.push(Frame(np.full((1, 2), 50, np.uint8), 0)))
         0
@@ -63,7 +62,8 @@ class PushedSimulation:
 
             is_coded = source is self._frames
             source = PreparedFrames(source, config, size=settings.size, check_scale=is_coded)
-        source, settings = suit_light(source, settings)
+        source, config = adapt_transfer(source, settings.run.simulator, settings.simulate)
+        settings = replace(settings, simulate=config)
         self.size: SensorSize = source.size
         """Sensor size, pixels."""
         check_memory(settings, self.size)

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 from texvent.errors import ConfigError, warn
 from texvent.events import EventStream
 from texvent.pipeline import Simulation
-from texvent.run.silence import SignalTally
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.progress import Progress
+from texvent.simulate.signal_tally import SignalTally
 from texvent.truth.layout import check_truth_folder
 from texvent.truth.parts import ALL, PARTS, parse_parts
 

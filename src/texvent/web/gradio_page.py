@@ -9,8 +9,8 @@ from texvent._registry import CODECS, SIMULATORS
 from texvent._require import require
 from texvent.config import RunConfig
 from texvent.errors import ConfigError, TexventError
-from texvent.run.settings import DEFAULT_SENSOR, sensor_preset
 from texvent.sensor import SENSORS, parse_sensor
+from texvent.settings.resolution import DEFAULT_SENSOR, sensor_preset
 from texvent.web.answer_html import (
     download_html,
     failure_html,

@@ -21,11 +21,11 @@ from texvent.io.files import extension_of, open_events, save
 from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_prompt, prepare_video
-from texvent.run.settings import resolve
 from texvent.scenes.literals import find_literals
 from texvent.scenes.report import PromptReport
 from texvent.scenes.spec.files import parse_scene
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.video import MICROSECONDS, Frame
 from texvent.web.job import Answer, ConvertJob, Job, SimulateJob, answer_line, read_job
 from texvent.web.limits import Limits

@@ -27,7 +27,7 @@ from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.pipeline import video_to_events
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.simulate.physical.threshold_map import read_threshold_map
 
 from ..synthetic_report import synthetic_report

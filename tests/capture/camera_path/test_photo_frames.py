@@ -11,8 +11,8 @@ from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.io.files import open_events
 from texvent.run.replay import describe_differences, prepare_replay
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.video import RenderableStream
 
 ROWS, COLUMNS = np.mgrid[:60, :80]

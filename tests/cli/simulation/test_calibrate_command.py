@@ -4,8 +4,8 @@ import pytest
 from texvent.calibrate.events_only.replay import replay_flicker, replay_static
 from texvent.cli.app import main
 from texvent.events import EventStream
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.physical.threshold_map import read_threshold_map

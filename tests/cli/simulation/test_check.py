@@ -11,7 +11,7 @@ from tests.video_check.made_clips import encode, pan
 
 from texvent.cli.app import main
 from texvent.options.fields import option_names
-from texvent.run.settings import default_settings
+from texvent.settings.resolution import default_settings
 from texvent.video_check.checks import CHECKS
 
 OF_GENERATE = {"seed", "on_failure"}

@@ -14,7 +14,7 @@ from texvent.errors import FileFormatError
 from texvent.generate.video_models.known_models import MODELS
 from texvent.generate.videos.stored_video import reopen
 from texvent.pipeline import text_to_video
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 
 PROMPT = "a red ball bounces on the grass"
 SMALL = ["--sensor", "48x36", "--duration", "0.2", "--samples", "1", "--fps", "30000/1001"]

@@ -41,7 +41,7 @@ from texvent.generate.videos.clip_score import measure_clip_score  # noqa: E402
 from texvent.generate.videos.stored_video import write_video  # noqa: E402
 from texvent.generate.videos.video_cache import made_folder  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
-from texvent.run.settings import resolve  # noqa: E402
+from texvent.settings.resolution import resolve  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
 from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402

@@ -13,7 +13,7 @@ from texvent.generate.video_models import lookup
 from texvent.generate.video_models.download import describe_terms
 from texvent.generate.video_models.known_models import MODELS
 from texvent.options.fields import option_help, option_names
-from texvent.run.settings import default_settings, resolve
+from texvent.settings.resolution import default_settings, resolve
 
 
 def test_every_row_says_where_what_how_fast_and_under_which_licence():

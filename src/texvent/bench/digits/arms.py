@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeAlias, get_args
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
-from texvent.run.settings import Settings, resolve
+from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.thresholds import with_contrast_threshold
 
 Way: TypeAlias = Literal["exact", "flow", "frames"]

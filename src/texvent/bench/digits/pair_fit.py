@@ -18,7 +18,7 @@ from texvent.bench.digits.data.sheet import DigitSheet
 from texvent.calibrate.distance import Distance, measure_distance
 from texvent.events import EventStream
 from texvent.run.prepare import prepare_video
-from texvent.run.settings import Settings
+from texvent.settings.resolution import Settings
 
 COORDINATES: Mapping[str, tuple[float, ...]] = {
     "refractory_period_us": (100, 1000, 2000),

@@ -17,7 +17,7 @@ from texvent.bench.digits.pair_fit import COORDINATES
 from texvent.bench.digits.store import Step
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError, shown
-from texvent.run.settings import Settings
+from texvent.settings.resolution import Settings
 from texvent.train.schedule import Schedule
 
 ALL_DIGITS = 10_000

@@ -18,12 +18,11 @@ from texvent.bench.digits.data.sheet import Digits, DigitSheet
 from texvent.bench.digits.pair_fit import fit_to_pairs
 from texvent.bench.digits.plan import DigitsPlan, Run, recorded_step
 from texvent.bench.digits.store import digest_of
-from texvent.calibrate.rate import UNREACHED
-from texvent.calibrate.threshold_search import find_threshold
 from texvent.errors import FileFormatError
 from texvent.run.prepare import prepare_video
-from texvent.run.settings import Settings
+from texvent.run.rate_search import UNREACHED, find_threshold
 from texvent.runtime.cache_folder import make_folder
+from texvent.settings.resolution import Settings
 from texvent.simulate.thresholds import contrast_threshold_of
 
 SHEET, RANDOM_SHEET = 100, 25

@@ -14,7 +14,7 @@ from texvent.bench.oracle.scenes import Scene
 from texvent.errors import ConfigError, shown
 from texvent.events import EventStream
 from texvent.run.prepare import prepare_video
-from texvent.run.settings import Settings, resolve
+from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
 from texvent.video import FrameStream
 

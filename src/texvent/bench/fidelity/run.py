@@ -27,12 +27,12 @@ from texvent.bench.oracle.recording import oracle_scene, record
 from texvent.bench.oracle.scenes import check_scene, known_flow, scene_names
 from texvent.bench.progress import Progress, no_progress
 from texvent.bench.selftest.perturbations import perturb
-from texvent.calibrate.threshold_search import ThresholdMatch, find_threshold
 from texvent.config import check_range
 from texvent.errors import ConfigError, TexventError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare, load_metric
 from texvent.metrics.protocol import Metric
+from texvent.run.rate_search import ThresholdMatch, find_threshold
 
 NULL = "shuffle all times"
 OTHER_SENSOR = "another sensor of the kind"

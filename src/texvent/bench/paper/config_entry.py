@@ -8,7 +8,7 @@ from pathlib import Path
 
 from texvent.bench.fidelity.entries import Entry
 from texvent.errors import InputError
-from texvent.run.settings import Settings, resolve
+from texvent.settings.resolution import Settings, resolve
 
 
 @dataclass(frozen=True, kw_only=True)

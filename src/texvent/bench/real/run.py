@@ -27,7 +27,7 @@ from texvent.metrics.compare import load_metric
 from texvent.metrics.motion.contrast_maximisation import estimate_patch_flow
 from texvent.metrics.protocol import Metric
 from texvent.options.fields import option_names
-from texvent.run.settings import Settings, apply_options
+from texvent.settings.resolution import Settings, apply_options
 
 TARGET = "recorded"
 """What takes the place of the oracle's kind of pixels."""

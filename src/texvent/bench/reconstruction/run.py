@@ -20,7 +20,6 @@ from texvent.bench.markdown import MarkdownReport
 from texvent.bench.progress import Progress, no_progress
 from texvent.bench.real.frame_recording import FrameRecording
 from texvent.bench.reconstruction.image_scores import ImageScores, ScoreCollector, score_images
-from texvent.calibrate.rate import match_rate
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.events import EventStream
@@ -29,6 +28,7 @@ from texvent.options.fields import option_names
 from texvent.pipeline import Simulation, video_to_events
 from texvent.reconstruct.reconstructor import Intensity, Reconstructor
 from texvent.represent.packet_slices import slice_between
+from texvent.run.rate_search import match_rate
 from texvent.simulate.thresholds import contrast_threshold_of
 from texvent.video import MICROSECONDS
 

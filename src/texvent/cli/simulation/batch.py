@@ -28,9 +28,9 @@ from texvent.io.files import codec_for, extension_of
 from texvent.options.values import plain
 from texvent.run.files import RunFiles
 from texvent.run.prepare import check_run, prepare_prompt, prepare_source, report_prompt
-from texvent.run.settings import Settings
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.report import ReportTally
+from texvent.settings.resolution import Settings
 from texvent.truth.parts import check_generator
 
 DESCRIPTION = """Events for many prompts, scene files or videos. A list is a .txt (one prompt or

@@ -26,9 +26,9 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.io.atomic import check_outputs
 from texvent.io.files import load
-from texvent.run.settings import resolve
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.sensor import parse_sensor
+from texvent.settings.resolution import resolve
 from texvent.simulate.physical.cameras.presets import PRESETS
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.threshold_map import write_threshold_map

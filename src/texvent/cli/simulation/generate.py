@@ -24,11 +24,11 @@ from texvent.generate.video_models.lookup import warn_low_fps
 from texvent.io.atomic import check_output
 from texvent.options.fields import option_names
 from texvent.run.prepare import check_run, is_strict, make_scene, make_video, prepare_prompt
-from texvent.run.settings import Settings, default_settings
 from texvent.run.truth import TruthFolder
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.spec.files import is_scene_file, save_scene
 from texvent.scenes.spec.scene import Scene
+from texvent.settings.resolution import Settings, default_settings
 from texvent.truth.layout import truth_folder
 from texvent.truth.parts import ALL, check_generator
 

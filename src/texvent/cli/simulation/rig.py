@@ -18,8 +18,8 @@ from texvent.errors import ConfigError
 from texvent.options.fields import option_names
 from texvent.options.values import plain
 from texvent.rig.config import RigConfig, check_generator
-from texvent.run.settings import Settings, base_settings
 from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.settings.resolution import Settings, base_settings
 
 DESCRIPTION = """Record an embedded scene with a rig: event cameras with lenses, frames beside their
 events, an IMU; one clock, true poses, calibration as Kalibr writes it.

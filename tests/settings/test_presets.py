@@ -5,8 +5,8 @@ import pytest
 import texvent
 from texvent.cli.app import main
 from texvent.errors import ConfigError
-from texvent.run.presets import find_preset, preset_help, presets_by_simulator
-from texvent.run.settings import resolve
+from texvent.settings.presets import find_preset, preset_help, presets_by_simulator
+from texvent.settings.resolution import resolve
 
 
 def test_a_preset_of_one_simulator_alone_finds_it(tmp_path):

@@ -3,8 +3,9 @@
 import pytest
 
 from texvent.errors import ConfigError, InputError
-from texvent.run.settings import base_settings, read_config, resolve, unmeasured_sensor
 from texvent.sensor import SENSORS, SensorSize
+from texvent.settings.config_files import read_config
+from texvent.settings.resolution import base_settings, resolve, unmeasured_sensor
 
 SENSOR_FILE = """
 [run]

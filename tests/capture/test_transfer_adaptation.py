@@ -7,14 +7,14 @@ import pytest
 
 import texvent
 from texvent._registry import SIMULATORS
+from texvent.capture.transfer_adaptation import gamma_coded
 from texvent.interpolate.dis_flow.pair_flow import PairFlow
 from texvent.interpolate.motion.pair import MotionPair
 from texvent.pairs.instants import matching_levels
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
-from texvent.run.light import gamma_coded
 from texvent.run.pushed import PushedSimulation
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.transfer import Transfer, decode_srgb, encode_srgb
 from texvent.video import Frame, Motion, Video, transfer_of
 from texvent.view.drawing.event_image import frame_image

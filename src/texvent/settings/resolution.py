@@ -7,24 +7,21 @@ options. The command line and the Python API both come through here, so they can
 from __future__ import annotations
 
 import dataclasses
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig, check_range
-from texvent.errors import ConfigError, InputError, one_line, shown
-from texvent.io.files import event_extensions, open_events
+from texvent.errors import ConfigError, shown
 from texvent.options.fields import option_names
 from texvent.options.values import plain, with_options
-from texvent.run.presets import find_preset
-from texvent.runtime.file_names import usable_path
 from texvent.sensor import SENSORS, Sensor, SensorSize, find_sensor, parse_sensor
+from texvent.settings.config_files import Command, read_config
+from texvent.settings.presets import find_preset
 from texvent.simulate.thresholds import with_contrast_threshold
 
-Command = Literal["generate", "simulate"]
 DEFAULT_SENSOR = "davis346"
 """Size of a generated scene when no sensor is named and the generator has no wish of its own."""
 
@@ -132,7 +129,6 @@ ALONG_MOTION = "motion"
 """The interpolator of frames that come with motion vectors."""
 RENDERED = "exact"
 """The interpolator of what is known at any instant."""
-TABLES = ("run", "generate", "capture", "interpolate", "simulate")
 """Tables of options in a config file."""
 DECIDING = ("generator", "simulator", "preset", "sensor", "motion", "motion_back", "camera")
 """Options that decide which other options there are, or their defaults."""
@@ -314,87 +310,3 @@ def _as_number(value: Any, where: str) -> float:
         raise ConfigError(f"{where}: contrast_threshold is {shown(value)}; it must be a number")
     check_range("contrast_threshold", value, 1e-6, 1e6)
     return float(value)
-
-
-def read_config(path: str | Path, command: Command | None = None) -> dict[str, Any]:
-    """Options in a TOML or YAML file, or of the run that made an event file, tables flattened.
-
-    Args:
-        path: the file.
-        command: of an event file, only options that this command has are taken; None: all.
-
-    Raises:
-        InputError: the file cannot be read.
-        ConfigError: it is not valid TOML or YAML, holds no options or another table, or sets an
-            option twice.
-    """
-    path = usable_path(path)
-    if path.suffix.lower() in event_extensions() - {".txt", ".csv"}:
-        return _options_of_run(path, command)
-    document = read_document(path)
-    for name, value in document.items():
-        if isinstance(value, Mapping) and name not in TABLES:
-            raise ConfigError(
-                f"config file {path}: unknown table {shown(name)}; {suggest(name, TABLES)}"
-            )
-    return flatten_tables(document, path)
-
-
-def read_document(path: Path) -> Mapping[str, Any]:
-    """The tables of a TOML or YAML file.
-
-    Raises:
-        InputError: the file cannot be read.
-        ConfigError: it is not valid TOML or YAML, or holds no names and values.
-    """
-    usable_path(path)
-    try:
-        text = path.read_text(encoding="utf-8")
-    except OSError as error:
-        reason = error.strerror or error
-        raise InputError(f"cannot read config file {path}: {reason}; check its name") from error
-    except UnicodeDecodeError as error:
-        raise InputError(f"config file {path} is not UTF-8 text: {one_line(error)}") from error
-    try:
-        document = _parse(path, text)
-    except (tomllib.TOMLDecodeError, ValueError, RecursionError) as error:
-        raise ConfigError(f"config file {path} is not valid: {one_line(error)}") from error
-    if not isinstance(document, Mapping):
-        raise ConfigError(f"config file {path} must hold options by name, such as: seed = 3")
-    return document
-
-
-def flatten_tables(tables: Mapping[str, Any], path: Path) -> dict[str, Any]:
-    """Options of tables, or outside them, by name.
-
-    Raises:
-        ConfigError: two tables set the same option.
-    """
-    flat: dict[str, Any] = {}
-    for name, value in tables.items():
-        for option, item in (value if isinstance(value, Mapping) else {name: value}).items():
-            if option in flat:
-                raise ConfigError(f"config file {path} sets {shown(option)} twice")
-            flat[str(option).replace("-", "_")] = item
-    return flat
-
-
-def _options_of_run(path: Path, command: Command | None) -> dict[str, Any]:
-    tables = open_events(path).metadata.get("settings")
-    if not isinstance(tables, Mapping):
-        raise ConfigError(f"{path} does not say with which options it was made; give a TOML file")
-    other = {"generate": "capture", "simulate": "generate", None: None}[command]
-    return flatten_tables({name: one for name, one in tables.items() if name != other}, path)
-
-
-def _parse(path: Path, text: str) -> Any:
-    if path.suffix.lower() in (".yaml", ".yml"):
-        import yaml  # only a YAML config needs it
-
-        try:
-            return yaml.safe_load(text) or {}
-        except yaml.YAMLError as error:
-            raise ValueError(error) from error
-    if path.suffix.lower() == ".toml":
-        return tomllib.loads(text)
-    raise ValueError(f"its name must end in .toml, .yaml or .yml, not {shown(path.suffix)}")

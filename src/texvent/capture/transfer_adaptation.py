@@ -1,4 +1,4 @@
-"""Linear or gamma-coded: the frames as a pixel model is defined for them.
+"""Transfer adaptation: linear or gamma-coded frames, as a pixel model is defined for them.
 
 Models that declare `takes_linear` get linear light as it is. All others are defined on the luma of
 ordinary video: linear frames are gamma-coded for them by sRGB's curve, which goes on above white.
@@ -16,23 +16,25 @@ from texvent._registry import SIMULATORS
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.intensity_scale import float_levels
 from texvent.options.fields import option_names
-from texvent.run.settings import Settings
 from texvent.transfer import WHITE, Transfer, encode_srgb
 from texvent.video import Frame, FrameStream, transfer_of
 
 
-def suit_light(video: FrameStream, settings: Settings) -> tuple[FrameStream, Settings]:
-    """The video as the pixel model of a run takes it, and the options for that.
+def adapt_transfer(video: FrameStream, simulator: str, config: Any) -> tuple[FrameStream, Any]:
+    """Frames in the transfer that a pixel model is defined for, and the model's options for them.
 
-    The option `gamma` of a model undoes the coding of frames: of linear ones it is 1.
+    The option `gamma` of a model undoes the coding of frames: for linear ones it is 1.
+
+    Args:
+        video: gamma-coded or linear frames.
+        simulator: name of the pixel model.
+        config: its options.
     """
     if transfer_of(video) is Transfer.GAMMA:
-        return video, settings
-    if not getattr(SIMULATORS.load(settings.run.simulator), "takes_linear", False):
-        return gamma_coded(video), settings
-    if "gamma" in option_names(type(settings.simulate)):
-        settings = replace(settings, simulate=replace(settings.simulate, gamma=1.0))
-    return video, settings
+        return video, config
+    if not getattr(SIMULATORS.load(simulator), "takes_linear", False):
+        return gamma_coded(video), config
+    return video, replace(config, gamma=1.0) if "gamma" in option_names(type(config)) else config
 
 
 def gamma_coded(video: FrameStream) -> FrameStream:

@@ -11,7 +11,7 @@ import texvent
 from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.generate.videos.stored_video import write_stream
-from texvent.run.silence import SignalTally
+from texvent.simulate.signal_tally import SignalTally
 from texvent.video import Frame, Video
 
 FPS = 120
