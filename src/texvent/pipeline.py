@@ -23,11 +23,12 @@ from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.generate.scene_input import Subject, check_takes, prompt_of
 from texvent.interpolate.pairing import plan_pairs
-from texvent.pairs.frame_pair import OnSceneChange, notify_scene_change
+from texvent.pairs.frame_pair import FramePair, OnSceneChange, notify_scene_change
 from texvent.runtime.progress import Progress
 from texvent.settings.provenance import describe_run
 from texvent.settings.resolution import Settings
 from texvent.simulate.build import build_simulator, gains_from_frames
+from texvent.simulate.protocol import Simulator
 from texvent.simulate.randomized_options import draw_training_config
 from texvent.simulate.signal_tally import SignalTally
 from texvent.video import Frame, FrameStream
@@ -102,18 +103,10 @@ class Simulation:
             on_scene_change: called at every cut and flash.
         """
         run = self.settings.run
-        simulator = build_simulator(run, self.settings.simulate)
         tally = self.tally or SignalTally()
-        tally.begin(simulator)
         with ExitStack() as threads:
-            pairs = plan_pairs(
-                self.video,
-                self.settings.interpolate,
-                threads,
-                balance=simulator.balance,
-                contrast_threshold=simulator.contrast_threshold,
-                counts_motion=gains_from_frames(simulator),
-            )
+            simulator, pairs = self.begin(threads)
+            tally.begin(simulator)
             for pair in pairs:
                 notify_scene_change(pair, on_scene_change)
                 tally.see(pair.second)
@@ -123,6 +116,23 @@ class Simulation:
             for frame, packet in simulator.finish():
                 tally.count(packet)
                 yield frame, select_events(packet, run)
+
+    def begin(self, threads: ExitStack) -> tuple[Simulator, Iterator[FramePair]]:
+        """A simulator at rest, and the pairs of frames that it advances through.
+
+        Args:
+            threads: ends the threads of the pairs when it is closed.
+        """
+        simulator = build_simulator(self.settings.run, self.settings.simulate)
+        pairs = plan_pairs(
+            self.video,
+            self.settings.interpolate,
+            threads,
+            balance=simulator.balance,
+            contrast_threshold=simulator.contrast_threshold,
+            counts_motion=gains_from_frames(simulator),
+        )
+        return simulator, pairs
 
     def __iter__(self) -> Iterator[EventStream]:
         return (packet for _, packet in self.steps())
@@ -137,7 +147,7 @@ class Simulation:
 
     @property
     def packets(self) -> EventPackets:
-        """The events alone, packet by packet; simulated anew for each pass."""
+        """The events alone, packet by packet; simulated again for each pass."""
         return EventPackets(self, self.video.size, self.provenance)
 
     @property

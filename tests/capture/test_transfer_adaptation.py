@@ -12,8 +12,6 @@ from texvent.interpolate.dis_flow.pair_flow import PairFlow
 from texvent.interpolate.motion.pair import MotionPair
 from texvent.pairs.instants import matching_levels
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
-from texvent.run.pushed import PushedSimulation
-from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.transfer import Transfer, decode_srgb, encode_srgb
 from texvent.video import Frame, Motion, Video, transfer_of
@@ -114,13 +112,10 @@ def test_light_above_white_gives_events_that_clipping_loses(simulator):
     assert in_glare > 1.5 * left + 5
 
 
-def test_pushed_frames_are_decoded_too():
+def test_single_frames_are_decoded_too():
     frames = video()
-    run = PushedSimulation(
-        resolve("simulate", {**QUIET, "interpolate": "none", "transfer": "linear"}),
-        SensorSize(64, 48),
-    )
-    pushed = [run.push(Frame(one.pixels, one.t_us)) for one in frames]
+    camera = texvent.EventCamera((64, 48), **QUIET, interpolate="none", transfer="linear")
+    pushed = [camera.step(one.pixels, one.t_us) for one in frames]
     whole = texvent.simulate(frames, **QUIET, interpolate="none")
     assert sum(map(len, pushed)) == len(whole)
 

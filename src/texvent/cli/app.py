@@ -43,10 +43,6 @@ COMMANDS = {
         "texvent.cli.simulation.rig",
         "Several cameras with lenses, frames and an IMU, from a prompt.",
     ),
-    "ros": (
-        "texvent.cli.simulation.ros",
-        "A ROS 2 node: images of a topic in, event packets out.",
-    ),
     "render": ("texvent.cli.event_files.render", "A video, image or page of an event file."),
     "view": (
         "texvent.cli.event_files.view",

@@ -1,27 +1,24 @@
-"""The node's logic, without ROS: images in, packets of events out."""
+"""Logic of the node, without ROS: images in, packets of events out."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
+import texvent
 from texvent.errors import shown
 from texvent.events import EventStream
 from texvent.io.ros.messages import NS, NS_PER_S, EventPacket
-from texvent.ros.config import RosConfig
-from texvent.ros.image_message import read_image, stamp_ns
-from texvent.ros.packet_messages import PacketMaker, check_side
-from texvent.run.pushed import PushedSimulation, check_pushable
 from texvent.sensor import SensorSize
-from texvent.settings.resolution import Settings
-from texvent.video import Frame
+from texvent_ros.config import RosConfig
+from texvent_ros.messages import PacketMaker, check_side, read_image, stamp_ns
 
 Notify = Callable[[str], None]
 
 
 class Answer(NamedTuple):
-    """What an image gives."""
+    """Events and messages of an image."""
 
     packets: list[EventPacket]
     """Messages with the events since the image before; where a recording begins, with those that
@@ -38,9 +35,7 @@ class Answer(NamedTuple):
 class _Recording:
     """Images that follow each other."""
 
-    simulation: PushedSimulation
-    size: SensorSize
-    """Of the images."""
+    camera: texvent.EventCamera
     first_ns: int
     last_ns: int
     frame_id: str
@@ -60,18 +55,18 @@ class ImageEvents:
     recording: its first image gives no event.
 
     Args:
-        settings: options of the simulation, as `resolve("simulate", ...)` gives them.
-        config: options of the messages.
-        warn: given a line about dropped images and new recordings.
+        options: options of `texvent.EventCamera`.
+        config: parameters of the node.
+        warn: receives a line about dropped images and new recordings.
 
     Raises:
         ConfigError: an option needs more than the images so far.
         InputError: weights are missing.
     """
 
-    def __init__(self, settings: Settings, config: RosConfig, warn: Notify) -> None:
-        check_pushable(settings)
-        self._settings, self._config, self._warn = settings, config, warn
+    def __init__(self, options: Mapping[str, Any], config: RosConfig, warn: Notify) -> None:
+        texvent.EventCamera((1, 1), **options).close()  # refuses bad options before any image
+        self._options, self._config, self._warn = options, config, warn
         self._recording: _Recording | None = None
         self._maker = PacketMaker(config.packet_us)
         self.dropped = 0
@@ -98,7 +93,7 @@ class ImageEvents:
         if recording is None or reason is not None:
             rest = self.finish()
             recording = self._begin(time_ns, size, reason, frame_id)
-            recording.simulation.push(Frame(pixels, 0))
+            recording.camera.step(pixels, 0)
             self._recording = recording
             return rest or Answer([], None, time_ns, frame_id)
         if time_ns - recording.last_ns < NS:
@@ -106,7 +101,7 @@ class ImageEvents:
             return Answer([], None, time_ns, frame_id)
         self._recording = None  # one that stops in here cannot go on, nor be finished
         recording.last_ns, recording.frame_id = time_ns, frame_id
-        events = recording.simulation.push(Frame(pixels, recording.last_us))
+        events = recording.camera.step(pixels, recording.last_us)
         answer = self._answer(recording, events)
         self._recording = recording
         return answer
@@ -120,7 +115,7 @@ class ImageEvents:
         recording, self._recording = self._recording, None
         if recording is None:
             return None
-        events = recording.simulation.finish()
+        events = recording.camera.finish()
         return self._answer(recording, events) if len(events) else None
 
     def _answer(self, recording: _Recording, events: EventStream) -> Answer:
@@ -132,8 +127,8 @@ class ImageEvents:
         recording = self._recording
         if recording is None:
             return None
-        if size != recording.size:
-            return f"images are {size} now, they were {recording.size}"
+        if size != recording.camera.frame_size:
+            return f"images are {size} now, they were {recording.camera.frame_size}"
         step_ns = time_ns - recording.last_ns
         if abs(step_ns) > self._config.max_gap_ns:
             return f"time steps by {step_ns / NS_PER_S:+.3f} s, beyond max_gap"
@@ -144,16 +139,16 @@ class ImageEvents:
     ) -> _Recording:
         if reason is not None:
             self._warn(f"{reason}: a new recording begins")
-        simulation = PushedSimulation(self._settings, size)
-        check_side(simulation.size)
+        camera = texvent.EventCamera(size, **self._options)
+        check_side(camera.size)
         self._maker.start(time_ns)
         self.recordings += 1
-        return _Recording(simulation, size, time_ns, time_ns, frame_id)
+        return _Recording(camera, time_ns, time_ns, frame_id)
 
     def _drop(self, time_ns: int, recording: _Recording) -> None:
         self.dropped += 1
         if self.dropped & (self.dropped - 1) == 0:  # 1, 2, 4, 8, ...
-            hint = "; images without times need --stamps arrival" if time_ns == 0 else ""
+            hint = "; images without times need stamps:=arrival" if time_ns == 0 else ""
             self._warn(
                 f"dropped {self.dropped} image(s): the time {shown(time_ns)} ns does not come "
                 f"after {recording.last_ns} ns{hint}"
