@@ -282,7 +282,7 @@ def types_with_events():  # type: ignore[no-untyped-def]
         (["--stereo", "0.1", "--rig", "x.yaml"], "rig and stereo both"),
         (["--rig", "nothing.yaml"], "cannot read config file nothing.yaml"),
         (["--rig", "x.yaml", "--sensor", "64x48"], "both say how large"),
-        (["--imu", "100", "--imu-noise", "bosch"], "--imu-noise is 'bosch'; it must be"),
+        (["--imu", "100", "--imu-noise", "bosch"], "imu_noise is 'bosch'; it must be"),
         (["--shutter", "sideways"], "shutter"),
         (["--frames", "2", "--exposure", "0.4", "--duration", "0.3"], "no frame at 2 per second"),
         (["--truth", "colour", "--frames", "10"], "no part 'colour' of truth"),

@@ -21,7 +21,6 @@ from texvent.errors import (
     TexventError,
     warn,
     warnings_to,
-    worded,
 )
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.io.files import open_events
@@ -197,5 +196,5 @@ def _is_own(path: Path, sample: Sample) -> bool:
 
 
 def _make_in_process(plan: BatchPlan, sample: Sample, is_replaceable: bool) -> Outcome:
-    with interruptible(), worded(str):  # the process that shows them words them
+    with interruptible():
         return make_sample(plan, sample, is_replaceable, NoProgress())

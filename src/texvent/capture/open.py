@@ -123,7 +123,7 @@ def _open_address(address: str, config: CaptureConfig, given: FrameTimes | None)
         return Aedat4Frames(path, _file_times(config, given))
     if is_still(path):
         raise InputError(
-            f"{path} is one image, so nothing changes; move a camera over it with --camera "
+            f"{path} is one image, so nothing changes; move a camera over it with `camera` "
             "saccade, shake, pan or FILE, or name a folder of images"
         )
     from texvent.capture.video_file import VideoFile  # brings PyAV

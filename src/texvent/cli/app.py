@@ -13,7 +13,6 @@ from collections.abc import Sequence
 from texvent._registry import suggest
 from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say, write_out
-from texvent.cli.wording import flags_in_messages
 from texvent.errors import ConfigError, OutputError, TexventError, shown
 from texvent.io.hidden_parts import remove_own_parts
 from texvent.io.protected_inputs import protected_inputs
@@ -133,7 +132,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return _run(list(arguments))
 
 
-@flags_in_messages()
 def _run(words: list[str], *, is_process: bool = False) -> int:
     """Exit code of a command; every error becomes one line."""
     try:

@@ -271,7 +271,7 @@ def _detailed(
     if upsample is None or upsample.upsample is None:
         return prompt
     if isinstance(prompt, Scene):
-        raise ConfigError("--upsample makes a sentence detailed, not a scene; leave it out")
+        raise ConfigError("`upsample` makes a sentence detailed, not a scene; leave it out")
     from texvent.generate.prompts.upsample import upsample_prompt  # brings requests
 
     detailed = upsample_prompt(prompt, upsample)

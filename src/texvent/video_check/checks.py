@@ -90,7 +90,7 @@ def _rate(one: Measures) -> str:
     return f"{one['rate_hz']:.3g} ± {one['rate_error_hz']:.2g} per pixel and s"
 
 
-ANOTHER_SEED = "generate: another --seed, --on-failure retry"
+ANOTHER_SEED = "generate: another `seed`, on_failure='retry'"
 
 CHECKS = (
     Check(
@@ -102,7 +102,7 @@ CHECKS = (
         value=lambda one: f"{one['still_share']:.0%} of pairs still",
         limit=f"{FROZEN_SHARE:.0%}",
         effect="noise alone while it stands still",
-        help=f"--start, --stop; {ANOTHER_SEED}",
+        help=f"`start`, `stop`; {ANOTHER_SEED}",
     ),
     Check(
         name="no motion",
@@ -132,7 +132,7 @@ CHECKS = (
         value=lambda one: f"{one['flash']:.1f} levels",
         limit=f"{FLASH_LEVELS:g}",
         effect="every pixel fires, up and down",
-        help="--detect-cuts (on unless switched off) keeps it at one instant; --start, --stop",
+        help="`detect_cuts` (on unless switched off) keeps it at one instant; `start`, `stop`",
     ),
     Check(
         name="cut",
@@ -142,7 +142,7 @@ CHECKS = (
         value=lambda one: f"{one['cuts']:.0f}",
         limit="0",
         effect="most pixels fire at one instant, which no camera sees",
-        help="--start, --stop: one shot; --detect-cuts (on) keeps it at one instant",
+        help="`start`, `stop`: one shot; `detect_cuts` (on) keeps it at one instant",
     ),
     Check(
         name="dark",
@@ -152,7 +152,7 @@ CHECKS = (
         value=lambda one: f"95 % below level {one['bright_end']:.0f}",
         limit=f"{DARK_LEVEL:g}",
         effect="few events of things, many of noise",
-        help="lower --balance, --contrast-threshold; --noise none",
+        help="lower `balance`, `contrast_threshold`; noise='none'",
     ),
     Check(
         name="saturated",
@@ -162,7 +162,7 @@ CHECKS = (
         value=lambda one: f"95 % above level {one['dark_end']:.0f}",
         limit=f"{BRIGHT_LEVEL:g}",
         effect="clipped: what moves in it fires nothing",
-        help=f"--white-level, if white is another value; {ANOTHER_SEED}",
+        help=f"`white_level`, if white is another value; {ANOTHER_SEED}",
     ),
     Check(
         name="noise",
@@ -172,7 +172,7 @@ CHECKS = (
         value=lambda one: f"correlation {one['correlation']:.2f}",
         limit=f"at least {NOISE_CORRELATION:g}",
         effect="every pixel fires by itself",
-        help=f"a smaller --sensor averages it; {ANOTHER_SEED}",
+        help=f"a smaller `sensor` averages it; {ANOTHER_SEED}",
     ),
     Check(
         name="repeated frames",
@@ -181,7 +181,7 @@ CHECKS = (
         value=_repeats,
         limit=f"{REPEAT_SHARE:.0%}",
         effect="silence, then twice the change: the rate beats, times are wrong",
-        help="drop them (ffmpeg -vf mpdecimate), then --fps with the true rate",
+        help="drop them (ffmpeg -vf mpdecimate), then `fps` with the true rate",
     ),
     Check(
         name="beat",
@@ -190,7 +190,7 @@ CHECKS = (
         value=_beat,
         limit=f"{LEAST_LOG:g} log in {BEAT_SHARE:.0%}",
         effect="fires if twice that exceeds the threshold; else shifts the times of others",
-        help="--deflicker, if the whole image beats; or a recording at a higher frame rate",
+        help="`deflicker`, if the whole image beats; or a recording at a higher frame rate",
     ),
     Check(
         name="compression blocks",
@@ -199,7 +199,7 @@ CHECKS = (
         value=lambda one: f"{one['blockiness']:.2f} times",
         limit=f"{BLOCKINESS:g}",
         effect="false events in smooth areas, lost ones in detail",
-        help="a better copy; a smaller --sensor averages blocks",
+        help="a better copy; a smaller `sensor` averages blocks",
     ),
     Check(
         name="key frames",
@@ -208,7 +208,7 @@ CHECKS = (
         value=_keys,
         limit=f"{KEY_RATIO:g} times",
         effect="what rests changes at each: clumps of events at their rate",
-        help="a better copy; a smaller --sensor; a higher --contrast-threshold",
+        help="a better copy; a smaller `sensor`; a higher `contrast_threshold`",
     ),
     Check(
         name="banding",
@@ -226,7 +226,7 @@ CHECKS = (
         value=_bars,
         limit="0",
         effect="pixels that give noise alone; steady edges",
-        help="--sensor WIDTHxHEIGHT of what is inside, with --fit cover",
+        help="`sensor` WIDTHxHEIGHT of what is inside, with fit='cover'",
     ),
     Check(
         name="frame times",
@@ -237,7 +237,7 @@ CHECKS = (
         ),
         limit=f"{IRREGULAR_SHARE:.0%}",
         effect="right if the file is; else the rate jumps",
-        help="--fps, or --timestamps of an image folder, replaces the times",
+        help="`fps`, or `timestamps` of an image folder, replaces the times",
     ),
     Check(
         name="motion per frame",
@@ -246,7 +246,7 @@ CHECKS = (
         value=_motion,
         limit=f"{MOTION_SHARE:.0%} of the side",
         effect="interpolation loses things that move this far: ghosts instead of edges",
-        help="more frames per second; --motion of a renderer; generate: --interpolate exact",
+        help="more frames per second; `motion` of a renderer; generate: interpolate='exact'",
     ),
     Check(
         name="event rate",
@@ -255,7 +255,7 @@ CHECKS = (
         value=_rate,
         limit=f"{LOW_RATE_HZ:g} to {HIGH_RATE_HZ:g}",
         effect="below: little more than noise; above: more than sensors read out",
-        help="--contrast-threshold, or --target-rate",
+        help="`contrast_threshold`, or `target_rate`",
     ),
 )
 """In the order of the table."""

@@ -30,7 +30,7 @@ def test_without_gradio_the_extra_is_named_and_nothing_remains(
         (["--port", "70000"], "port is 70000"),
         (["--generators", ","], "generators is empty"),
         (["--generators", "sora"], "unknown generator 'sora'"),
-        (["--max-seconds", "0"], "--max-seconds is 0"),
+        (["--max-seconds", "0"], "max_seconds is 0"),
     ],
 )
 def test_mistakes_are_one_line(capsys, words: list[str], message: str) -> None:

@@ -65,7 +65,7 @@ def read_flow_png(path: Path, convention: str | None) -> NDArray[np.float32]:
     if convention not in (*PNG_PER_PIXEL, "unreal"):
         raise InputError(
             f"{path} is a PNG of flow, and KITTI and DSEC count its steps differently; give "
-            "--motion-convention kitti (1/64 px) or dsec (1/128 px)"
+            "motion_convention='kitti' (1/64 px) or dsec (1/128 px)"
         )
     pixels = read_png(path)
     if pixels.dtype != np.uint16 or pixels.ndim != 3:
@@ -95,7 +95,7 @@ def read_depth_png(path: Path, convention: str | None) -> NDArray[np.float32]:
     if convention != "carla" or pixels.dtype != np.uint8:
         raise FileFormatError(
             f"{path} is a colour image; depth is one channel of 8 or 16 bits, or CARLA's 24 bits "
-            "(--motion-convention carla)"
+            "(motion_convention='carla')"
         )
     weights = np.array([1, 256, 65536], np.float64) * (CARLA_DEPTH_M / (2**24 - 1))
     return np.asarray(pixels[..., :3] @ weights, dtype=np.float32)

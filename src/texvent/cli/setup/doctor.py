@@ -30,7 +30,6 @@ BASE = {
     "h5py": "HDF5 event files",
     "av": "reading and writing video",
     "opencv-python-headless": "images, resizing",
-    "tyro": "command line",
     "rich": "progress and tables",
     "pyyaml": "YAML config files",
     "tomli-w": "--print-config",

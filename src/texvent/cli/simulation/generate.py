@@ -11,24 +11,21 @@ from texvent._registry import GENERATORS
 from texvent.cli.command import resolve_command
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import peek_options
 from texvent.cli.outputs import OutputOptions, default_event_file
-from texvent.cli.run import execute, print_settings, run_source
+from texvent.cli.run import execute, print_settings
 from texvent.cli.simulation.preview import check_preview, write_preview
 from texvent.cli.subject import read_subject, subject_name
-from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, warn
 from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.generate.scene_input import Subject, check_takes
 from texvent.generate.video_models.lookup import warn_low_fps
 from texvent.io.atomic import check_output
-from texvent.options.fields import option_names
 from texvent.run.prepare import check_run, is_strict, make_scene, make_video, prepare_prompt
 from texvent.run.truth import TruthFolder
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.spec.files import is_scene_file, save_scene
 from texvent.scenes.spec.scene import Scene
-from texvent.settings.resolution import Settings, default_settings
+from texvent.settings.resolution import Settings
 from texvent.truth.layout import truth_folder
 from texvent.truth.parts import ALL, check_generator
 
@@ -72,27 +69,10 @@ class PromptOptions(UpsampleConfig):
     """OpenAI-compatible server of the language model, such as http://localhost:8080/v1."""
     llm_model: str | None = None
     """Name of the model on that server."""
-    from_video: Path | None = None
-    """Take this video for the prompt's instead of generating one; all further options are then
-    those of texvent simulate, which does the same: texvent simulate VIDEO --prompt TEXT."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class FromVideoOptions:
-    """A prompt and its video."""
-
-    positional: ClassVar[tuple[str, ...]] = ("prompt",)
-
-    prompt: str = REQUIRED
-    """What the video shows; stored with the events."""
-    from_video: Path = REQUIRED
-    """The video: one that --video-only wrote, or any other."""
 
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    if peek_options(arguments, ("from_video",))["from_video"]:
-        return _run_from_video(arguments)
     settings, own, output = resolve_command(
         "generate", arguments, PromptOptions(), description=DESCRIPTION
     )
@@ -160,38 +140,6 @@ def _plan(prompt: Subject, settings: Settings) -> str | None:
     generator = part(settings.source, seed=settings.run.seed, size=settings.size)
     plan = getattr(generator, "plan", None)
     return None if plan is None else plan(prompt)
-
-
-def _run_from_video(arguments: Sequence[str]) -> int:
-    _refuse_generation(arguments)
-    settings, own, output = resolve_command(
-        "simulate", arguments, FromVideoOptions(), description=DESCRIPTION
-    )
-    if output.print_config:
-        return print_settings(settings)
-    if not own.from_video.is_file():
-        raise InputError(f"no such video: {own.from_video}")
-    return run_source(own.from_video, settings, output, prompt=own.prompt, subject=own.prompt)
-
-
-def _refuse_generation(arguments: Sequence[str]) -> None:
-    """Refuse flags that say how a video is made when one is given.
-
-    Raises:
-        ConfigError: there is such a flag.
-    """
-    generator = peek_options(arguments, ("generator",))["generator"]
-    source = default_settings("generate", generator=generator).source
-    making = {*option_names(PromptOptions), *option_names(type(source))}
-    taken = {*option_names(FromVideoOptions), *option_names(CaptureConfig)} - {"duration"}
-    for word in arguments:
-        flag = word.partition("=")[0]
-        name = flag.removeprefix("--").removeprefix("no-").replace("-", "_")
-        if flag.startswith("--") and name in making - taken:
-            raise ConfigError(
-                f"{flag} says how to make a video, but --from-video takes one that is ready; leave "
-                "one of them out"
-            )
 
 
 def _write_scene(

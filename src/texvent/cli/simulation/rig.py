@@ -10,7 +10,6 @@ from typing import Any, ClassVar
 from texvent.cli.command import resolve_command
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import peek_options
 from texvent.cli.outputs import default_event_file
 from texvent.cli.run import print_settings
 from texvent.cli.subject import read_subject, subject_name
@@ -19,7 +18,7 @@ from texvent.options.fields import option_names
 from texvent.options.values import plain
 from texvent.rig.config import RigConfig, check_generator
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.settings.resolution import Settings, base_settings
+from texvent.settings.resolution import Settings
 
 DESCRIPTION = """Record an embedded scene with a rig: event cameras with lenses, frames beside their
 events, an IMU; one clock, true poses, calibration as Kalibr writes it.
@@ -68,7 +67,6 @@ class RigOutputOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    _refuse_generator(arguments)
     settings, own, output = resolve_command(
         "generate",
         arguments,
@@ -77,6 +75,7 @@ def run(arguments: Sequence[str]) -> int:
         prog="texvent rig",
         output=RigOutputOptions(),
     )
+    check_generator(settings.generator)
     if output.print_config:
         return print_settings(settings)
     _refuse_sensor(settings, own, arguments)
@@ -94,17 +93,6 @@ def run(arguments: Sequence[str]) -> int:
     if not output.quiet:
         write_out(f"{out}\n")
     return 0
-
-
-def _refuse_generator(arguments: Sequence[str]) -> None:
-    """Refuse generators whose videos are seen from one place only.
-
-    Raises:
-        ConfigError: a flag or the config file names one.
-    """
-    named = peek_options(arguments, ("generator", "config"))
-    settings = base_settings("generate", config=named["config"], generator=named["generator"])
-    check_generator(settings.generator)
 
 
 def _refuse_sensor(settings: Settings, own: RigOptions, arguments: Sequence[str]) -> None:

@@ -40,16 +40,12 @@ class VideoOptions:
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
     settings, own, output = resolve_command(
-        "simulate", arguments, VideoOptions(), description=DESCRIPTION
+        "simulate",
+        arguments,
+        VideoOptions(),
+        description=DESCRIPTION,
+        find_motion=lambda own: own_motion(own.source),
     )
-    found = None if settings.source.motion else own_motion(own.source)
-    if found is not None:  # it decides the defaults of other options
-        settings, own, output = resolve_command(
-            "simulate",
-            [*arguments, "--motion", str(found)],
-            VideoOptions(),
-            description=DESCRIPTION,
-        )
     if output.print_config:
         return print_settings(settings)
     subject = "standard input" if own.source == "-" else Path(own.source).stem

@@ -117,8 +117,8 @@ def describe_few_steps(
     if not names or (steps <= MANY_STEPS and guidance <= GUIDED):
         return None
     return (
-        f"{names[0]} is named like an adapter for few steps, most of which want --steps 4 to 8 and "
-        f"--guidance 1; now: {steps:g} steps, guidance {guidance:g}"
+        f"{names[0]} is named like an adapter for few steps, most of which want steps=4 to 8 and "
+        f"guidance=1; now: {steps:g} steps, guidance {guidance:g}"
     )
 
 

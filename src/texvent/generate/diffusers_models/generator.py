@@ -153,7 +153,7 @@ class DiffusersGenerator:
         if rate is None:
             raise ConfigError(
                 f"the frame rate of {self.model.name} is not known, and it is nowhere in the "
-                "weights; say it, for example --fps 16"
+                "weights; say it, for example fps=16"
             )
         return Fraction(rate)
 
@@ -163,7 +163,7 @@ class DiffusersGenerator:
         if self.config.image is not None:
             read_image(self.config.image)
         elif self.model.needs_image:
-            raise InputError(f"{self.model.name} starts from an image; give --image PATH")
+            raise InputError(f"{self.model.name} starts from an image; give image=PATH")
         if self.model.pipeline is not None:
             check_reference(self.model.pipeline, self.config)
         if self.config.reference_video is not None:

@@ -130,7 +130,7 @@ def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str,
         raise ConfigError(f"image is set, but {name} starts from text alone")
     image = accepted.get("image")
     if image is not None and image.default is inspect.Parameter.empty and config.image is None:
-        raise ConfigError(f"{name} starts from an image; give --image PATH")
+        raise ConfigError(f"{name} starts from an image; give image=PATH")
     check_reference(name, config)
     return accepted
 
@@ -149,7 +149,7 @@ def check_reference(pipeline: str, config: DiffusersConfig) -> None:
     if config.reference_video is not None and not follows:
         raise ConfigError(f"reference_video is set, but {pipeline} follows none")
     if config.reference_video is None and follows:
-        raise ConfigError(f"{pipeline} follows a video; give --reference-video FILE")
+        raise ConfigError(f"{pipeline} follows a video; give reference_video=FILE")
 
 
 def _check_tiles(pipe: Any, config: DiffusersConfig) -> None:
@@ -187,8 +187,8 @@ def run_pipeline(pipe: Any, arguments: Mapping[str, Any]) -> tuple[Any, ...]:
         ) from error
     except torch.OutOfMemoryError as error:
         raise TexventError(
-            f"{type(pipe).__name__} does not fit into the GPU's memory; try --offload model or "
-            "--offload sequential, --quantize 8bit, a smaller --width and --height, or fewer "
+            f"{type(pipe).__name__} does not fit into the GPU's memory; try offload='model' or "
+            "offload='sequential', quantize='8bit', a smaller `width` and `height`, or fewer "
             "--frames"
         ) from error
     finally:

@@ -58,7 +58,7 @@ def upsample_prompt(prompt: str, config: UpsampleConfig) -> str:
     ask = _ask_server if config.upsample.startswith(("http://", "https://")) else _ask_local
     answer = " ".join(ask(prompt, config).split())
     if not answer:
-        raise InputError(f"{config.upsample} answers nothing to {prompt!r}; leave out --upsample")
+        raise InputError(f"{config.upsample} answers nothing to {prompt!r}; leave out `upsample`")
     with atomic_file(note, overwrite=True) as part:
         text = json.dumps({**facts, "prompt": prompt, "answer": answer}, ensure_ascii=False)
         part.write_text(text, encoding="utf-8")
@@ -96,7 +96,7 @@ def _ask_server(prompt: str, config: UpsampleConfig) -> str:
     except requests.RequestException as error:
         raise TexventError(
             f"the chat server {address} cannot be reached ({type(error).__name__}); "
-            "check --upsample"
+            "check `upsample`"
         ) from error
     if not reply.ok:
         hint = f"; set {KEY_VARIABLE} to its key" if reply.status_code in (401, 403) else ""

@@ -19,4 +19,4 @@ class UpsampleConfig:
 
     def __post_init__(self) -> None:
         if self.upsample_model is not None and self.upsample is None:
-            raise ConfigError("upsample_model is set, but no server with --upsample")
+            raise ConfigError("upsample_model is set, but no server with `upsample`")

@@ -122,7 +122,7 @@ def find_local(adapter: Adapter) -> Path | None:
         path = path / _choose([one.name for one in path.glob(f"*{SAFETENSORS}")], str(path))
     if not path.is_file():
         raise InputError(
-            f"there is no adapter {shown(str(path))}; give --lora FILE{SAFETENSORS}[:WEIGHT], a "
+            f"there is no adapter {shown(str(path))}; give lora=FILE{SAFETENSORS}[:WEIGHT], a "
             f"folder with one, or {HUB}organisation/name"
         )
     if path.suffix != SAFETENSORS:

@@ -61,7 +61,7 @@ def read_reference(path: Path, frames: int) -> Iterator[PixelArray]:
         raise FileFormatError(
             f"the reference video {path} cannot be read ({error.strerror}); name a video file"
         ) from error
-    fewer = f", or --frames {count}" if count > 1 else ""
+    fewer = f", or frames={count}" if count > 1 else ""
     raise InputError(
         f"the reference video {path} has {count} frames, and {frames} are to be made; give a "
         f"longer one{fewer}"
@@ -89,7 +89,7 @@ def warn_of_rate(path: Path, fps: Fraction) -> None:
     if rate and abs(rate / fps - 1) > SLOWER:
         warn(
             f"{path} has {float(rate):g} frames per second, and its frames are taken as those of "
-            f"{float(fps):g}, so motion changes its speed; give --fps {float(rate):g} to keep it"
+            f"{float(fps):g}, so motion changes its speed; give fps={float(rate):g} to keep it"
         )
 
 

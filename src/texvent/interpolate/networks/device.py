@@ -103,11 +103,11 @@ def explain_failures(device: str, *, is_compiled: bool = False) -> Iterator[None
         if "memory" in str(error):
             raise InputError(
                 f"a pair of frames does not fit into the memory of device {device}; "
-                "set --interpolator-tile 512 (or less), or choose a smaller --sensor"
+                "set interpolator_tile=512 (or less), or choose a smaller `sensor`"
             ) from error
         if is_compiled and type(error).__module__.startswith(("torch._dynamo", "torch._inductor")):
             reason = str(error).strip().splitlines()[0][:120]
             raise ConfigError(
-                f"torch.compile does not work here ({reason}); leave out --interpolator-compile"
+                f"torch.compile does not work here ({reason}); leave out `interpolator_compile`"
             ) from error
         raise

@@ -35,7 +35,7 @@ def check_checkpoint_path(path: Path | None) -> Path:
     if path is None:
         raise ConfigError(
             "super-slomo needs its network's weights, which no package carries; "
-            f"{WHERE_FROM}. Then pass --interpolator-weights PATH"
+            f"{WHERE_FROM}. Then pass interpolator_weights=PATH"
         )
     if not path.is_file():
         raise InputError(f"there is no weights file {path}; {WHERE_FROM}")

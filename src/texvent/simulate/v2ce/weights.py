@@ -42,7 +42,7 @@ def check_weights_path(path: Path | None) -> Path:
     if path is None:
         raise ConfigError(
             f"simulator v2ce needs its network's weights and downloads nothing; {WHERE_FROM}. "
-            "Then pass --weights PATH"
+            "Then pass weights=PATH"
         )
     if not path.is_file():
         raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
