@@ -159,7 +159,7 @@ def test_render_makes_videos_images_and_pages(folder, name, capsys):
 
 
 def test_doctor_knows_every_extra_that_a_user_can_install():
-    for_developers = {"dev", "docs", "readers", "peers", "loaders"}
+    for_developers = {"dev", "docs", "readers", "loaders"}
     same_as_another = {"torch"}
     project = tomllib.loads(PYPROJECT.read_text(encoding="utf-8"))["project"]
     assert set(EXTRAS) == set(project["optional-dependencies"]) - for_developers - same_as_another
