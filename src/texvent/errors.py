@@ -8,10 +8,10 @@
     └── MissingDependencyError   an optional package is not installed
 
 A message says what was wrong, the value, what is allowed and what to do. The command line
-prints it as one line and exits with `exit_code`; it never shows a traceback for these. An option has
-one name in messages, config files and Python: `white_level`; its flag is `--white-level`. Echoes of
-a file or a caller go through `shown`, those of a library's message through `one_line`: both are
-bounded, so that a hostile file cannot fill the terminal.
+prints it as one line and exits with `exit_code`; it never shows a traceback for these. An option
+has one name in messages, config files and Python: `white_level`; its flag is `--white-level`.
+Echoes of a file or a caller go through `shown`, those of a library's message through `one_line`:
+both are bounded, so that a hostile file cannot fill the terminal.
 
 A `TexventWarning` is issued when a result is probably not what the user wanted.
 """
