@@ -118,6 +118,18 @@ def test_a_yaml_config_sets_options_too(folder, capsys):
     assert tables["simulate"]["noise"] == "none"
 
 
+def test_the_options_of_an_event_file_make_it_again_and_serve_another_run(folder):
+    scene = ("a red car drives left", "--events-only")
+    words = ("--duration", "0.2", "--sensor", "48x36", "--simulator", "v2e", "--seed", "5")
+    assert run("generate", *scene, *words, "-o", "a.h5") == 0
+    assert run("generate", *scene, "--config", "a.h5", "-o", "b.h5") == 0
+    assert Path("a.h5").read_bytes() == Path("b.h5").read_bytes()
+    np.save("f.npy", np.full((4, 48, 64), 90, np.uint8))
+    small = ("--fps", "30", "--interpolate", "none", "--events-only")
+    assert run("simulate", "f.npy", "--config", "a.h5", *small, "-o", "c.h5") == 0
+    assert texvent.load("c.h5").metadata["simulator"] == "v2e"
+
+
 def test_a_dry_run_estimates_and_writes_nothing(folder, capsys):
     assert run("simulate", CLIP, "--dry-run", *QUICK) == 0
     said = capsys.readouterr().out

@@ -103,14 +103,6 @@ def test_the_same_seed_gives_the_same_recording(native: Path, tmp_path: Path) ->
         assert_same_events(one, other)
 
 
-def test_one_camera_of_a_rig_is_not_replayed_alone(
-    native: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    assert main(["replay", str(native / "cam1" / "events.h5")]) == 2
-    assert "one camera of a rig" in capsys.readouterr().err
-    assert main(["validate", str(native / "cam1" / "events.h5")]) == 0
-
-
 def test_a_recording_is_loaded(native: Path) -> None:
     made = rig.load(native)
     left, right = made.cameras

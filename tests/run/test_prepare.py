@@ -83,16 +83,12 @@ def test_missing_weights_are_named_before_a_generator_starts(tmp_path, prompts):
     assert prompts == []
 
 
-def test_weights_that_nothing_reads_are_said_and_do_not_stop_a_replay(tmp_path, capsys):
+def test_weights_that_nothing_reads_are_a_warning(capsys, tmp_path):
     unread = ["--interpolate", "blend", "--interpolator-weights", "rife.pkl"]
-    words = ["generate", PROMPT, *unread, "--events-only"]
-    small = ["--sensor", "48x36", "--duration", "0.2"]
-    first, again = tmp_path / "first.h5", tmp_path / "again.h5"
-    for command in ([*words, *small, "-o", str(first)], ["replay", str(first), "-o", str(again)]):
-        assert main(command) == 0
-        said = capsys.readouterr().err
-        assert said.count("rife.pkl', and nothing reads it: interpolate is blend") == 1
-    np.testing.assert_array_equal(texvent.load(first).t, texvent.load(again).t)
+    words = ["generate", PROMPT, *unread, "--sensor", "48x36", "--duration", "0.2", "--events-only"]
+    assert main([*words, "-o", str(tmp_path / "a.h5")]) == 0
+    said = capsys.readouterr().err
+    assert said.count("rife.pkl', and nothing reads it: interpolate is blend") == 1
 
 
 def test_a_web_job_reaches_its_target_rate(tmp_path):

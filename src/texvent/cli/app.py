@@ -59,10 +59,6 @@ COMMANDS = {
         "texvent.cli.event_files.convert",
         "Another event format, a region, a time range, files merged.",
     ),
-    "replay": (
-        "texvent.cli.event_files.replay",
-        "Make an event file again from what is stored in it, and compare.",
-    ),
     "validate": (
         "texvent.cli.event_files.validate",
         "Can this event file be trusted? A verdict and an exit code.",

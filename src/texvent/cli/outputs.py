@@ -51,8 +51,7 @@ class OutputOptions:
     print_config: bool = False
     """Print all resolved options as TOML, ready for --config, and stop."""
     dry_run: bool = False
-    """Estimate events, time and memory, and stop. It tries up to three pairs of frames, for 10 s
-    at most."""
+    """Estimate events, time and memory from the first pairs of frames, and stop."""
     keep_partial: bool = False
     """If the run is stopped (Ctrl-C, SIGTERM) or the video ends in damage, keep what is done: the
     files end there and say so (complete = false). A second Ctrl-C discards them."""

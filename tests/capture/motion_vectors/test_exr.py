@@ -125,7 +125,6 @@ def test_simulate_takes_the_folder_that_the_script_makes(tmp_path, capsys):
     assert source["motion_convention"] == "blender"
     assert len(source["motion_fingerprint"]) == 64
     assert len(texvent.load(out)) == len(texvent.simulate(BLENDER, noise="none"))
-    assert main(["replay", str(out), "-o", str(tmp_path / "again.h5")]) == 0
 
 
 def test_the_script_can_be_found_and_belongs_to_blender(capsys):

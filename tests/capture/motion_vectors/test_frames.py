@@ -12,7 +12,6 @@ from texvent.capture.motion_vectors.attach import own_motion
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, TexventWarning
-from texvent.run.replay import prepare_replay
 from texvent.sensor import SensorSize
 from texvent.video import Frame, Motion, Video
 
@@ -330,12 +329,6 @@ def test_following_the_vectors_is_the_default_unless_told_otherwise(tmp_path):
     assert interpolation(depth=DEPTH) == "flow"
     assert interpolation(flow=FORWARD, interpolate="none") == "none"
     assert interpolation(flow=FORWARD, config=tmp_path / "run.toml") == "blend"
-
-
-def test_events_of_arrays_cannot_be_replayed_without_them(tmp_path):
-    events = texvent.simulate(FILM, flow=FORWARD, fps=25, stop=0.12, simulator="esim")
-    with pytest.raises(InputError, match="came from memory"):
-        prepare_replay(events.metadata, path=tmp_path / "a.h5")
 
 
 def test_a_stream_of_frames_that_carry_motion():

@@ -15,7 +15,7 @@ from texvent.batch.manifest import Manifest
 from texvent.batch.runner import BatchPlan, check_scenes, find_refused, run_batch
 from texvent.batch.samples import Sample, are_videos, read_samples
 from texvent.cli.command import resolve_command
-from texvent.cli.estimate import describe_estimate, estimate_run
+from texvent.cli.dry_run import measure_start
 from texvent.cli.notices import say, say_warning, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
@@ -191,7 +191,7 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
         else:
             simulation = prepare_prompt(first.subject, settings, upsample=plan.upsample)
         write_out(f"the first, {first.name}:\n")
-        write_out(describe_estimate(estimate_run(simulation, plan.files_of(first))) + "\n")
+        write_out(measure_start(simulation).describe() + "\n")
     return 0
 
 
