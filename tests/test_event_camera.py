@@ -22,7 +22,7 @@ def step_all(camera: texvent.EventCamera) -> EventStream:
         {"simulator": "esim", "interpolate": "blend"},
         {"simulator": "v2e"},
         {"simulator": "physical", "sensor": "8x8", "white_level": 200.0},
-        {"deflicker": True, "randomize": "v2v", "events": "signal"},
+        {"deflicker": True, "randomize": "v2v", "keep_events": "signal"},
     ],
     ids=lambda options: "-".join(map(str, options.values())) or "default",
 )

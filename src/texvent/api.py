@@ -184,7 +184,7 @@ def simulate(
             motion vectors along.
         **options: those of `texvent simulate --help`, such as `fps="30000/1001"`,
             `interpolate="flow"`, `sensor="davis346"`, `contrast_threshold=0.2`, `noise="none"`;
-            of what a renderer knows, `flow` and `flow_back` are motion vectors from each frame to
+            of what a renderer knows, `motion` and `motion_back` are vectors from each frame to
             the next and to the previous one, [N, H, W, 2] or one less, px, x right and y down
             (`motion_convention` says where they are otherwise), `depth` is in m, [N, H, W], and
             `instances` are ids of objects: arrays, lists of arrays, or paths.
@@ -336,20 +336,12 @@ def _simulation(
 
     Args:
         source: the frames, which may bring motion along.
-        options: as given; `flow` and `flow_back` stand for `motion` and `motion_back`.
+        options: as given; vectors, depth and ids may be arrays.
         config: a file with options.
-
-    Raises:
-        InputError: the same is given by two names.
     """
     from texvent.capture.motion_vectors.attach import own_motion  # brings the readers of frames
 
     given: dict[str, Any] = dict(options)
-    for name, other in (("motion", "flow"), ("motion_back", "flow_back")):
-        field = given.pop(other, None)
-        if field is not None and given.get(name) is not None:
-            raise InputError(f"{other} and {name} are the same; give one")
-        given[name] = given.get(name) if field is None else field
     arrays = {
         name: given.pop(name)
         for name in ("motion", "motion_back", "depth", "instances")
@@ -369,7 +361,7 @@ def _collected(run: Simulation, progress: ProgressOption) -> EventStream:
     """The events of a run, with a warning if there is no signal or hardly any."""
     tally = SignalTally()
     events = replace(run, tally=tally).packets.collect(progress=progress)
-    doubt = tally.doubt(run.settings.run.events)
+    doubt = tally.doubt(run.settings.run.keep_events)
     if doubt is not None:
         warn(doubt)
     return events

@@ -107,7 +107,7 @@ class RunConfig:
     """Which kernels simulate: compiled ones on the CPU (cpu), readable ones (reference), or those
     on a GPU (gpu: for texvent and esim, with texvent[gpu]); auto is cpu where it can be. The events
     are the same."""
-    events: Literal["all", "signal", "noise"] = "all"
+    keep_events: Literal["all", "signal", "noise"] = "all"
     """Which events to keep: all, only those that a brightness change fired, or only noise."""
     label_noise: bool = False
     """Store beside every event whether it is signal (0) or noise (1), as an extra column."""

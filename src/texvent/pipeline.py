@@ -158,6 +158,6 @@ class Simulation:
 
 def select_events(packet: EventStream, run: RunConfig) -> EventStream:
     """The events of a packet that a run keeps, with the label only if it is wanted."""
-    if packet.label is not None and run.events != "all":
-        packet = packet[packet.label == (SIGNAL if run.events == "signal" else NOISE)]
+    if packet.label is not None and run.keep_events != "all":
+        packet = packet[packet.label == (SIGNAL if run.keep_events == "signal" else NOISE)]
     return packet if run.label_noise else packet.without_label()

@@ -91,8 +91,8 @@ def test_events_are_the_same_packet_by_packet_and_whole():
 def test_signal_and_noise_can_be_had_apart():
     options = {"interpolate": "none", "stop": 0.4, "label_noise": True}
     both = texvent.simulate(CLIP, **options)
-    signal_only = texvent.simulate(CLIP, events="signal", **options)
-    noise_only = texvent.simulate(CLIP, events="noise", **options)
+    signal_only = texvent.simulate(CLIP, keep_events="signal", **options)
+    noise_only = texvent.simulate(CLIP, keep_events="noise", **options)
     assert 0 < len(noise_only) < len(signal_only)
     assert both[both.label == 0].equals(signal_only)
     assert both[both.label == 1].equals(noise_only)

@@ -174,7 +174,7 @@ def make_sample(
             files = replace(files, overwrite=overwrite)
             tally = SignalTally()
             write_run(replace(simulation, tally=tally), files, metadata=facts, on_step=count)
-            doubt = tally.doubt(settings.run.events)
+            doubt = tally.doubt(settings.run.keep_events)
             if doubt is not None:
                 warn(doubt)
     except ENDING_ALL:

@@ -121,7 +121,7 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
     with progress, _saying_what_is_complete(files.outputs):
         early = write_run(simulation, files, on_step=count, on_scene_change=tally.add_scene_change)
     _announce(progress, _summary(tally, time.perf_counter() - started))
-    doubt = tally.kinds.doubt(simulation.settings.run.events)
+    doubt = tally.kinds.doubt(simulation.settings.run.keep_events)
     if doubt is not None:
         warn(doubt)
     if early is not None:

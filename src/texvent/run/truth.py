@@ -90,7 +90,7 @@ def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> 
             done += frame.is_source
             progress.advance("simulate", done, run.video.frame_count)
     events = EventStream.concat(packets)
-    doubt = tally.doubt(run.settings.run.events)
+    doubt = tally.doubt(run.settings.run.keep_events)
     if doubt is not None:
         warn(doubt)
     return events.with_metadata(run.provenance)

@@ -165,7 +165,7 @@ def test_what_is_no_image_gets_one_line(photo, tmp_path):
     with pytest.raises(ConfigError, match="t_us is for frames"):
         open_frames(PHOTO, CaptureConfig(camera="pan"), t_us=[0, 1])
     with pytest.raises(ConfigError, match="motion is for videos"):
-        texvent.simulate(PHOTO, camera="pan", flow=np.zeros((1, 60, 80, 2)))
+        texvent.simulate(PHOTO, camera="pan", motion=np.zeros((1, 60, 80, 2)))
     photo.write_bytes(photo.read_bytes()[:40])
     with pytest.raises(FileFormatError, match="cannot be decoded"):
         texvent.simulate(photo, camera="pan")
