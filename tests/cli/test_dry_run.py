@@ -22,7 +22,11 @@ def _folder(tmp_path, monkeypatch):
 
 
 def dry_run(frames):
-    return measure_start(video_to_events(Video(frames, fps=50), resolve("simulate", OPTIONS)))
+    return measure_start(
+        video_to_events(
+            Video(frames, [20_000 * i for i in range(len(frames))]), resolve("simulate", OPTIONS)
+        )
+    )
 
 
 def test_the_first_pairs_are_counted():

@@ -28,7 +28,7 @@ def test_a_preset_of_the_default_simulator_is_its_own():
     [
         (
             {"simulator": "esim", "preset": "evk4"},
-            "simulator 'esim' has no preset 'evk4'; give simulator='physical' preset='evk4'",
+            "simulator 'esim' has no preset 'evk4'; give simulator='physical', preset='evk4'",
         ),
         (
             {"preset": "davis346"},
@@ -46,12 +46,12 @@ def test_a_preset_that_is_not_found_names_what_is(options, said):
         resolve("simulate", options)
 
 
-def test_commands_say_the_model_and_name_flags(tmp_path, monkeypatch, capsys):
+def test_commands_say_the_model_and_name_options(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     words = ["generate", "a red ball bounces", "--sensor", "32x24", "--duration", "0.1"]
     words += ["--events-only", "-o", "a.h5"]
     assert main([*words, "--preset", "evk4", "--simulator", "texvent"]) == 2
-    assert "; give --simulator physical --preset evk4\n" in capsys.readouterr().err
+    assert "; give simulator='physical', preset='evk4'\n" in capsys.readouterr().err
     assert main([*words, "--preset", "evk4"]) == 0
     assert "model    physical, preset evk4\n" in capsys.readouterr().err
     assert texvent.load("a.h5").metadata["settings"]["run"]["simulator"] == "physical"

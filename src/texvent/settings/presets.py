@@ -62,7 +62,7 @@ def find_preset(simulator: str | None, preset: str | None) -> tuple[str, str]:
         if simulator is None:
             whose = f"several simulators have a preset {shown(preset)}"
         named = " or ".join(f"simulator='{name}'" for name in owners)
-        whole = f" preset='{preset}'" if len(owners) == 1 else ""
+        whole = f", preset='{preset}'" if len(owners) == 1 else ""
         raise ConfigError(f"{whose}; give {named}{whole}")
     if simulator is None:
         allowed = tuple(dict.fromkeys(name for presets in others.values() for name in presets))

@@ -47,7 +47,6 @@ EXTRAS = {
     "v2ce": ("torch", "the V2CE simulator"),
     "plot": ("matplotlib", "events.plot()"),
     "gpu": ("triton", "texvent and esim on a GPU: --backend gpu"),
-    "app": ("gradio", "the web page: texvent app"),
     "rerun": ("rerun", "rerun files (.rrd)"),
     "assets": ("trimesh", "OBJ and PLY models in --assets folders"),
     "exr": ("OpenEXR", "OpenEXR frames and passes of a renderer"),
