@@ -140,7 +140,7 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
     files = RunFiles(
         events=(),
         formats=output.format,
-        previews=output.previews,
+        previews=output.preview_kinds,
         palette=output.palette,
         truth=output.truth_parts,
         overwrite=output.overwrite,
