@@ -316,7 +316,7 @@ def compare(
 def _truth_output(
     folder: str | Path | TruthFolder | None, *, as_packets: bool
 ) -> TruthFolder | None:
-    """What a run writes of its truth, checked; None: nothing."""
+    """Truth folder of a run, checked; None without one."""
     if folder is None:
         return None
     if as_packets:

@@ -27,7 +27,7 @@ UNITS = {
     "fps": " frames per second",
     "target_rate": " events per second",
 }
-"""What errors say after the numbers of options whose names do not have a unit."""
+"""Units in errors, of options whose names have none."""
 FPS_RANGE = 1e-9, 1e6
 """Frame rates, 1/s: from one frame in 32 years to one in a microsecond."""
 
@@ -194,7 +194,7 @@ class CaptureConfig:
 
 @dataclass(frozen=True, kw_only=True)
 class InterpolateConfig:
-    """How many intermediate frames there are, and what they show."""
+    """Intermediate frames: their number and their contents."""
 
     interpolate: str = "flow"
     """What fills the time between frames: none, blend, flow, rife, super-slomo, motion or

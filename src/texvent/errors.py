@@ -83,7 +83,7 @@ def few(words: Sequence[str], most: int = MOST_WORDS) -> str:
 
 
 def one_line(error: BaseException) -> str:
-    """What a library's error says, as one short line; its type where it says nothing."""
+    """Message of a library's error as one short line; its type where it has none."""
     text = " ".join(str(error)[: 2 * MAX_REASON].split())
     return (text if len(text) <= MAX_REASON else f"{text[: MAX_REASON - 3]}...") or type(
         error

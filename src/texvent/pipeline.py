@@ -152,7 +152,7 @@ class Simulation:
 
     @property
     def provenance(self) -> dict[str, Any]:
-        """What made these events: stored in every output, enough to make them again."""
+        """Provenance: stored in every output, enough to make the events again."""
         return describe_run(self.settings, prompt=self.prompt, source=self.video.metadata)
 
 

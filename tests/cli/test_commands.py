@@ -260,11 +260,11 @@ def test_a_wrong_value_is_named_with_its_flag_its_unit_and_what_is_allowed(
 
 
 def test_a_prompt_that_is_missing_is_asked_for(folder, capsys):
-    assert "texvent generate needs PROMPT (What to show" in fails(capsys, "generate")
+    assert "texvent generate needs PROMPT (Scene: a quoted" in fails(capsys, "generate")
 
 
 def test_empty_texts_are_refused_first(folder, capsys):
-    assert "PROMPT must not be empty (What to show: a quoted sentence" in fails(
+    assert "PROMPT must not be empty (Scene: a quoted sentence" in fails(
         capsys, "generate", " "
     )
     assert "SOURCE must not be empty (Video" in fails(capsys, "simulate", "")

@@ -40,7 +40,7 @@ ENDING_ALL = (ConfigError, OutputError, MissingDependencyError)
 
 @dataclass(frozen=True)
 class BatchPlan:
-    """What is the same for all samples."""
+    """Settings that all samples share."""
 
     settings: Settings
     upsample: UpsampleConfig | None
@@ -61,7 +61,7 @@ class BatchPlan:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a sample."""
+    """Result of a sample."""
 
     sample: Sample
     events: int = 0

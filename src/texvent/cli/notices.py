@@ -68,7 +68,7 @@ def result_console() -> Iterator[Console]:
 
 
 def say_warning(message: str) -> None:
-    """Write a line to stderr that stands out; coloured in a terminal."""
+    """Write a warning to stderr; coloured in a terminal."""
     text = visible(" ".join(message.split()))
     has_colours = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
     first, last = (_BOLD_YELLOW, _PLAIN) if has_colours else ("", "")

@@ -189,7 +189,7 @@ def _add_options(parser: argparse.ArgumentParser, config: Any) -> None:
 
 
 def _reader(hint: Any, text: str) -> Callable[[str], Any]:
-    """What reads a word as a value of a type, or as an item of a tuple."""
+    """Converter of a word to a type, or to an item of a tuple."""
     is_optional = type(None) in typing.get_args(hint)
     hint = without_none(hint)
     if typing.get_origin(hint) is tuple:

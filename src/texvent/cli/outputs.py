@@ -1,4 +1,4 @@
-"""What a run writes and how it talks: options that `generate` and `simulate` share."""
+"""Output options of `generate` and `simulate`."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ PREVIEWS = ("mp4", "png", "html")
 
 @dataclass(frozen=True, kw_only=True)
 class OutputOptions:
-    """What is written, and where."""
+    """Output files and messages."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     repeated: ClassVar[tuple[str, ...]] = ("out", "format")
@@ -44,7 +44,7 @@ class OutputOptions:
     palette: str = "paper"
     """Colours of events in video, image and page."""
     truth: str = ""
-    """Write what is true of the scene beside the events (out.h5: out.truth/): flow, flow-back,
+    """Write ground truth of the scene beside the events (out.h5: out.truth/): flow, flow-back,
     depth, ids, boxes, poses, events, overlay, with commas between, or all. See docs/truth.md."""
     overwrite: bool = False
     """Replace files that exist already."""
@@ -53,7 +53,7 @@ class OutputOptions:
     print_config: bool = False
     """Print all resolved options as TOML, ready for --config, and stop."""
     dry_run: bool = False
-    """Estimate events, time and memory, and stop: the first pairs of frames are simulated."""
+    """Estimate events, time and memory, and stop. The first pairs of frames are simulated."""
     keep_partial: bool = False
     """If the run is stopped (Ctrl-C, SIGTERM) or the video ends in damage, keep what is done: the
     files end there and say so (complete = false). A second Ctrl-C discards them."""

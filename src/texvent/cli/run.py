@@ -39,7 +39,7 @@ def print_settings(settings: Settings) -> int:
 
 @dataclass
 class Tally:
-    """What a run made, counted while it runs."""
+    """Counters of a run."""
 
     events: int = 0
     on_events: int = 0
@@ -169,7 +169,7 @@ def _saying_what_is_complete(paths: Sequence[Path]) -> Iterator[None]:
 
 
 def describe_scene(metadata: Mapping[str, Any], *, with_words: bool = False) -> Iterator[str]:
-    """What the generator made of a prompt; warnings have named what is not shown as it says.
+    """Lines on the scene of a prompt; warnings have named words that are not shown.
 
     Args:
         metadata: of the video.
@@ -206,7 +206,7 @@ def _duration(video: FrameStream) -> float | None:
 
 
 def _summary(tally: Tally, seconds: float) -> list[str]:
-    """What a run made in `seconds` of work, in a few lines."""
+    """Summary of a run that took `seconds`."""
     rate = tally.events / tally.seconds if tally.seconds else 0.0
     share = f", {tally.on_events / tally.events:.0%} ON" if tally.events else ""
     kinds = f": {tally.kinds.signal:,} signal, {tally.kinds.noise:,} noise"

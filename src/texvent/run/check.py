@@ -42,7 +42,7 @@ CHANGE_LOG = 0.1
 
 @dataclass(frozen=True)
 class WholeCheck:
-    """What a check of a video found."""
+    """Result of the check of a video."""
 
     report: VideoReport
     spectrum: FlickerSpectrum | None
@@ -92,7 +92,7 @@ def check_frames(video: FrameStream, settings: Settings, progress: Progress) -> 
     Args:
         video: frames that are not fitted to the sensor yet.
         settings: all options of the simulation.
-        progress: told of every frame.
+        progress: receives every frame.
     """
     measurer, windows = VideoMeasurer(), _Windows(video, settings)
 

@@ -105,7 +105,7 @@ def prepare_prompt(
             events as it is given here.
         settings: all options.
         upsample: the chat model that makes the prompt detailed first, if any.
-        progress: told how the model and the search for the target rate get on.
+        progress: receives progress of video generation and of the rate search.
 
     Raises:
         ConfigError: the run is impossible, which is found before the model starts.
@@ -122,7 +122,7 @@ def prepare_prompt(
 def report_prompt(
     prompt: Subject, settings: Settings, *, is_staged: bool = True
 ) -> PromptReport | None:
-    """What would be shown of a prompt, without making its video.
+    """Report of the scene of a prompt, without its video.
 
     Args:
         prompt: what to show.
@@ -202,7 +202,7 @@ def prepare_source(
         prompt: what the video shows; stored with the events. A video that texvent generated and
             wrote brings the facts of its generation along.
         video_seed: of a camera that shakes over a still image; None: that of the run.
-        progress: told how the search for the target rate gets on.
+        progress: receives progress of the rate search.
 
     Raises:
         ConfigError: the run is impossible.

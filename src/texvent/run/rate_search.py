@@ -26,7 +26,7 @@ UNREACHED = 0.1
 
 
 class RateMatch(NamedTuple):
-    """What the search found."""
+    """Result of the search."""
 
     contrast_threshold: float
     """δ, log units."""
@@ -67,7 +67,7 @@ def match_rate(
         simulation: the run; its frames are read several times.
         target_hz: events per second of the whole sensor, above 0.
         seconds: how much of the clip, from its start, is simulated to measure the rate.
-        progress: told of every trial.
+        progress: receives every trial.
 
     Returns:
         The same run with another threshold (ON and OFF keep their ratio), and what was found.

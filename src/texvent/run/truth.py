@@ -69,7 +69,7 @@ def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> 
     Args:
         run: the run.
         folder: which truth, and where.
-        progress: told of each source frame.
+        progress: receives each source frame.
 
     Raises:
         ConfigError, InputError: the video does not know its truth.

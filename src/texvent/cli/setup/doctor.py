@@ -117,7 +117,7 @@ def _package(name: str, purpose: str) -> Finding:
 
 
 def _extra(name: str, module: str, purpose: str) -> Finding:
-    """An optional part: fine either way, but told how to get."""
+    """Row of an optional part, with how to install it."""
     try:
         is_here = importlib.util.find_spec(module) is not None
     except ModuleNotFoundError:

@@ -44,7 +44,7 @@ noted in the folder: the same command goes on where it was stopped.
 
 @dataclass(frozen=True, kw_only=True)
 class BatchOptions(UpsampleConfig):
-    """What to make, and how many at once."""
+    """Samples, and processes that make them."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("sources", "generator")
     positional: ClassVar[tuple[str, ...]] = ("sources",)
@@ -67,7 +67,7 @@ class BatchOptions(UpsampleConfig):
 
 @dataclass(frozen=True, kw_only=True)
 class PromptBatchOptions(BatchOptions):
-    """What to make, and how many at once."""
+    """Samples, and processes that make them."""
 
     generator: str = next(iter(GENERATORS.builtin))
     """Text-to-video generator, as in texvent generate."""
@@ -75,7 +75,7 @@ class PromptBatchOptions(BatchOptions):
 
 @dataclass(frozen=True, kw_only=True)
 class BatchOutputOptions(OutputOptions):
-    """What is written, and where."""
+    """Output folder, formats and messages."""
 
     out: tuple[Path, ...] = ()
     """Folder for the event files, previews and batch.json. Without it: a name made from the first
@@ -164,7 +164,7 @@ def _refuse_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> None:
 
 
 def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
-    """What must be the same when the batch goes on."""
+    """Options that must be the same when the batch goes on."""
     truth = {"truth": list(plan.files.truth)} if plan.files.truth else {}
     return {
         **truth,
@@ -179,7 +179,7 @@ def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
 
 
 def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) -> int:
-    """How much is to do, and what the first sample of it takes."""
+    """Print the number of samples left and an estimate of the first."""
     todo = [sample for sample in samples if not manifest.is_done(sample)]
     write_out(f"{len(samples)} samples, {len(samples) - len(todo)} done already\n")
     write_out("".join(f"prompts  {line}\n" for line in _read_prompts(plan, samples)))
@@ -196,7 +196,7 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
 
 
 def _read_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> Iterator[str]:
-    """How many prompts are understood word for word; a line, or none."""
+    """Count of prompts understood word for word; a line, or none."""
     tally = ReportTally()
     if plan.upsample is None and samples[0].video is None:
         for sample in samples:
@@ -260,7 +260,7 @@ def _make_all(
 
 
 def _count_reports(manifest: Manifest, samples: Sequence[Sample]) -> Iterator[str]:
-    """How many of the complete samples show their prompt as it says; a line, or none."""
+    """Count of complete samples that show their whole prompt; a line, or none."""
     tally = ReportTally()
     for sample in samples:
         report = manifest.report_of(sample)

@@ -63,12 +63,12 @@ class CalibrateOptions:
     events: Path = REQUIRED
     """Event file."""
     scene: Literal["moving", "static", "flicker"] = "moving"
-    """What the sensor saw: anything that moves; nothing that does, under steady light; or a flat
+    """Recorded scene: anything that moves; nothing that does, under steady light; or a flat
     field whose light switches between two brightnesses."""
     flicker_hz: float | None = None
     """Cycles of that light per second, within 2 %."""
     flicker_ratio: float | None = None
-    """How many times as bright the bright half of a cycle is as the dark one. Without it,
+    """Brightness of the bright half of a cycle over that of the dark one. Without it,
     thresholds are only compared with one another."""
     out: Path = REQUIRED
     """Config file to write, .toml."""

@@ -39,7 +39,7 @@ VIDEO_EXTENSION = ".avi"
 
 @dataclass(frozen=True, kw_only=True)
 class PromptOptions(UpsampleConfig):
-    """What to show."""
+    """Scene."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("generator",)
     outputs: ClassVar[tuple[str, ...]] = ("out", "preview", "write_scene")
@@ -51,7 +51,7 @@ class PromptOptions(UpsampleConfig):
     )  # fmt: skip
 
     prompt: str = REQUIRED
-    """What to show: a quoted sentence, or a scene file. See docs/scenes.md."""
+    """Scene: a quoted sentence, or a scene file. See docs/scenes.md."""
     generator: str = next(iter(GENERATORS.builtin))
     """Text-to-video generator: see texvent generators, ./folder or hub:org/name. A folder holds a
     saved diffusers pipeline; hub: names a repository of the model hub."""
@@ -63,7 +63,7 @@ class PromptOptions(UpsampleConfig):
     write_scene: Path | None = None
     """Write the scene of the prompt as a file (.toml, .json) instead of events, and stop."""
     reader: Literal["words", "llm"] = "words"
-    """What makes a scene of the prompt: the embedded reader's words, or a language model behind
+    """Reader of the prompt: the embedded one (words), or a language model behind
     --llm-url. See docs/scenes.md."""
     llm_url: str | None = None
     """OpenAI-compatible server of the language model, such as http://localhost:8080/v1."""
@@ -111,7 +111,7 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
     """The scene that a language model writes for the prompt.
 
     Raises:
-        InputError: `strict`, and there are words of the prompt that nothing stands for.
+        InputError: `strict`, and the scene shows some words of the prompt by nothing.
 
     Warns:
         TexventWarning: there are such words, or the model added something.
@@ -135,7 +135,7 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
 
 
 def _plan(prompt: Subject, settings: Settings) -> str | None:
-    """What a learned generator would have to do first; None if the video is at hand."""
+    """Work that a learned generator has to do first; None if the video is stored."""
     part = GENERATORS.load(str(settings.generator))
     generator = part(settings.source, seed=settings.run.seed, size=settings.size)
     plan = getattr(generator, "plan", None)

@@ -29,7 +29,7 @@ events, an IMU; one clock, true poses, calibration as Kalibr writes it.
 
 @dataclass(frozen=True, kw_only=True)
 class RigOptions(RigConfig):
-    """What to show, and what records it."""
+    """Scene and rig."""
 
     positional: ClassVar[tuple[str, ...]] = ("prompt",)
     input_texts: ClassVar[tuple[str, ...]] = ("imu_noise",)
@@ -39,7 +39,7 @@ class RigOptions(RigConfig):
     )  # fmt: skip
 
     prompt: str = REQUIRED
-    """What to show: a quoted sentence ("handheld camera" makes it move), or a scene file."""
+    """Scene: a quoted sentence ("handheld camera" makes it move), or a scene file."""
 
     @property
     def config(self) -> RigConfig:
@@ -49,7 +49,7 @@ class RigOptions(RigConfig):
 
 @dataclass(frozen=True, kw_only=True)
 class RigOutputOptions:
-    """What is written, and where."""
+    """Output folder and messages."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 

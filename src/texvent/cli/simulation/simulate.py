@@ -20,7 +20,7 @@ DESCRIPTION = """Turn a video into the events that an event camera would have re
 
 @dataclass(frozen=True, kw_only=True)
 class VideoOptions:
-    """Which frames."""
+    """Source of the frames."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("source",)
     positional: ClassVar[tuple[str, ...]] = ("source",)
@@ -34,7 +34,7 @@ class VideoOptions:
     """Video, image folder, camera, stream, or -. A camera is /dev/video0, a stream rtsp://...; - is
     standard input. With --camera: a still image."""
     prompt: str | None = None
-    """What the video shows; stored with the events."""
+    """Description of the video; stored with the events."""
 
 
 def run(arguments: Sequence[str]) -> int:
