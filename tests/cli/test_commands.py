@@ -264,9 +264,7 @@ def test_a_prompt_that_is_missing_is_asked_for(folder, capsys):
 
 
 def test_empty_texts_are_refused_first(folder, capsys):
-    assert "PROMPT must not be empty (Scene: a quoted sentence" in fails(
-        capsys, "generate", " "
-    )
+    assert "PROMPT must not be empty (Scene: a quoted sentence" in fails(capsys, "generate", " ")
     assert "SOURCE must not be empty (Video" in fails(capsys, "simulate", "")
     assert "PATH must not be empty (Event file" in fails(capsys, "view", "")
     with pytest.raises(InputError, match="the path is empty; give the name"):

@@ -240,7 +240,7 @@ def _read_operands(words: Sequence[str], groups: Iterable[Any], prog: str) -> di
         count = max(len(left) - len(fields[index + 1 :]), 0) if is_list else min(len(left), 1)
         read, own = _reader(hint, text), left[:count]
         left = left[count:]
-        if any(not word.strip() or Path(word) == Path() for word in own):
+        if any(not word.strip() for word in own):
             raise ConfigError(f"{name.upper()} must not be empty ({text[:200].rstrip('.')})")
         try:
             values = tuple(map(read, own))

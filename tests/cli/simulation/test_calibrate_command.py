@@ -115,7 +115,7 @@ def test_events_alone_are_measured_one_scene_after_the_other(scenes, tmp_path, c
     [
         ((), "a moving scene needs --frames"),
         (("--scene", "flicker"), "needs --flicker-hz"),
-        (("--scene", "flicker", "--flicker-hz", "5", "--flicker-ratio", "1"), "flicker-ratio"),
+        (("--scene", "flicker", "--flicker-hz", "5", "--flicker-ratio", "1"), "flicker_ratio"),
         (("--scene", "still"), "--scene"),
         (("--scene", "static", "--threshold-map", "a.npz"), "is for --scene flicker"),
         (("--scene", "flicker", "--flicker-hz", "5", "--threshold-map", "a.h5"), "in .npz"),
