@@ -307,7 +307,7 @@ def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(caps
     generator = part(part.config_type(), seed=0, size=None)
     with pytest.raises(TexventError, match=r"model_index.json and .*put them into") as caught:
         generator.generate(PROMPT, progress=watcher)
-    assert "`generator` ./FOLDER" in str(caught.value)
+    assert "generator=./FOLDER" in str(caught.value)
     read = "licence: Apache-2.0 (read in github.com/Wan-Video/Wan2.1: README.md;"
     assert read in watcher.lines[0]
     with pytest.raises(TexventError):

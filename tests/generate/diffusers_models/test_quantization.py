@@ -64,7 +64,7 @@ def test_the_transformers_that_a_model_has_are_quantised(name, parts, models, mo
 
 
 def test_a_model_without_a_video_transformer_is_refused(models):
-    with pytest.raises(ConfigError, match=r"no video transformer, .*; give `quantize` none"):
+    with pytest.raises(ConfigError, match=r"no video transformer, .*; give quantize='none'"):
         load_pipeline(request(models("stable-diffusion"), "8bit"))
 
 
