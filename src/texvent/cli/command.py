@@ -10,9 +10,11 @@ from typing import Any
 from texvent._registry import SIMULATORS
 from texvent.cli.options import parse_given, take_options, with_given
 from texvent.cli.outputs import OutputOptions
+from texvent.io.protected_inputs import protect_inputs
 from texvent.options.fields import option_names
+from texvent.settings.config_files import Command
 from texvent.settings.presets import preset_help
-from texvent.settings.resolution import DECIDING, Command, Settings, apply_options, base_settings
+from texvent.settings.resolution import DECIDING, Settings, apply_options, base_settings
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,8 +57,10 @@ def resolve_command(
     called = prog or f"texvent {command}"
     output = output or OutputOptions()
     names = [name for name in DECIDING if (command, name) != ("simulate", "generator")]
-    named, rest = take_options(arguments, (*names, "config"), called)
-    deciding, config = dict(named), named.pop("config", None)
+    deciding, rest = take_options(arguments, (*names, "config"), called)
+    protect_inputs(text for name, text in deciding.items() if name not in ("simulator", "preset"))
+    config = deciding.get("config")
+    named: dict[str, Any] = {name: text for name, text in deciding.items() if name != "config"}
     defaults = base_settings(command, config=config, **named)
     groups = {"input": subject, "output": output, **defaults.groups()}
     if "contrast_threshold" not in option_names(type(defaults.simulate)):

@@ -24,7 +24,7 @@ from texvent.errors import ConfigError, FileFormatError, InputError, OutputError
 from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file
 from texvent.io.hidden_parts import is_hidden_part
-from texvent.settings.resolution import Command
+from texvent.settings.config_files import Command
 
 SPECIFICATION_FILE, ITEMS_FILE = "specification.json", "items.jsonl"
 VIDEOS = "videos"
