@@ -53,7 +53,7 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "c.jsonl").write_text("\n".join(lines))
     words = ["--n-imagenet", str(folder / "N"), "--captions", str(folder / "c.jsonl"),
              "--class-count", "1", "-o", str(folder / "nt"), "-q"]  # fmt: skip
-    assert main(["dataset", "nt-imagenet", *words]) == 0
+    assert main(["nt-imagenet", *words]) == 0
     short = (folder / "nt" / "captions.jsonl").read_text().splitlines()[:3]
     (folder / "nt" / "three.jsonl").write_text("\n".join(short))
     specification = (folder / "nt" / "specification.toml").read_text()
@@ -146,7 +146,7 @@ def test_a_model_that_knows_the_pairs_finds_them_and_no_others(data: Path, tmp_p
 
 
 def run(clip: Path, out: Path, *words: str) -> Any:
-    assert main(["dataset", "align", *words, "--clip", str(clip), "-o", str(out), "-q"]) == 0
+    assert main(["align", *words, "--clip", str(clip), "-o", str(out), "-q"]) == 0
     return json.loads(out.read_text())
 
 
@@ -200,7 +200,7 @@ def test_mistakes_are_named(
     clip: Path, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     def said(*words: str) -> str:
-        assert main(["dataset", "align", *words]) == 2
+        assert main(["align", *words]) == 2
         return capsys.readouterr().err
 
     assert "nothing to score" in said("--clip", str(clip))

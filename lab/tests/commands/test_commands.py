@@ -29,7 +29,7 @@ def test_texvent_lists_the_commands_and_without_the_package_names_it(capsys, mon
     assert all(f"\n  {name} " in shown for name in COMMANDS)
     # A group that no package has, as where the laboratory is not installed.
     monkeypatch.setattr(app, "COMMAND_GROUP", "texvent.commands.of.nobody")
-    assert main(["bench"]) == 3
+    assert main(["bench"]) == 4
     assert "pip install texvent-lab" in capsys.readouterr().err
 
 

@@ -38,7 +38,7 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def nt(data: Path, out: Path, *more: str) -> int:
     words = ["--n-imagenet", str(data / "N_Imagenet"), "--imagenet", str(data / "ImageNet"),
              "--captions", str(data / "elsewhere.jsonl"), "--class-count", "2", "-q"]  # fmt: skip
-    return main(["dataset", "nt-imagenet", *words, "-o", str(out), *more])
+    return main(["nt-imagenet", *words, "-o", str(out), *more])
 
 
 @pytest.fixture(scope="module")
@@ -112,7 +112,7 @@ def test_the_captions_become_events_that_stand_beside_their_streams(
     events = tmp_path / "events"
     assert main(["dataset", "make", str(quick), "-o", str(events), "--workers", "1", "-q"]) == 0
     quick.unlink()
-    assert main(["dataset", "nt-imagenet", "-o", str(built), "--events", str(events)]) == 0
+    assert main(["nt-imagenet", "-o", str(built), "--events", str(events)]) == 0
     with (built / "pairs.csv").open() as file:
         pairs = list(csv.DictReader(file))
     (built / "pairs.csv").unlink()
@@ -139,5 +139,5 @@ def test_events_of_other_prompts_are_refused(
         '[[sources]]\nprompts = ["a dog runs"]\n'
     )
     assert main(["dataset", "make", str(other), "-o", str(tmp_path / "o"), "-q"]) == 0
-    assert main(["dataset", "nt-imagenet", "-o", str(built), "--events", str(tmp_path / "o")]) == 2
+    assert main(["nt-imagenet", "-o", str(built), "--events", str(tmp_path / "o")]) == 2
     assert "was not made from these captions" in capsys.readouterr().err

@@ -49,7 +49,7 @@ def nt(data: Path, out: Path, *more: str) -> int:
     words = ["--n-imagenet", str(data / "N_Imagenet"), "--imagenet", str(data / "ImageNet"),
              "--model", str(data / "llava"), "--class-count", "1", "--longest", "8",
              "--device", "cpu", "-q"]  # fmt: skip
-    return main(["dataset", "nt-imagenet", *words, "-o", str(out), *more])
+    return main(["nt-imagenet", *words, "-o", str(out), *more])
 
 
 def test_captions_are_those_of_the_model_one_per_image(data: Path, tmp_path: Path) -> None:

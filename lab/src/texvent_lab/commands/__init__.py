@@ -17,7 +17,7 @@ COMMANDS = {
     ),
     "nt-imagenet": (
         "texvent_lab.commands.nt_imagenet",
-        "Streams of N-ImageNet with captions, as prompts for simulated ones.",
+        "N-ImageNet with captions, as prompts for simulated streams.",
     ),
     "align": (
         "texvent_lab.commands.align",

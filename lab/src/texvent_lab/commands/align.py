@@ -47,6 +47,10 @@ class AlignOptions:
 
     input_texts: ClassVar[tuple[str, ...]] = ("clip",)
     positional: ClassVar[tuple[str, ...]] = ("folder",)
+    main_options: ClassVar[tuple[str, ...]] = (
+        *("folder", "clip", "n_imagenet", "captions", "split", "limit", "images", "reconstruct"),
+        *("seed", "network", "weights", "out", "overwrite"),
+    )
 
     folder: Path | None = None
     """Folder of a data set made from prompts."""
