@@ -4,7 +4,7 @@ from selenium.webdriver.support.wait import WebDriverWait
 
 from texvent.web.server import PageServer
 
-WAIT_S = 120
+WAIT_S = 300
 
 
 def test_a_prompt_gives_a_preview_and_a_viewer_and_a_mistake_one_line(browser, requests_made):
