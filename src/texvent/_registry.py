@@ -121,7 +121,7 @@ GENERATORS = Registry(
         "procedural": "texvent.generate.procedural:ProceduralGenerator",
         "opensora": "texvent.generate.opensora.generator:OpenSoraGenerator",
     },
-    table="texvent.generate.video_models.lookup",
+    table="texvent.generate.video_models.known_models",
 )
 INTERPOLATORS = Registry(
     "interpolator",

@@ -1,4 +1,4 @@
-"""Captions by a tiny random LLaVA, and longer prompts by a tiny random chat model."""
+"""Captions by a tiny random LLaVA."""
 
 import os
 
@@ -12,15 +12,12 @@ pytest.importorskip("transformers")
 torch.set_num_threads(1)
 
 from PIL import Image  # noqa: E402
+from tests.generate import tiny_pipelines  # noqa: E402
 
 from texvent.batch.list_files import read_list  # noqa: E402
 from texvent.cli.app import main  # noqa: E402
 from texvent.errors import FileFormatError, InputError, TexventError  # noqa: E402
-from texvent.generate.prompts.upsample import upsample_prompt  # noqa: E402
-from texvent.generate.prompts.upsample_config import UpsampleConfig  # noqa: E402
 from texvent_lab.nt_imagenet.captioner import Captioner, find_images  # noqa: E402
-
-from .. import tiny_pipelines  # noqa: E402
 
 TEMPLATE = (
     "{% for m in messages %}ASK: {% for c in m['content'] %}"
@@ -111,16 +108,3 @@ def test_mistakes_are_named(model, images, tmp_path, capsys):
     with pytest.raises(FileFormatError, match="cannot be loaded as an image-and-text model"):
         Captioner(str(tmp_path / "bad"))
     assert main(["caption", str(images), "--model", str(model), "-o", "x.txt"]) == 2
-
-
-def test_a_local_chat_model_makes_a_prompt_detailed(tmp_path, monkeypatch):
-    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
-    folder = tiny_pipelines.save_chat(tmp_path / "chat")
-    config = UpsampleConfig(upsample=str(folder))
-    first = upsample_prompt("a red car", config)
-    assert first
-    assert upsample_prompt("a blue dog", config) != first
-    (tmp_path / "chat" / "model.safetensors").write_bytes(b"damaged")
-    assert upsample_prompt("a red car", config) == first, "kept from before"
-    with pytest.raises(FileFormatError, match="chat cannot be loaded as a chat model"):
-        upsample_prompt("a green bird", config)

@@ -44,19 +44,12 @@ class InterpolateOptions(TypedDict, total=False):
     count: Literal["brightness", "fixed"] | None
     fixed_count: int | None
     max_intermediate: int | None
-    count_percentile: float | None
-    count_threshold: float | None
-    count_balance: float | None
     frames_per_pixel: float | None
     max_frames_per_second: float | None
     deflicker: bool | None
     detect_cuts: bool | None
     interpolator_weights: str | Path | None
     interpolator_device: Literal["auto", "cpu", "cuda"] | None
-    interpolator_precision: Literal["float32", "float16", "bfloat16"] | None
-    interpolator_compile: bool | None
-    interpolator_tile: int | None
-    rife_flow: Literal["shared", "each"] | None
 
 
 class SimulatorOptions(TypedDict, total=False):
@@ -155,7 +148,7 @@ class CaptureOptions(TypedDict, total=False):
 
 
 class GeneratorOptions(TypedDict, total=False):
-    """Options of all generators, and of prompt upsampling."""
+    """Options of all generators."""
 
     generator: str | None
     fps: Rate | None
@@ -183,15 +176,10 @@ class GeneratorOptions(TypedDict, total=False):
     height: int | None
     negative_prompt: str | None
     image: str | Path | None
-    reference_video: str | Path | None
     lora: Sequence[str] | None
     dtype: Literal["auto", "float32", "bfloat16", "float16"] | None
     quantize: Literal["auto", "none", "8bit", "4bit"] | None
-    decoder: str | Path | None
-    motion_adapter: str | Path | None
     generator_device: str | None
-    upsample: str | None
-    upsample_model: str | None
 
 
 class SimulateOptions(

@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError, one_line
 from texvent.extending import require
-from texvent.generate.diffusers_models.latents import Latents
-from texvent.generate.diffusers_models.streamed_decoding import LTX, WAN
+from texvent.generate.diffusers_models.latents import WAN, Latents
 from texvent.networks.weight_files import describe_file
 
 EXTRA = "generate"
+LTX = "AutoencoderKLLTXVideo"
 CONFIG_FILE, WEIGHTS_FILE = "config.json", "diffusion_pytorch_model.safetensors"
 
 

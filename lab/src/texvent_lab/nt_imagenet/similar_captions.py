@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from texvent.extending import require
 from texvent.generate.diffusers_models.pipeline_loading import resolve_device
 from texvent.generate.video_models.loading import loading
-from texvent.generate.video_models.saved_models import find_saved_model
+from texvent.generate.video_models.model_files import find_saved_model
 
 EXTRA = "generate"
 EXAMPLE = "sentence-transformers/all-MiniLM-L6-v2"

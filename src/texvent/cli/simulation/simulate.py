@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.capture.motion_vectors.attach import own_motion
+from texvent.capture.motion_vectors.attach import find_motion_sidecar
 from texvent.cli.command import resolve_command
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.run import print_settings, run_source
@@ -44,7 +44,7 @@ def run(arguments: Sequence[str]) -> int:
         arguments,
         VideoOptions(),
         description=DESCRIPTION,
-        find_motion=lambda own: own_motion(own.source),
+        find_motion=lambda own: find_motion_sidecar(own.source),
     )
     if output.print_config:
         return print_settings(settings)

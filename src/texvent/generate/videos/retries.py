@@ -1,4 +1,4 @@
-"""Generate, look at the result, and warn, refuse or try another seed (paper 9.6)."""
+"""Failure filter: check a generated video, then warn, refuse or try another seed (paper 9.6)."""
 
 from __future__ import annotations
 
@@ -8,16 +8,15 @@ from collections.abc import Callable
 
 from texvent.errors import TexventError
 from texvent.generate.video_config import GeneratedVideoConfig
-from texvent.generate.videos.clip_model import check_clip_model
-from texvent.generate.videos.clip_score import measure_clip_score
+from texvent.generate.videos.clip_model import check_clip_model, measure_clip_score
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import MEASURES
 from texvent.runtime.progress import NoProgress, Progress
-from texvent.video_check.report import (
+from texvent.video_check.checks import (
     VideoReport,
     check_video,
-    has_all_measures,
-    judge_measures,
+    evaluate,
+    has_all_measurements,
 )
 
 
@@ -29,7 +28,7 @@ def generate_checked(
     seed: int,
     progress: Progress | None,
 ) -> StoredVideo:
-    """A video that passes the failure filter, or what `on_failure` says instead.
+    """A video that passes the failure filter, or the response of `on_failure`.
 
     Args:
         make: (seed, progress) → video.
@@ -64,9 +63,9 @@ def generate_checked(
 
 
 def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> VideoReport:
-    """What is wrong with the video itself, and whether it shows the prompt."""
+    """Problems of the video itself, and its agreement with the prompt."""
     measures = video.metadata.get(MEASURES) or {}
-    report = judge_measures(measures) if has_all_measures(measures) else check_video(video)
+    report = evaluate(measures) if has_all_measurements(measures) else check_video(video)
     if config.agreement_model is None:
         return report
     score = measure_clip_score(video, prompt, config.agreement_model)
@@ -74,7 +73,7 @@ def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> Vid
     return dataclasses.replace(
         report,
         problems=(*report.problems, *((f"agreement {score:.3f}",) if low else ())),
-        measures={**report.measures, "agreement": score},
+        measurements={**report.measurements, "agreement": score},
     )
 
 

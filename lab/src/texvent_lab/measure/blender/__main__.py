@@ -23,7 +23,7 @@ import numpy as np
 
 import texvent
 from texvent.capture.image_folder import find_images_folder, list_images
-from texvent.capture.motion_vectors.attach import own_motion
+from texvent.capture.motion_vectors.attach import find_motion_sidecar
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.events import EventStream
@@ -106,7 +106,7 @@ def by_place(
     film: Path, streams: Mapping[str, EventStream], span_us: tuple[int, int]
 ) -> dict[str, dict[str, float]]:
     """Rows of the events where the fastest object passes, and of all others."""
-    frames = list(open_frames(film, CaptureConfig(motion=own_motion(film))))
+    frames = list(open_frames(film, CaptureConfig(motion=find_motion_sidecar(film))))
     passed = passed_pixels(frames)
     rows = {}
     at_object = {name: is_passed(streams[name], frames, passed) for name in COMPARED_BY_PLACE}
@@ -121,7 +121,7 @@ def by_place(
 
 def variants(film: Path) -> dict[str, dict[str, Any]]:
     """Name of a row → what is given with the sparse film."""
-    passes = own_motion(film)
+    passes = find_motion_sidecar(film)
     frames = list(open_frames(film, CaptureConfig(motion=passes)))
     motions = [frame.motion for frame in frames if frame.motion is not None]
     backward = [one.backward for one in motions if one.backward is not None]

@@ -11,7 +11,6 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from texvent.extending import require
-from texvent.generate.diffusers_models.streamed_decoding import stream_decoder
 from texvent_lab.latents.head import HeadConfig, apply_head
 
 torch: Any = require("torch", extra="generate")
@@ -88,8 +87,7 @@ def _row(name: str, weights: Iterable[Any], run: Callable[[], Any]) -> Row:
 
 
 def _full(vae: Any, latents: Any) -> None:
-    for _ in stream_decoder(vae, latents):
-        pass
+    vae.decode(latents)
 
 
 def table(rows: list[Row]) -> str:
