@@ -286,7 +286,8 @@ class _Reader:
                 return not has_object and all(self._nouns[one].is_working for one in names)
             case "source" | "lamp":
                 return not has_object and not is_acting
-        if verb.who == "camera" or (verb.kind == "drive" and names & PERSON_NOUNS):
+        is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
+        if verb.who == "camera" or (is_unfit and names & PERSON_NOUNS):
             return False
         if has_object:
             needs_hands = verb.relation in word_set("things", "of_people")
@@ -321,7 +322,7 @@ class _Reader:
             draft.effects[-1]["source"] = targets[0]
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
             is_sent = kind in word_set("things", "routes") and done & word_set("things", "sending")
-            able = () if is_sent else subjects
+            able = () if is_sent or kind == "route" else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
             draft.mark(token, "shown" if any(placed) else "lost")
         return targets

@@ -43,8 +43,11 @@ NO_ROOM_M = 9.0
 """Half the side of a room where there is none, m; nothing shows it."""
 _BLACK: Colour = (0.0, 0.0, 0.0)
 SNOW: Colour = (0.78, 0.82, 0.88)
-_SNOWED_OVER = (Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD, Ground.RIVER, Ground.LAKE)
-"""Grounds whose grass is white when snow lies on it."""
+_SNOWED_OVER = (
+    Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD, Ground.RIVER, Ground.LAKE, Ground.CITY,
+    Ground.PLAIN, Ground.SAND,
+)  # fmt: skip
+"""Grounds whose grass or paving is white when snow lies on it."""
 _WATER_COLOUR: Colour = (0.05, 0.28, 0.42)
 _UNDERWATER_SIGHT_M = 16.0
 _FOG_SIGHT = 3.0
@@ -244,8 +247,8 @@ class Fall:
 
 
 FALLS = {
-    "rain": Fall(130, (0.0011, 0.0011, 0.022), (0.66, 0.72, 0.80), Shape.CYLINDER, 8.0),
-    "snow": Fall(170, (0.0028,) * 3, (0.95, 0.96, 1.0), Shape.ELLIPSOID, 0.0, 0.09, 0.015),
+    "rain": Fall(170, (0.0018, 0.0018, 0.032), (0.66, 0.72, 0.80), Shape.CYLINDER, 8.0),
+    "snow": Fall(220, (0.0052,) * 3, (0.95, 0.96, 1.0), Shape.ELLIPSOID, 0.0, 0.09, 0.015),
 }
 """Weather that falls."""
 
