@@ -80,7 +80,7 @@ def find_unseen(
             outside.append(thing.noun)
         elif most < LEAST_PIXELS:
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
-        elif lost and len(copies) <= (2 * lost if index in around else MOST_COUNTED):
+        elif lost and len(copies) <= max(2 * lost, 0 if index in around else MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(copies)})")
     times = np.linspace(0.0, duration_s, INSTANTS)
     shots = [(scene.primitives(float(time_s)), scene.camera(float(time_s))) for time_s in times]

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, get_args
 
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent.scenes.read.draft import Reading, SceneDraft
@@ -15,6 +16,7 @@ from texvent.scenes.spec.scene import MAX_BODIES, MoveDirection, MoveKind
 
 _KINDS = sorted(get_args(MoveKind), key=len, reverse=True)
 _UNTURNED = ("handheld", "static")
+_SIDES = ("behind", "front", "left of", "right of", "above", "follow")
 _MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 
 
@@ -185,7 +187,9 @@ class _Reader:
 
     def _name_thing(self, group: Group, head: Token) -> list[int]:
         draft, noun = self._draft, head.first("noun")
-        if len(draft.things) == MAX_BODIES:
+        is_part = noun is not None and noun.value.noun in HAND_NOUNS
+        is_part = is_part and group.article in word_set("things", "owners")  # "his hands"
+        if len(draft.things) == MAX_BODIES or is_part:
             return []
         draft.show(head)
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.value.noun]
@@ -225,6 +229,8 @@ class _Reader:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
+        elif field in ("colour", "size", "material") and any(field in one for one in things):
+            return  # "black and white": one of both is shown
         elif said is not None and things:
             for thing in things:
                 _set_field(thing, said.kind, field, value)
@@ -242,7 +248,7 @@ class _Reader:
         """Apply the first sense that the subjects can do; who moves, or None: there is none."""
         draft, has_object = self._draft, has_object or bool(objects)
         acts = (one.value for one in verb.all("verb") if subjects)
-        act = next((one for one in acts if self._fits(one, subjects, has_object)), None)
+        act = next((one for one in acts if self._fits(one, subjects, objects, has_object)), None)
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
@@ -269,7 +275,9 @@ class _Reader:
             else:
                 self._add_effect(verb, act.kind, [index])
 
-    def _fits(self, verb: VerbSense, subjects: Sequence[int], has_object: bool) -> bool:
+    def _fits(
+        self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
+    ) -> bool:
         """Whether the subjects can do it, with an object or without one."""
         things = [self._draft.things[one] for one in subjects]
         names = {one["noun"] for one in things}
@@ -277,7 +285,9 @@ class _Reader:
         acts = word_set("things", "acts") if has_object else ()
         match verb.who:
             case "person":
-                return names <= PERSON_NOUNS and verb.kind not in acts
+                used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
+                is_used = all(self._draft.things[one]["noun"] in used for one in objects)
+                return names <= PERSON_NOUNS and verb.kind not in acts and is_used
             case "hand":
                 return names <= HAND_NOUNS and not has_object
             case "animal":
@@ -353,6 +363,9 @@ class _Reader:
             kind = "wear"
         elif kind == "at" and target["noun"] not in word_set("things", "tables"):
             kind = "beside"
+        seat = [one for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
+        if seat:  # "at a table with a laptop"
+            return all([draft.relate(one, "on", seat[0]["to"]) for one in targets])
         for one in (draft.things[each] for each in targets if kind == "surround"):
             one["count"] = SURROUND_COUNT if one["count"] == PLURAL_COUNT else one["count"]
         return draft.relate(index, kind, targets)
@@ -412,7 +425,10 @@ class _Reader:
                 self._relate(one, targets, targets)
             else:
                 found, sense = self._introduce(one), one.preposition.first("relation")
-                targets += found if sense and sense.value in word_set("things", "aims") else []
+                kind = sense.value if sense else ""
+                targets += found if kind in word_set("things", "aims") else []
+                if found and kind in _SIDES:  # of the camera: nothing is placed so
+                    draft.mark(one.preposition, "lost")
         if move is not None:
             self._add_move(move)
             if targets:
