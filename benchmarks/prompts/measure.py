@@ -82,7 +82,7 @@ def still_times_us() -> list[int]:
 
     Example:
         >>> still_times_us()
-        [0, 430901, 811803, 1242705, 1623607, 2000000]
+        [0, 430902, 811803, 1242705, 1623607, 2000000]
     """
     step_us = DURATION_S * MICROSECONDS / (STILLS - 1)
     early = [round(k * step_us + 50_000 * (0.618034 * k % 1.0)) for k in range(STILLS - 1)]

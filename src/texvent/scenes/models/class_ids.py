@@ -20,15 +20,12 @@ FIRST_OTHER = 2001
 
 def _read() -> Mapping[str, int]:
     names: str = read_table("class_ids")["nouns"]
-    ids, number = dict[str, int](), 0
-    for words in (one.split() for one in names.split(",")):
-        number = int(words.pop(0)) if words[0].isdecimal() else number + 1
-        ids[" ".join(words)] = number
-    return MappingProxyType(ids)
+    numbered = enumerate(names.split(","), start=1)
+    return MappingProxyType({" ".join(name.split()): number for number, name in numbered})
 
 
 CLASS_IDS: Mapping[str, int] = _read()
-"""Noun → class id; numbers of nouns that are gone are free."""
+"""Noun → class id, 1, 2, ..., of nouns that are gone too."""
 
 
 def class_ids_of(names: Iterable[str]) -> dict[str, int]:

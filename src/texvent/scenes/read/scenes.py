@@ -364,7 +364,8 @@ class _Reader:
         elif kind == "at" and target["noun"] not in word_set("things", "tables"):
             kind = "beside"
         seat = [one for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
-        if seat:  # "at a table with a laptop"
+        rests = all(self._nouns[draft.things[one]["noun"]].speed_m_s == 0.0 for one in targets)
+        if seat and rests:  # "at a table with a laptop"
             return all([draft.relate(one, "on", seat[0]["to"]) for one in targets])
         for one in (draft.things[each] for each in targets if kind == "surround"):
             one["count"] = SURROUND_COUNT if one["count"] == PLURAL_COUNT else one["count"]
