@@ -326,8 +326,7 @@ class ProceduralGenerator:
     def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
         from texvent.scenes.assets import list_files
-        from texvent.scenes.in_view import find_unseen
-        from texvent.scenes.read.lexicon import without_words
+        from texvent.scenes.in_view import find_unseen, without_words
         from texvent.scenes.staging.compose import compose_scene
 
         named = nouns_of(prompt, self._nouns)
@@ -345,7 +344,7 @@ class ProceduralGenerator:
         report = replace(
             said,
             shown=without_words(said.shown, unseen.unheld),
-            not_shown=(*scene.not_shown, *(one.line for one in unseen.unheld)),
+            not_shown=(*scene.not_shown, *filter(None, (one.line for one in unseen.unheld))),
             out_of_view=unseen.out_of_view,
             too_small=unseen.too_small,
         )

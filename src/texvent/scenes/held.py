@@ -6,8 +6,7 @@ front and behind are those of the image.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -20,7 +19,7 @@ from texvent.scenes.wording import RELATIONS
 _TRAVELS = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
                       "roll", "crawl", "rise", "sink"})  # fmt: skip
 _LEAST_WAY, _MOST_COPIES = 0.1, 0.75
-"""Way, in sizes of a body, that is motion; share of a subject's copies for which a relation holds."""
+"""Way, in sizes of a body, that is motion; share of a subject's copies in a relation."""
 _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
          "away": (2, 1)}  # fmt: skip
 """Direction → axis of the camera (right, down, forward) and sign."""
@@ -37,8 +36,7 @@ class Unheld(NamedTuple):
     """For the report, such as "the ball under the chair"."""
 
 
-@dataclass(frozen=True)
-class Body:
+class Body(NamedTuple):
     """Boxes around a body at the instants of a clip; arrays [t, 3]."""
 
     middle: Float64Array
@@ -52,17 +50,6 @@ class Body:
     way: Float64Array
     """[3] from the first place to the last along the camera's axes of mid clip, m."""
 
-    @property
-    def reach_m(self) -> float:
-        """Largest extent."""
-        return float(self.size.max())
-
-    @property
-    def goes(self) -> bool:
-        """Whether it leaves its place."""
-        far = np.linalg.norm(self.middle - self.middle[0], axis=1).max()
-        return bool(far > _LEAST_WAY * self.reach_m)
-
 
 def bodies_of(
     shots: Sequence[tuple[Primitives, Camera]], instances: Sequence[int]
@@ -74,8 +61,8 @@ def bodies_of(
         own = [box[shapes.instance == one] for box, (shapes, _) in zip(boxes, shots, strict=True)]
         if not all(map(len, own)):
             continue
-        low, high = (np.array([f(box[:, n], axis=0) for box in own]) for n, f in
-                     enumerate((np.min, np.max)))  # fmt: skip
+        low = np.array([box[:, 0].min(axis=0) for box in own])
+        high = np.array([box[:, 1].max(axis=0) for box in own])
         middle = 0.5 * (low + high)
         seen = np.array([camera.rotation @ (place - camera.position)
                          for place, (_, camera) in zip(middle, shots, strict=True)])  # fmt: skip
@@ -95,35 +82,40 @@ def _boxes(shapes: Primitives) -> Float64Array:
 
 def find_unheld(
     description: SceneDescription, bodies: Mapping[int, Body], object_of: Mapping[int, int]
-) -> tuple[Unheld, ...]:
-    """What the bodies do not realise; objects without bodies are left out, as out of view."""
+) -> Iterator[Unheld]:
+    """What the bodies do not realise; without a line where a body is out of view."""
     copies = [
         [body for one, body in bodies.items() if object_of[one] == index]
         for index in range(len(description.objects))
     ]
-    names = [one.noun.removeprefix("parked ") for one in description.objects]
-    found = []
+    names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
+    led = {target for one in description.relations for target in one.targets}
     for one in description.relations:
         own, others = copies[one.subject], [body for t in one.targets for body in copies[t]]
         rule = _RULES.get(one.kind)
-        if rule is None or not own or not others or one.subject in one.targets:
+        if rule is None or one.subject in one.targets:
             continue
-        if sum(rule(body, others) for body in own) < _MOST_COPIES * len(own):
-            targets = " and ".join(f"the {names[target]}" for target in one.targets)
+        if not own or not others:
+            yield Unheld("relation", one.kind, "")
+        elif sum(rule(body, others) for body in own) < _MOST_COPIES * len(own):
             said = RELATIONS.get(one.kind, one.kind)
-            line = f"the {names[one.subject]} {said} {targets}"
-            found.append(Unheld("relation", one.kind, line))
-    led = {names[target] for one in description.relations for target in one.targets}
-    for thing, name, own in zip(description.objects, names, copies, strict=True):
-        motion = thing.motion
-        if motion is None or thing.then or not own or motion.kind not in _TRAVELS or name in led:
+            targets = " and ".join(names[target] for target in one.targets)
+            yield Unheld("relation", one.kind, f"{names[one.subject]} {said} {targets}")
+    for index, thing in enumerate(description.objects):
+        motion, own = thing.motion, copies[index]
+        if motion is None or motion.kind not in _TRAVELS or thing.then or index in led or not own:
             continue
-        if not any(body.goes for body in own):
-            found.append(Unheld("motion", motion.kind, f"the {name}'s way: it stays in its place"))
+        if not any(_goes(body) for body in own):
+            line = f"{names[index]}'s way: it stays in its place"
+            yield Unheld("motion", motion.kind, line)
         elif motion.direction in _AXES and not any(_leads(motion.direction, body) for body in own):
-            line = f"the {name} going {motion.direction}"
-            found.append(Unheld("direction", motion.direction, line))
-    return tuple(found)
+            yield Unheld("direction", motion.direction, f"{names[index]} going {motion.direction}")
+
+
+def _goes(body: Body) -> bool:
+    """Whether it leaves its place."""
+    far = np.linalg.norm(body.middle - body.middle[0], axis=1).max()
+    return bool(far > _LEAST_WAY * body.size.max())
 
 
 def _leads(direction: str, body: Body) -> bool:
@@ -141,43 +133,41 @@ def _at_once(rule: Callable[[Body, Body], _Flags]) -> _Rule:
     return lambda one, others: any(bool(rule(one, other).any()) for other in others)
 
 
-def _near(share: float) -> _Rule:
-    """Whether the gap is at most a share of the larger one's size."""
-    return _at_once(lambda one, other: (
-        np.abs(one.middle - other.middle) - 0.5 * (one.size + other.size)
-    ).max(axis=1) <= share * max(one.reach_m, other.reach_m) + 0.05)  # fmt: skip
-
-
 def _within(one: Body, other: Body, axes: int, share: float = 0.0) -> _Flags:
     """Whether its middle is in the other's box, grown by a share of its own size, along `axes`."""
     room = 0.55 * other.size + share * one.size + 0.02
     return np.asarray((np.abs(one.middle - other.middle) <= room)[:, :axes].all(axis=1))
 
 
-def _rises(one: Body, other: Body, share: float) -> Float64Array:
+def _clears(one: Body, other: Body, share: float) -> Float64Array:
     """[t] height of its lowest point above a level of the other, -0.5 below to 0.5 on top, m."""
     level = other.middle[:, 2] + share * other.size[:, 2]
     return np.asarray(one.middle[:, 2] - 0.5 * one.size[:, 2] - level)
 
 
+def _columns(one: Body, other: Body) -> _Flags:
+    """[t, k] whether its middle is above or below each part of the other."""
+    middle = one.middle[:, None, :2]
+    return np.asarray(
+        ((other.parts[:, 0, :2] < middle) & (other.parts[:, 1, :2] > middle)).all(axis=2)
+    )
+
+
 def _is_on(one: Body, other: Body) -> _Flags:
     """Whether it is over its upper half and not above it, or right on a part of it."""
     room = 0.1 * one.size[:, 2] + 0.05
-    is_over = (_rises(one, other, 0.5) <= room) & (one.middle[:, 2] >= other.middle[:, 2])
-    low, high = other.parts[None, :, 0], other.parts[None, :, 1]
-    is_part = ((low < one.middle[:, None]) & (high > one.middle[:, None]))[:, :, :2].all(axis=2)
+    is_over = (_clears(one, other, 0.5) <= room) & (one.middle[:, 2] >= other.middle[:, 2])
     foot = (one.middle - 0.5 * one.size)[:, 2:]
-    is_part &= np.abs(high[:, :, 2] - foot) <= room[:, None]
+    is_part = _columns(one, other) & (np.abs(other.parts[:, 1, 2] - foot) <= room[:, None])
     return (_within(one, other, 2) & is_over) | is_part.any(axis=1)
 
 
 def _is_under(one: Body, other: Body) -> _Flags:
     """Whether a part of the other is above it, and none where it is itself."""
-    low, high = other.parts[None, :, 0], other.parts[None, :, 1]
+    low, high = other.parts[:, 0], other.parts[:, 1]
     middle, slim = one.middle[:, None], 0.4 * one.size[:, None]
     is_met = ((low < middle + slim) & (high > middle - slim)).all(axis=2)
-    is_roof = ((low < middle) & (high > middle))[:, :, :2].all(axis=2)
-    is_roof &= low[:, :, 2] >= middle[:, :, 2]
+    is_roof = _columns(one, other) & (low[:, 2] >= middle[:, :, 2])
     return np.asarray(~is_met.any(axis=1) & is_roof.any(axis=1))
 
 
@@ -188,17 +178,17 @@ def _aside(one: Body, other: Body) -> Float64Array:
     return np.asarray((one.seen - other.seen)[:, 0] / half)
 
 
-def _deeper(sign: int) -> _Rule:
+def _is_deeper(sign: int) -> _Rule:
     return _at_once(lambda one, other: (np.abs(_aside(one, other)) <= 1.5)
                     & (sign * (one.seen - other.seen)[:, 2] > 0.0))  # fmt: skip
 
 
-def _goes(sign: int) -> _Rule:
+def _recedes(sign: int) -> _Rule:
     """Whether the distance grows, or shrinks."""
 
     def rule(one: Body, other: Body) -> _Flags:
         away = np.linalg.norm(one.middle - other.middle, axis=1)
-        return np.asarray(sign * (away - away[0]) > _LEAST_WAY * one.reach_m)
+        return np.asarray(sign * (away - away[0]) > _LEAST_WAY * one.size.max())
 
     return _at_once(rule)
 
@@ -209,8 +199,8 @@ def _passes(share: float) -> _Rule:
     def rule(one: Body, other: Body) -> _Flags:
         off = one.middle - other.middle
         way = (off[-1] - off[0]) / max(float(np.linalg.norm(off[-1] - off[0])), 1e-9)
-        nearest = float(np.linalg.norm(off[0] - (off[0] @ way) * way))
-        is_near = nearest <= share * other.reach_m + 0.1
+        beside = float(np.linalg.norm(off[0] - (off[0] @ way) * way))
+        is_near = beside <= share * other.size.max() + 0.1
         return np.array([is_near and off[0] @ way < 0.0 < off[-1] @ way])
 
     return _at_once(rule)
@@ -218,43 +208,31 @@ def _passes(share: float) -> _Rule:
 
 def _is_between(one: Body, others: Sequence[Body]) -> bool:
     """Whether two of them are on both sides."""
-    for first in others:
-        for second in others:
-            line, off = second.middle - first.middle, one.middle - first.middle
-            share = (off * line).sum(axis=1) / np.maximum((line * line).sum(axis=1), 1e-9)
-            beside = np.linalg.norm(off - share[:, None] * line, axis=1)
-            is_near = beside <= 0.4 * np.linalg.norm(line, axis=1)
-            if (is_near & (share > 0.1) & (share < 0.9)).any():
-                return True
+    for first, second in ((a, b) for a in others for b in others if a is not b):
+        line, off = second.middle - first.middle, one.middle - first.middle
+        share = ((off * line).sum(axis=1) / (line * line).sum(axis=1))[:, None]
+        beside = np.linalg.norm(off - share * line, axis=1) / np.linalg.norm(line, axis=1)
+        if ((beside <= 0.4) & (share[:, 0] > 0.1) & (share[:, 0] < 0.9)).any():
+            return True
     return False
 
 
 def _is_around(one: Body, other: Body) -> _Flags:
     """Whether it goes a sixth of the way around, or stays, as in a ring."""
     x, y = (one.middle - other.middle)[:, :2].T
-    return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= np.pi / 3.0 or not one.goes])
-
-
-def _follows(one: Body, other: Body) -> _Flags:
-    way = other.middle[-1] - other.middle[0]
-    leads = (other.middle - one.middle) @ way > 0.0
-    return np.asarray(leads & bool((one.middle[-1] - one.middle[0]) @ way > 0.0))
+    return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= np.pi / 3.0 or not _goes(one)])
 
 
 _RULES: Mapping[str, _Rule] = {
     "on": _at_once(_is_on), "under": _at_once(_is_under), "between": _is_between,
     "in": _at_once(lambda one, other: _within(one, other, 3)),
     "above": _at_once(lambda one, other: _within(one, other, 2, 0.5)
-                      & (_rises(one, other, 0.4) >= 0.0)),
-    "at": _near(0.5), "beside": _near(1.5), "with": _near(2.0),
-    "behind": _deeper(1), "front": _deeper(-1),
+                      & (_clears(one, other, 0.4) >= 0.0)),
+    "behind": _is_deeper(1), "front": _is_deeper(-1),
     "left of": _at_once(lambda one, other: _aside(one, other) <= -0.5),
     "right of": _at_once(lambda one, other: _aside(one, other) >= 0.5),
-    "around": _at_once(_is_around), "follow": _at_once(_follows),
-    "past": _passes(3.0), "overtake": _passes(3.0), "through": _passes(0.5),
-    "towards": _goes(-1), "away from": _goes(1), "from": _goes(1),
-    **dict.fromkeys(("hold", "carry", "wear", "ride", "push", "pull", "catch"), _near(0.1)),
-    "collide": _near(0.3),
-    **dict.fromkeys(("kick", "hit", "throw"), lambda _, others: any(o.goes for o in others)),
+    "around": _at_once(_is_around), "past": _passes(3.0), "overtake": _passes(3.0),
+    "through": _passes(0.5), "towards": _recedes(-1), "away from": _recedes(1),
+    "from": _recedes(1),
 }  # fmt: skip
-"""Kind of relation → whether a body is so to others; "surround" and "look at" have none."""
+"""Kind of relation → whether a body is so to others; "surround", "with" and acts have none."""

@@ -20,11 +20,11 @@ from texvent.scenes.description import AMID, SceneDescription
 from texvent.scenes.held import Unheld, bodies_of, find_unheld
 from texvent.scenes.models.places import PLACES
 from texvent.scenes.projection import project
-from texvent.scenes.raycast.ground_truth import visible_instances
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.render import render, world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
-from texvent.scenes.scene import Float32Array, Float64Array, Ground, Primitives, Scene
+from texvent.scenes.read.lexicon import lexicon_of
+from texvent.scenes.scene import Float64Array, Ground, Primitives, Scene
 from texvent.scenes.staging.compose import ComposedScene
 from texvent.sensor import SensorSize
 
@@ -86,9 +86,30 @@ def find_unseen(
     shots = [(scene.primitives(float(time_s)), scene.camera(float(time_s))) for time_s in times]
     bodies = bodies_of(shots, [one for one, count in pixels.items() if count])
     unheld = [*find_unheld(description, bodies, object_of), *_unlit(scene, description, duration_s)]
-    return Unseen(
-        tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)), tuple(dict.fromkeys(unheld))
-    )
+    unheld += [Unheld("noun", noun, "") for noun in (*outside, *small)]
+    return Unseen(*(tuple(dict.fromkeys(one)) for one in (outside, small, unheld)))
+
+
+def without_words(words: Sequence[str], faults: Sequence[Unheld]) -> tuple[str, ...]:
+    """Words of a report, but for those that mean what a picture does not show."""
+    lost = {(kind, value) for kind, value, _ in faults}
+    return tuple(word for word in words if not lost.intersection(_meanings(word)))
+
+
+def _meanings(word: str) -> Iterator[tuple[str, str | None]]:
+    """Kinds and values, as of `Unheld`, of all senses of a word."""
+    for sense in lexicon_of(None).get(tuple(word.split()), ()):
+        if sense.kind == "verb":
+            one = sense.value
+            yield from (("relation", one.relation), ("direction", one.direction))
+            yield from (("motion", one.kind), ("effect", one.kind))
+        elif sense.kind == "noun":
+            yield "noun", sense.value.noun
+        elif sense.kind in ("adverb", "scene"):
+            *_, field, value = sense.value
+            yield from ((field, ""), (field if field != "kind" else "light", value))
+        else:
+            yield sense.kind, sense.value
 
 
 def _unlit(
@@ -117,44 +138,22 @@ def _unlit(
         if len(rest) < len(staged.effects) and not _differs(scene, without, times):
             name = "weather" if kind == said.weather else "effect"
             yield Unheld(name, kind or "", f"{kind}, which no pixel shows")
-    if not description.shot.is_moving:
-        yield from _resting(scene, description, times)
+    turning = [one for one in description.objects
+               if one.motion and one.motion.kind in _TURNS and not one.then]  # fmt: skip
+    if turning and not description.shot.is_moving and not _differs(scene, scene, times, 0.13):
+        line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
+        yield Unheld("motion", turning[0].motion.kind if turning[0].motion else "", line)
 
 
-def _resting(
-    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
-) -> Iterator[Unheld]:
-    """Motions of what turns in its place and looks the same at all angles."""
-    for index, thing in enumerate(description.objects):
-        own = [one for one, owner in scene.object_of.items() if owner == index]
-        if thing.motion is None or thing.motion.kind not in _TURNS or thing.then or not own:
-            continue
-        number = [_numbers(scene, time_s) for time_s in times[:3]]
-        is_own = np.isin(number, own).all(axis=0)
-        levels = [_picture(scene, time_s)[is_own] for time_s in times[:3]]
-        if is_own.any() and np.ptp(levels, axis=0).max() < _LEAST_LEVELS:
-            line = f"the {thing.noun}'s turning: it looks the same from all sides"
-            yield Unheld("motion", thing.motion.kind, line)
-
-
-def _differs(scene: Scene, other: Scene, times: Sequence[float]) -> bool:
+def _differs(scene: Scene, other: Scene, times: Sequence[float], later_s: float = 0.0) -> bool:
     """Whether enough pixels of small pictures are others at one of the instants."""
     for time_s in times:
-        change = np.abs(_picture(scene, time_s) - _picture(other, time_s)).max(axis=-1)
+        first, second = (render(one, at_s, _SMALL, samples=1, shadows=False)
+                         for one, at_s in ((scene, time_s), (other, time_s + later_s)))  # fmt: skip
+        change = np.abs(first - second).max(axis=-1)
         if np.mean(change >= _LEAST_LEVELS) >= _LEAST_SHARE:
             return True
     return False
-
-
-def _picture(scene: Scene, time_s: float) -> Float32Array:
-    return render(scene, time_s, _SMALL, samples=1, shadows=False)
-
-
-def _numbers(scene: Scene, time_s: float) -> NDArray[np.int32]:
-    """[H, W] instance ids of a small picture."""
-    row, column = np.indices(_SMALL.shape)
-    points = np.stack([column.ravel() + 0.5, row.ravel() + 0.5], axis=1)
-    return visible_instances(scene, time_s, _SMALL, points)[1].reshape(_SMALL.shape)
 
 
 def count_pixels(

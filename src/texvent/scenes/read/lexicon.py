@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
 from importlib.resources import files
@@ -218,28 +218,3 @@ def _plain(value: str) -> str | float | bool:
     if value in ("true", "false"):
         return value == "true"
     return float(value) if value.replace(".", "").isdigit() else value
-
-
-def without_words(words: Sequence[str], faults: Iterable[tuple[str, str, str]]) -> tuple[str, ...]:
-    """Words of a report, but for those that mean what a picture does not show.
-
-    A fault is a kind, such as "relation" or "direction", its value, and a line for the report.
-    """
-    lost = {(kind, value) for kind, value, _ in faults}
-    return tuple(word for word in words if not lost.intersection(_meanings(word)))
-
-
-def _meanings(word: str) -> Iterator[tuple[str, Any]]:
-    """Kinds and values of all senses of a word, as `without_words` takes them."""
-    phrase = tuple(one for one in word.split() if one not in word_set("senses", "articles"))
-    for sense in lexicon_of(None).get(phrase, ()):
-        if sense.kind == "verb":
-            one = sense.value
-            yield from (("relation", one.relation), ("direction", one.direction))
-            yield from (("motion", one.kind), ("effect", one.kind))
-        elif sense.kind in ("relation", "effect"):
-            yield sense.kind, sense.value
-        elif sense.kind in ("adverb", "scene"):
-            *_, field, value = sense.value
-            yield field if field != "kind" else "light", value
-            yield field, ""
