@@ -1,16 +1,25 @@
-"""The check of rays: what is out of view, and what is a few pixels large."""
+"""The check of a scene: what is out of view or tiny, and which words no instant shows."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.scenes.staged import DURATION_S, SIZE, stage
+from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
-from texvent.scenes.description import SceneDescription, SceneObject
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
+from texvent.scenes.description import (
+    Effect,
+    Illumination,
+    Relation,
+    SceneDescription,
+    SceneObject,
+    Surroundings,
+)
 from texvent.scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unseen
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framing import pose
+from texvent.scenes.staging.compose import compose_scene
 
 CAR = SceneObject("car")
 
@@ -20,7 +29,7 @@ def unseen_from(*objects, relations=(), position=None, target=(0.0, 0.0, 1.0)):
     scene = stage(*objects, relations=relations, place="plain")
     if position is not None:
         scene = replace(scene, camera_path=CameraPath(pose(position, target), (), DURATION_S))
-    return find_unseen(scene, SceneDescription("", objects), scene.object_of, SIZE, DURATION_S)
+    return find_unseen(scene, SceneDescription("", objects), SIZE, DURATION_S)
 
 
 def test_what_the_camera_frames_is_in_view_and_what_is_worn_is_part_of_who_wears_it():
@@ -43,3 +52,75 @@ def test_pixels_of_small_things_are_counted_one_by_one():
     for instance, count in count_pixels(scene, list(scene.object_of), SIZE, DURATION_S).items():
         assert count >= LEAST_PIXELS
         assert count == pytest.approx(int(np.sum(truth == instance)), rel=0.5, abs=20)
+
+
+CUBE, BALL = SceneObject("cube"), SceneObject("sphere", scale=0.5)
+HELD = {
+    "on": (SceneObject("cup"), SceneObject("table")),
+    "under": (SceneObject("cat"), SceneObject("table")),
+    "above": (SceneObject("drone"), SceneObject("house")),
+    "left of": (BALL, CUBE),
+    "right of": (BALL, CUBE),
+    "behind": (SceneObject("man"), CAR),
+    "front": (SceneObject("dog"), SceneObject("house")),
+    "between": (BALL, SceneObject("cube", 2)),
+    "past": (thing("car", ("drive",)), SceneObject("tree")),
+    "through": (thing("train", ("drive",)), SceneObject("tunnel")),
+    "towards": (thing("dog", ("walk",)), SceneObject("man")),
+    "around": (thing("dog", ("run",)), SceneObject("tree")),
+}
+OTHER = {
+    "on": "under", "under": "above", "above": "on", "left of": "right of", "right of": "left of",
+    "behind": "front", "front": "behind", "between": "in", "past": "around", "through": "above",
+    "towards": "away from", "around": "through",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", HELD)
+def test_a_relation_holds_where_it_is_staged_and_another_one_does_not(kind):
+    objects = HELD[kind]
+    scene = stage(*objects, relations=((kind, 0, 1),), place="plain")
+
+    def find(said):
+        description = SceneDescription("", objects, (Relation(said, 0, (1,)),))
+        return [one.value for one in find_unseen(scene, description, SIZE, DURATION_S).unheld]
+
+    assert (find(kind), find(OTHER[kind])) == ([], [OTHER[kind]])
+
+
+@pytest.mark.parametrize(("way", "other"), [("left", "right"), ("towards", "away"), ("up", "down")])
+def test_a_direction_holds_where_it_is_staged(way, other):
+    scene = stage(thing("drone", ("fly", way)), place="plain")
+    for said, faults in ((way, ()), (other, (other,))):
+        description = SceneDescription("", (thing("drone", ("fly", said)),))
+        unheld = find_unseen(scene, description, SIZE, DURATION_S).unheld
+        assert tuple(one.value for one in unheld) == faults
+
+
+@pytest.mark.parametrize(
+    ("prompt", "word", "line"),
+    [
+        ("a black disc spins", "spins", "the disc's turning"),
+        ("a dog runs in a sunny kitchen", "sunny", "sunny light, in a room"),
+        ("a cloudy sky over a city, top view", "cloudy", "no sky is in view"),
+        ("falling water", "falling water", "no pixel shows"),
+        ("a ball under a chair", "under", "the ball under the chair"),
+    ],
+)
+def test_words_that_the_picture_does_not_show_are_reported(prompt, word, line):
+    generator = ProceduralGenerator(ProceduralConfig(duration=1.0), size=SIZE)
+    report = generator.report(prompt)
+    assert word not in report.shown
+    assert any(line in one for one in report.not_shown), report.not_shown
+
+
+def test_effects_and_weather_that_are_seen_are_not_reported():
+    objects = (SceneObject("house"),)
+    for effect, weather in (("fire", None), (None, "rain"), (None, "snow")):
+        effects = (Effect(effect, 0),) if effect else ()
+        description = SceneDescription(
+            "", objects, effects=effects, light=Illumination("day"),
+            surroundings=Surroundings("grass", weather=weather),
+        )  # fmt: skip
+        scene = compose_scene(description, seed=0, size=SIZE, duration_s=DURATION_S)
+        assert find_unseen(scene, description, SIZE, DURATION_S).unheld == ()

@@ -119,9 +119,9 @@ def _goes(body: Body) -> bool:
 
 
 def _leads(direction: str, body: Body) -> bool:
-    """Whether half of its way goes there."""
+    """Whether a third of its way goes there."""
     axis, sign = _AXES[direction]
-    return bool(sign * body.way[axis] >= 0.5 * np.linalg.norm(body.way))
+    return bool(sign * body.way[axis] >= 0.33 * np.linalg.norm(body.way))
 
 
 _Flags = NDArray[np.bool_]
@@ -218,9 +218,9 @@ def _is_between(one: Body, others: Sequence[Body]) -> bool:
 
 
 def _is_around(one: Body, other: Body) -> _Flags:
-    """Whether it goes a sixth of the way around, or stays, as in a ring."""
+    """Whether it goes half of the way around, or stays, as in a ring."""
     x, y = (one.middle - other.middle)[:, :2].T
-    return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= np.pi / 3.0 or not _goes(one)])
+    return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= 1.05 * np.pi or not _goes(one)])
 
 
 _RULES: Mapping[str, _Rule] = {
