@@ -21,8 +21,11 @@ _TRAVELS = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "pa
 _LEAST_WAY, _MOST_COPIES = 0.1, 0.75
 """Way, in sizes of a body, that is motion; share of a subject's copies in a relation."""
 _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
-         "away": (2, 1)}  # fmt: skip
-"""Direction → axis of the camera (right, down, forward) and sign."""
+         "away": (2, 1), "across": (0, 0)}  # fmt: skip
+"""Direction → axis of the camera (right, down, forward) and sign; 0: either one."""
+
+
+_SENDING = ("kick", "hit", "throw")
 
 
 class Unheld(NamedTuple):
@@ -90,8 +93,10 @@ def find_unheld(
     ]
     names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
     led = {target for one in description.relations for target in one.targets}
+    sent = {one.subject: one.targets[0] for one in description.relations if one.kind in _SENDING}
     for one in description.relations:
-        own, others = copies[one.subject], [body for t in one.targets for body in copies[t]]
+        who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
+        own, others = copies[who], [body for t in one.targets for body in copies[t]]
         rule = _RULES.get(one.kind)
         if rule is None or one.subject in one.targets:
             continue
@@ -121,7 +126,8 @@ def _goes(body: Body) -> bool:
 def _leads(direction: str, body: Body) -> bool:
     """Whether a third of its way goes there."""
     axis, sign = _AXES[direction]
-    return bool(sign * body.way[axis] >= 0.33 * np.linalg.norm(body.way))
+    way = sign * body.way[axis] if sign else abs(body.way[axis])
+    return bool(way >= 0.33 * np.linalg.norm(body.way))
 
 
 _Flags = NDArray[np.bool_]

@@ -131,6 +131,8 @@ class _Reader:
                 told = self._relate(one, subjects, moved) or moved
             elif not self._set_scene(one):
                 adverb = one.first("adverb")
+                if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
+                    self._draft.mark(one, "lost")
                 is_spot = adverb and adverb.value in (("placement", spot) for spot in SPOTS)
                 self._say(one, told if is_spot else moved)
 
@@ -231,6 +233,8 @@ class _Reader:
             (things or draft.things)[-1]["picture"] = vars(value)
         elif field in ("colour", "size", "material") and any(field in one for one in things):
             return  # "black and white": one of both is shown
+        elif field == "rate_hz" and not any(one["motions"] or "blink_hz" in one for one in things):
+            return
         elif said is not None and things:
             for thing in things:
                 _set_field(thing, said.kind, field, value)
@@ -303,7 +307,9 @@ class _Reader:
             needs_hands = verb.relation in word_set("things", "of_people")
             return bool(verb.relation) and (is_acting or not needs_hands)
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
-        return meets or not verb.relation or (bool(verb.kind) and not verb.object)
+        is_open = bool(verb.kind) and not verb.object
+        is_open = is_open and verb.relation not in word_set("things", "doing")
+        return meets or not verb.relation or is_open
 
     # Prepositions
 
