@@ -16,7 +16,6 @@ from texvent.scenes.spec.scene import MAX_BODIES, MoveDirection, MoveKind
 
 _KINDS = sorted(get_args(MoveKind), key=len, reverse=True)
 _UNTURNED = ("handheld", "static")
-_SIDES = ("behind", "front", "left of", "right of", "above", "follow")
 _MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 
 
@@ -57,8 +56,6 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
 
 PLURAL_COUNT, SURROUND_COUNT = 3, 14
 """Copies that a bare plural means, and means all around something."""
-SPOTS = ("left", "right", "centre", "far", "near")
-"""Places in the picture, which are said of the group before: "past a tree on the left"."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 
@@ -112,8 +109,9 @@ class _Reader:
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
         if clause.verb and not objects and _is_passive(clause.verb, phrases[len(before) :]):
-            objects, subjects = list(subjects), self._introduce(phrases[len(before)])
             before.append(phrases[len(before)])
+            objects, subjects = list(subjects), self._relate(before[-1], [], [])
+            self._draft.mark(before[-1].preposition, "shown")
         self._subjects, moved = list(subjects), subjects
         if clause.verb is not None:
             is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
@@ -133,7 +131,8 @@ class _Reader:
                 adverb = one.first("adverb")
                 if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
                     self._draft.mark(one, "lost")
-                is_spot = adverb and adverb.value in (("placement", spot) for spot in SPOTS)
+                field, value = adverb.value if adverb else ("", "")
+                is_spot = field == "placement" and value in word_set("things", "spots")
                 self._say(one, told if is_spot else moved)
 
     def _find_subjects(self, clause: Clause) -> list[int]:
@@ -189,8 +188,8 @@ class _Reader:
 
     def _name_thing(self, group: Group, head: Token) -> list[int]:
         draft, noun = self._draft, head.first("noun")
-        is_part = noun is not None and noun.value.noun in HAND_NOUNS
-        is_part = is_part and group.article in word_set("things", "owners")  # "his hands"
+        is_owned = group.article in word_set("things", "owners")
+        is_part = is_owned and noun is not None and noun.value.noun in HAND_NOUNS  # "his hands"
         if len(draft.things) == MAX_BODIES or is_part:
             return []
         draft.show(head)
@@ -231,8 +230,8 @@ class _Reader:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
-        elif field in ("colour", "size", "material") and any(field in one for one in things):
-            return  # "black and white": one of both is shown
+        elif any(field in word_set("things", "once") and field in one for one in things):
+            return
         elif field == "rate_hz" and not any(one["motions"] or "blink_hz" in one for one in things):
             return
         elif said is not None and things:
@@ -307,9 +306,8 @@ class _Reader:
             needs_hands = verb.relation in word_set("things", "of_people")
             return bool(verb.relation) and (is_acting or not needs_hands)
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
-        is_open = bool(verb.kind) and not verb.object
-        is_open = is_open and verb.relation not in word_set("things", "doing")
-        return meets or not verb.relation or is_open
+        needs_object = verb.object or verb.relation in word_set("things", "doing")
+        return meets or not verb.relation or (bool(verb.kind) and not needs_object)
 
     # Prepositions
 
@@ -343,12 +341,6 @@ class _Reader:
             draft.mark(token, "shown" if any(placed) else "lost")
         return targets
 
-    def _introduce(self, phrase: Phrase) -> list[int]:
-        """Add what a phrase names whose preposition relates nothing: "chased by a dog"."""
-        found = self._relate(phrase, [], [])
-        self._draft.mark(phrase.preposition, "shown")
-        return found
-
     def _go_to_place(self, token: Token, subjects: Sequence[int], moved: Sequence[int]) -> None:
         """As "across a field"; "a dog on a road", which is no vehicle, stands on it."""
         draft = self._draft
@@ -369,10 +361,9 @@ class _Reader:
             kind = "wear"
         elif kind == "at" and target["noun"] not in word_set("things", "tables"):
             kind = "beside"
-        seat = [one for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
-        rests = all(self._nouns[draft.things[one]["noun"]].speed_m_s == 0.0 for one in targets)
-        if seat and rests:  # "at a table with a laptop"
-            return all([draft.relate(one, "on", seat[0]["to"]) for one in targets])
+        seats = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
+        if seats and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
+            return all([draft.relate(one, "on", seats[0]) for one in targets])
         for one in (draft.things[each] for each in targets if kind == "surround"):
             one["count"] = SURROUND_COUNT if one["count"] == PLURAL_COUNT else one["count"]
         return draft.relate(index, kind, targets)
@@ -431,11 +422,14 @@ class _Reader:
             elif targets:  # as "orbits a car in front of a house"
                 self._relate(one, targets, targets)
             else:
-                found, sense = self._introduce(one), one.preposition.first("relation")
+                found, sense = self._relate(one, [], []), one.preposition.first("relation")
                 kind = sense.value if sense else ""
                 targets += found if kind in word_set("things", "aims") else []
-                if found and kind in _SIDES:  # of the camera: nothing is placed so
-                    draft.mark(one.preposition, "lost")
+                # What is beside the camera is not placed so.
+                draft.mark(
+                    one.preposition,
+                    "lost" if found and kind in word_set("things", "sides") else "shown",
+                )
         if move is not None:
             self._add_move(move)
             if targets:
