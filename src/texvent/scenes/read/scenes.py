@@ -8,9 +8,10 @@ from typing import Any, get_args
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.tables import read_table
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent.scenes.read.draft import Reading, SceneDraft
-from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, read_table, word_set
+from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
 from texvent.scenes.spec.scene import MAX_BODIES, MoveDirection, MoveKind
 
@@ -47,7 +48,7 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
             move[field] = move.get("pace", 1.0) * value if field == "pace" else value
     phrase = f"{move['kind']} {move.get('direction', '')}".strip()
     pace = {"pace": move["pace"]} if "pace" in move else {}
-    move = split_move(read_table("words")["turned_moves"].get(phrase, phrase)) | pace
+    move = split_move(read_table("words", "read")["turned_moves"].get(phrase, phrase)) | pace
     means = [one.kind for one in senses if one.who == "plain" and one.kind in _MEANS]
     if move["kind"] == "travel" and means:
         move["means"] = means[0]
@@ -226,13 +227,13 @@ class _Reader:
         said = token.first("field", "picture", "adverb")
         field, value = said.value if said is not None else ("", "")
         things = [draft.things[index] for index in subjects]
+        is_set = field in word_set("things", "once") and any(field in one for one in things)
+        is_idle = not any(one["motions"] or "blink_hz" in one for one in things)
         if field == "rate_hz" and "flicker_hz" in light and not things:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
-        elif any(field in word_set("things", "once") and field in one for one in things):
-            return
-        elif field == "rate_hz" and not any(one["motions"] or "blink_hz" in one for one in things):
+        elif is_set or (field == "rate_hz" and is_idle):
             return
         elif said is not None and things:
             for thing in things:
