@@ -110,9 +110,8 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     ]  # fmt: skip
     names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
-    acts = {
-        one: act for act, agents in read_table("words", "read")["agents"].items() for one in agents
-    }
+    agents = read_table("words", "read")["agents"]
+    acts = {one: act for act, kinds in agents.items() for one in kinds}
     for noun, kinds in read_table("kinds", "read").items():
         for kind in kinds if noun in nouns else ():
             if kind not in plurals:
