@@ -6,7 +6,7 @@ Both recordings hold random events on 346×260 px over 0.5 s: no pixel is quiete
 worst case for metrics that look at pixels or pairs. CPU time, of one thread if NumPy is told so as
 above: several would spend part of it waiting for each other. The first call is not counted. EQS
 runs the backbone rvt-s with random numbers for weights, if torch is installed: the arithmetic is
-the same. docs/design/speed.md shows the table that this prints.
+the same. docs/design.md shows the table that this prints.
 """
 
 from __future__ import annotations

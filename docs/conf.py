@@ -136,10 +136,7 @@ CHILDREN = {
         "training-results",
     ],
     "notebooks": ["notebooks/your-video", "notebooks/train-a-network"],
-    "site/architecture": [
-        f"design/{name}"
-        for name in ("interpolation", "simulators", "speed", "libraries", "fuzzing")
-    ],
+    "site/architecture": ["design"],
 }
 # Pages outside of docs/ that the site shows.
 OUTSIDE = {name: f"site/{name.lower()}" for name in ("ARCHITECTURE", "CONTRIBUTING", "CHANGELOG")}

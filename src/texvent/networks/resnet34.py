@@ -6,7 +6,7 @@ the shapes.
 Source: K. He et al., "Deep residual learning for image recognition", CVPR 2016; the first
 convolution (kernel 14, stride 2, padding 3) is that of J. Kim et al., "N-ImageNet: towards robust,
 fine-grained object recognition with event cameras", ICCV 2021, and its program.
-docs/design/libraries.md says why no library's.
+docs/design.md says why no library's.
 """
 
 from __future__ import annotations

@@ -26,7 +26,7 @@ BAND_PIXELS = 1 << 16
 BUSY = 0.65
 """From this share of active pixels on, drawing the frames costs less: each pixel has to be warped
 at each instant either way, scanning whole frames is faster than evaluating pixels one by one, and
-no list of candidates has to be held (docs/design/speed.md has the measurements)."""
+no list of candidates has to be held (docs/design.md has the measurements)."""
 
 Decided = TypeVar("Decided")
 

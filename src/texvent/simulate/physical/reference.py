@@ -217,7 +217,7 @@ class _CircuitPixels:
             getattr(self, field.name)[chosen] = getattr(other, field.name)
 
     def enter_segment(self, light: PhotoreceptorInput, duration: float) -> None:
-        """Begin the next segment; docs/design/simulators.md says what is solved here."""
+        """Begin the next segment; docs/design.md says what is solved here."""
         self.segment = self.segment + 1.0
         length = duration / self.segments
         is_last = self.segment == self.segments - 1.0
