@@ -164,8 +164,9 @@ def _is_on(one: Body, other: Body) -> _Flags:
     room = 0.1 * one.size[:, 2] + 0.05
     is_over = (_clears(one, other, 0.5) <= room) & (one.middle[:, 2] >= other.middle[:, 2])
     foot = (one.middle - 0.5 * one.size)[:, 2:]
-    is_part = _columns(one, other) & (np.abs(other.parts[:, 1, 2] - foot) <= room[:, None])
-    return (_within(one, other, 2) & is_over) | is_part.any(axis=1)
+    is_top = np.asarray(np.abs(other.parts[:, 1, 2] - foot) <= room[:, None])
+    is_part = np.any(_columns(one, other) & is_top, axis=1)
+    return np.asarray((_within(one, other, 2) & is_over) | is_part)
 
 
 def _is_under(one: Body, other: Body) -> _Flags:
@@ -173,8 +174,8 @@ def _is_under(one: Body, other: Body) -> _Flags:
     low, high = other.parts[:, 0], other.parts[:, 1]
     middle, slim = one.middle[:, None], 0.4 * one.size[:, None]
     is_met = ((low < middle + slim) & (high > middle - slim)).all(axis=2)
-    is_roof = _columns(one, other) & (low[:, 2] >= middle[:, :, 2])
-    return np.asarray(~is_met.any(axis=1) & is_roof.any(axis=1))
+    is_roof = _columns(one, other) & np.asarray(low[:, 2] >= middle[:, :, 2])
+    return np.asarray(~np.any(is_met, axis=1) & np.any(is_roof, axis=1))
 
 
 def _aside(one: Body, other: Body) -> Float64Array:

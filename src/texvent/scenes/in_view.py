@@ -87,7 +87,9 @@ def find_unseen(
     bodies = bodies_of(shots, [one for one, count in pixels.items() if count])
     unheld = [*find_unheld(description, bodies, object_of), *_unlit(scene, description, duration_s)]
     unheld += [Unheld("noun", noun, "") for noun in (*outside, *small)]
-    return Unseen(*(tuple(dict.fromkeys(one)) for one in (outside, small, unheld)))
+    return Unseen(
+        tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)), tuple(dict.fromkeys(unheld))
+    )
 
 
 def without_words(words: Sequence[str], faults: Sequence[Unheld]) -> tuple[str, ...]:

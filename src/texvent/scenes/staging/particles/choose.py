@@ -51,7 +51,7 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
         if kind is not None and one.is_lit is not False and (kind, index) not in named:
             said.append(Effect(kind, index))
     effects = _weather(description, setting)
-    kinds = [description.surroundings.weather or ""] * len(effects)
+    kinds: list[str] = [description.surroundings.weather or ""] * len(effects)
     ends: dict[int, float] = {}
     for number, effect in enumerate(said):
         copies = [one for one in setting.actors if one.object_index == effect.source]
