@@ -200,15 +200,20 @@ def _recedes(sign: int) -> _Rule:
     return _at_once(rule)
 
 
-def _passes(share: float) -> _Rule:
-    """Whether its way leads past the other, at most a share of that one's size beside it."""
+def _passes(share: float, beside: float = 0.5) -> _Rule:
+    """Whether its way leads past the other, at most a share of that one's size beside it.
+
+    It may begin and end that far from the other's middle, in sizes of both.
+    """
 
     def rule(one: Body, other: Body) -> _Flags:
         off = one.middle - other.middle
-        way = (off[-1] - off[0]) / max(float(np.linalg.norm(off[-1] - off[0])), 1e-9)
-        beside = float(np.linalg.norm(off[0] - (off[0] @ way) * way))
-        is_near = beside <= share * other.size.max() + 0.1
-        return np.array([is_near and off[0] @ way < 0.0 < off[-1] @ way])
+        length = float(np.linalg.norm(off[-1] - off[0]))
+        way = (off[-1] - off[0]) / max(length, 1e-9)
+        aside = float(np.linalg.norm(off[0] - (off[0] @ way) * way))
+        is_near = aside <= share * other.size.max() + 0.1 and length > _LEAST_WAY * one.size.max()
+        room = beside * (one.size.max() + other.size.max())
+        return np.array([is_near and off[0] @ way < room and off[-1] @ way > -room])
 
     return _at_once(rule)
 
@@ -238,8 +243,8 @@ _RULES: Mapping[str, _Rule] = {
     "behind": _is_deeper(1), "front": _is_deeper(-1),
     "left of": _at_once(lambda one, other: _aside(one, other) <= -0.5),
     "right of": _at_once(lambda one, other: _aside(one, other) >= 0.5),
-    "around": _at_once(_is_around), "past": _passes(3.0), "overtake": _passes(3.0),
-    "through": _passes(0.5), "towards": _recedes(-1), "away from": _recedes(1),
+    "around": _at_once(_is_around), "past": _passes(3.0), "overtake": _passes(3.0, 0.0),
+    "through": _passes(0.5, 0.0), "towards": _recedes(-1), "away from": _recedes(1),
     "from": _recedes(1),
 }  # fmt: skip
 """Kind of relation → whether a body is so to others; "surround", "with" and acts have none."""

@@ -25,6 +25,7 @@ from texvent.scenes.raycast.render import render, world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
 from texvent.scenes.read.lexicon import lexicon_of
 from texvent.scenes.scene import Float64Array, Ground, Primitives, Scene
+from texvent.scenes.spec.data import PLACING
 from texvent.scenes.staging.compose import ComposedScene
 from texvent.sensor import SensorSize
 
@@ -40,6 +41,8 @@ _SMALL = SensorSize(120, 90)
 """Size of small pictures."""
 _LEAST_LEVELS, _LEAST_SHARE = 6.0, 0.002
 """Difference of a pixel, of 255, that is seen; share of the pixels in which it must be."""
+_LEAST_CLIP_S = 1.0
+"""Length of a clip, s, in which motions get so far that they are judged."""
 _WATER = (Ground.SEA, Ground.LAKE, Ground.RIVER)
 _OUTDOORS = ("sunny", "overcast", "dusk", "dawn", "moonlight")
 _TURNS = ("spin", "work", "rotate")
@@ -85,7 +88,9 @@ def find_unseen(
     times = np.linspace(0.0, duration_s, INSTANTS)
     shots = [(scene.primitives(float(time_s)), scene.camera(float(time_s))) for time_s in times]
     bodies = bodies_of(shots, [one for one, count in pixels.items() if count])
-    unheld = [*find_unheld(description, bodies, object_of), *_unlit(scene, description, duration_s)]
+    unheld = [one for one in find_unheld(description, bodies, object_of)
+              if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
+    unheld += _unlit(scene, description, duration_s)
     unheld += [Unheld("noun", noun, "") for noun in (*outside, *small)]
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)), tuple(dict.fromkeys(unheld))
