@@ -47,7 +47,7 @@ unexport PYTHONDONTWRITEBYTECODE
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
-	@echo "make test    the default test suite"
+	@echo "make test    the default test suite, of texvent and of lab/"
 	@echo "make fuzz    thousands of damaged inputs for every reader, and a table of what became of them"
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
 	@echo "make test-app     the tests of the web page and of rerun files, in $(APP_VENV)"
@@ -78,7 +78,7 @@ fuzz: $(VENV)/.dev
 	$(VENV)/bin/python -m tests.fuzz
 
 test-torch: $(TORCH_VENV)/.torch
-	$(TORCH_VENV)/bin/python -m pytest -q -m torch tests
+	$(TORCH_VENV)/bin/python -m pytest -q -m torch
 
 test-app: $(APP_VENV)/.app
 	$(APP_VENV)/bin/python -m pytest -q -m app tests/view tests/web tests/cli
@@ -111,10 +111,11 @@ lint: $(VENV)/.dev
 	$(VENV)/bin/python -m tools.ceilings
 
 dist: $(RELEASE_VENV)/.release
-	rm -f dist/texvent-*.whl dist/texvent-*.tar.gz
+	rm -f dist/texvent[-_]*.whl dist/texvent[-_]*.tar.gz
 	$(RELEASE_VENV)/bin/python -m build --no-isolation --outdir dist .
-	$(RELEASE_VENV)/bin/twine check --strict dist/texvent-*.whl dist/texvent-*.tar.gz
-	$(RELEASE_VENV)/bin/check-wheel-contents dist/texvent-*.whl
+	$(RELEASE_VENV)/bin/python -m build --no-isolation --outdir dist lab
+	$(RELEASE_VENV)/bin/twine check --strict dist/texvent[-_]*.whl dist/texvent[-_]*.tar.gz
+	$(RELEASE_VENV)/bin/check-wheel-contents dist/texvent[-_]*.whl
 	$(RELEASE_VENV)/bin/python -m tools.check_wheel dist/texvent-*.whl --python $(PYTHON)
 
 lint-workflows: $(RELEASE_VENV)/.lint
@@ -161,11 +162,11 @@ $(VENV)/.base: $(VENV)/bin/python pyproject.toml requirements/base.txt requireme
 	$(VENV)/bin/python $(PLAIN) -e .
 	@touch $@
 
-$(VENV)/.dev: $(VENV)/bin/python pyproject.toml requirements/test.txt requirements/build.txt
+$(VENV)/.dev: $(VENV)/bin/python pyproject.toml lab/pyproject.toml requirements/test.txt requirements/build.txt
 	@echo "installing texvent and its test tools into $(VENV) (about a minute, once)"
 	@$(VENV)/bin/python $(HASHED) -r requirements/test.txt || { $(NO_HASH); }
 	@$(VENV)/bin/python $(HASHED) -r requirements/readers.txt || $(NO_READERS)
-	$(VENV)/bin/python $(PLAIN) -e .
+	$(VENV)/bin/python $(PLAIN) -e . -e lab
 	@touch $@ $(VENV)/.base
 else
 $(VENV)/.base: $(VENV)/bin/python pyproject.toml constraints.txt
@@ -173,9 +174,9 @@ $(VENV)/.base: $(VENV)/bin/python pyproject.toml constraints.txt
 	$(PIP) -e .
 	@touch $@
 
-$(VENV)/.dev: $(VENV)/bin/python pyproject.toml constraints.txt
+$(VENV)/.dev: $(VENV)/bin/python pyproject.toml lab/pyproject.toml constraints.txt
 	@echo "installing texvent and its test tools into $(VENV) (about a minute, once)"
-	$(PIP) -e '.[dev]'
+	$(PIP) -e '.[dev]' -e lab
 	@$(PIP) -e '.[readers]' || $(NO_READERS)
 	@touch $@ $(VENV)/.base
 endif
@@ -185,9 +186,9 @@ $(AUDIT_VENV)/.audit: $(AUDIT_VENV)/bin/python requirements/audit.txt requiremen
 	$(AUDIT_VENV)/bin/python $(HASHED) -r requirements/audit.txt
 	@touch $@
 
-$(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml constraints.txt
+$(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml lab/pyproject.toml constraints.txt
 	@echo "installing texvent and torch into $(TORCH_VENV) (once; see CONTRIBUTING.md for its size)"
-	@$(TORCH_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,v2ce,rife,quantize,gpu,train]' || { \
+	@$(TORCH_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,v2ce,rife,quantize,gpu]' -e 'lab[train]' || { \
 		echo "error: torch could not be installed, so the tests that need it did not run. Name a place that has a CPU build of the version in constraints.txt, with PIP_FIND_LINKS or PIP_EXTRA_INDEX_URL, and run make test-torch again"; \
 		exit 2; }
 	@touch $@
@@ -202,13 +203,13 @@ $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.
 	$(DATASET_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,dataset,ray,loaders,parquet,blosc]'
 	@touch $@
 
-$(DOCS_VENV)/.docs: $(DOCS_VENV)/bin/python pyproject.toml constraints.txt
+$(DOCS_VENV)/.docs: $(DOCS_VENV)/bin/python pyproject.toml lab/pyproject.toml constraints.txt
 	@echo "installing texvent and Sphinx into $(DOCS_VENV) (once; 900 MB)"
-	$(DOCS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[docs]'
+	$(DOCS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[docs]' -e lab
 	@touch $@
 
 $(DOCS_VENV)/.docs-test: $(DOCS_VENV)/.docs
-	$(DOCS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,docs]'
+	$(DOCS_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,docs]' -e lab
 	@touch $@
 
 $(GPL_VENV)/.gpl: $(GPL_VENV)/bin/python pyproject.toml constraints.txt Makefile

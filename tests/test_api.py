@@ -9,7 +9,6 @@ import pytest
 import texvent
 from texvent.api import compare
 from texvent.errors import ConfigError, InputError, TexventError
-from texvent.generate.prompts import upsample as upsampling
 
 PROMPT = "a red ball bounces"
 SMALL = {"sensor": "48x36", "duration": 0.2, "seed": 3}
@@ -81,21 +80,6 @@ def test_a_generator_gives_its_events_once_and_never_others(tmp_path):
     assert len(part.between(50_000, 80_000).collect()) > 0
     with pytest.raises(InputError, match="can be read once, and was"):
         part.collect()
-
-
-def test_prompt_upsampling_is_a_keyword_too(monkeypatch):
-    asked = []
-
-    def upsample(prompt, config):
-        asked.append((prompt, config.upsample))
-        return "a red ball bounces on the grass"
-
-    monkeypatch.setattr(upsampling, "upsample_prompt", upsample)
-    made = texvent.generate("ball", **SMALL, upsample="http://localhost:1/v1")
-    assert asked == [("ball", "http://localhost:1/v1")]
-    assert made.metadata["prompt"] == "ball"
-    with pytest.raises(ConfigError, match="upsample_model is set"):
-        texvent.generate("ball", **SMALL, upsample_model="small")
 
 
 def test_what_there_is_to_choose_from_is_listed():

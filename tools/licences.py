@@ -24,7 +24,7 @@ from packaging.utils import canonicalize_name
 ROOT = Path(__file__).parents[1]
 PAGE = ROOT / "docs" / "licences.md"
 RULES = tomllib.loads((ROOT / "tools" / "licences.toml").read_text(encoding="utf-8"))
-OWN = "texvent"
+OWN = ("texvent", "texvent-lab")
 
 OPENING = """\
 # Licences
@@ -170,7 +170,8 @@ def needed_by(packages: dict[str, Package], extras: dict[str, list[str]]) -> dic
                 if (name, wanted) not in seen:
                     seen.add((name, wanted))
                     pending += [(needed, wanted) for needed in requires(name, packages)]
-    users.pop(OWN, None)
+    for own in OWN:
+        users.pop(own, None)
     return users
 
 
@@ -180,9 +181,15 @@ def requires(name: str, packages: dict[str, Package]) -> tuple[str, ...]:
 
 
 def parts_of_texvent() -> dict[str, list[str]]:
-    """Requirements of the base and of each extra, from pyproject.toml."""
-    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
-    return {"base": project["dependencies"], **project["optional-dependencies"]}
+    """Requirements of the base and of each extra, and those of the laboratory."""
+    parts: dict[str, list[str]] = {}
+    for folder, base, prefix in ((".", "base", ""), ("lab", "lab", "lab ")):
+        text = (ROOT / folder / "pyproject.toml").read_text(encoding="utf-8")
+        project = tomllib.loads(text)["project"]
+        own = [one for one in project["dependencies"] if one not in OWN]
+        extras = project["optional-dependencies"].items()
+        parts |= {base: own, **{prefix + name: needed for name, needed in extras}}
+    return parts
 
 
 def page(packages: dict[str, Package]) -> str:

@@ -25,6 +25,8 @@ from typing import NamedTuple
 ROOT = Path(__file__).parent.parent
 TABLE = ROOT / "tools" / "mutations.toml"
 SOURCES = Path("src", "texvent")
+LAB = Path("lab")
+"""Files and tests of the table that begin with it are those of the laboratory."""
 LEFT_OUT = shutil.ignore_patterns(".*", "dist", "_build", "demo-output")
 """What no test of the table needs. Kernels that were compiled before are taken along."""
 PATIENCE_S = 3600
@@ -40,12 +42,30 @@ class Mutation(NamedTuple):
     name: str
     """Area, and what is wrong then."""
     file: str
-    """Below `SOURCES`."""
+    """Below `SOURCES`, or `lab/` and below lab/src/texvent_lab."""
     old: str
     """Text that is there once."""
     new: str
     tests: tuple[str, ...]
-    """Below `tests`: those that should notice, as pytest names them."""
+    """Those that should notice, as pytest names them; below `tests`, or `lab/` and below that."""
+
+
+def source_path(file: str) -> Path:
+    """Path of a file of the table."""
+    inner = Path(file)
+    if inner.parts[0] == LAB.name:
+        return LAB / "src" / "texvent_lab" / inner.relative_to(LAB)
+    return SOURCES / inner
+
+
+def path_of_test(test: str) -> Path:
+    """Path of a test of the table."""
+    inner = Path(test)
+    return (
+        LAB / "tests" / inner.relative_to(LAB)
+        if inner.parts[0] == LAB.name
+        else Path("tests", inner)
+    )
 
 
 def read_table(path: Path = TABLE, root: Path = ROOT) -> list[Mutation]:
@@ -57,7 +77,7 @@ def read_table(path: Path = TABLE, root: Path = ROOT) -> list[Mutation]:
     found = []
     for area, changes in tomllib.loads(path.read_text("utf-8")).items():
         for what, (file, old, new, *tests) in changes.items():
-            count = (root / SOURCES / file).read_text("utf-8").count(old)
+            count = (root / source_path(file)).read_text("utf-8").count(old)
             if count != 1:
                 raise ValueError(f"{area}, {what}: {file} has {old!r} {count} times, not once")
             found.append(Mutation(f"{area}: {what}", file, old, new, tuple(tests)))
@@ -67,8 +87,11 @@ def read_table(path: Path = TABLE, root: Path = ROOT) -> list[Mutation]:
 def run_tests(tree: Path, tests: Sequence[str]) -> str:
     """What becomes of the change that a copy of the tree holds."""
     words = [sys.executable, "-m", "pytest", "-qx", "-p", "no:cacheprovider"]
-    words += [str(Path("tests", one)) for one in tests]
-    environment = {**os.environ, "PYTHONPATH": f"{tree / 'src'}{os.pathsep}{tree}"}
+    words += [str(path_of_test(one)) for one in tests]
+    environment = {
+        **os.environ,
+        "PYTHONPATH": f"{tree / 'src'}{os.pathsep}{tree / LAB / 'src'}{os.pathsep}{tree}",
+    }
     with tempfile.TemporaryFile() as said:
         process = subprocess.Popen(
             words, cwd=tree, env=environment, stdout=said, start_new_session=True
@@ -89,7 +112,7 @@ def run_tests(tree: Path, tests: Sequence[str]) -> str:
 
 def judge(tree: Path, mutation: Mutation) -> str:
     """Change a copy of the tree, run the tests that should notice, change it back."""
-    path = tree / SOURCES / mutation.file
+    path = tree / source_path(mutation.file)
     # Renamed back, it keeps its time, by which compiled kernels are found again.
     right = path.rename(path.with_suffix(".right"))
     path.write_text(right.read_text("utf-8").replace(mutation.old, mutation.new), "utf-8")

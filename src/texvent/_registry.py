@@ -121,7 +121,7 @@ GENERATORS = Registry(
         "procedural": "texvent.generate.procedural:ProceduralGenerator",
         "opensora": "texvent.generate.opensora.generator:OpenSoraGenerator",
     },
-    table="texvent.generate.video_models.lookup",
+    table="texvent.generate.video_models.known_models",
 )
 INTERPOLATORS = Registry(
     "interpolator",
@@ -259,27 +259,6 @@ AUGMENTATIONS = Registry(
         "drop-area": "texvent.transform.augmentation.dropping:DropArea",
     },
 )
-RECONSTRUCTORS = Registry(
-    "reconstructor",
-    {
-        "e2vid": "texvent.reconstruct.networks:E2VID",
-        "e2vid+": "texvent.reconstruct.networks:E2VID_PLUS",
-        "firenet": "texvent.reconstruct.networks:FIRENET",
-        "firenet+": "texvent.reconstruct.networks:FIRENET_PLUS",
-        "hypere2vid": "texvent.reconstruct.networks:HYPER_E2VID",
-        "et-net": "texvent.reconstruct.networks:ET_NET",
-    },
-)
-TASKS = Registry(
-    "task",
-    {
-        "classification": "texvent.train.classification.config:ClassificationConfig",
-        "depth": "texvent.train.depth.config:DepthConfig",
-        "flow": "texvent.train.flow.config:FlowConfig",
-        "latents": "texvent.train.latents.config:LatentsConfig",
-        "reconstruction": "texvent.train.reconstruction.config:ReconstructionConfig",
-    },
-)
 REGISTRIES = {
     registry.kind: registry
     for registry in (
@@ -291,7 +270,5 @@ REGISTRIES = {
         REPRESENTATIONS,
         FILTERS,
         AUGMENTATIONS,
-        RECONSTRUCTORS,
-        TASKS,
     )
 }

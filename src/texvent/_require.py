@@ -14,7 +14,8 @@ def require(module: str, *, extra: str | None = None) -> ModuleType:
 
     Args:
         module: dotted module name, such as `"torch"`.
-        extra: the texvent extra that brings it, or None for a base dependency.
+        extra: the texvent extra that brings it, or None for a base dependency; or the extra of
+            another package, as `"package[extra]"`.
 
     Returns:
         The imported module.
@@ -28,7 +29,7 @@ def require(module: str, *, extra: str | None = None) -> ModuleType:
     try:
         return importlib.import_module(module)
     except ImportError as error:
-        target = f"texvent[{extra}]" if extra else "texvent"
+        target = "texvent" if extra is None else extra if "[" in extra else f"texvent[{extra}]"
         raise MissingDependencyError(
             f"{module} is needed here and could not be imported ({one_line(error)}); "
             f"install it with: pip install '{target}'"

@@ -6,7 +6,7 @@ dataclasses; None means "as the preset has it".
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack, overload
@@ -16,11 +16,8 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.generate.prompts.upsample_config import UpsampleConfig
-from texvent.options.fields import option_names
 from texvent.options.keywords import GenerateOptions, SimulateOptions
 from texvent.options.signatures import naming_options
-from texvent.options.values import with_options
 from texvent.pipeline import Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
 from texvent.run.settings import Settings, resolve
@@ -110,12 +107,12 @@ def generate(
         >>> events.size, len(events) > 100
         (SensorSize(width=48, height=36), True)
     """
-    settings, upsample = _generation(options, config)
+    settings = resolve("generate", options, config=config)
     output = _truth_output(truth_folder, as_packets=as_packets)
     if output is not None:
         check_generator(str(settings.generator))
     with open_progress(progress) as shown:
-        run = prepare_prompt(prompt, settings, upsample=upsample, progress=shown)
+        run = prepare_prompt(prompt, settings, progress=shown)
         if output is not None:
             return run_with_truth(run, output, shown)
     return run.packets if as_packets else _collected(run, progress)
@@ -247,9 +244,9 @@ def video(
         >>> frames.size, next(iter(frames)).pixels.shape
         (SensorSize(width=48, height=36), (36, 48, 3))
     """
-    settings, upsample = _generation(options, config)
+    settings = resolve("generate", options, config=config)
     with open_progress(progress) as shown:
-        return make_video(prompt, settings, upsample=upsample, progress=shown)
+        return make_video(prompt, settings, progress=shown)
 
 
 def open(
@@ -342,7 +339,9 @@ def _simulation(
     Raises:
         InputError: the same is given by two names.
     """
-    from texvent.capture.motion_vectors.attach import own_motion  # brings the readers of frames
+    from texvent.capture.motion_vectors.attach import (
+        find_motion_sidecar,  # brings the readers of frames
+    )
 
     given: dict[str, Any] = dict(options)
     for name, other in (("motion", "flow"), ("motion_back", "flow_back")):
@@ -359,7 +358,7 @@ def _simulation(
     has_motion = is_moving or getattr(source, "has_motion", False)
     settings = resolve("simulate", given, config=config, has_motion=has_motion)
     if not has_motion and settings.source.motion is None:
-        found = own_motion(source)
+        found = find_motion_sidecar(source)
         if found is not None:
             settings = resolve("simulate", {**given, "motion": found}, config=config)
     return settings, arrays
@@ -380,15 +379,3 @@ def _stream(events: Events) -> EventStream:
     if isinstance(events, EventStream):
         return events
     return events.collect() if isinstance(events, EventPackets) else load(events)
-
-
-def _generation(
-    options: Mapping[str, Any], config: str | Path | None
-) -> tuple[Settings, UpsampleConfig]:
-    """Settings of a run from a prompt, and its prompt upsampling."""
-    names = option_names(UpsampleConfig)
-    own = {name: value for name, value in options.items() if name in names}
-    rest = {name: value for name, value in options.items() if name not in names}
-    return resolve("generate", rest, config=config), with_options(
-        UpsampleConfig(), own, where="options"
-    )

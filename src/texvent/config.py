@@ -153,25 +153,25 @@ class CaptureConfig:
     fit: Literal["cover", "contain", "stretch"] = "cover"
     """How frames are fitted to the sensor's size: cut the excess, add black bars, or distort."""
     motion: Path | None = None
-    """Motion vectors of a renderer, instead of optical flow: a folder (.exr, .flo, .png, .npy,
-    .npz), a pattern such as 'out/flow_*.npy', or one file (.npy, .npz, .h5). Depth and ids in the
-    same files are used too."""
+    """Motion vectors of a renderer, instead of optical flow: a folder (.exr, .npy, .npz), a
+    pattern such as 'out/flow_*.npy', or one file (.npy, .npz). Depth and ids in the same files are
+    used too."""
     motion_back: Path | None = None
     """Vectors to the previous frame, where they are in files of their own."""
     motion_convention: str | None = None
-    """What the vectors mean: blender, carla, unreal, isaac, kitti or dsec, or words such as
+    """Convention of the vectors: blender, carla, unreal or isaac, or words such as
     backward,ndc,y-up (see docs/renderers.md). Without it, pixels to the next frame, x right, y
     down; OpenEXR passes say it themselves."""
     check_motion: bool = True
     """Compare warped with real frames, and refuse vectors that fit clearly better if they are
     meant otherwise."""
     depth: Path | None = None
-    """Depth along the optical axis, m, in files as --motion; says what is in front. With --camera,
-    that of the image: nearer things move more."""
+    """Depth along the optical axis, m, in files as --motion, or .png; decides what is in front.
+    With --camera, that of the image: nearer surfaces move more."""
     depth_scale: float | None = None
     """Metres per stored step of depth: 0.001 for mm. Needed for PNG."""
     instances: Path | None = None
-    """Ids of objects, in files as --motion."""
+    """Ids of objects, in files as --motion, or .png."""
     camera: str | None = None
     """Over a still image: saccade, shake, pan or FILE. The camera moves as N-MNIST's sensor did, as
     if held by hand, or to the right; or as a file says: positions (t x y [roll [zoom]]: s, px,

@@ -159,7 +159,7 @@ def test_render_makes_videos_images_and_pages(folder, name, capsys):
 
 
 def test_doctor_knows_every_extra_that_a_user_can_install():
-    for_developers = {"dev", "docs", "readers", "peers", "loaders"}
+    for_developers = {"dev", "docs", "readers", "loaders"}
     same_as_another = {"torch"}
     project = tomllib.loads(PYPROJECT.read_text(encoding="utf-8"))["project"]
     assert set(EXTRAS) == set(project["optional-dependencies"]) - for_developers - same_as_another
@@ -206,7 +206,7 @@ def test_unknown_commands_flags_presets_and_parts_are_named(folder, capsys):
 
 def test_a_prompt_without_quotes_is_told_to_take_them(folder, capsys):
     assert "put all of it in quotes" in fails(capsys, "generate", "a", "ball")
-    assert 'an empty text (""); leave it out' in fails(capsys, "bench", "page", "x.json", "")
+    assert 'an empty text (""); leave it out' in fails(capsys, "info", "x.h5", "")
     assert "did you mean --help" not in fails(capsys, "generate", "a ball", "--nosuch", "1")
 
 

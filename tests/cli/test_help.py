@@ -11,15 +11,12 @@ from typing import ClassVar
 import pytest
 
 from texvent.cli.app import COMMANDS, main
-from texvent.cli.bench.bench import BENCHMARKS
 from texvent.cli.help import asked_help, first_sentence, render_help
 
 COLUMNS, LINES = 80, 40
 EVERY_COMMAND = [
     (),
-    *((name,) for name in COMMANDS if name not in ("bench", "data", "weights", "scenes")),
-    *(("bench", name) for name in BENCHMARKS),
-    ("bench",),
+    *((name,) for name in COMMANDS if name not in ("data", "weights", "scenes")),
     ("data",),
     ("scenes",),
     ("scenes", "list"),

@@ -19,7 +19,6 @@ from typing import Any, Literal
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
-from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.generate.video_config import DiffusersConfig
 
 FILE = Path(__file__).parents[2] / "src" / "texvent" / "options" / "keywords.py"
@@ -69,8 +68,8 @@ def classes() -> dict[str, tuple[str, str, list[type]]]:
         "CaptureOptions": ("TypedDict", "Options of recorded frames.", [CaptureConfig]),
         "GeneratorOptions": (
             "TypedDict",
-            "Options of all generators, and of prompt upsampling.",
-            [*generators, DiffusersConfig, UpsampleConfig],
+            "Options of all generators.",
+            [*generators, DiffusersConfig],
         ),
         "SimulateOptions": (
             "RunOptions, CaptureOptions, InterpolateOptions, SimulatorOptions",

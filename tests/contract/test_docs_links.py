@@ -56,7 +56,7 @@ def test_every_page_can_be_reached_from_the_readme():
     }
 
 
-@pytest.mark.parametrize("folder", ["src", "benchmarks", "tests", "docs"])
+@pytest.mark.parametrize("folder", ["src", "lab", "tests", "docs"])
 def test_pages_that_files_name_exist(folder):
     files = [path for path in (ROOT / folder).rglob("*") if path.suffix in (".py", ".md", ".toml")]
     named = {
@@ -78,7 +78,8 @@ def imports(page: Path) -> list[tuple[str, str]]:
 )
 def test_names_that_pages_import_exist(module, name):
     """Read from the source: some of these modules need torch or Triton."""
-    path = ROOT / "src" / Path(*module.split("."))
+    source = "lab/src" if module.startswith("texvent_lab") else "src"
+    path = ROOT / source / Path(*module.split("."))
     file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
     text = file.read_text(encoding="utf-8")
     assert re.search(rf"\b{name}\b", text) or (path / f"{name}.py").exists()

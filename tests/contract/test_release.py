@@ -35,6 +35,7 @@ def test_the_version_is_the_same_everywhere() -> None:
     assert re.findall(r"texvent\[app\]==([\w.]+)", read("containers/space/Dockerfile")) == [
         texvent.__version__
     ]
+    assert tomllib.loads(read("lab/pyproject.toml"))["project"]["version"] == texvent.__version__
     comfyui = tomllib.loads(read("comfyui/texvent_nodes/pyproject.toml"))
     assert comfyui["project"]["version"] == texvent.__version__
     package = ElementTree.parse(ROOT / "ros/texvent_ros/package.xml")

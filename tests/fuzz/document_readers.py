@@ -5,15 +5,16 @@ from __future__ import annotations
 from functools import partial
 from pathlib import Path
 
-from texvent.bench.document import read_document, write_document
-from texvent.bench.fidelity.page import page_files
-from texvent.bench.fidelity.results import read_report
-from texvent.bench.selftest.run import SelftestRow
-from texvent.bench.selftest.table import read_selftest, selftest_document, selftest_table
+from lab.tests.bench.synthetic_report import synthetic_report
+
 from texvent.metrics.lpips import weights as lpips_weights
 from texvent.metrics.lpips.weights import read_lpips_weights, write_lpips_weights
+from texvent_lab.bench.document import read_document, write_document
+from texvent_lab.bench.fidelity.page import page_files
+from texvent_lab.bench.fidelity.results import read_report
+from texvent_lab.bench.selftest.run import SelftestRow
+from texvent_lab.bench.selftest.table import read_selftest, selftest_document, selftest_table
 
-from ..bench.synthetic_report import synthetic_report
 from ..metrics.lpips.lpips_files import NARROW, narrow_weights, write_published
 from .reader import Reader, digest
 

@@ -5,11 +5,8 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from fractions import Fraction
-from functools import partial
 from pathlib import Path
 
-import cv2
-import h5py
 import numpy as np
 
 from texvent._require import require
@@ -25,11 +22,7 @@ VECTOR = np.float32([2.0, -1.0])
 
 def motion_readers() -> list[Reader]:
     """One per format."""
-    conventions = {".png": "kitti"}
-    return [
-        Reader(f"motion {ending}", make, partial(_read, conventions.get(ending)), 0.5)
-        for ending, make in FORMATS.items()
-    ]
+    return [Reader(f"motion {ending}", make, _read, 0.5) for ending, make in FORMATS.items()]
 
 
 def _flow() -> np.ndarray:
@@ -42,21 +35,6 @@ def _frames() -> np.ndarray:
     return np.stack(images).astype(np.uint8)
 
 
-def _make_flo(folder: Path) -> Path:
-    for index, flow in enumerate(_flow()):
-        size = np.int32([WIDTH, HEIGHT]).tobytes()
-        (folder / f"{index}.flo").write_bytes(b"PIEH" + size + flow.tobytes())
-    return folder
-
-
-def _make_png(folder: Path) -> Path:
-    for index, flow in enumerate(_flow()):
-        pixels = np.ones((HEIGHT, WIDTH, 3), np.uint16)
-        pixels[..., :2] = flow * 64 + 2**15
-        cv2.imwrite(str(folder / f"{index}.png"), pixels[..., ::-1])
-    return folder
-
-
 def _make_npy(folder: Path) -> Path:
     np.save(folder / "flow.npy", _flow())
     return folder / "flow.npy"
@@ -66,14 +44,6 @@ def _make_npz(folder: Path) -> Path:
     depth = np.full((COUNT, HEIGHT, WIDTH), 3.0, np.float32)
     np.savez(folder / "a.npz", forward=_flow(), backward=-_flow(), depth=depth)
     return folder / "a.npz"
-
-
-def _make_hdf5(folder: Path) -> Path:
-    with h5py.File(folder / "a.h5", "w") as file:
-        file.create_dataset("motion/forward", data=_flow(), compression="gzip")
-        file["depth"] = np.full((COUNT, HEIGHT, WIDTH), 3.0, np.float32)
-        file["instances"] = np.ones((COUNT, HEIGHT, WIDTH), np.int32)
-    return folder / "a.h5"
 
 
 def _make_exr(folder: Path) -> Path:
@@ -90,8 +60,8 @@ def _make_exr(folder: Path) -> Path:
     return folder
 
 
-def _read(convention: str | None, path: Path) -> str:
-    config = CaptureConfig(fps=Fraction(25), motion=path, motion_convention=convention)
+def _read(path: Path) -> str:
+    config = CaptureConfig(fps=Fraction(25), motion=path)
     warnings.simplefilter("ignore", TexventWarning)  # damaged vectors explain little
     parts: list[object] = []
     for frame in open_frames(_frames(), config):
@@ -102,10 +72,7 @@ def _read(convention: str | None, path: Path) -> str:
 
 
 FORMATS: dict[str, Callable[[Path], Path]] = {
-    ".flo": _make_flo,
-    ".png": _make_png,
     ".npy": _make_npy,
     ".npz": _make_npz,
-    ".h5": _make_hdf5,
     ".exr": _make_exr,
 }

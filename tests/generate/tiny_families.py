@@ -9,7 +9,6 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import diffusers
-import torch
 import transformers
 from diffusers.pipelines.ltx2 import LTX2TextConnectors, LTX2Vocoder
 
@@ -33,11 +32,6 @@ SMALL_TEXT = {
     "num_hidden_layers": 2,
     "num_attention_heads": 2,
 }
-SANA_PATCH = {
-    f"diffusers.pipelines.sana_video.{module}.ASPECT_RATIO_480_BIN": {"1.0": [32.0, 32.0]}
-    for module in ("pipeline_sana_video", "pipeline_sana_video_i2v")
-}
-"""Sizes that the pipelines generate at, by aspect ratio; the real ones are near 480 lines."""
 CONNECTOR = {
     "num_attention_heads": 2,
     "attention_head_dim": 8,
@@ -58,12 +52,10 @@ class Family:
     frames: int = 5
     """What comes out."""
     steps: int = 2
-    """Denoising steps that are reported."""
+    """Denoising steps that are reported; HunyuanVideo 1.5 reports none."""
     size: tuple[int, int] = (32, 32)
     """Height and width that come out."""
     takes_image: bool = False
-    patches: dict[str, Any] = field(default_factory=dict)
-    """Names in diffusers, and what stands in for them."""
     named: str = ""
     """The row whose facts the run takes, or the last part of its repository."""
 
@@ -103,66 +95,20 @@ def wan_image_to_video():
     )
 
 
-def skyreels_parts(*, takes_fps):
-    return {
-        **umt5(),
-        "vae": wan_vae(),
-        "scheduler": flow_unipc(),
-        "transformer": diffusers.SkyReelsV2Transformer3DModel(
-            **WAN_LIKE, inject_sample_info=takes_fps
-        ),
-    }
-
-
 def skyreels():
-    return diffusers.SkyReelsV2Pipeline(**skyreels_parts(takes_fps=False))
-
-
-def skyreels_forcing():
-    return diffusers.SkyReelsV2DiffusionForcingPipeline(**skyreels_parts(takes_fps=True))
-
-
-def anyflow():
-    return diffusers.AnyFlowPipeline(
+    return diffusers.SkyReelsV2Pipeline(
         **umt5(),
         vae=wan_vae(),
-        scheduler=diffusers.FlowMapEulerDiscreteScheduler(shift=5.0),
-        transformer=diffusers.AnyFlowTransformer3DModel(
-            **WAN_LIKE, gate_value=0.25, deltatime_type="r"
-        ),
+        scheduler=flow_unipc(),
+        transformer=diffusers.SkyReelsV2Transformer3DModel(**WAN_LIKE),
     )
-
-
-def helios_parts():
-    return {
-        **umt5(),
-        "vae": wan_vae(),
-        "transformer": diffusers.HeliosTransformer3DModel(
-            **WAN_LIKE,
-            rope_dim=(4, 4, 4),
-            has_multi_term_memory_patch=True,
-            guidance_cross_attn=True,
-            zero_history_timestep=True,
-        ),
-    }
-
-
-def helios():
-    scheduler = diffusers.HeliosScheduler(stage_range=[0, 1], stages=1, use_dynamic_shifting=True)
-    return diffusers.HeliosPipeline(**helios_parts(), scheduler=scheduler)
-
-
-def helios_distilled():
-    # With the usual gamma, 1/3, diffusers 0.42 factorises a singular matrix, which fails on a CPU.
-    scheduler = diffusers.HeliosDMDScheduler(use_dynamic_shifting=True, gamma=0.3)
-    return diffusers.HeliosPyramidPipeline(**helios_parts(), scheduler=scheduler, is_distilled=True)
 
 
 def ltx():
     return tiny_pipelines.ltx(None)
 
 
-def ltx2(pipeline=diffusers.LTX2Pipeline, patch_size=1, **transformer):
+def ltx2():
     tokenizer = gemma_tokenizer()
     text = SMALL_TEXT | {"head_dim": 8, "num_key_value_heads": 2, "vocab_size": len(tokenizer)}
     vision = SMALL_TEXT | {"image_size": 14, "patch_size": 14}
@@ -176,7 +122,7 @@ def ltx2(pipeline=diffusers.LTX2Pipeline, patch_size=1, **transformer):
         for kind in ("video", "audio")
         for name, value in CONNECTOR.items()
     }
-    return pipeline(
+    return diffusers.LTX2Pipeline(
         tokenizer=tokenizer,
         text_encoder=transformers.Gemma3ForConditionalGeneration(gemma).eval(),
         vae=diffusers.AutoencoderKLLTX2Video(
@@ -192,7 +138,7 @@ def ltx2(pipeline=diffusers.LTX2Pipeline, patch_size=1, **transformer):
             upsample_type=("spatiotemporal",),
             upsample_residual=(False,),
             upsample_factor=(1,),
-            patch_size=patch_size,
+            patch_size=1,
             patch_size_t=1,
             decoder_causal=False,
         ),
@@ -230,68 +176,7 @@ def ltx2(pipeline=diffusers.LTX2Pipeline, patch_size=1, **transformer):
             caption_channels=16,
             rope_double_precision=False,
             rope_type="split",
-            **transformer,
         ),
-    )
-
-
-def ltx2_keyframes():
-    """LTX-2.5's: the transformer knows keyframes by a mark, which training makes; zero at first."""
-    pipe = ltx2(
-        diffusers.LTX2DFRPipeline,
-        patch_size=4,  # few tokens: the rounds run the transformer 32 times
-        use_keyframes_abs_pos_embedding=True,
-        vae_scale_factors=(2, 8, 8),
-    )
-    torch.nn.init.normal_(pipe.transformer.keyframes_abs_pos_embedding, std=0.1)
-    return pipe
-
-
-def fast_wan():
-    return diffusers.WanPipeline(
-        **umt5(),
-        vae=wan_vae(),
-        scheduler=flow_unipc(),
-        transformer=diffusers.WanTransformer3DModel(**WAN_LIKE),
-        expand_timesteps=True,
-    )
-
-
-def motif():
-    text = transformers.T5Gemma2TextConfig(
-        hidden_size=32,
-        num_hidden_layers=1,
-        num_attention_heads=2,
-        intermediate_size=64,
-        vocab_size=98,
-        head_dim=16,
-        num_key_value_heads=2,
-        dropout_rate=0.0,
-    )
-    vision = SMALL_TEXT | {"num_hidden_layers": 1, "image_size": 16, "patch_size": 8}
-    encoder = transformers.T5Gemma2EncoderConfig(
-        text_config=text, vision_config=vision, mm_tokens_per_image=4
-    )
-    return diffusers.MotifVideoPipeline(
-        tokenizer=t5(None)["tokenizer"],
-        text_encoder=transformers.models.t5gemma2.modeling_t5gemma2.T5Gemma2Encoder(encoder).eval(),
-        vae=wan_vae(),
-        scheduler=flow_match(shift=7.0),
-        transformer=diffusers.MotifVideoTransformer3DModel(
-            in_channels=33,
-            out_channels=16,
-            num_attention_heads=2,
-            attention_head_dim=12,
-            num_layers=1,
-            num_single_layers=1,
-            patch_size=1,
-            patch_size_t=1,
-            text_embed_dim=32,
-            image_embed_dim=16,
-            rope_axes_dim=(4, 4, 4),
-        ),
-        guider=diffusers.AdaptiveProjectedGuidance(),
-        feature_extractor=transformers.SiglipImageProcessorPil(size={"height": 16, "width": 16}),
     )
 
 
@@ -421,130 +306,11 @@ def mochi():
     )
 
 
-def allegro():
-    return diffusers.AllegroPipeline(
-        **t5(None),
-        vae=diffusers.AutoencoderKLAllegro(
-            down_block_types=("AllegroDownBlock3D",) * 4,
-            up_block_types=("AllegroUpBlock3D",) * 4,
-            block_out_channels=(4,) * 4,
-            latent_channels=4,
-            layers_per_block=1,
-            norm_num_groups=2,
-        ),
-        scheduler=diffusers.DDIMScheduler(),
-        transformer=diffusers.AllegroTransformer3DModel(
-            num_attention_heads=2,
-            attention_head_dim=12,
-            in_channels=4,
-            out_channels=4,
-            num_layers=1,
-            cross_attention_dim=24,
-            sample_width=40,
-            sample_height=40,
-            sample_frames=6,
-            caption_channels=32,
-        ),
-    )
-
-
-def latte():
-    return diffusers.LattePipeline(
-        **t5(None),
-        vae=diffusers.AutoencoderKL(
-            block_out_channels=(8,) * 4,
-            down_block_types=("DownEncoderBlock2D",) * 4,
-            up_block_types=("UpDecoderBlock2D",) * 4,
-            latent_channels=4,
-            norm_num_groups=2,
-        ),
-        scheduler=diffusers.DDIMScheduler(),
-        transformer=diffusers.LatteTransformer3DModel(
-            sample_size=8,
-            num_layers=1,
-            patch_size=2,
-            attention_head_dim=8,
-            num_attention_heads=3,
-            caption_channels=32,
-            in_channels=4,
-            cross_attention_dim=24,
-            out_channels=8,
-            attention_bias=True,
-            activation_fn="gelu-approximate",
-            num_embeds_ada_norm=1000,
-            norm_type="ada_norm_single",
-            norm_elementwise_affine=False,
-            norm_eps=1e-6,
-            video_length=5,
-        ),
-    )
-
-
 def gemma_tokenizer():
     specials = ["<pad>", "<eos>", "<bos>", "<unk>", "<start_of_turn>", "<end_of_turn>", "▁"]
     letters = specials + [chr(code) for code in range(33, 127)]
     vocabulary = {letter: number for number, letter in enumerate(letters)}
     return transformers.GemmaTokenizer(vocab=vocabulary, merges=[])
-
-
-def sana():
-    tokenizer = gemma_tokenizer()
-    gemma = transformers.Gemma2Config(
-        head_dim=8,
-        hidden_size=16,
-        intermediate_size=16,
-        num_attention_heads=2,
-        num_key_value_heads=2,
-        num_hidden_layers=1,
-        vocab_size=len(tokenizer),
-    )
-    return diffusers.SanaVideoPipeline(
-        tokenizer=tokenizer,
-        text_encoder=transformers.Gemma2Model(gemma).eval(),
-        vae=wan_vae(),
-        scheduler=diffusers.DPMSolverMultistepScheduler(
-            prediction_type="flow_prediction", use_flow_sigmas=True, flow_shift=8.0
-        ),
-        transformer=diffusers.SanaVideoTransformer3DModel(
-            in_channels=16,
-            out_channels=16,
-            num_attention_heads=2,
-            attention_head_dim=12,
-            num_layers=2,
-            num_cross_attention_heads=2,
-            cross_attention_head_dim=12,
-            cross_attention_dim=24,
-            caption_channels=16,
-            sample_size=30,
-            rope_max_seq_len=32,
-        ),
-    )
-
-
-def easyanimate():
-    return diffusers.EasyAnimatePipeline(
-        **qwen(),
-        vae=diffusers.AutoencoderKLMagvit(
-            latent_channels=4,
-            block_out_channels=(8,) * 4,
-            layers_per_block=1,
-            norm_num_groups=2,
-            spatial_group_norm=False,
-        ),
-        scheduler=flow_match(),
-        transformer=diffusers.EasyAnimateTransformer3DModel(
-            num_attention_heads=2,
-            attention_head_dim=16,
-            in_channels=4,
-            out_channels=4,
-            time_embed_dim=2,
-            text_embed_dim=16,
-            num_layers=1,
-            sample_width=4,
-            sample_height=4,
-            patch_size=2,
-        ),
-    )
 
 
 def kandinsky_text():
@@ -579,16 +345,6 @@ def kandinsky5():
     )
 
 
-def kandinsky6():
-    return diffusers.Kandinsky6TI2VAPipeline(
-        **kandinsky_text(),
-        scheduler=diffusers.PiflowScheduler(),
-        transformer=diffusers.Kandinsky6Transformer3DModel(
-            **KANDINSKY | {"out_visual_dim": 40, "out_audio_dim": 200}  # a grid of ten
-        ),
-    )
-
-
 def cosmos3():
     import cosmos_guardrail
 
@@ -615,74 +371,21 @@ def cosmos3():
     )
 
 
-SQUARE = {"width": 64, "height": 64}
 FAMILIES = {
     "wan-image": Family(wan_image_to_video, "WanImageToVideoPipeline", takes_image=True),
-    "fast-wan": Family(
-        fast_wan,
-        "WanPipeline",
-        {"steps": 3, "guidance": 1.0},
-        steps=3,
-        named="FastWan2.2-TI2V-5B-FullAttn-Diffusers",
-    ),
-    "skyreels": Family(skyreels, "SkyReelsV2Pipeline"),
-    "skyreels-forcing": Family(
-        skyreels_forcing,
-        "SkyReelsV2DiffusionForcingPipeline",
-        named="SkyReels-V2-DF-1.3B-540P-Diffusers",
-    ),
-    "skyreels-forcing-image": Family(
-        skyreels_forcing,
-        "SkyReelsV2DiffusionForcingImageToVideoPipeline",
-        takes_image=True,
-        named="SkyReels-V2-DF-1.3B-540P-Diffusers",
-    ),
-    "anyflow": Family(anyflow, "AnyFlowPipeline"),
-    "helios": Family(helios, "HeliosPipeline", frames=33),
-    "helios-distilled": Family(
-        helios_distilled,
-        "HeliosPyramidPipeline",
-        {**SQUARE, "steps": 3, "guidance": 1.0},
-        frames=33,
-        size=(64, 64),
-        steps=6,  # the first chunk takes twice as many
-        named="Helios-Distilled",
-    ),
-    "motif": Family(motif, "MotifVideoPipeline"),
-    "motif-image": Family(
-        motif, "MotifVideoImage2VideoPipeline", takes_image=True, named="Motif-Video-2B"
-    ),
+    "skyreels": Family(skyreels, "SkyReelsV2Pipeline", named="SkyReels-V2-T2V-14B-720P-Diffusers"),
     "hunyuan": Family(hunyuan, "HunyuanVideoPipeline"),
-    "hunyuan15": Family(hunyuan15, "HunyuanVideo15Pipeline"),
+    "hunyuan15": Family(hunyuan15, "HunyuanVideo15Pipeline", steps=0),
     "hunyuan15-image": Family(
         hunyuan15_image,
         "HunyuanVideo15ImageToVideoPipeline",
         {"width": None, "height": None},
+        steps=0,
         size=(28, 36),
         takes_image=True,
     ),
     "mochi": Family(mochi, "MochiPipeline", {"frames": 7}, frames=7),
-    "allegro": Family(
-        allegro,
-        "AllegroPipeline",
-        {"frames": 24, "width": 320, "height": 320},
-        frames=24,
-        size=(320, 320),
-    ),
-    "latte": Family(latte, "LattePipeline"),
-    "sana": Family(sana, "SanaVideoPipeline", patches=SANA_PATCH),
-    "sana-image": Family(
-        sana,
-        "SanaImageToVideoPipeline",
-        takes_image=True,
-        patches=SANA_PATCH,
-        named="SANA-Video_2B_480p_diffusers",
-    ),
-    "easyanimate": Family(
-        easyanimate, "EasyAnimatePipeline", named="EasyAnimateV5.1-7b-zh-diffusers"
-    ),
     "kandinsky5": Family(kandinsky5, "Kandinsky5T2VPipeline"),
-    "kandinsky6": Family(kandinsky6, "Kandinsky6TI2VAPipeline", {"guidance": 1.0}),
     "cosmos3": Family(cosmos3, "Cosmos3OmniPipeline"),
     "ltx-image": Family(ltx, "LTXImageToVideoPipeline", takes_image=True, named="LTX-Video"),
     "ltx2": Family(ltx2, "LTX2Pipeline", named="LTX-2"),
@@ -692,13 +395,6 @@ FAMILIES = {
         {"steps": 8, "guidance": 1.0},
         steps=8,
         named="LTX-2.3-Distilled-Diffusers",
-    ),
-    "ltx2-keyframes": Family(
-        ltx2_keyframes,
-        "LTX2DFRPipeline",
-        {"steps": None, "guidance": None},
-        steps=8,
-        named="ltx2.5-dfr",
     ),
     "ltx2-image": Family(ltx2, "LTX2ImageToVideoPipeline", takes_image=True, named="LTX-2"),
 }

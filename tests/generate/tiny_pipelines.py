@@ -6,13 +6,13 @@ through the same files, classes and calls as models of 100 GB.
 
 import contextlib
 from pathlib import Path
+from types import SimpleNamespace
 
 import diffusers
+import numpy as np
 import torch
 import transformers
 from tokenizers.pre_tokenizers import ByteLevel
-
-from texvent.generate.diffusers_models.torchvision_stub import install_torchvision_stub
 
 TEXT = {"d_model": 32, "d_kv": 8, "d_ff": 37, "num_layers": 2, "num_heads": 4}
 
@@ -22,6 +22,31 @@ def random_weights(seed=0):
     with torch.random.fork_rng():
         torch.manual_seed(seed)
         yield
+
+
+def replace_torchvision():
+    """Two functions that diffusers' Cosmos pipelines use, where torchvision is not installed.
+
+    The torchvision of the package index does not fit a CPU build of torch. Users of Cosmos have
+    it: cosmos-guardrail requires it.
+    """
+    from diffusers.models.transformers import transformer_cosmos
+    from diffusers.pipelines.cosmos import pipeline_cosmos2_5_predict
+
+    def resize(image, size, interpolation):
+        return torch.nn.functional.interpolate(image, size=size, mode=interpolation)
+
+    def to_tensor(image):
+        levels = np.asarray(image, dtype=np.float32).transpose(2, 0, 1) / 255.0
+        return torch.from_numpy(np.ascontiguousarray(levels))
+
+    functions = SimpleNamespace(resize=resize, to_tensor=to_tensor)
+    modes = SimpleNamespace(NEAREST="nearest")
+    transforms = SimpleNamespace(functional=functions, InterpolationMode=modes)
+    if not hasattr(transformer_cosmos, "transforms"):
+        transformer_cosmos.transforms = transforms
+    if not hasattr(pipeline_cosmos2_5_predict, "torchvision"):
+        pipeline_cosmos2_5_predict.torchvision = SimpleNamespace(transforms=transforms)
 
 
 def t5(folder, encoder=transformers.T5EncoderModel, config=transformers.T5Config):
@@ -116,7 +141,7 @@ def cogvideox15(folder):
 
 
 def cosmos_transformer(**facts):
-    install_torchvision_stub()
+    replace_torchvision()
     return diffusers.CosmosTransformer3DModel(
         num_attention_heads=2,
         attention_head_dim=16,
@@ -271,47 +296,6 @@ def clip_text(length=40):
     return {"tokenizer": tokenizer, "text_encoder": transformers.CLIPTextModel(config).eval()}
 
 
-def stable_diffusion(folder):
-    """An image model: what AnimateDiff adds motion to."""
-    return diffusers.StableDiffusionPipeline(
-        **clip_text(),
-        vae=diffusers.AutoencoderKL(
-            block_out_channels=(8, 8),
-            down_block_types=("DownEncoderBlock2D",) * 2,
-            up_block_types=("UpDecoderBlock2D",) * 2,
-            latent_channels=4,
-            norm_num_groups=2,
-        ),
-        unet=diffusers.UNet2DConditionModel(
-            block_out_channels=(8, 8),
-            layers_per_block=1,
-            sample_size=16,
-            down_block_types=("CrossAttnDownBlock2D", "DownBlock2D"),
-            up_block_types=("CrossAttnUpBlock2D", "UpBlock2D"),
-            cross_attention_dim=16,
-            norm_num_groups=2,
-            attention_head_dim=4,
-        ),
-        scheduler=diffusers.DDIMScheduler(steps_offset=1, clip_sample=False),
-        safety_checker=None,
-        feature_extractor=None,
-        requires_safety_checker=False,
-    )
-
-
-def save_motion_adapter(folder: Path) -> Path:
-    """Save a tiny random motion adapter for `stable_diffusion` and return its folder."""
-    with random_weights():
-        diffusers.MotionAdapter(
-            block_out_channels=(8, 8),
-            motion_layers_per_block=1,
-            motion_mid_block_layers_per_block=1,
-            motion_norm_num_groups=2,
-            motion_num_attention_heads=2,
-        ).save_pretrained(folder)
-    return folder
-
-
 BUILDERS = {
     "wan": wan,
     "wan22": wan22,
@@ -321,14 +305,13 @@ BUILDERS = {
     "cogvideox15": cogvideox15,
     "ltx": ltx,
 }
-IMAGE_BUILDERS = {"stable-diffusion": stable_diffusion}
 
 
 def save(name: str, folder: Path) -> Path:
     """Save the tiny pipeline of that name as `folder/tiny-NAME` and return the path."""
     path = folder / f"tiny-{name}"
     with random_weights():
-        pipe = (BUILDERS | IMAGE_BUILDERS)[name](folder)
+        pipe = BUILDERS[name](folder)
     pipe.save_pretrained(path, safe_serialization=True)
     return path
 
@@ -396,27 +379,4 @@ def save_llava(folder: Path, *, chat_template: str | None = None) -> Path:
     with random_weights():
         transformers.LlavaForConditionalGeneration(config).save_pretrained(folder)
     processor.save_pretrained(folder)
-    return folder
-
-
-def save_chat(folder: Path) -> Path:
-    """Save a tiny random chat model with its tokenizer and return the folder."""
-    tokenizer = t5(folder)["tokenizer"]
-    tokenizer.chat_template = (
-        "{% for m in messages %}{{ m['role'] }}: {{ m['content'] }} {% endfor %}"
-    )
-    config = transformers.LlamaConfig(
-        hidden_size=16,
-        intermediate_size=16,
-        num_hidden_layers=2,
-        num_attention_heads=2,
-        initializer_range=0.5,
-        vocab_size=len(tokenizer),
-        pad_token_id=tokenizer.pad_token_id,
-        eos_token_id=tokenizer.eos_token_id,
-        bos_token_id=None,
-    )
-    with random_weights():
-        transformers.LlamaForCausalLM(config).save_pretrained(folder)
-    tokenizer.save_pretrained(folder)
     return folder

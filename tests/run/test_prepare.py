@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.bench.fidelity.entries import simulate_video
 from texvent.cli.app import main
 from texvent.dataset.samples import SimulatedSamples
 from texvent.errors import ConfigError, InputError, MissingDependencyError
@@ -18,6 +17,7 @@ from texvent.runtime.progress import CallbackProgress
 from texvent.simulate.thresholds import contrast_threshold_of
 from texvent.web.job import SimulateJob
 from texvent.web.worker import simulate
+from texvent_lab.bench.fidelity.entries import simulate_video
 
 PROMPT = "a red ball bounces"
 SMALL = {"sensor": "48x36", "duration": 0.2}

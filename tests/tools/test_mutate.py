@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from tools.mutate import NOTICED, ROOT, SURVIVED, Mutation, judge, read_table
+from tools.mutate import NOTICED, ROOT, SURVIVED, Mutation, judge, path_of_test, read_table
 
 
 def test_a_change_is_judged_and_taken_back(tmp_path: Path) -> None:
@@ -21,4 +21,4 @@ def test_a_change_is_judged_and_taken_back(tmp_path: Path) -> None:
 
 def test_every_change_of_the_table_can_be_made() -> None:
     tests = {test.partition("::")[0] for one in read_table() for test in one.tests}
-    assert all((ROOT / "tests" / test).exists() for test in tests)
+    assert all((ROOT / path_of_test(test)).exists() for test in tests)

@@ -23,7 +23,6 @@ from texvent.errors import (
     warnings_to,
     worded,
 )
-from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.io.files import open_events
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import is_strict, prepare_prompt, prepare_source, report_prompt
@@ -44,7 +43,6 @@ class BatchPlan:
     """What is the same for all samples."""
 
     settings: Settings
-    upsample: UpsampleConfig | None
     folder: Path
     extension: str
     """Of event files, with the dot."""
@@ -115,11 +113,8 @@ def run_batch(
 
 
 def find_refused(plan: BatchPlan, samples: Sequence[Sample]) -> Iterator[Outcome]:
-    """Prompts that `strict` refuses, before any sample is made.
-
-    A chat model that rewrites prompts is not asked: its answers are judged one by one, as made.
-    """
-    if not is_strict(plan.settings) or plan.upsample is not None:
+    """Prompts that `strict` refuses, before any sample is made."""
+    if not is_strict(plan.settings):
         return
     for sample in samples:
         try:
@@ -167,9 +162,7 @@ def make_sample(
             if sample.video is not None:
                 simulation = prepare_source(sample.video, settings, prompt=sample.prompt)
             else:
-                simulation = prepare_prompt(
-                    sample.subject, settings, upsample=plan.upsample, progress=progress
-                )
+                simulation = prepare_prompt(sample.subject, settings, progress=progress)
             report = PromptReport.of_metadata(simulation.video.metadata)
             facts = {**simulation.provenance, BATCH_KEY: sample.key}
             files = replace(files, overwrite=overwrite)

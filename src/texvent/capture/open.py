@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import re
 import stat
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.array_frames import ArrayFrames
@@ -89,8 +90,8 @@ def open_frames(
 
 def _given_times(config: CaptureConfig, t_us: Any) -> FrameTimes | None:
     """Times from t_us or fps; a timestamp file is read where the source is known."""
-    ways = {"t_us": t_us, "fps": config.fps, "timestamps": config.timestamps}
-    named = [name for name, value in ways.items() if value is not None]
+    options = {"t_us": t_us, "fps": config.fps, "timestamps": config.timestamps}
+    named = [name for name, value in options.items() if value is not None]
     if len(named) > 1:
         raise ConfigError(f"frame times are given twice, by {' and '.join(named)}; give one")
     if t_us is not None:
@@ -104,47 +105,102 @@ def _file_times(config: CaptureConfig, given: FrameTimes | None) -> FrameTimes |
     return read_timestamps(config.timestamps, config.timestamps_unit).times
 
 
-def _open_address(address: str, config: CaptureConfig, given: FrameTimes | None) -> FrameStream:
-    path = usable_path(usable_path(address.removeprefix("file://")).expanduser())
-    if _is_live(address, path):
-        from texvent.capture.live import LiveFrames  # brings PyAV
+@dataclass(frozen=True)
+class _Address:
+    """A path or address with the options that decide how it is read."""
 
-        return LiveFrames(address, _file_times(config, given))
-    if is_evreal(path):
-        return EvrealFrames(path, _file_times(config, given))
-    if is_dsec(path) and given is None and config.timestamps is None:
-        return DsecFrames(path)
-    if path.is_dir():
-        unit = config.timestamps_unit
-        return ImageFolder(path, given, timestamps=config.timestamps, unit=unit)
-    if path.suffix.lower() == ".npy" and path.is_file():
-        return _open_array(StoredArray(path), config, given)
-    if is_aedat4(path):
-        return Aedat4Frames(path, _file_times(config, given))
-    if is_still(path):
-        raise InputError(
-            f"{path} is one image, so nothing changes; move a camera over it with --camera "
-            "saccade, shake, pan or FILE, or name a folder of images"
-        )
+    text: str
+    path: Path
+    config: CaptureConfig
+    given: FrameTimes | None
+
+    @property
+    def times(self) -> FrameTimes | None:
+        """Frame times of the options or of their timestamp file."""
+        return _file_times(self.config, self.given)
+
+    @property
+    def has_own_times(self) -> bool:
+        """Whether no option replaces the times of the source."""
+        return self.given is None and self.config.timestamps is None
+
+    @property
+    def is_live(self) -> bool:
+        """Whether it is standard input, a network address, a pipe or a device."""
+        is_url = re.match(r"[a-z][a-z0-9+.-]*://", self.text) and "file://" not in self.text
+        mode = self.path.stat().st_mode if self.path.exists() else 0
+        return self.text == "-" or bool(is_url) or stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
+
+
+class _Source(NamedTuple):
+    """One kind of source."""
+
+    name: str
+    matches: Callable[[_Address], bool]
+    open: Callable[[_Address], FrameStream]
+
+
+def _open_live(address: _Address) -> FrameStream:
+    from texvent.capture.live import LiveFrames  # brings PyAV
+
+    return LiveFrames(address.text, address.times)
+
+
+def _open_images(address: _Address) -> FrameStream:
+    config = address.config
+    return ImageFolder(
+        address.path, address.given, timestamps=config.timestamps, unit=config.timestamps_unit
+    )
+
+
+def _open_npy(address: _Address) -> FrameStream:
+    return _open_array(StoredArray(address.path), address.config, address.given)
+
+
+def _refuse_still(address: _Address) -> FrameStream:
+    raise InputError(
+        f"{address.path} is one image, so nothing changes; move a camera over it with --camera "
+        "saccade, shake, pan or FILE, or name a folder of images"
+    )
+
+
+def _open_video(address: _Address) -> FrameStream:
     from texvent.capture.video_file import VideoFile  # brings PyAV
 
     try:
-        return VideoFile(path, _file_times(config, given))
+        return VideoFile(address.path, address.times)
     except FileFormatError as error:
         # Some events and some videos share an extension, such as .dat: only now it is clear.
-        if path.suffix.lower() not in event_extensions():
-            raise
-        raise FileFormatError(
-            f"{path} is not a video but, by its name, an event file; texvent render, view, "
-            "convert and info take those"
-        ) from error
+        if address.path.suffix.lower() in event_extensions():
+            raise FileFormatError(
+                f"{address.path} is not a video but, by its name, an event file; texvent render, "
+                "view, convert and info take those"
+            ) from error
+        names = ", ".join(source.name for source in SOURCES)
+        raise FileFormatError(f"{error}; frames are read from: {names}") from error
 
 
-def _is_live(address: str, path: Path) -> bool:
-    if address == "-" or (re.match(r"[a-z][a-z0-9+.-]*://", address) and "file://" not in address):
-        return True
-    mode = path.stat().st_mode if path.exists() else 0
-    return stat.S_ISFIFO(mode) or stat.S_ISCHR(mode)
+SOURCES = (
+    _Source("live video", lambda a: a.is_live, _open_live),
+    _Source("EVREAL folder", lambda a: is_evreal(a.path), lambda a: EvrealFrames(a.path, a.times)),
+    _Source(
+        "DSEC sequence",
+        lambda a: is_dsec(a.path) and a.has_own_times,
+        lambda a: DsecFrames(a.path),
+    ),
+    _Source("image folder", lambda a: a.path.is_dir(), _open_images),
+    _Source(".npy", lambda a: a.path.suffix.lower() == ".npy" and a.path.is_file(), _open_npy),
+    _Source("AEDAT4", lambda a: is_aedat4(a.path), lambda a: Aedat4Frames(a.path, a.times)),
+    _Source("still image", lambda a: is_still(a.path), _refuse_still),
+    _Source("video file", lambda a: True, _open_video),
+)
+"""Sources in the order in which they are tried: by address, content, extension."""
+
+
+def _open_address(text: str, config: CaptureConfig, given: FrameTimes | None) -> FrameStream:
+    path = usable_path(usable_path(text.removeprefix("file://")).expanduser())
+    address = _Address(text, path, config, given)
+    return next(source for source in SOURCES if source.matches(address)).open(address)
 
 
 def _open_array(frames: Any, config: CaptureConfig, given: FrameTimes | None) -> FrameStream:

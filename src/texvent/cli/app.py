@@ -9,12 +9,13 @@ import os
 import signal
 import sys
 from collections.abc import Sequence
+from importlib import metadata
 
 from texvent._registry import suggest
 from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say, write_out
 from texvent.cli.wording import flags_in_messages
-from texvent.errors import ConfigError, OutputError, TexventError, shown
+from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError, shown
 from texvent.io.hidden_parts import remove_own_parts
 from texvent.io.protected_inputs import protected_inputs
 from texvent.runtime.interrupts import raise_interrupted
@@ -26,15 +27,6 @@ COMMANDS = {
     ),
     "batch": ("texvent.cli.simulation.batch", "Events for every prompt of a file."),
     "dataset": ("texvent.cli.dataset.dataset", "Data sets of any size: made, resumed, checked."),
-    "train": (
-        "texvent.cli.training.train",
-        "Train a network on simulated events or a data set.",
-    ),
-    "evaluate": ("texvent.cli.training.evaluate", "Scores of trained weights on other samples."),
-    "caption": (
-        "texvent.cli.simulation.caption",
-        "Prompts from images, by a vision-language model of yours.",
-    ),
     "simulate": (
         "texvent.cli.simulation.simulate",
         "Events from a video, an image folder or a camera.",
@@ -84,14 +76,6 @@ COMMANDS = {
         "texvent.cli.event_files.compare",
         "How close an event file is to the true one, by many metrics.",
     ),
-    "reconstruct": (
-        "texvent.cli.event_files.reconstruct",
-        "Images from events alone, by a published network.",
-    ),
-    "bench": (
-        "texvent.cli.bench.bench",
-        "Benchmarks of metrics and simulators.",
-    ),
     "calibrate": (
         "texvent.cli.simulation.calibrate",
         "Fit the physical model to a recording of frames and events.",
@@ -116,6 +100,10 @@ COMMANDS = {
     "doctor": ("texvent.cli.setup.doctor", "What is installed, what is missing, how to get it."),
 }
 """Command → its module, which has a function `run(arguments)`, and what it does."""
+COMMAND_GROUP = "texvent.commands"
+"""Entry points of packages with more commands: mappings like `COMMANDS`."""
+OF_THE_LAB = ("align", "bench", "caption", "evaluate", "nt-imagenet", "reconstruct", "train")
+"""Commands of the package texvent-lab."""
 LONGEST_LISTING, LONGEST_WORD = 220, 30
 """Characters of the list of commands and of a word that is none, in an error."""
 
@@ -186,22 +174,37 @@ def _dispatch(words: list[str]) -> int:
     if words[0] in ("-V", "--version"):
         write_out(f"texvent {full_version()}\n")
         return 0
-    if words[0] not in COMMANDS:
-        listed = suggest(words[0], tuple(COMMANDS), longest=LONGEST_LISTING)
+    commands = COMMANDS if words[0] in COMMANDS else all_commands()
+    if words[0] not in commands:
+        if words[0] in OF_THE_LAB:
+            raise MissingDependencyError(
+                f"texvent {words[0]} is a command of the package texvent-lab; "
+                "install it with: pip install texvent-lab"
+            )
+        listed = suggest(words[0], tuple(commands), longest=LONGEST_LISTING)
         raise ConfigError(f"unknown command {shown(words[0][:LONGEST_WORD])}; {listed}")
-    command = importlib.import_module(COMMANDS[words[0]][0])
+    command = importlib.import_module(commands[words[0]][0])
     code: int = command.run(words[1:])
     return code
 
 
+def all_commands() -> dict[str, tuple[str, str]]:
+    """`COMMANDS`, and those of installed packages; built-in names cannot be replaced."""
+    commands = {}
+    for point in metadata.entry_points(group=COMMAND_GROUP):
+        commands.update(point.load())
+    return {**COMMANDS, **{name: one for name, one in commands.items() if name not in COMMANDS}}
+
+
 def _show_help() -> None:
-    width = max(map(len, COMMANDS))
+    commands = all_commands()
+    width = max(map(len, commands))
     lines = [
         "usage: texvent COMMAND [OPTIONS]",
         "",
         "Text prompts and videos to the stream of an event camera.",
         "",
-        *(f"  {name:<{width}}  {text}" for name, (_, text) in COMMANDS.items()),
+        *(f"  {name:<{width}}  {text}" for name, (_, text) in commands.items()),
         "",
         "Try:  texvent generate 'a red car drives left past two trees at dusk' -o out.h5",
         "Help: texvent COMMAND --help    Version: texvent --version",

@@ -9,12 +9,12 @@ from typing import ClassVar, Literal
 
 from texvent.config import FPS_RANGE, check_range
 from texvent.errors import ConfigError
-from texvent.generate.video_models.adapters import Adapter, parse_adapter
+from texvent.generate.video_models.lora import parse_lora
 
 
 @dataclass(frozen=True, kw_only=True)
 class GeneratedVideoConfig:
-    """What all learned generators share: the frame rate, the store, the failure filter."""
+    """Options that all learned generators share: frame rate, stored videos, failure filter."""
 
     fps: Fraction | None = None
     """Frame rate the model was made for, as 24, 29.97 or 30000/1001. Models that take it as an
@@ -25,10 +25,10 @@ class GeneratedVideoConfig:
     """Keep generated videos in the cache folder and use one again when prompt, model, seed and
     generation options are the same, so that trying simulator options costs no generation."""
     on_failure: Literal["ignore", "warn", "reject", "retry"] = "warn"
-    """What to do with a video that is frozen, flickering, cut, dark, saturated or noise: say
-    nothing, say it, refuse it, or generate again with another seed."""
+    """Response to a video that is frozen, flickering, cut, dark, saturated or noise: none, a
+    warning, refusal, or generation with another seed."""
     retries: int = 3
-    """How many other seeds to try with --on-failure retry."""
+    """Number of further seeds with --on-failure retry."""
 
     agreement_model: Path | None = None
     """Folder of a CLIP model saved by transformers: scores how well the video shows the prompt."""
@@ -49,7 +49,7 @@ class DiffusersConfig(GeneratedVideoConfig):
 
     frames: int | None = None
     """Frames to generate. Models change it silently to a number they can make (4k+1 or 8k+1);
-    what they made is what is used, and is reported."""
+    the number made is used and reported."""
     width: int | None = None
     """Width to generate, pixels."""
     height: int | None = None
@@ -57,16 +57,14 @@ class DiffusersConfig(GeneratedVideoConfig):
     steps: int | None = None
     """Denoising steps."""
     guidance: float | None = None
-    """How closely the prompt is followed (classifier-free guidance scale)."""
+    """Classifier-free guidance scale: how closely the prompt is followed."""
     negative_prompt: str | None = None
-    """What not to show."""
+    """Content to avoid."""
     image: Path | None = None
     """Image to start from, where the model can."""
-    reference_video: Path | None = None
-    """Video to follow frame by frame, for models that make one of another (ltx2.3-hdr)."""
     lora: tuple[str, ...] = ()
-    """Adapter (LoRA): FILE, FOLDER or hub:org/name[/file], each with :WEIGHT if it is not 1, and
-    with :high or :low where a model has two transformers. May be repeated."""
+    """LoRA that diffusers loads: FILE or hub:org/name[/file], each with :WEIGHT if it is not 1,
+    and with :high or :low where a model has two transformers. May be repeated."""
     dtype: Literal["auto", "float32", "bfloat16", "float16"] = "auto"
     """Number format of the weights; auto: the model's own on a GPU, float32 on a CPU."""
     offload: Literal["auto", "none", "model", "sequential"] = "auto"
@@ -76,23 +74,15 @@ class DiffusersConfig(GeneratedVideoConfig):
     """Store the weights of the video transformer in fewer bits (needs bitsandbytes and a GPU);
     it changes the video a little. auto: only where the GPU's free memory would otherwise force
     layer-by-layer offload and bitsandbytes is installed."""
-    decoder: Path | None = None
-    """Folder of another decoder for the same latents, saved by diffusers."""
-    motion_adapter: Path | None = None
-    """Folder of an AnimateDiff motion adapter: makes a Stable Diffusion model one of videos."""
     generator_device: str = "auto"
     """Where to generate: auto, cpu, cuda, cuda:1, mps."""
 
     repeated: ClassVar[tuple[str, ...]] = ("lora",)
 
-    @property
-    def adapters(self) -> tuple[Adapter, ...]:
-        """What `lora` says."""
-        return tuple(map(parse_adapter, self.lora))
-
     def __post_init__(self) -> None:
         super().__post_init__()
-        self.adapters  # noqa: B018  (refused before any work)
+        for text in self.lora:
+            parse_lora(text)
         for name, low in (("frames", 2), ("width", 8), ("height", 8), ("steps", 1)):
             check_range(name, getattr(self, name), low, 65_535)
         check_range("guidance", self.guidance, 0.0, 1000.0)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import html
 import math
 from collections.abc import Collection, Mapping, Sequence
+from typing import Any
 
 from texvent.metrics.protocol import Metric
 
@@ -63,3 +64,21 @@ def _row(tag: str, cells: Sequence[str]) -> str:
 def score_text(value: float) -> str:
     """A value with four digits after the point, or "undefined"."""
     return "undefined" if math.isnan(value) else f"{value:.4f}"
+
+
+def plain_values(value: Any, *, digits: int | None = None) -> Any:
+    """Values as JSON holds them: None for what is NaN or infinite.
+
+    Args:
+        value: numbers, texts, and mappings and sequences of them.
+        digits: significant digits that numbers keep; None keeps all.
+    """
+    if isinstance(value, Mapping):
+        return {key: plain_values(item, digits=digits) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain_values(item, digits=digits) for item in value]
+    if not isinstance(value, float):
+        return value
+    if not math.isfinite(value):
+        return None
+    return float(value) if digits is None else float(f"{value:.{digits}g}")

@@ -156,7 +156,7 @@ class CaptureOptions(TypedDict, total=False):
 
 
 class GeneratorOptions(TypedDict, total=False):
-    """Options of all generators, and of prompt upsampling."""
+    """Options of all generators."""
 
     generator: str | None
     fps: Rate | None
@@ -184,15 +184,10 @@ class GeneratorOptions(TypedDict, total=False):
     height: int | None
     negative_prompt: str | None
     image: str | Path | None
-    reference_video: str | Path | None
     lora: Sequence[str] | None
     dtype: Literal["auto", "float32", "bfloat16", "float16"] | None
     quantize: Literal["auto", "none", "8bit", "4bit"] | None
-    decoder: str | Path | None
-    motion_adapter: str | Path | None
     generator_device: str | None
-    upsample: str | None
-    upsample_model: str | None
 
 
 class SimulateOptions(

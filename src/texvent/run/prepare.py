@@ -13,8 +13,7 @@ from typing import Any
 from texvent._registry import GENERATORS, INTERPOLATORS
 from texvent.calibrate.rate import reach_target_rate
 from texvent.config import InterpolateConfig
-from texvent.errors import ConfigError, InputError, shown, warn
-from texvent.generate.prompts.upsample_config import UpsampleConfig
+from texvent.errors import InputError, shown, warn
 from texvent.generate.scene_input import Subject, check_takes, prompt_of, read
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
 from texvent.run.memory import check_memory
@@ -62,7 +61,6 @@ def prepare_prompt(
     prompt: Subject,
     settings: Settings,
     *,
-    upsample: UpsampleConfig | None = None,
     progress: Progress | None = None,
 ) -> Simulation:
     """The run of a prompt; a learned model makes its video here.
@@ -71,7 +69,6 @@ def prepare_prompt(
         prompt: what to show: a sentence, or a scene of the embedded generator; stored with the
             events as it is given here.
         settings: all options.
-        upsample: the chat model that makes the prompt detailed first, if any.
         progress: told how the model and the search for the target rate get on.
 
     Raises:
@@ -80,8 +77,8 @@ def prepare_prompt(
     """
     check_run(settings)
     warn_of_unread_weights(settings.interpolate)
-    detailed = _detailed(prompt, upsample, progress)
-    simulation = text_to_events(detailed, settings, progress=progress)
+    _check_prompt(prompt)
+    simulation = text_to_events(prompt, settings, progress=progress)
     simulation = replace(simulation, prompt=prompt_of(prompt))
     return reach_target_rate(simulation, progress=progress)
 
@@ -118,20 +115,14 @@ def make_video(
     prompt: Subject,
     settings: Settings,
     *,
-    upsample: UpsampleConfig | None = None,
     progress: Progress | None = None,
 ) -> FrameStream:
     """The video of a prompt, fitted to the sensor; arguments and errors as `prepare_prompt`."""
-    return text_to_video(_detailed(prompt, upsample, progress), settings, progress=progress)
+    _check_prompt(prompt)
+    return text_to_video(prompt, settings, progress=progress)
 
 
-def make_scene(
-    prompt: Subject,
-    settings: Settings,
-    *,
-    upsample: UpsampleConfig | None = None,
-    progress: Progress | None = None,
-) -> Scene:
+def make_scene(prompt: Subject, settings: Settings) -> Scene:
     """The scene of a prompt; arguments and errors as `prepare_prompt`.
 
     Warns:
@@ -139,10 +130,10 @@ def make_scene(
     """
     name = settings.generator or "procedural"
     check_takes(Scene(), GENERATORS.load(name), name)
-    detailed = _detailed(prompt, upsample, progress)
-    if isinstance(detailed, Scene):
-        return detailed
-    reading = read(detailed, assets=getattr(settings.source, "assets", None))
+    _check_prompt(prompt)
+    if isinstance(prompt, Scene):
+        return prompt
+    reading = read(prompt, assets=getattr(settings.source, "assets", None))
     report = PromptReport(substituted=reading.substituted, not_understood=reading.not_understood)
     for fault in report.warnings():
         warn(fault)
@@ -226,22 +217,9 @@ def _stored_video(source: Any) -> FrameStream | None:
     return replace(video, metadata={**video.metadata, "source": str(source)})
 
 
-def _detailed(
-    prompt: Subject, upsample: UpsampleConfig | None, progress: Progress | None
-) -> Subject:
-    """The prompt that the generator gets."""
+def _check_prompt(prompt: Any) -> None:
     if not isinstance(prompt, str | Scene):
         raise InputError(
             f"the prompt is a {type(prompt).__name__}; give a text, such as 'a red car drives "
             "left', or a texvent.scenes.Scene"
         )
-    if upsample is None or upsample.upsample is None:
-        return prompt
-    if isinstance(prompt, Scene):
-        raise ConfigError("--upsample makes a sentence detailed, not a scene; leave it out")
-    from texvent.generate.prompts.upsample import upsample_prompt  # brings requests
-
-    detailed = upsample_prompt(prompt, upsample)
-    if progress is not None:
-        progress.announce(f"prompt   {detailed}")
-    return detailed

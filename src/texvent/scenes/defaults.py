@@ -10,7 +10,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
 from texvent.scenes.description import (
-    RIDES,
     SPIN_RATE_HZ,
     STANDING,
     CameraMove,
@@ -26,7 +25,7 @@ from texvent.scenes.models.tables import nouns_with, trait_value
 
 SWAY = CameraMove("handheld", pace=0.4)
 """Move of the camera where nothing else moves: a still image has no events."""
-_ACTS = frozenset({"push", "pull", "kick", "hit", "throw", "catch", "collide"})
+_ACTS = frozenset({"push", "kick", "hit", "throw", "catch", "collide"})
 """Relations in which something moves."""
 _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of", "right of",
                       "around", "look at"})  # fmt: skip
@@ -36,7 +35,7 @@ _PACES = {"walk": 0.7, "run": 1.0}
 """Pace of running in place that looks as walking and running do."""
 _AFLOAT = ("sail", "paddle")
 _IN_WATER = ("swim", "surf", *_AFLOAT)
-_DARK_EFFECTS = frozenset({"lightning", "fireworks", "blinking lights"})
+_DARK_EFFECTS = frozenset({"fireworks"})
 _PLACES_OF_TRAVEL = {"drive": "road", "cycle": "road", "sail": "sea", "swim": "underwater"}
 _NO_GROUND = ("sky", "space", "underwater")
 _FAST_FLYER_M_S = 4.0
@@ -249,7 +248,7 @@ def _usual_motion(description: SceneDescription, noun: Noun) -> str:
 def _list_ridden(description: SceneDescription) -> set[int]:
     """Objects with a rider or a person on them, and those that collide: they are on the way."""
     relations, objects = description.relations, description.objects
-    ridden = {n for one in relations for n in one.targets if one.kind in RIDES
+    ridden = {n for one in relations for n in one.targets if one.kind == "ride"
               or (one.kind == "on" and objects[one.subject].noun in PERSON_NOUNS)}  # fmt: skip
     return ridden | {one.subject for one in relations if one.kind == "collide"}
 

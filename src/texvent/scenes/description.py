@@ -18,7 +18,7 @@ from texvent.scenes.spec.scene import Picture as Picture
 from texvent.scenes.spec.scene import Place as Surroundings
 
 __all__ = [
-    "AMID", "RIDES", "SPIN_RATE_HZ", "STANDING", "CameraMove", "Effect",
+    "AMID", "SPIN_RATE_HZ", "STANDING", "CameraMove", "Effect",
     "Illumination", "ObjectMotion", "Picture", "Relation", "SceneDescription", "SceneLamp",
     "SceneObject", "Shot", "Surroundings", "to_description",
 ]  # fmt: skip
@@ -26,8 +26,6 @@ __all__ = [
 SPIN_RATE_HZ = 0.5
 """Usual turns per second of what spins."""
 STANDING = ObjectMotion("stand")
-RIDES = ("ride", "ride along")
-"""Kinds of `Relation` of who steers, and of a passenger."""
 AMID = frozenset({"surround", "among"})
 """Kinds of `Relation` whose targets stand around, placed as scenery is; some may be out of view."""
 
@@ -58,7 +56,7 @@ class SceneObject:
 
 @dataclass(frozen=True)
 class Effect:
-    """A particle effect or a light show."""
+    """A particle effect."""
 
     kind: str
     source: int | None = None

@@ -14,8 +14,14 @@ from typing import Any
 from pypi_simple import PyPISimple
 
 from texvent._require import require
-from texvent.data.pull import ARCHIVES, Progress, data_folder, describe, fetch_archive
-from texvent.data.unpack import unpack
+from texvent.data.pull import (
+    ARCHIVES,
+    Progress,
+    data_folder,
+    describe,
+    fetch_archive,
+    unpack,
+)
 from texvent.errors import FileFormatError
 from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
 from texvent.io.hidden_parts import hidden_folder
@@ -63,7 +69,7 @@ def pull_weights(
 
     Args:
         name: one of `published.WEIGHTS`.
-        progress: shows how far the download is; see `texvent.data.download_bar.show_progress`.
+        progress: shows how far the download is; as for `texvent.data.pull.pull`.
         announce: told the licence and the size before anything is fetched.
         client: another connection to a package index.
 

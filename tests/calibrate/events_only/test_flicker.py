@@ -6,7 +6,6 @@ import math
 import numpy as np
 import pytest
 
-from texvent.bench.oracle.pixel import NOISY, PixelArray
 from texvent.calibrate.events_only.flicker import NAMES, measure_flicker
 from texvent.calibrate.events_only.flicker_cycles import find_bursts, find_cycles
 from texvent.calibrate.events_only.pixel_trains import PixelTrains
@@ -15,6 +14,7 @@ from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent_lab.bench.oracle.pixel import NOISY, PixelArray
 
 SIZE = SensorSize(28, 20)
 START = PhysicalConfig(gamma=1.0)

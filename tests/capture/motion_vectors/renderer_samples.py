@@ -47,15 +47,11 @@ def write_isaac(folder: Path, index: int, frame: Frame) -> None:
 
 
 def write_carla(folder: Path, index: int, frame: Frame) -> None:
-    """As `image.save_to_disk` writes rgb and depth, and the flow's raw data as an array."""
-    for name in ("rgb", "flow", "depth"):
+    """As `image.save_to_disk` writes rgb, and the flow's raw data as an array."""
+    for name in ("rgb", "flow"):
         (folder / name).mkdir(exist_ok=True)
     write_png(folder / "rgb" / f"{index:06}.png", frame)
     np.save(folder / "flow" / f"{index:06}.npy", ndc(frame))
-    steps = np.round(np.minimum(frame.motion.depth, 1000.0) / 1000.0 * (2**24 - 1)).astype(np.int64)
-    blue, green, red = steps >> 16, (steps >> 8) & 255, steps & 255
-    pixels = np.stack([blue, green, red, np.full_like(red, 255)], axis=-1)
-    cv2.imwrite(str(folder / "depth" / f"{index:06}.png"), pixels.astype(np.uint8))
 
 
 def write_unreal(folder: Path, index: int, frame: Frame) -> None:

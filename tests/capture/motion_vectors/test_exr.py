@@ -5,7 +5,7 @@ import pytest
 from tests.capture.motion_vectors import moving_scene as scene
 
 import texvent
-from texvent.capture.motion_vectors.attach import own_motion
+from texvent.capture.motion_vectors.attach import find_motion_sidecar
 from texvent.capture.motion_vectors.exr_image import exr_frame
 from texvent.capture.open import open_frames
 from texvent.cli.app import main
@@ -14,7 +14,7 @@ from texvent.errors import FileFormatError, InputError
 
 OpenEXR = pytest.importorskip("OpenEXR")
 BLENDER = Path(__file__).parent / "blender_sample"
-"""Three frames of benchmarks/blender/scene.py, rendered by Blender 5.0 at 48x36."""
+"""Three frames of texvent_lab/measure/blender/scene.py, rendered by Blender 5.0 at 48x36."""
 
 
 def write(path, channels, **header):
@@ -102,7 +102,7 @@ def test_channels_that_are_not_known_are_listed(tmp_path):
 
 
 def test_a_real_render_of_blender():
-    assert own_motion(BLENDER) == BLENDER / "motion"
+    assert find_motion_sidecar(BLENDER) == BLENDER / "motion"
     config = CaptureConfig(motion=BLENDER / "motion")  # checked: warped against real frames
     frames = list(open_frames(BLENDER, config))
     assert [frame.t_us for frame in frames] == [0, 41_667, 83_333]

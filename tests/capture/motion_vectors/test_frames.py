@@ -2,13 +2,12 @@ from fractions import Fraction
 from pathlib import Path
 
 import cv2
-import h5py
 import numpy as np
 import pytest
 from tests.capture.motion_vectors import moving_scene as scene
 
 import texvent
-from texvent.capture.motion_vectors.attach import own_motion
+from texvent.capture.motion_vectors.attach import find_motion_sidecar
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, TexventWarning
@@ -24,20 +23,6 @@ DEPTH, INSTANCES = scene.stack(scene.depth), scene.stack(scene.instances)
 def opened(motion=None, size=None, film=FILM, **options):
     config = CaptureConfig(fps=Fraction(25), **options)
     return open_frames(film, config, size=size, motion=motion)
-
-
-def write_flo(path, flow):
-    with path.open("wb") as file:
-        file.write(b"PIEH" + np.int32([flow.shape[1], flow.shape[0]]).tobytes())
-        file.write(flow.astype("<f4").tobytes())
-
-
-def write_png(path, flow, steps, valid=None):
-    pixels = np.ones((*flow.shape[:2], 3), np.uint16)
-    pixels[..., :2] = np.round(flow * steps + 2**15)
-    if valid is not None:
-        pixels[..., 2] = valid
-    cv2.imwrite(str(path), pixels[..., ::-1])
 
 
 def check_exact(stream, forward=True, backward=True):
@@ -84,19 +69,14 @@ def test_units_per_second():
     check_exact(stream, backward=False)
 
 
-@pytest.mark.parametrize("name", ["flo", "npy", "npz", "kitti", "dsec"])
+@pytest.mark.parametrize("name", ["npy", "npz"])
 def test_folders_with_a_file_per_frame(tmp_path, name):
     for index, flow in enumerate(FORWARD):
-        if name == "flo":
-            write_flo(tmp_path / f"flow{index}.flo", flow)
-        elif name == "npy":
+        if name == "npy":
             np.save(tmp_path / f"flow{index}.npy", flow)
-        elif name == "npz":
-            np.savez(tmp_path / f"f{index}.npz", forward=flow, backward=BACKWARD[index])
         else:
-            write_png(tmp_path / f"{index}.png", flow, {"kitti": 64, "dsec": 128}[name])
-    convention = name if name in ("kitti", "dsec") else None
-    config = CaptureConfig(fps=Fraction(25), motion=tmp_path, motion_convention=convention)
+            np.savez(tmp_path / f"f{index}.npz", forward=flow, backward=BACKWARD[index])
+    config = CaptureConfig(fps=Fraction(25), motion=tmp_path)
     stream = open_frames(FILM, config)
     check_exact(stream, backward=name == "npz")
 
@@ -104,10 +84,7 @@ def test_folders_with_a_file_per_frame(tmp_path, name):
 def test_one_file_for_all_frames(tmp_path):
     np.save(tmp_path / "flow.npy", FORWARD)
     np.savez(tmp_path / "all.npz", flow=FORWARD, flow_back=BACKWARD, depth=DEPTH, ids=INSTANCES)
-    with h5py.File(tmp_path / "all.h5", "w") as file:
-        file["motion/forward"], file["motion/backward"] = FORWARD[:-1], BACKWARD[:-1]
-        file["motion/backward"][...] = BACKWARD[1:]
-    for name, has_backward in (("flow.npy", False), ("all.npz", True), ("all.h5", True)):
+    for name, has_backward in (("flow.npy", False), ("all.npz", True)):
         config = CaptureConfig(fps=Fraction(25), motion=tmp_path / name)
         motions = check_exact(open_frames(FILM, config), backward=has_backward)
         assert (motions[0].depth is not None) == (name == "all.npz")
@@ -125,25 +102,6 @@ def test_a_pattern_names_files_among_others(tmp_path):
     )
     motions = check_exact(open_frames(FILM, config), forward=False)
     assert np.array_equal(motions[1].depth, DEPTH[1])
-
-
-def test_what_is_not_valid_in_a_png_is_not_known(tmp_path):
-    valid = scene.is_square(0)
-    for index, flow in enumerate(FORWARD):
-        write_png(tmp_path / f"{index}.png", flow, 64, valid)
-    config = CaptureConfig(fps=Fraction(25), motion=tmp_path, motion_convention="kitti")
-    with pytest.raises(InputError, match=r"is NaN in 8\d% of its pixels"):
-        open_frames(FILM, config)
-
-
-def test_a_png_of_flow_is_never_guessed(tmp_path):
-    for index, flow in enumerate(FORWARD):
-        write_png(tmp_path / f"{index}.png", flow, 64)
-    with pytest.raises(InputError, match=r"KITTI and DSEC count .* `motion_convention` kitti"):
-        open_frames(FILM, CaptureConfig(fps=Fraction(25), motion=tmp_path))
-    wrong = CaptureConfig(fps=Fraction(25), motion=tmp_path, motion_convention="dsec")
-    with pytest.raises(InputError, match=r"`motion_convention` kitti; give that"):
-        open_frames(FILM, wrong)
 
 
 @pytest.mark.parametrize(
@@ -213,29 +171,20 @@ def test_files_that_are_not_there(tmp_path):
     (tmp_path / "empty").mkdir()
     (tmp_path / "both").mkdir()
     np.save(tmp_path / "both" / "a.npy", FORWARD[0])
-    write_flo(tmp_path / "both" / "a.flo", FORWARD[0])
-    (tmp_path / "cut.flo").write_bytes(b"PIEH" + np.int32([64, 48]).tobytes())
+    cv2.imwrite(str(tmp_path / "both" / "a.png"), FILM[0].astype(np.uint8))
+    cv2.imwrite(str(tmp_path / "one.png"), FILM[0].astype(np.uint8))
     (tmp_path / "flow.txt").write_text("0 0")
     np.savez(tmp_path / "odd.npz", u=FORWARD, v=FORWARD)
     for name, message in {
         "missing": "no file or folder",
         "empty": "holds no file of motion vectors",
-        "both": r"holds \.flo and \.npy files; name those",
-        "flow.txt": "is no file of motion vectors; known",
-        "cut.flo": "is the field of one frame",
+        "both": r"holds \.npy and \.png files; name those",
+        "flow.txt": "is no file of motion vectors, depth or ids; known",
+        "one.png": "is the field of one frame",
         "odd.npz": "holds u, v; arrays must be called flow",
     }.items():
         with pytest.raises(InputError, match=message):
             open_frames(FILM, CaptureConfig(fps=Fraction(25), motion=tmp_path / name))
-
-
-def test_a_cut_file_is_named_when_it_is_read(tmp_path):
-    for index, flow in enumerate(FORWARD):
-        write_flo(tmp_path / f"{index}.flo", flow)
-    (tmp_path / "4.flo").write_bytes((tmp_path / "4.flo").read_bytes()[:-8])
-    config = CaptureConfig(fps=Fraction(25), motion=tmp_path, check_motion=False)
-    with pytest.raises(InputError, match=r"4\.flo was cut off"):
-        list(open_frames(FILM, config))
 
 
 def test_some_nan_count_as_not_known_with_a_warning():
@@ -286,14 +235,14 @@ def test_the_metadata_says_what_the_vectors_mean():
 
 
 def test_a_folder_with_passes_beside_its_frames_is_found(tmp_path):
-    assert own_motion(tmp_path) is None
-    assert own_motion("rtsp://nowhere") is None
+    assert find_motion_sidecar(tmp_path) is None
+    assert find_motion_sidecar("rtsp://nowhere") is None
     (tmp_path / "frames").mkdir()
     (tmp_path / "motion").mkdir()
     (tmp_path / "motion" / "0.png").touch()  # which could be anything
-    assert own_motion(tmp_path) is None
+    assert find_motion_sidecar(tmp_path) is None
     (tmp_path / "motion" / "0.exr").touch()
-    assert own_motion(tmp_path) == tmp_path / "motion"
+    assert find_motion_sidecar(tmp_path) == tmp_path / "motion"
 
 
 def test_simulate_takes_arrays_and_files(tmp_path):
@@ -372,20 +321,14 @@ def test_files_named_after_times_have_no_gap(tmp_path):
     check_exact(open_frames(FILM, CaptureConfig(fps=Fraction(24), motion=tmp_path)), backward=False)
 
 
-def test_unreal_s_vectors_and_ids_in_images(tmp_path):
-    (tmp_path / "ids").mkdir()
-    (tmp_path / "flow").mkdir()
-    for index, flow in enumerate(BACKWARD):
-        ndc = flow * np.float32([-2 / scene.WIDTH, 2 / scene.HEIGHT])
-        pixels = np.zeros((*flow.shape[:2], 3), np.uint16)
-        pixels[..., 2:0:-1] = np.round((ndc / 4 + 0.5) * 65535)  # OpenCV writes blue first
-        cv2.imwrite(str(tmp_path / "flow" / f"{index}.png"), pixels)
-        cv2.imwrite(str(tmp_path / "ids" / f"{index}.png"), INSTANCES[index].astype(np.uint8))
-    config = CaptureConfig(
-        fps=Fraction(25),
-        motion=tmp_path / "flow",
-        instances=tmp_path / "ids",
-        motion_convention="unreal",
-    )
-    motions = check_exact(open_frames(FILM, config), forward=False)
+def test_depth_and_ids_in_images(tmp_path):
+    for name, values in (("depth", (DEPTH * 1000).astype(np.uint16)), ("ids", INSTANCES)):
+        (tmp_path / name).mkdir()
+        for index, one in enumerate(values):
+            cv2.imwrite(str(tmp_path / name / f"{index}.png"), one.astype(np.uint16))
+    options = {"depth": tmp_path / "depth", "instances": tmp_path / "ids", "depth_scale": 1e-3}
+    motions = check_exact(opened({"motion": FORWARD}, **options), backward=False)
+    np.testing.assert_allclose(motions[2].depth, DEPTH[2], 1e-6)
     assert np.array_equal(motions[2].instance, INSTANCES[2])
+    with pytest.raises(InputError, match="is an image; vectors are read from"):
+        opened({"motion": tmp_path / "ids"})

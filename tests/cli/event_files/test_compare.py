@@ -1,4 +1,4 @@
-"""`texvent compare` and `texvent bench` as a user meets them."""
+"""`texvent compare` as a user meets it."""
 
 import json
 import shutil
@@ -7,9 +7,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent.bench.selftest.controls import CONTROLS
 from texvent.cli.app import main
 from texvent.events import EventStream
+from texvent.metrics.controls import CONTROLS
 from texvent.sensor import SensorSize
 
 
@@ -134,14 +134,6 @@ def test_compare_cuts_to_the_span(pair, capsys):
             "no weights file none.ckpt",
         ),
         (["compare", "guess.npz", "truth.npz", "-o", "both.pdf"], "must end in .html"),
-        (["bench", "selftst"], "did you mean 'selftest'"),
-        (["bench", "selftest", "--metrics", "spp"], "did you mean 'stpp'"),
-        (["bench", "selftest", "-o", "truth.npz"], "exists already"),
-        (["bench", "fidelity", "-o", "truth.npz"], "exists already"),
-        (["bench", "fidelity", "--scenes", "mixd"], "did you mean 'mixed'"),
-        (["bench", "fidelity", "--simulators", "esmi"], "did you mean 'esim'"),
-        (["bench", "fidelity", "--interpolations", "blnd"], "did you mean 'blend'"),
-        (["bench", "fidelity", "--jobs", "0"], "jobs is 0"),
     ],
 )
 def test_mistakes_are_one_clear_line(pair, capsys, words, message):
@@ -149,12 +141,6 @@ def test_mistakes_are_one_clear_line(pair, capsys, words, message):
     said = capsys.readouterr().err.strip()
     assert message in said
     assert "\n" not in said
-
-
-def test_bench_lists_its_benchmarks(capsys):
-    assert main(["bench", "--help"]) == 0
-    assert "selftest" in capsys.readouterr().out
-    assert main(["bench"]) == 2
 
 
 @pytest.fixture

@@ -69,7 +69,7 @@ def test_any_other_video_can_stand_for_the_prompts_video(folder):
     assert len(texvent.load("blinks.h5")) > 0
 
 
-@pytest.mark.parametrize("flag", ["--duration", "--generator", "--video-only", "--upsample"])
+@pytest.mark.parametrize("flag", ["--duration", "--generator", "--video-only"])
 def test_a_flag_that_makes_a_video_is_refused_beside_a_ready_one(folder, capsys, flag):
     value = [] if flag == "--video-only" else ["procedural" if flag == "--generator" else "3"]
     assert run("generate", "a ball", "--from-video", "ball.avi", flag, *value) == 2
@@ -165,9 +165,9 @@ def test_the_list_recommends_24_frames_per_second_in_a_hundred_columns(folder, c
 
 def test_a_model_of_few_frames_per_second_warns_in_one_line(folder, capsys):
     """Without diffusers the run ends there, with an error of its own."""
-    run("generate", PROMPT, "--generator", "latte", "--dry-run")
+    run("generate", PROMPT, "--generator", "cogvideox-2b", "--dry-run")
     lines = capsys.readouterr().err.splitlines()
-    assert lines[0].startswith("warning  latte makes 8 frames per second")
+    assert lines[0].startswith("warning  cogvideox-2b makes 8 frames per second")
     assert not any("frames per second" in line for line in lines[1:])
 
 
@@ -179,10 +179,10 @@ def test_the_list_as_json_has_every_row_with_its_licence_and_source(folder, caps
     assert row["licence"] == "Tencent Hunyuan Community License"
     assert "not in the EU" in row["licence_terms"]
     assert row["licence_source"] == "github.com/Tencent-Hunyuan/HunyuanVideo-1.5: LICENSE"
-    assert (row["fps"], row["is_low_fps"], rows["latte"]["is_low_fps"]) == (24, False, True)
-    assert (row["is_recommended"], rows["latte"]["is_recommended"]) == (True, False)
-    assert rows["helios-distilled"]["time_s"] == 6.8
-    assert "19.5 frames/s on H100" in rows["helios-distilled"]["time_source"]
+    assert (row["fps"], row["is_low_fps"], rows["cogvideox-2b"]["is_low_fps"]) == (24, False, True)
+    assert (row["is_recommended"], rows["cogvideox-2b"]["is_recommended"]) == (True, False)
+    assert rows["kandinsky5-distill"]["time_s"] == 35
+    assert "H100" in rows["kandinsky5-distill"]["time_source"]
 
 
 def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):

@@ -19,13 +19,9 @@ from PIL import Image  # noqa: E402
 
 from texvent.cli.app import main  # noqa: E402
 from texvent.errors import ConfigError  # noqa: E402
-from texvent.generate.diffusers_models.pipeline_call import (  # noqa: E402
-    REFERENCE_CLASSES,
-    call_pipeline,
-)
+from texvent.generate.diffusers_models.pipeline_call import call_pipeline  # noqa: E402
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
 from texvent.generate.video_models.known_models import MODELS, VideoModel  # noqa: E402
-from texvent.generate.videos.stored_video import write_video  # noqa: E402
 from texvent.runtime.progress import NoProgress  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
@@ -33,7 +29,6 @@ from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
 
 PIPELINES = sorted(
     {name for row in MODELS.values() for name in (row.pipeline, row.image_pipeline) if name}
-    - {"LTX2DFRPipeline"}  # its noise levels are fixed, it has no guidance
 )
 
 
@@ -48,7 +43,6 @@ def stand_in(name):
 
     called.__signature__ = inspect.signature(real.__call__)
     members = {"__call__": called, "maybe_free_model_hooks": lambda self: None}
-    members["vae_temporal_compression_ratio"] = 8
     kind = type(name, (), {**members, "__signature__": inspect.signature(real)})
     pipe = kind()
     if "guider" in inspect.signature(real).parameters:
@@ -59,7 +53,7 @@ def stand_in(name):
 def call(pipe, fps=Fraction(24), **options):
     return call_pipeline(
         pipe,
-        {"prompt": PROMPT},
+        PROMPT,
         DiffusersConfig(**options),
         model=VideoModel(name="someone's"),
         fps=fps,
@@ -76,20 +70,11 @@ def start(tmp_path):
     return path
 
 
-@pytest.fixture
-def clip(tmp_path):
-    path = tmp_path / "clip.avi"
-    write_video(np.zeros((2, 8, 8, 3), np.float32), path, Fraction(24), {}, overwrite=False)
-    return path
-
-
 @pytest.mark.parametrize("name", PIPELINES)
-def test_steps_and_guidance_reach_the_call_of_every_pipeline(name, start, clip):
+def test_steps_and_guidance_reach_the_call_of_every_pipeline(name, start):
     pipe, calls = stand_in(name)
     accepted = inspect.signature(type(pipe).__call__).parameters
     image = {"image": start} if "image" in accepted else {}
-    if name in REFERENCE_CLASSES:
-        image = {"reference_video": clip, "frames": 2}
     call(pipe, guidance=1.5, **image)
     arguments, guider = calls[0]
     assert arguments.get("guidance_scale", getattr(guider, "guidance_scale", None)) == 1.5
@@ -97,19 +82,7 @@ def test_steps_and_guidance_reach_the_call_of_every_pipeline(name, start, clip):
     if guider is not None:
         assert pipe.guider.guidance_scale == 9.0, "as it was for the next call"
     call(pipe, steps=7, **image)
-    if "num_inference_steps" in accepted:
-        assert calls[1][0]["num_inference_steps"] == 7
-    else:
-        assert calls[1][0]["pyramid_num_inference_steps_list"] == [3, 3, 3]
-
-
-def test_steps_and_guidance_are_refused_where_the_noise_levels_are_fixed():
-    pipe, calls = stand_in("LTX2DFRPipeline")
-    for option in ("steps", "guidance"):
-        with pytest.raises(ConfigError, match=f"{option} is set, but LTX2DFRPipeline does not"):
-            call(pipe, **{option: 7})
-    call(pipe)
-    assert len(calls) == 1
+    assert calls[1][0]["num_inference_steps"] == 7
 
 
 def test_a_fractional_frame_rate_reaches_the_call():

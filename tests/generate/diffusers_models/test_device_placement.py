@@ -3,8 +3,8 @@
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.generate.diffusers_models import device_placement
-from texvent.generate.diffusers_models.device_placement import GB, place
+from texvent.generate.diffusers_models import pipeline_loading
+from texvent.generate.diffusers_models.pipeline_loading import GB, place
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.known_models import MODELS
 
@@ -32,25 +32,25 @@ def test_quantised_weights_need_less():
 def test_weights_are_quantised_only_where_layers_would_have_to_wait(
     monkeypatch, free_gb, quantize, offload
 ):
-    monkeypatch.setattr(device_placement, "find_spec", lambda name: name == "bitsandbytes" or None)
+    monkeypatch.setattr(pipeline_loading, "find_spec", lambda name: name == "bitsandbytes" or None)
     placed = place(COSMOS, DiffusersConfig(), "cuda", int(free_gb * GB))
     assert (placed.quantize, placed.offload) == (quantize, offload)
 
 
 @pytest.mark.parametrize("options", [{"quantize": "none"}, {"offload": "sequential"}])
 def test_weights_keep_all_bits_where_the_user_decided(monkeypatch, options):
-    monkeypatch.setattr(device_placement, "find_spec", lambda name: name == "bitsandbytes" or None)
+    monkeypatch.setattr(pipeline_loading, "find_spec", lambda name: name == "bitsandbytes" or None)
     placed = place(COSMOS, DiffusersConfig(**options), "cuda", int(20 * GB))
     assert (placed.quantize, placed.offload) == ("none", "sequential")
 
 
 def test_weights_keep_all_bits_without_the_package(monkeypatch):
-    monkeypatch.setattr(device_placement, "find_spec", lambda name: None)
+    monkeypatch.setattr(pipeline_loading, "find_spec", lambda name: None)
     assert place(COSMOS, DiffusersConfig(), "cuda", int(20 * GB)).quantize == "none"
 
 
 def test_nothing_helps_where_even_four_bits_are_too_many(monkeypatch):
-    monkeypatch.setattr(device_placement, "find_spec", lambda name: name == "bitsandbytes" or None)
+    monkeypatch.setattr(pipeline_loading, "find_spec", lambda name: name == "bitsandbytes" or None)
     placed = place(COSMOS, DiffusersConfig(), "cuda", int(4 * GB))
     assert (placed.quantize, placed.offload) == ("none", "sequential")
 
@@ -74,6 +74,6 @@ def test_options_that_need_a_gpu_are_refused_on_a_cpu(options):
 
 
 def test_a_model_of_unknown_needs_is_placed_with_care():
-    unknown = MODELS["latte"]
+    unknown = MODELS["hunyuan1.5-i2v"]
     assert place(unknown, DiffusersConfig(), "cuda", int(80 * GB)).offload == "none"
     assert place(unknown, DiffusersConfig(), "cuda", int(40 * GB)).offload == "model"

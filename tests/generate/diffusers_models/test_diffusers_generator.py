@@ -32,14 +32,11 @@ from texvent.errors import (  # noqa: E402
     MissingDependencyError,
     TexventError,
 )
-from texvent.generate.diffusers_models import guardrail, model_run, pipeline_loading  # noqa: E402
-from texvent.generate.diffusers_models.pipeline_loading import (  # noqa: E402
-    forget_pipeline,
-)
+from texvent.generate.diffusers_models import generator as diffusers_generator  # noqa: E402
+from texvent.generate.diffusers_models import guardrail, pipeline_loading  # noqa: E402
 from texvent.generate.video_models.known_models import MODELS  # noqa: E402
-from texvent.generate.videos.clip_score import measure_clip_score  # noqa: E402
+from texvent.generate.videos.clip_model import measure_clip_score  # noqa: E402
 from texvent.generate.videos.stored_video import write_video  # noqa: E402
-from texvent.generate.videos.video_cache import made_folder  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
 from texvent.run.settings import resolve  # noqa: E402
 
@@ -80,7 +77,7 @@ def test_prompt_to_events_and_a_second_run_does_not_call_the_pipeline(name, mode
     def forbidden(*_, **__):
         raise AssertionError("the pipeline was called again")
 
-    monkeypatch.setattr(model_run, "call_pipeline", forbidden)
+    monkeypatch.setattr(diffusers_generator, "call_pipeline", forbidden)
     changed = {**options, "contrast_threshold": 0.01, "noise": "none"}
     more = text_to_events(PROMPT, resolve("generate", changed)).packets.collect()
     assert len(more) > len(events)
@@ -133,21 +130,6 @@ def test_cancelling_between_steps_leaves_nothing_and_the_next_run_works(name, mo
     assert generator.generate(PROMPT).frame_count >= 5
 
 
-def test_a_prompt_asked_again_needs_no_text_encoder(models):
-    build(models("wan")).generate(PROMPT)
-    assert len(list(made_folder("prompts").iterdir())) == 1
-    forget_pipeline()
-    again = build(models("wan"), seed=8)
-    from_embeddings = pixels(again.generate(PROMPT))
-    assert again._run._pipe.text_encoder is None
-    whole = pixels(build(models("wan"), seed=8, reuse_video=False).generate(PROMPT))
-    assert np.array_equal(from_embeddings, whole)
-    dark = build(models("wan"), seed=8, negative_prompt="dark").generate(PROMPT)
-    assert not np.array_equal(pixels(dark), whole)
-    # The same loaded model is then asked for a prompt without stored embeddings.
-    assert again.generate("a blue dog").frame_count == 5
-
-
 def test_a_batch_of_new_and_known_prompts_loads_its_model_once(models, monkeypatch):
     loaded = []
     real = pipeline_loading._load
@@ -187,7 +169,7 @@ def test_the_decoder_of_wan_stays_in_float32_as_its_page_asks(models, tmp_path):
     shutil.copytree(models("wan"), path)
     generator = build(path, dtype="bfloat16", reuse_video=False)
     assert generator.generate(PROMPT).frame_count == 5
-    pipe = generator._run._pipe
+    pipe = generator._run.pipeline
     assert (pipe.transformer.dtype, pipe.vae.dtype) == (torch.bfloat16, torch.float32)
 
 

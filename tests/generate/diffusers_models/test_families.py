@@ -22,9 +22,8 @@ torch = pytest.importorskip("torch")
 torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
 pytest.importorskip("diffusers")
 
-from texvent.errors import ConfigError, InputError  # noqa: E402
-from texvent.generate.diffusers_models import model_run  # noqa: E402
-from texvent.generate.diffusers_models.decoder_input import SINGLE_DECODE_PIPELINES  # noqa: E402
+
+from texvent.errors import InputError  # noqa: E402
 from texvent.generate.video_models.known_models import MODELS  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
@@ -32,9 +31,8 @@ from ..tiny_families import FAMILIES  # noqa: E402
 from ..tiny_models import PROMPT, build, pixels  # noqa: E402
 
 ELSEWHERE = {"CosmosTextToWorldPipeline", "Cosmos2_5_PredictBasePipeline", "CogVideoXPipeline"}
-ELSEWHERE |= {"WanPipeline", "LTXPipeline", "AnimateDiffPipeline", "LTX2HDRPipeline"}
+ELSEWHERE |= {"WanPipeline", "LTXPipeline"}
 """Pipelines that the other tests of this folder run."""
-QUICK = [name for name in FAMILIES if name != "allegro"]
 
 
 class Steps:
@@ -75,13 +73,11 @@ def start_image(tmp_path):
 
 
 @pytest.fixture
-def make(saved, start_image, monkeypatch):
+def make(saved, start_image):
     """Make a family's video with some seed and options; the steps it reported."""
 
     def run(name, seed=3, **options):
         family = FAMILIES[name]
-        for place, value in family.patches.items():
-            monkeypatch.setattr(place, value)
         image = {"image": start_image} if family.takes_image else {}
         steps = Steps()
         generator = build(saved(name), seed=seed, **{**family.options, **image, **options})
@@ -101,57 +97,26 @@ def test_every_family_goes_from_its_files_to_frames(name, make):
     assert steps == [("denoise", step + 1, family.steps) for step in range(family.steps)]
 
 
-@pytest.mark.parametrize("name", QUICK)
+@pytest.mark.parametrize("name", FAMILIES)
 def test_a_seed_repeats_and_another_gives_other_frames(name, make):
     first, again, other = (pixels(make(name, seed, reuse_video=False)[0]) for seed in (3, 3, 4))
     assert np.array_equal(first, again)
     assert not np.array_equal(first, other)
 
 
-STREAMED = [name for name in QUICK if FAMILIES[name].pipeline in SINGLE_DECODE_PIPELINES]
-
-
-@pytest.mark.parametrize("name", STREAMED)
-def test_decoding_step_by_step_gives_the_frames_of_the_pipeline_itself(name, make, monkeypatch):
-    ours = pixels(make(name, reuse_video=False)[0])
-    monkeypatch.setattr(model_run, "can_stream", lambda decoder: False)
-    whole = pixels(make(name, reuse_video=False)[0])
-    assert np.abs(ours.astype(np.int64) - whole).max() <= 1, "of 65535"
-
-
-def test_every_pipeline_of_the_table_that_counts_as_tried_is_run_by_a_test():
+def test_every_pipeline_of_the_table_is_run_by_a_test():
     run = ELSEWHERE | {family.pipeline for family in FAMILIES.values()}
     for model in MODELS.values():
         named = {model.pipeline, model.image_pipeline} - {None}
-        assert model.is_verified == (named <= run), f"{model.name}: {named - run}"
+        assert named <= run, f"{model.name}: {named - run}"
 
 
-@pytest.mark.parametrize("name", ["motif", "hunyuan15"])
-def test_guidance_reaches_pipelines_that_keep_it_in_a_part_of_theirs(name, make):
+def test_guidance_reaches_pipelines_that_keep_it_in_a_guider(make):
+    name = "hunyuan15"
     weak, strong = (pixels(make(name, guidance=scale)[0]) for scale in (1.5, 20.0))
     assert not np.array_equal(weak, strong)
     again = pixels(make(name, guidance=1.5, reuse_video=False)[0])
     assert np.array_equal(weak, again), "the scale of one call does not stay for the next"
-
-
-def test_few_step_models_use_the_levels_they_were_distilled_for(make, monkeypatch):
-    """FastWan's call takes no levels: they are set on its schedule, whose noise is seeded too."""
-    import diffusers
-
-    taken = []
-    step = diffusers.FlowMatchLCMScheduler.step
-
-    def note(self, output, time, sample, generator=None, return_dict=True):
-        taken.append((round(float(time)), generator is not None))
-        return step(self, output, time, sample, generator=generator, return_dict=return_dict)
-
-    monkeypatch.setattr(diffusers.FlowMatchLCMScheduler, "step", note)
-    make("fast-wan")
-    assert taken == [(1000, True), (757, True), (522, True)]
-    taken.clear()
-    make("fast-wan", steps=2)
-    assert [time for time, _ in taken] != [1000, 757]
-    assert [is_seeded for _, is_seeded in taken] == [True, True]
 
 
 def test_other_step_counts_of_a_few_step_model_are_allowed(make):
@@ -160,16 +125,16 @@ def test_other_step_counts_of_a_few_step_model_are_allowed(make):
 
 
 def test_the_publishers_noise_schedule_is_used(make, saved, monkeypatch):
-    """SkyReels' files say a flow shift of 1; its page asks for 8."""
-    named = MODELS["skyreels2-df-1.3b"]
+    """SkyReels' files say a flow shift of 3; its page asks for 8."""
+    named = MODELS["skyreels2-14b"]
     assert dict(named.scheduler) == {"flow_shift": 8.0}
-    generator = build(saved("skyreels-forcing"))
+    generator = build(saved("skyreels"))
     generator.generate(PROMPT)
-    assert generator._run._pipe.scheduler.config.flow_shift == 8.0
+    assert generator._run.pipeline.scheduler.config.flow_shift == 8.0
 
 
 def test_the_frame_rate_is_an_input_of_ltx_2_and_cosmos_3(make):
-    for name in ("ltx2", "cosmos3", "skyreels-forcing"):
+    for name in ("ltx2", "cosmos3"):
         slow, fast = (pixels(make(name, fps=fps)[0]) for fps in (16, 30))
         assert not np.array_equal(slow, fast), name
 
@@ -178,11 +143,6 @@ def test_a_model_that_starts_from_an_image_says_so_before_anything_is_fetched():
     part = MODELS["wan2.2-i2v-a14b"]
     with pytest.raises(InputError, match="starts from an image; give image=PATH"):
         build(f"hub:{part.repo}", width=32).generate(PROMPT)
-
-
-def test_sizes_that_allegro_would_leave_partly_black_are_refused(make):
-    with pytest.raises(ConfigError, match=r"height is 400, of which .*allowed: 320, 520, 720"):
-        make("allegro", height=400)
 
 
 def test_the_guardrail_of_cosmos_3_stays_on_whatever_its_index_says(saved, make):

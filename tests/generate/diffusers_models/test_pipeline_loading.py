@@ -21,16 +21,16 @@ from texvent.errors import (  # noqa: E402
     InputError,
     MissingDependencyError,
 )
-from texvent.generate.diffusers_models.device_placement import Placement  # noqa: E402
 from texvent.generate.diffusers_models.pipeline_call import check_options  # noqa: E402
 from texvent.generate.diffusers_models.pipeline_loading import (  # noqa: E402
     LoadRequest,
+    Placement,
     load_pipeline,
     place_pipeline,
 )
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
 from texvent.generate.video_models.loading import quiet_libraries  # noqa: E402
-from texvent.generate.videos.clip_score import measure_clip_score  # noqa: E402
+from texvent.generate.videos.clip_model import measure_clip_score  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
 from ..tiny_models import PROMPT, build  # noqa: E402
@@ -86,12 +86,6 @@ def test_a_model_of_transformers_that_lacks_weights_is_refused(models, tmp_path)
     video = build(models("wan")).generate(PROMPT)
     with pytest.raises(FileFormatError, match=r"a CLIP model: .*lacks text_projection\.weight"):
         measure_clip_score(video, PROMPT, folder)
-
-
-def test_a_decoder_of_another_family_is_refused(models):
-    wrong = models("cogvideox") / "vae"
-    with pytest.raises(FileFormatError, match="cannot be loaded as WanPipeline"):
-        build(models("wan"), decoder=wrong).generate(PROMPT)
 
 
 def test_noise_is_dropped_and_warnings_are_shown(capsys):
@@ -178,8 +172,6 @@ def test_quantised_weights_without_their_package_name_the_extra(models, monkeypa
         content="",
         class_name=None,
         placement=placement,
-        decoder=None,
-        decoder_in_float32=False,
     )
     with pytest.raises(MissingDependencyError, match=r"texvent\[quantize\]"):
         load_pipeline(request)

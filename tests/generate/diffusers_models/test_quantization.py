@@ -18,14 +18,13 @@ torch = pytest.importorskip("torch")
 torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
 pytest.importorskip("diffusers")
 
-from texvent.errors import ConfigError  # noqa: E402
 from texvent.generate.diffusers_models import pipeline_loading  # noqa: E402
-from texvent.generate.diffusers_models.device_placement import Placement  # noqa: E402
 from texvent.generate.diffusers_models.pipeline_loading import (  # noqa: E402
     LoadRequest,
+    Placement,
     load_pipeline,
 )
-from texvent.generate.video_models.adapters import Adapter, AdapterFile  # noqa: E402
+from texvent.generate.video_models.lora import Lora  # noqa: E402
 
 from ..tiny_models import PROMPT  # noqa: E402
 
@@ -36,8 +35,6 @@ def request(folder, quantize, dtype="bfloat16", **facts):
         content="",
         class_name=None,
         placement=Placement("cpu", dtype, "none", tiles_decoder=False, quantize=quantize),
-        decoder=None,
-        decoder_in_float32=False,
         **facts,
     )
 
@@ -63,29 +60,24 @@ def test_the_transformers_that_a_model_has_are_quantised(name, parts, models, mo
     }
 
 
-def test_a_model_without_a_video_transformer_is_refused(models):
-    with pytest.raises(ConfigError, match=r"no video transformer, .*; give `quantize` none"):
-        load_pipeline(request(models("stable-diffusion"), "8bit"))
-
-
 def test_weights_are_of_that_kind_and_take_an_adapter(models, tmp_path, monkeypatch):
     bitsandbytes = pytest.importorskip("bitsandbytes")
     from diffusers.quantizers.bitsandbytes import bnb_quantizer
 
-    from .test_adapter_loading import factors, save_adapter, weights_of
+    from .test_lora import factors, save_adapter, weights_of
 
     for kind in (bnb_quantizer.BnB4BitDiffusersQuantizer, bnb_quantizer.BnB8BitDiffusersQuantizer):
         monkeypatch.setattr(kind, "validate_environment", lambda self, *_, **__: None)
         monkeypatch.setattr(kind, "update_device_map", lambda self, _: {"": "cpu"})
     path, _ = save_adapter(tmp_path / "a", factors(weights_of(models("wan"))), "diffusers")
-    adapters = (AdapterFile(path, "", Adapter(str(path), 3.0)),)
+    loras = (Lora(str(path), 3.0),)
     four = load_pipeline(request(models("wan"), "4bit"))
     layer = four.transformer.blocks[0].attn1.to_q
     assert isinstance(layer, bitsandbytes.nn.Linear4bit)
     assert layer.weight.dtype == torch.uint8
     frames = {}
-    for quantize, given in (("none", ()), ("8bit", ()), ("none", adapters), ("8bit", adapters)):
-        pipe = load_pipeline(request(models("wan"), quantize, "float32", adapters=given))
+    for quantize, given in (("none", ()), ("8bit", ()), ("none", loras), ("8bit", loras)):
+        pipe = load_pipeline(request(models("wan"), quantize, "float32", loras=given))
         layer = pipe.transformer.blocks[0].attn1.to_q
         base = getattr(layer, "base_layer", layer)
         assert isinstance(base, bitsandbytes.nn.Linear8bitLt) == (quantize == "8bit")

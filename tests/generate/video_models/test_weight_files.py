@@ -6,7 +6,7 @@ import struct
 import pytest
 
 from texvent.errors import FileFormatError, InputError
-from texvent.generate.video_models.weight_files import (
+from texvent.generate.video_models.model_files import (
     check_weight_files,
     fingerprint,
     read_pipeline_index,

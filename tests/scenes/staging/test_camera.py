@@ -54,7 +54,8 @@ def test_fit_gives_the_nearest_station_that_holds_all_points():
     points = np.array([[-2.0, 0.0, 0.0], [2.0, 0.0, 0.0], [0.0, 0.0, 1.0]])
     framing = fit(points, azimuth=0.0, elevation=0.0, aspect=0.75, fill=0.8, focal=1.0)
     assert framing.distance_m == pytest.approx(2.0 * 2.0 / 0.8)
-    camera = look_at(framing.position, framing.target, framing.focal)
+    away = framing.distance_m * framing.offset
+    camera = look_at(framing.target + away, framing.target, framing.focal)
     assert 2.0 * np.abs(image_of(camera, points)[:, 0]).max() == pytest.approx(0.8)
 
 

@@ -10,15 +10,10 @@ from texvent.generate.scene_input import describe_scene, list_nouns
 from texvent.scenes.description import Illumination
 from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.places import PLACES
 from texvent.scenes.raycast.render import render
 from texvent.scenes.spec.scene import Camera, Lamp, Light, Place, Scene, SceneObject
 from texvent.scenes.staging.compose import compose_scene
-from texvent.scenes.staging.surroundings.lighting import (
-    choose_lighting,
-    towards_light,
-    usual_lighting,
-)
+from texvent.scenes.staging.surroundings.lighting import towards_light
 
 CAR = thing("car", ("drive", "left"))
 
@@ -33,19 +28,7 @@ def test_light_comes_from_where_it_is_said_to(direction, axis, sign):
     assert np.linalg.norm(towards) == pytest.approx(1.0)
     assert towards[2] > 0.0
     assert sign * towards[axis] > 0.8
-    low = towards_light(usual, ahead, Illumination(direction=direction, is_low=True))
-    assert 0.0 < low[2] < 0.3
     assert towards_light(usual, ahead, Illumination()) is usual
-
-
-def test_soft_light_casts_no_shadow_and_hard_light_darkens_them():
-    usual = usual_lighting(PLACES["road"], "day")
-    soft = choose_lighting(PLACES["road"], Illumination(hardness="soft"))
-    hard = choose_lighting(PLACES["road"], Illumination(hardness="hard"))
-    assert (soft.shadows, hard.shadows) == (False, True)
-    contrasts = [one.sun[0] / one.ambient[0] for one in (soft, usual, hard)]
-    assert contrasts == sorted(contrasts)
-    assert choose_lighting(PLACES["road"], Illumination()) == usual
 
 
 def beams(scene):

@@ -16,17 +16,17 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     Flight,
     Oscillating,
     Spin,
-    Swing,
     Wave,
     bounce_height,
     hover,
+    swing,
 )
 from texvent.scenes.staging.trajectories.phases import build_path, schedule
-from texvent.scenes.staging.trajectories.steered_path import Lagging, Piece, SteeredPath
+from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import (
+    Attached,
     BodyState,
     Circle,
-    Riding,
     Rolling,
     Shuttle,
     Stationary,
@@ -134,16 +134,6 @@ def test_the_velocity_is_the_speed_along_the_heading(path, time_s):
     assert abs(signed) == pytest.approx(middle.speed_m_s, abs=1e-2)
 
 
-def test_a_follower_stays_the_gap_behind_on_the_same_line():
-    legs = (Piece(1.0, 5.0), Piece(1.0, 5.0, 1.6), Piece(1.0, 0.0))
-    path = SteeredPath((0.0, 0.0, 0.0), 0.0, legs, 5.0)
-    follower = Lagging(path, 3.0)
-    for time_s in (0.1, 1.2, 2.9):
-        assert path.distance_at(time_s) - follower.at(time_s).distance_m == pytest.approx(3.0)
-    line = np.array([path.at(float(t)).position for t in np.linspace(0.0, 1.9, 4000)])
-    assert np.linalg.norm(line - follower.at(1.9).position, axis=1).min() < 3e-3
-
-
 STRAIGHT = Straight((1.0, 2.0, 0.0), math.pi, 4.0, 1.0)
 TRAJECTORIES = {
     "rest": Stationary((1.0, 2.0, 0.0)),
@@ -158,10 +148,10 @@ TRAJECTORIES = {
     "axle": Spin((0.0, 0.0, 0.0), 3.0, axis="pitch", pivot_m=0.5),
     "bounce": Flight(BodyState((0.0, 0.0, 1.5)), (0.5, 0.0, 0.0)),
     "throw": Flight(BodyState((0.0, 0.0, 1.0), pivot_m=0.2), (2.0, 1.0, 4.0), 0.0, 0.6, 0.3, 3.0),
-    "swing": Swing((0.0, 0.0, 1.0), 1.2, 0.5),
+    "swing": swing((0.0, 0.0, 1.0), 1.2, 0.5),
     "hover": hover(Stationary((0.0, 0.0, 2.0)), 0.2, 0.4),
     "sway": Oscillating(Stationary((0.0, 0.0, 0.0)), (Wave("roll", 0.2, 0.5),)),
-    "riding": Riding(STRAIGHT, (0.0, 0.0, 1.0)),
+    "riding": Attached.seated(STRAIGHT, (0.0, 0.0, 1.0), "sit"),
 }
 ON_GROUND = ("straight", "rolling", "shuttle", "circle", "bounce", "throw")
 
@@ -209,12 +199,12 @@ def test_an_arc_goes_from_one_state_to_the_other_under_gravity():
 
 
 def test_a_pendulum_has_the_period_of_its_length():
-    swing = Swing((0.0, 0.0, 1.0), 1.5, 0.3)
+    pendulum = swing((0.0, 0.0, 1.0), 1.5, 0.3)
     period = 2.0 * math.pi * math.sqrt(1.5 / GRAVITY_M_S2)
-    assert swing.at(0.0).pitch == pytest.approx(0.3)
-    assert swing.at(0.5 * period).pitch == pytest.approx(-0.3)
+    assert pendulum.at(0.0).pitch == pytest.approx(0.3)
+    assert pendulum.at(0.5 * period).pitch == pytest.approx(-0.3)
     top = np.array([0.0, 0.0, 1.5, 1.0])
-    np.testing.assert_allclose(swing.at(0.7).to_world() @ top, [0.0, 0.0, 2.5], atol=1e-12)
+    np.testing.assert_allclose(pendulum.at(0.7).to_world() @ top, [0.0, 0.0, 2.5], atol=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -1,4 +1,4 @@
-"""Results of compare and of the benchmarks, and samples of data sets, in a notebook."""
+"""Results of compare, and samples of data sets, in a notebook."""
 
 from __future__ import annotations
 
@@ -7,22 +7,16 @@ import json
 import math
 import pickle
 import weakref
-from pathlib import Path
 
 import numpy as np
-import pytest
 
 import texvent
-from texvent.bench.document import read_document
-from texvent.bench.fidelity.results import read_report
-from texvent.bench.selftest.table import read_selftest
 from texvent.dataset.loading.stored_samples import StoredSample
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
 from texvent.metrics.scores import Scores
 from texvent.sensor import SensorSize
 
-RESULTS = Path(__file__).parents[3] / "docs/results"
 EVENTS = EventStream([1, 2], [0, 0], [100, 900], [1, 0], SensorSize(4, 3))
 
 
@@ -56,20 +50,6 @@ def test_an_undefined_score_says_so_and_names_are_escaped():
     table = Scores({"<b>": math.nan}, [])._repr_mimebundle_()["text/html"]
     assert "undefined" in table
     assert "&lt;b&gt;" in table
-
-
-@pytest.mark.parametrize(
-    ("report", "has"),
-    [
-        (lambda: read_report(read_document(RESULTS / "fidelity.json.gz")), "| entry |"),
-        (lambda: read_selftest(RESULTS / "selftest.json"), "| metric |"),
-    ],
-    ids=["fidelity", "selftest"],
-)
-def test_results_of_benchmarks_show_their_tables(report, has):
-    bundle = report()._repr_mimebundle_()
-    assert has in bundle["text/markdown"]
-    assert "<script" not in bundle["text/markdown"]
 
 
 def test_a_sample_shows_its_events_and_class():

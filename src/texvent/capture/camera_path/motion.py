@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, Protocol
+from typing import Any, ClassVar, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,7 @@ Float64Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Place:
+class CameraPose2D:
     """Where the camera is, in px of the sensor, as seen from where the image was taken."""
 
     x: float = 0.0
@@ -40,6 +40,9 @@ class Pose:
     """[3] m, along the first camera's axes."""
 
 
+CameraPose: TypeAlias = CameraPose2D | Pose
+
+
 class CameraPath(Protocol):
     """A path that is known at any instant."""
 
@@ -53,7 +56,7 @@ class CameraPath(Protocol):
         """What it is, JSON-serialisable, for provenance."""
         ...
 
-    def __call__(self, t_us: float) -> Place | Pose:
+    def __call__(self, t_us: float) -> CameraPose:
         """Where the camera is at `t_us`, µs."""
         ...
 
@@ -76,12 +79,12 @@ class Saccades:
         """Its name and size."""
         return {"camera": self.name, "amplitude_px": self.amplitude or self.measured_px}
 
-    def __call__(self, t_us: float) -> Place:
+    def __call__(self, t_us: float) -> CameraPose2D:
         """The image moves as the digits of N-MNIST, about the middle of their path."""
         one = np.ones(1)
         factor = (self.amplitude or self.measured_px) / self.measured_px
         x, y = digit_corner(t_us, one, one)[0]
-        return Place(factor * (self.middle[0] - x), factor * (self.middle[1] - y))
+        return CameraPose2D(factor * (self.middle[0] - x), factor * (self.middle[1] - y))
 
 
 @dataclass(frozen=True)
@@ -122,11 +125,11 @@ class Shake:
         size = self.amplitude or self.usual_px
         return {"camera": self.name, "amplitude_px": size, "camera_seed": self.seed}
 
-    def __call__(self, t_us: float) -> Place:
+    def __call__(self, t_us: float) -> CameraPose2D:
         """The sum at `t_us`."""
         angular, phase, amplitude = self._waves[:, 0], self._waves[:, 1], self._waves[:, 2]
         x, y = (amplitude * np.sin(angular * t_us + phase)).sum(axis=1)
-        return Place(float(x), float(y))
+        return CameraPose2D(float(x), float(y))
 
 
 SHAKE_KEY = 0x5AAE
@@ -148,7 +151,7 @@ class Pan:
         """Its name and speed."""
         return {"camera": self.name, "amplitude_px": self.amplitude or self.usual_px}
 
-    def __call__(self, t_us: float) -> Place:
+    def __call__(self, t_us: float) -> CameraPose2D:
         """On its way at `t_us`."""
         speed = self.amplitude or self.usual_px
-        return Place(speed * (t_us / MICROSECONDS - self.seconds / 2))
+        return CameraPose2D(speed * (t_us / MICROSECONDS - self.seconds / 2))

@@ -23,7 +23,6 @@ from texvent.capture.linear_light import (
     linear_facts,
     to_light,
 )
-from texvent.capture.motion_vectors.conventions import named_convention
 from texvent.capture.motion_vectors.fields import FRAME_EXTENSIONS, read_file
 from texvent.capture.motion_vectors.values import metric_depth
 from texvent.config import CaptureConfig
@@ -203,8 +202,7 @@ def _depth(given: Any, config: CaptureConfig, levels: NDArray[np.float32]) -> ND
                 f"depth is {shown(str(given))}; give one file that exists, of one of "
                 f"{', '.join(FRAME_EXTENSIONS)}"
             )
-        convention = named_convention(config.motion_convention)
-        stored, where = read_file(path, "depth", convention)["depth"], str(path)
+        stored, where = read_file(path, "depth")["depth"], str(path)
     else:
         stored, where = np.asarray(given), "depth"
     height, width = levels.shape

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.camera_path.motion import Place, Pose
+from texvent.capture.camera_path.motion import CameraPose2D, Pose
 from texvent.errors import FileFormatError, InputError, one_line, shown
 from texvent.options.values import parse_fraction
 from texvent.runtime.file_names import usable_path
@@ -88,10 +88,10 @@ class PlaceFile:
         """What kind of file it is."""
         return {"camera": "positions"}
 
-    def __call__(self, t_us: float) -> Place:
+    def __call__(self, t_us: float) -> CameraPose2D:
         """Between two rows."""
         x, y, roll, log_zoom = map(float, self.rows(t_us))
-        return Place(x, y, roll, math.exp(log_zoom))
+        return CameraPose2D(x, y, roll, math.exp(log_zoom))
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,13 +9,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.camera_path.motion import Place, Pose
+from texvent.capture.camera_path.motion import CameraPose, CameraPose2D, Pose
 from texvent.errors import InputError
 from texvent.sensor import SensorSize
 
 Float64Array = NDArray[np.float64]
 STEPS = 30
 """Halvings of the interval in which the scale is looked for."""
+NEAREST = 1e-3
+"""Least distance to a plane, by the distance that it had."""
 MOST_REACH = 3.0
 """The mirrored image reaches from -3 to 3 if the image reaches from -1 to 1."""
 
@@ -35,7 +37,7 @@ class View:
     reference_m: float = 1.0
     """Depth of surfaces that move by the px that a path states, m."""
 
-    def matrix(self, place: Place | Pose, nearness: float = 1.0) -> Float64Array:
+    def matrix(self, place: CameraPose, nearness: float = 1.0) -> Float64Array:
         """Where a flat, upright surface is seen.
 
         Args:
@@ -47,20 +49,55 @@ class View:
         """
         centre_x, centre_y = self.sensor.width / 2, self.sensor.height / 2
         image_x, image_y = self.image.width / 2, self.image.height / 2
-        if isinstance(place, Place):
+        if isinstance(place, CameraPose2D):
             factor = self.scale / place.zoom
             cos, sin = factor * math.cos(place.roll), factor * math.sin(place.roll)
             x = self.scale * place.x * nearness + image_x - (cos * centre_x - sin * centre_y)
             y = self.scale * place.y * nearness + image_y - (sin * centre_x + cos * centre_y)
             return np.array([[cos, -sin, x], [sin, cos, y], [0.0, 0.0, 1.0]])
-        focal = float(self.focal_px or 1.0)
-        to_rays = np.diag([self.scale / focal, self.scale / focal, 1.0])
-        to_rays[:2, 2] = -self.scale * centre_x / focal, -self.scale * centre_y / focal
-        to_image = np.array([[focal, 0.0, image_x], [0.0, focal, image_y], [0.0, 0.0, 1.0]])
         to_first = place.rotation + np.outer(place.position, (0, 0, nearness / self.reference_m))
-        return np.asarray(to_image @ to_first @ to_rays)
+        return np.asarray(self._to_image() @ to_first @ self._to_rays())
 
-    def reach(self, places: Sequence[Place | Pose], nearness: Sequence[float] = (1.0,)) -> float:
+    def homography(self, place: CameraPose, nearness: float = 1.0) -> Float64Array:
+        """View of a plane of the image that stays where it was when the image was taken.
+
+        Returns:
+            [3, 3] as `matrix`, which puts the plane that far in front of a moved camera instead.
+        """
+        if isinstance(place, CameraPose2D):
+            return self.matrix(place, nearness)
+        shift = place.position * (nearness / self.reference_m)
+        ahead = max(1 - shift[2], NEAREST)  # a plane that the camera has passed stays in front
+        to_first = place.rotation + np.outer(shift, place.rotation[2]) / ahead
+        return np.asarray(self._to_image() @ to_first @ self._to_rays())
+
+    def share_ahead(self, place: Pose, nearness: float, points: Float64Array) -> Float64Array:
+        """Depth along a moved camera's axis by the depth that a plane had, [n].
+
+        Args:
+            place: the camera.
+            nearness: of the plane.
+            points: [n, 3] px of the sensor, homogeneous.
+        """
+        image = points @ self.homography(place, nearness).T
+        rays = image / image[:, 2:] @ np.linalg.inv(self._to_image()).T
+        return np.asarray(
+            (rays - place.position * (nearness / self.reference_m)) @ place.rotation[:, 2]
+        )
+
+    def _to_rays(self) -> Float64Array:
+        """Sensor px → rays in the camera's axes."""
+        step = self.scale / float(self.focal_px or 1.0)
+        x, y = self.sensor.width / 2, self.sensor.height / 2
+        return np.array([[step, 0.0, -step * x], [0.0, step, -step * y], [0.0, 0.0, 1.0]])
+
+    def _to_image(self) -> Float64Array:
+        """Rays in the first camera's axes → image px."""
+        focal = float(self.focal_px or 1.0)
+        x, y = self.image.width / 2, self.image.height / 2
+        return np.array([[focal, 0.0, x], [0.0, focal, y], [0.0, 0.0, 1.0]])
+
+    def reach(self, places: Sequence[CameraPose], nearness: Sequence[float] = (1.0,)) -> float:
         """How far corners of the sensor come from the image's centre: 1 is its border.
 
         Args:
@@ -83,7 +120,11 @@ class View:
 
 
 def fitted_view(
-    start: View, places: Sequence[Place | Pose], nearness: Sequence[float], *, is_pixelwise: bool
+    start: View,
+    places: Sequence[CameraPose],
+    nearness: Sequence[float],
+    *,
+    is_pixelwise: bool,
 ) -> View:
     """The view whose scale keeps the sensor in the image on all its path, if it can.
 
@@ -115,7 +156,7 @@ def fitted_view(
     return _checked(view, places, nearness)
 
 
-def _checked(view: View, places: Sequence[Place | Pose], nearness: Sequence[float]) -> View:
+def _checked(view: View, places: Sequence[CameraPose], nearness: Sequence[float]) -> View:
     reach = view.reach(places, nearness)
     if reach > MOST_REACH:
         far = "to its side or behind it" if math.isinf(reach) else f"{reach / 2:.1f} times its size"

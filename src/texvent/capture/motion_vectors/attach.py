@@ -7,10 +7,8 @@ from pathlib import Path
 from typing import Any
 
 from texvent.capture.image_folder import INNER_FOLDERS
-from texvent.capture.motion_vectors.conventions import named_convention
-from texvent.capture.motion_vectors.fields import open_fields, written_by
+from texvent.capture.motion_vectors.fields import ROLE_KIND, open_fields, written_by
 from texvent.capture.motion_vectors.frames import MotionFrames
-from texvent.capture.motion_vectors.stack import ROLE_KIND
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
 from texvent.video import FrameStream
@@ -26,13 +24,13 @@ TRUTH_PARTS = {
     "depth": "depth",
     "instances": "instance",
 }
-"""Where such a folder holds what motion is followed by."""
+"""Option → part of such a folder."""
 
 
 def attach_motion(
     stream: FrameStream, config: CaptureConfig, given: Mapping[str, Any] | None = None
 ) -> FrameStream:
-    """The stream with what the options name, and what is given in memory, in `Frame.motion`.
+    """The stream with the fields of files and of memory in `Frame.motion`.
 
     Args:
         stream: frames as they come, not cut or fitted yet.
@@ -57,8 +55,7 @@ def attach_motion(
     if stream.is_live:
         raise InputError("motion vectors need frames that can be read twice, not a live stream")
     sources = _of_truth(sources)
-    name = named_convention(config.motion_convention)
-    stacks = {role: open_fields(one, role, name) for role, one in sources.items()}
+    stacks = {role: open_fields(one, role) for role, one in sources.items()}
     motion = MotionFrames(stream, stacks, config)
     if config.check_motion:
         motion.check()
@@ -82,11 +79,11 @@ def _of_truth(sources: Mapping[str, Any]) -> dict[str, Any]:
     }
 
 
-def own_motion(source: Any) -> Path | None:
-    """The passes that a folder of frames brings along, or None.
+def find_motion_sidecar(source: Any) -> Path | None:
+    """Motion passes beside or inside a folder of frames, or None.
 
     They are OpenEXR files in a folder `motion` beside its folder of images, or its own OpenEXR
-    files: these say what they hold, so nothing is guessed.
+    files: their channels have names, so nothing is guessed.
     """
     if not isinstance(source, str | Path):
         return None

@@ -1,4 +1,4 @@
-"""What the numbers of a motion vector mean, for every renderer, and how they become pixels."""
+"""Conventions of motion vectors, by renderer, and conversion to pixels."""
 
 from __future__ import annotations
 
@@ -18,11 +18,10 @@ Direction = Literal["forward", "backward"]
 
 @dataclass(frozen=True)
 class Convention:
-    """How stored vectors are meant. The defaults are those of `Motion`, Middlebury and KITTI."""
+    """Meaning of stored vectors. The defaults are those of `Motion`, Middlebury and KITTI."""
 
     direction: Direction = "forward"
-    """Which motion one field without a name of its own describes: to the next frame, or the
-    previous one."""
+    """Direction of a field without a name of its own: to the next frame, or the previous one."""
     forward_sign: int = 1
     """1 where a forward vector is the next place minus this one, -1 where it is the opposite."""
     backward_sign: int = 1
@@ -60,12 +59,10 @@ CONVENTIONS: Mapping[str, Convention] = {
         "backward", backward_sign=-1, unit="ndc", is_y_up=True, scale=4.0, offset=0.5
     ),
     "isaac": Convention("backward"),
-    "kitti": Convention(),
-    "dsec": Convention(),
 }
-"""Renderer or data set → its convention.
+"""Renderer → its convention.
 
-standard: px to the next frame, x right, y down; also Middlebury's .flo.
+standard: px to the next frame, x right, y down; also Middlebury, KITTI and DSEC.
 blender: pass Vector; measured with Blender 5.0: X, Y lead to the previous frame, Z, W away from the
     next one, y up, px.
 carla: sensor.camera.optical_flow: the motion since the previous frame, in normalised device
@@ -74,11 +71,8 @@ unreal: MovieRenderQueue_MotionVectors: the same encoded as v / 4 + 0.5 (Common.
     EncodeVelocityToTexture, of Unreal 4).
 isaac: motion_vectors of Isaac Lab and Replicator: positive where the movement was to the left and
     to the top, which is the way back to the previous frame.
-kitti, dsec: 16-bit PNG, which the reader decodes.
 """
 
-SHORTER: Mapping[str, str] = {"kitti,scale=0.5": "dsec", "dsec,scale=2": "kitti"}
-"""Words → the name that means the same."""
 _OVERRIDES: Mapping[str, Mapping[str, Any]] = {
     "forward": {"direction": "forward"},
     "backward": {"direction": "backward"},
@@ -162,7 +156,7 @@ def with_words(text: str, words: Sequence[str]) -> str:
             one for one in kept[1:] if parse_convention(f"{kept[0]},{one}") != default
         ]
     said = ",".join(kept)
-    return SHORTER.get(said, said)
+    return said
 
 
 def _sets(word: str) -> frozenset[str]:

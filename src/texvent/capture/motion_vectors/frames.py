@@ -23,7 +23,7 @@ from texvent.capture.motion_vectors.conventions import (
     to_pixels,
     with_words,
 )
-from texvent.capture.motion_vectors.stack import FieldStack, Role
+from texvent.capture.motion_vectors.fields import FieldStack, Role
 from texvent.capture.motion_vectors.values import (
     check_vectors,
     instance_ids,
@@ -199,7 +199,7 @@ class MotionFrames(FrameSource):
         if factor < 1 or (stored.shape[1] * factor, stored.shape[0] * factor) != (width, height):
             raise InputError(wrong_size(where, stored.shape, self._stream.size))
         stack = self._stacks[field.role]
-        if unknown and not stack.marks_unknown and stack.name not in self._warned:
+        if unknown and stack.name not in self._warned:
             self._warned.add(stack.name)
             warn(f"{where} is NaN in {unknown:.2%} of its pixels; they count as not known")
 

@@ -19,8 +19,6 @@ STEPS: Mapping[str, str] = {
     "publish": "write the index, the card and the description of a data set",
     "merge": "put data sets together",
     "export": "write the samples of a data set in another layout",
-    "nt-imagenet": "streams of N-ImageNet with captions, as prompts for our own",
-    "align": "how well the events fit their texts, by a CLIP model of yours",
 }
 """Name, which is its module beside this one → what it does."""
 

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, NamedTuple
 
-from texvent.bench.selftest.controls import CONTROLLED, run_controls
 from texvent.cli.event_files.comparison_output import Candidate, Findings, metric_rows, show
 from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
@@ -19,6 +18,7 @@ from texvent.events import EventStream
 from texvent.io.atomic import check_output
 from texvent.io.files import load
 from texvent.metrics.compare import compare, describe_metrics, load_metric
+from texvent.metrics.controls import CONTROLLED, run_controls
 from texvent.metrics.protocol import Metric
 from texvent.metrics.rvt.eqs import EventQualityScore, load_eqs
 from texvent.metrics.stpp import Stpp

@@ -13,10 +13,9 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from texvent.bench.document import plain_values
 from texvent.cli.notices import result_console
 from texvent.metrics.protocol import Metric
-from texvent.metrics.scores import GOOD, score_text
+from texvent.metrics.scores import GOOD, plain_values, score_text
 from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS
 from texvent.metrics.uncertainty.bootstrap import LEAST_WINDOWS
 from texvent.metrics.uncertainty.window_scores import Verdict, WindowScores

@@ -46,7 +46,6 @@ EXTRAS = {
     "quantize": ("bitsandbytes", "learned models with 8 or 4 bits: --quantize"),
     "rife": ("torch", "RIFE interpolation"),
     "v2ce": ("torch", "the V2CE simulator"),
-    "train": ("matplotlib", "texvent train"),
     "plot": ("matplotlib", "events.plot()"),
     "gpu": ("triton", "texvent and esim on a GPU: --backend gpu"),
     "app": ("gradio", "the web page: texvent app"),

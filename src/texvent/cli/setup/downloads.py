@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+import contextlib
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from rich.console import Console
+from rich.progress import BarColumn, DownloadColumn, Progress, TextColumn, TransferSpeedColumn
 from rich.table import Table
 
 from texvent._registry import suggest
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.options import parse_options, refuse_arguments
-from texvent.data.download_bar import show_progress
 from texvent.errors import ConfigError
 
 ACTIONS = ("list", "pull")
@@ -82,3 +84,12 @@ class Downloads:
         )
         write_out(f"{path}\n")
         return 0
+
+
+@contextlib.contextmanager
+def show_progress(total: int | None) -> Iterator[Any]:
+    """A bar on standard error, so that results can be piped; total: bytes, if known."""
+    columns = (TextColumn("download"), BarColumn(), DownloadColumn(), TransferSpeedColumn())
+    with Progress(*columns, console=Console(stderr=True)) as bar:
+        task = bar.add_task("download", total=total)
+        yield SimpleNamespace(update=lambda increment: bar.update(task, advance=increment))

@@ -16,8 +16,8 @@ from texvent._registry import GENERATORS
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import FileFormatError
-from texvent.generate.video_models.download import find_downloaded
 from texvent.generate.video_models.known_models import LEAST_FPS, MODELS, VideoModel
+from texvent.generate.video_models.model_files import find_downloaded
 
 HUB_PACKAGE = "huggingface_hub"
 PIPELINE_PACKAGE = "diffusers"
@@ -123,7 +123,7 @@ def _describe_model(model: VideoModel) -> tuple[str, ...]:
     size = "image's" if model.width is None else f"{model.width}x{model.height}"
     memory = " / ".join("-" if gb is None else f"{gb:g}" for gb in (model.gpu_gb, model.offload_gb))
     rate = f"{model.fps} low" if model.is_low_fps else f"{model.fps}"
-    marks = ("" if model.licence_source else " ?") + ("" if model.is_verified else " *")
+    mark = "" if model.licence_source else " ?"
     return (
         model.name,
         _is_here(model),
@@ -133,7 +133,7 @@ def _describe_model(model: VideoModel) -> tuple[str, ...]:
         "fixed" if model.steps is None else str(model.steps),
         memory,
         "-" if model.time_s is None else f"{model.time_s:g}",
-        model.licence + marks,
+        model.licence + mark,
     )
 
 
@@ -158,15 +158,13 @@ def _grouped(lines: Iterable[tuple[str, str]]) -> list[str]:
 def _notes() -> list[str]:
     models = MODELS.values()
     images = ", ".join(model.name for model in models if model.needs_image)
-    references = ", ".join(model.name for model in models if model.needs_reference)
     notes = [
         "",
         "GPU GB, as reported: every part on the GPU / with --offload model. time s: one video of",
         "that many frames, as its publisher says. These start from an image (--image):",
         f"  {images}",
-        f"These follow a video (--reference-video): {references}",
         "None was run here with its published weights. Every pipeline runs in texvent's tests with",
-        "tiny random ones (* not yet). Times were read in:",
+        "tiny random ones. Times were read in:",
         *_grouped((model.name, model.time_source) for model in models if model.time_s),
         "Licences (? not read), read at the publisher's unless a line says otherwise:",
         *_grouped(

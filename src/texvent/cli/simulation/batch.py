@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -22,10 +21,8 @@ from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import print_settings
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, OutputError, TexventError
-from texvent.generate.prompts.upsample_config import UpsampleConfig
-from texvent.generate.video_models.lookup import warn_low_fps
+from texvent.generate.video_models.known_models import warn_low_fps
 from texvent.io.files import codec_for, extension_of
-from texvent.options.values import plain
 from texvent.run.files import RunFiles
 from texvent.run.prepare import check_run, prepare_prompt, prepare_source, report_prompt
 from texvent.run.settings import Settings
@@ -43,7 +40,7 @@ noted in the folder: the same command goes on where it was stopped.
 
 
 @dataclass(frozen=True, kw_only=True)
-class BatchOptions(UpsampleConfig):
+class BatchOptions:
     """What to make, and how many at once."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("sources", "generator")
@@ -61,7 +58,6 @@ class BatchOptions(UpsampleConfig):
     loaded once per process."""
 
     def __post_init__(self) -> None:
-        super().__post_init__()
         check_range("jobs", self.jobs, 1, 256)
 
 
@@ -145,8 +141,7 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
         truth=output.truth_parts,
         overwrite=output.overwrite,
     )
-    upsample = own if own.upsample is not None else None
-    return BatchPlan(settings, upsample, folder, extension, files)
+    return BatchPlan(settings, folder, extension, files)
 
 
 def _refuse_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> None:
@@ -171,7 +166,6 @@ def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
         "texvent_version": full_version(),
         "samples": "videos" if is_of_videos else "prompts",
         "settings": plan.settings.as_tables(),
-        "upsample": plain(dataclasses.asdict(plan.upsample)) if plan.upsample else None,
         "format": plan.files.formats[0] if plan.files.formats else plan.extension,
         "previews": list(plan.files.previews),
         "palette": plan.files.palette,
@@ -189,7 +183,7 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
         if first.video is not None:
             simulation = prepare_source(first.video, settings, prompt=first.prompt)
         else:
-            simulation = prepare_prompt(first.subject, settings, upsample=plan.upsample)
+            simulation = prepare_prompt(first.subject, settings)
         write_out(f"the first, {first.name}:\n")
         write_out(describe_estimate(estimate_run(simulation, plan.files_of(first))) + "\n")
     return 0
@@ -198,7 +192,7 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
 def _read_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> Iterator[str]:
     """How many prompts are understood word for word; a line, or none."""
     tally = ReportTally()
-    if plan.upsample is None and samples[0].video is None:
+    if samples[0].video is None:
         for sample in samples:
             try:
                 report = report_prompt(sample.subject, plan.settings, is_staged=False)

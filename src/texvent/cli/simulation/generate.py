@@ -18,9 +18,8 @@ from texvent.cli.simulation.preview import check_preview, write_preview
 from texvent.cli.subject import read_subject, subject_name
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, warn
-from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.generate.scene_input import Subject, check_takes
-from texvent.generate.video_models.lookup import warn_low_fps
+from texvent.generate.video_models.known_models import warn_low_fps
 from texvent.io.atomic import check_output
 from texvent.options.fields import option_names
 from texvent.run.prepare import check_run, is_strict, make_scene, make_video, prepare_prompt
@@ -41,7 +40,7 @@ VIDEO_EXTENSION = ".avi"
 
 
 @dataclass(frozen=True, kw_only=True)
-class PromptOptions(UpsampleConfig):
+class PromptOptions:
     """What to show."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("generator",)
@@ -109,7 +108,7 @@ def run(arguments: Sequence[str]) -> int:
         if output.out and not output.dry_run:
             warn("--preview stops before the events, so -o has no effect; run again without it")
         write_preview(
-            prompt, settings, own.preview, upsample=own, overwrite=output.overwrite,
+            prompt, settings, own.preview, overwrite=output.overwrite,
             is_quiet=output.quiet,
         )  # fmt: skip
         if not output.dry_run:
@@ -123,7 +122,7 @@ def run(arguments: Sequence[str]) -> int:
         write_out(f"{plan}\n")
         return 0
     with ConsoleProgress(is_quiet=output.quiet) as progress:
-        simulation = prepare_prompt(prompt, settings, upsample=own, progress=progress)
+        simulation = prepare_prompt(prompt, settings, progress=progress)
     return execute(simulation, output, files)
 
 
@@ -199,8 +198,7 @@ def _write_scene(
 ) -> int:
     """Write the scene of a prompt and print its path."""
     path = own.write_scene or Path()
-    with ConsoleProgress(is_quiet=output.quiet) as progress:
-        scene = make_scene(prompt, settings, upsample=own, progress=progress)
+    scene = make_scene(prompt, settings)
     save_scene(path, scene, overwrite=output.overwrite)
     if not output.quiet:
         write_out(f"{path}\n")
@@ -225,7 +223,7 @@ def _write_video(
     truth = _truth_of_video(path, own, output)
     warn_low_fps(own.generator)
     with ConsoleProgress(is_quiet=output.quiet) as progress:
-        video = make_video(prompt, settings, upsample=own, progress=progress)
+        video = make_video(prompt, settings, progress=progress)
         write_stream(video, path, overwrite=output.overwrite)
         if truth is not None:
             from texvent.truth.saving import save_truth  # brings the ray caster

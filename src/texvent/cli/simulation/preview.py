@@ -9,7 +9,6 @@ from texvent.cli.notices import say, write_out
 from texvent.cli.run import describe_scene
 from texvent.errors import ConfigError
 from texvent.generate.procedural import ProceduralGenerator, ProceduralVideo
-from texvent.generate.prompts.upsample_config import UpsampleConfig
 from texvent.generate.scene_input import Subject
 from texvent.io.atomic import atomic_file, check_output
 from texvent.run.prepare import make_video
@@ -42,7 +41,7 @@ _ABOUT_HALF = 0.43
 
 
 def write_preview(
-    prompt: Subject, settings: Settings, path: Path, *, upsample: UpsampleConfig, overwrite: bool,
+    prompt: Subject, settings: Settings, path: Path, *, overwrite: bool,
     is_quiet: bool,
 ) -> None:  # fmt: skip
     """Write the scene at its beginning, about its middle and its end; say what is shown.
@@ -55,7 +54,7 @@ def write_preview(
 
     settings = replace(settings, source=replace(settings.source, samples=1))  # a draft
     with ConsoleProgress(is_quiet=is_quiet) as progress:
-        video = make_video(prompt, settings, upsample=upsample, progress=progress)
+        video = make_video(prompt, settings, progress=progress)
     if not is_quiet:
         for line in describe_scene(video.metadata, with_words=True):
             say(line)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.capture.motion_vectors.attach import own_motion
+from texvent.capture.motion_vectors.attach import find_motion_sidecar
 from texvent.cli.command import resolve_command
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.run import print_settings, run_source
@@ -42,7 +42,7 @@ def run(arguments: Sequence[str]) -> int:
     settings, own, output = resolve_command(
         "simulate", arguments, VideoOptions(), description=DESCRIPTION
     )
-    found = None if settings.source.motion else own_motion(own.source)
+    found = None if settings.source.motion else find_motion_sidecar(own.source)
     if found is not None:  # it decides the defaults of other options
         settings, own, output = resolve_command(
             "simulate",

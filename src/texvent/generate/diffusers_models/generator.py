@@ -3,41 +3,53 @@
     generator = GENERATORS.load("wan-1.3b")(config, seed=0, size=None)
     video = generator.generate("a red car drives left")
 
-The pipeline is loaded only if the video was not made before. Frames go from the model's decoder
-into a lossless 16-bit file, a few at a time where the decoder allows it, and are read from there.
+The pipeline is loaded only if the video was not made before. Its frames go into a lossless 16-bit
+file and are read from there.
 """
 
 from __future__ import annotations
 
-import dataclasses
 import functools
 from collections.abc import Iterator
 from fractions import Fraction
+from importlib import metadata
 from pathlib import Path
 from typing import Any, ClassVar
 
 from texvent._require import require
 from texvent._version import __version__
 from texvent.errors import ConfigError, InputError
-from texvent.generate.diffusers_models.latents import Latents
-from texvent.generate.diffusers_models.model_run import ModelRun
+from texvent.generate.diffusers_models.guardrail import (
+    PART,
+    check_prompt,
+    guardrail_version,
+    needs_guardrail,
+)
+from texvent.generate.diffusers_models.latents import Latents, decode_latents, read_latents
 from texvent.generate.diffusers_models.pipeline_call import (
+    call_pipeline,
     check_options,
-    check_reference,
     read_image,
 )
-from texvent.generate.video_config import DiffusersConfig
-from texvent.generate.video_models.adapters import (
-    Adapter,
-    digest_adapter,
-    files_of,
-    find_local,
+from texvent.generate.diffusers_models.pipeline_loading import (
+    LoadRequest,
+    Pipeline,
+    find_kept,
+    find_pipeline_class,
+    load_pipeline,
+    place,
+    resolve_device,
 )
-from texvent.generate.video_models.download import find_downloaded
+from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.known_models import VideoModel
 from texvent.generate.video_models.loading import quiet_libraries
-from texvent.generate.video_models.weight_files import CONFIG, check_part, fingerprint
-from texvent.generate.videos.reference_video import check_reference_file, warn_of_rate
+from texvent.generate.video_models.lora import Lora, check_loras, parse_lora
+from texvent.generate.video_models.model_files import (
+    find_downloaded,
+    find_files,
+    fingerprint,
+    read_pipeline_index,
+)
 from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import VideoCache, content_key
@@ -53,18 +65,18 @@ PIXEL_OPTIONS = (
 )
 """Options that decide the pixels, beside model, prompt, seed and files."""
 PIXEL_FACTS = ("call", "sigmas", "scheduler")
-"""What of a model's row decides the pixels too."""
-NETWORK_OPTIONS = ("decoder", "motion_adapter")
-"""Options that name a network."""
+"""Fields of a model's row that decide the pixels too."""
+PACKAGES = ("diffusers", "transformers", "torch")
+"""Packages that decide the pixels beside the weights; their versions go into the metadata."""
+SECOND_TRANSFORMER = "transformer_2"
 
 
 class DiffusersGenerator:
     """A learned text-to-video model, run through diffusers.
 
     Args:
-        config: options; None values are the pipeline's own defaults, no `lora` the row's. A model
-            that follows a video keeps the row's beside others.
-        model: where the weights are, and what they were made for.
+        config: options; None values are the pipeline's own defaults.
+        model: origin of the weights, and defaults.
         seed: seed of the first noise.
     """
 
@@ -73,18 +85,18 @@ class DiffusersGenerator:
     default_sensor: ClassVar[str | None] = None
 
     def __init__(self, config: DiffusersConfig, *, model: VideoModel, seed: int = 0) -> None:
-        own = model.lora if model.needs_reference or not config.lora else ()
-        self.config = dataclasses.replace(config, lora=(*own, *config.lora))
+        self.config = config
         self.model = model
         self.seed = seed
-        self._run: ModelRun | None = None
+        self._loras = tuple(map(parse_lora, config.lora))
+        self._run: _ModelRun | None = None
 
     def generate(self, prompt: str, *, progress: Progress | None = None) -> StoredVideo:
         """The video for `prompt`, made now unless it was made before.
 
         Args:
-            prompt: what to show.
-            progress: receives the licence before a download, and every denoising step; an exception
+            prompt: content of the video.
+            progress: receives the licence before a download, and denoising steps; an exception
                 from it, like Ctrl-C, stops the run and leaves nothing behind.
 
         Raises:
@@ -95,8 +107,6 @@ class DiffusersGenerator:
             MissingDependencyError: a package is not installed.
         """
         self._check(prompt)
-        if self.config.reference_video is not None:
-            warn_of_rate(self.config.reference_video, self.fps)
         return generate_checked(
             functools.partial(self._find_or_make, prompt),
             self.config,
@@ -106,7 +116,7 @@ class DiffusersGenerator:
         )
 
     def generate_latents(self, prompt: str, *, progress: Progress | None = None) -> Latents:
-        """What the model denoises for `prompt`, with the scale and shift of its decoder.
+        """Denoised latents for `prompt`, with the scale and shift of their decoder.
 
         Raises:
             InputError: the model's decoder is not known, or the model has a guardrail that must
@@ -116,27 +126,27 @@ class DiffusersGenerator:
         return self._loaded(progress or NoProgress()).latents(prompt, self.seed)
 
     def decode(self, latents: Latents) -> Iterator[PixelArray]:
-        """Frames of latents, [H, W, 3] float32 in 0..1, a few at a time in memory."""
-        return self._loaded(NoProgress()).decode(latents)
+        """Frames of latents, [H, W, 3] float32 in 0..1."""
+        return decode_latents(self._loaded(NoProgress()).pipeline, latents)
 
     def plan(self, prompt: str) -> str | None:
         """What making the video would take, or None if it was made before. Touches no network.
 
         Raises:
-            TexventError: as `generate`, for what shows before the model's networks are loaded.
+            TexventError: as `generate`, for faults that show before the networks are loaded.
         """
         self._check(prompt)
         key = content_key(self._pixel_facts(prompt, self.seed))
         if VideoCache(is_kept=self.config.reuse_video).find(key, self.fps) is not None:
             return None
         config, folder = self.config, self.model.folder or find_downloaded(self.model)
-        if folder is None or None in map(find_local, config.adapters):
+        if folder is None:
             self._check_before_loading()
-        else:  # all files are here: what does not fit them is refused too
+        else:  # all files are here: options that do not fit them are refused too
             self._loaded(NoProgress())
         here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
-        wishes = {"frames": config.frames, "steps": config.steps}
-        amounts = ", ".join(f"{value} {name}" for name, value in wishes.items() if value)
+        wanted = {"frames": config.frames, "steps": config.steps}
+        amounts = ", ".join(f"{value} {name}" for name, value in wanted.items() if value)
         return (
             f"the video is not made yet: {self.model.name} would make it"
             f"{f' ({amounts})' if amounts else ''}; {here}; licence: {self.model.licence_and_terms}"
@@ -147,7 +157,7 @@ class DiffusersGenerator:
         """Frame rate that the model is given or was made for.
 
         Raises:
-            ConfigError: neither the option nor the model's row says it.
+            ConfigError: neither the option nor the model's row states it.
         """
         rate = self.config.fps or self.model.fps
         if rate is None:
@@ -164,31 +174,16 @@ class DiffusersGenerator:
             read_image(self.config.image)
         elif self.model.needs_image:
             raise InputError(f"{self.model.name} starts from an image; give --image PATH")
-        if self.model.pipeline is not None:
-            check_reference(self.model.pipeline, self.config)
-        if self.config.reference_video is not None:
-            check_reference_file(self.config.reference_video, self.config.frames or 1)
-        self._check_networks()
-        for adapter in self.config.adapters:
-            find_local(adapter)
+        for lora in self._loras:
+            lora.check_file()
         self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
 
-    def _check_networks(self) -> None:
-        """Refuse the folders of networks that are missing, damaged or of no use to the model."""
-        for option in NETWORK_OPTIONS:
-            folder = getattr(self.config, option)
-            if folder is None:
-                continue
-            if not (folder / CONFIG).is_file():
-                raise InputError(f"there is no {option} in {folder} (no {CONFIG})")
-            check_part(folder)
-
     def _check_before_loading(self) -> None:
-        """Refuse what shows without the model's files, which may have to be fetched first."""
+        """Refuse faults that show without the model's files, which may have to be fetched first."""
         model, config = self.model, self.config
         if config.lora:
             require("peft", extra=EXTRA)
-        name = None if config.motion_adapter is not None else model.pipeline
+        name = model.pipeline
         if config.image is not None:
             name = model.image_pipeline or name
         if name is None:
@@ -198,10 +193,10 @@ class DiffusersGenerator:
         if pipeline_class is not None:  # else the installed one is too old, which loading says
             check_options(pipeline_class, config)
 
-    def _loaded(self, progress: Progress) -> ModelRun:
+    def _loaded(self, progress: Progress) -> _ModelRun:
         if self._run is None:
             self._check_before_loading()
-            self._run = ModelRun(self.model, self.config, fps=self.fps, progress=progress)
+            self._run = _ModelRun(self.model, self.config, self._loras, self.fps, progress)
         self._run.progress = progress
         return self._run
 
@@ -238,13 +233,10 @@ class DiffusersGenerator:
         facts |= {name: value for name in PIXEL_FACTS if (value := getattr(model, name))}
         if not model.ignores_fps:
             facts["fps"] = self.fps
-        for name in (*NETWORK_OPTIONS, "image", "reference_video"):
-            if getattr(config, name) is not None:
-                facts[name] = _digest(getattr(config, name))
-        if config.lora:
-            facts["lora"] = [
-                [_adapter_content(one), one.weight, one.noise_or_name] for one in config.adapters
-            ]
+        if config.image is not None:
+            facts["image"] = _sha256(config.image)
+        if self._loras:
+            facts["lora"] = [[_lora_content(one), one.weight, one.noise] for one in self._loras]
         if model.folder is None:
             facts["source"] = model.source
         else:
@@ -253,28 +245,118 @@ class DiffusersGenerator:
 
     def _request_facts(self) -> dict[str, Any]:
         """Options and files of this run; a video found again may have been made with others."""
-        files = self._files()
-        return {"options": plain(self.config), **({"files": files} if files else {})}
-
-    def _files(self) -> list[dict[str, str]]:
-        """The single files that decide the frames, by path and sha256; `replay` compares them."""
-        config = self.config
-        paths = [config.image, config.reference_video]
-        for path in map(find_local, config.adapters):
-            paths += [] if path is None else files_of(path)
-        return [
-            {"file": str(path.absolute()), "sha256": _digest(path)}
+        paths = [self.config.image, *(one.file for one in self._loras)]
+        files = [
+            {"file": str(path.absolute()), "sha256": _sha256(path)}
             for path in paths
             if path is not None and path.is_file()
         ]
+        return {"options": plain(self.config), **({"files": files} if files else {})}
 
 
-def _digest(path: Path) -> str:
-    """Of a file, sha256; of a folder with a network, see `fingerprint`."""
-    return describe_file(path)["sha256"] if path.is_file() else fingerprint(path)
+class _ModelRun:
+    """A model with its files found and checked; its pipeline is loaded for the first prompt.
+
+    Args:
+        model: origin of the weights.
+        config: options.
+        loras: parsed from the options.
+        fps: frame rate, for models that take it as an input.
+        progress: receives downloads and denoising steps; may be replaced between prompts.
+
+    Raises:
+        InputError, FileFormatError, MissingDependencyError: see `model_files.find_files`.
+        ConfigError: the pipeline takes no LoRA, or not this one.
+    """
+
+    def __init__(
+        self,
+        model: VideoModel,
+        config: DiffusersConfig,
+        loras: tuple[Lora, ...],
+        fps: Fraction,
+        progress: Progress,
+    ) -> None:
+        self._model, self._config, self._fps, self.progress = model, config, fps, progress
+        self._files = find_files(model, progress.announce)
+        self._index = read_pipeline_index(self._files.folder)
+        self.has_guardrail = needs_guardrail(self._index)
+        device, free = resolve_device(config.generator_device)
+        self._request = LoadRequest(
+            folder=self._files.folder,
+            content=" ".join([fingerprint(self._files.folder), *map(_lora_content, loras)]),
+            class_name=(model.image_pipeline if config.image else None) or model.pipeline,
+            placement=place(model, config, device, free),
+            decoder_in_float32=model.needs_float32_vae,
+            loras=loras,
+            scheduler=tuple(model.scheduler.items()),
+        )
+        second = self._index.get(SECOND_TRANSFORMER) or [None]
+        self._pipeline_class = find_pipeline_class(self._request)
+        check_loras(loras, self._pipeline_class, has_two=second[0] is not None)
+
+    @functools.cached_property
+    def pipeline(self) -> Pipeline:
+        """The loaded pipeline."""
+        if find_kept(self._request) is None:
+            check_options(self._pipeline_class, self._config)  # before minutes of loading
+            placement = self._request.placement
+            self.progress.announce(f"loading {self._model.source} ({placement.describe()})")
+        return load_pipeline(self._request)
+
+    def frames(self, prompt: str, seed: int) -> Iterator[PixelArray]:
+        """Frames [H, W, 3] float32 in 0..1."""
+        if self.has_guardrail:
+            check_prompt(getattr(self.pipeline, PART, None), prompt)
+        return iter(self._call(prompt, seed, "np"))
+
+    def latents(self, prompt: str, seed: int) -> Latents:
+        """Denoised latents.
+
+        Raises:
+            InputError: the model has a guardrail, or its decoder is not known.
+        """
+        if self.has_guardrail:
+            raise InputError(
+                f"{self._model.name} gives no latents: its guardrail must see the frames"
+            )
+        output = self._call(prompt, seed, "latent")
+        return read_latents(self.pipeline, output, self._config.frames, self._fps)
+
+    def provenance(self) -> dict[str, Any]:
+        """Origin of the frames, beside prompt, seed and options."""
+        facts: dict[str, Any] = {
+            "source": self._model.source,
+            "commit": self._files.commit,
+            "pipeline": self._pipeline_class.__name__,
+            "dtype": self._request.placement.dtype,
+            "quantize": self._request.placement.quantize,
+            "licence": self._model.licence_and_terms,
+            **{name: metadata.version(name) for name in PACKAGES},
+        }
+        if self.has_guardrail:
+            facts["guardrail"] = guardrail_version()
+        return {name: value for name, value in facts.items() if value is not None}
+
+    def _call(self, prompt: str, seed: int, kind: str) -> Any:
+        """Frames ("np") or latents ("latent")."""
+        return call_pipeline(
+            self.pipeline,
+            prompt,
+            self._config,
+            model=self._model,
+            fps=self._fps,
+            # Of the CPU: the same noise on every device.
+            generator=require("torch", extra=EXTRA).Generator("cpu").manual_seed(seed),
+            output_type=kind,
+            progress=self.progress,
+        )
 
 
-def _adapter_content(adapter: Adapter) -> str:
-    """Digest of its files, or its name on the hub: looking for a video fetches nothing."""
-    path = find_local(adapter)
-    return adapter.source if path is None else digest_adapter(path)
+def _sha256(path: Path) -> str:
+    return describe_file(path)["sha256"]
+
+
+def _lora_content(lora: Lora) -> str:
+    """Digest of a local file, or the name on the hub: looking for a video fetches nothing."""
+    return lora.source if lora.file is None else _sha256(lora.file)

@@ -1,4 +1,4 @@
-"""Latents of a generated video, and decoding them a few frames at a time.
+"""Latents of a generated video, and decoding them.
 
 A video diffusion model denoises latents: small arrays that its decoder (VAE) turns into frames.
 """
@@ -15,16 +15,17 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.errors import InputError
-from texvent.generate.diffusers_models.streamed_decoding import COGVIDEOX, WAN, stream_decoder
 
 EXTRA = "generate"
+WAN = "AutoencoderKLWan"
+COGVIDEOX = "AutoencoderKLCogVideoX"
 KNOWN_DECODERS = (WAN, COGVIDEOX)
-"""Decoders whose scale and shift `read_latents` knows where to find."""
+"""Decoders whose scale and shift `read_latents` finds."""
 
 
 @dataclass(frozen=True, eq=False)
 class Latents:
-    """What a model denoised, before decoding; groundwork for events without frames (section 12).
+    """Denoised latents before decoding; groundwork for events without frames (section 12).
 
     The decoder takes `values · scale + shift`.
     """
@@ -44,13 +45,13 @@ class Latents:
 
     @property
     def decoder_input(self) -> NDArray[np.float32]:
-        """What the decoder takes, [C, T, h, w]."""
+        """Input of the decoder, [C, T, h, w]."""
         per_channel = (slice(None), None, None, None)
         return self.values * self.scale[per_channel] + self.shift[per_channel]
 
 
 def read_latents(pipe: Any, output: Any, frames: int | None, fps: Fraction) -> Latents:
-    """Latents from what a pipeline returns with `output_type="latent"`.
+    """Latents from the output of a pipeline called with `output_type="latent"`.
 
     Args:
         pipe: the pipeline, with one of `KNOWN_DECODERS`.
@@ -69,65 +70,31 @@ def read_latents(pipe: Any, output: Any, frames: int | None, fps: Fraction) -> L
             f"{', '.join(KNOWN_DECODERS)}"
         )
     values = output[0].float().cpu().numpy()
+    frames_per_latent = int(pipe.vae_scale_factor_temporal)
     if name == COGVIDEOX:
-        frames_per_latent = int(pipe.vae_scale_factor_temporal)
         asked = frames or int(pipe.transformer.config.sample_frames)
         values = values[-((asked - 1) // frames_per_latent + 1) :]
         values = np.ascontiguousarray(values.transpose(1, 0, 2, 3))
         scale = np.full(len(values), 1 / pipe.vae_scaling_factor_image, np.float32)
         shift = np.zeros(len(values), np.float32)
     else:
-        frames_per_latent = int(pipe.vae_scale_factor_temporal)
         scale = np.asarray(config.latents_std, np.float32)
         shift = np.asarray(config.latents_mean, np.float32)
     return Latents(values, scale, shift, fps, frames_per_latent, int(pipe.vae_scale_factor_spatial))
 
 
-def decode_frames(pipe: Any, latents: Latents) -> Iterator[NDArray[np.float32]]:
-    """Frames of latents, a few at a time in memory.
+def decode_latents(pipe: Any, latents: Latents) -> Iterator[NDArray[np.float32]]:
+    """Frames of latents in time order, [H, W, 3] float32 RGB in 0..1.
 
     Args:
         pipe: the pipeline they came from.
-        latents: what it denoised.
-
-    Yields:
-        Frames in time order, [H, W, 3] float32 RGB, 0..1.
+        latents: denoised by it.
     """
     torch = require("torch", extra=EXTRA)
     # Not the device of its parameters: offloaded layer by layer, those have none.
     inputs = torch.from_numpy(latents.decoder_input)[None]
-    return stream_frames(pipe, inputs.to(pipe._execution_device, pipe.vae.dtype))
-
-
-def stream_frames(pipe: Any, *decoder_input: Any) -> Iterator[NDArray[np.float32]]:
-    """Frames of what a decoder takes, a few at a time in memory.
-
-    Args:
-        pipe: the pipeline, whose decoder `streamed_decoding.can_stream`.
-        *decoder_input: latents [1, C, T, h, w], and what else the decoder takes.
-
-    Yields:
-        Frames in time order, [H, W, 3] float32 RGB, 0..1.
-    """
-    torch = require("torch", extra=EXTRA)
-    _wake(pipe.vae)
-    chunks = stream_decoder(pipe.vae, *decoder_input)
-    try:
-        while True:
-            # Gradients are switched off around every step, not around the generator, which would
-            # leave them off in the code that consumes it.
-            with torch.no_grad():
-                chunk = next(chunks, None)
-            if chunk is None:
-                return
-            pixels = (chunk * 0.5 + 0.5).clamp(0, 1)[0].permute(1, 2, 3, 0).cpu().float().numpy()
-            yield from pixels
-    finally:
-        pipe.maybe_free_model_hooks()
-
-
-def _wake(decoder: Any) -> None:
-    """Bring a decoder that is offloaded as a whole to its device, as calling it would."""
-    hook = getattr(decoder, "_hf_hook", None)
-    if hook is not None and hasattr(hook, "pre_forward"):
-        hook.pre_forward(decoder)
+    with torch.no_grad():
+        frames = pipe.vae.decode(inputs.to(pipe._execution_device, pipe.vae.dtype)).sample[0]
+    pipe.maybe_free_model_hooks()
+    pixels = (frames * 0.5 + 0.5).clamp(0, 1).permute(1, 2, 3, 0).cpu().float().numpy()
+    return iter(pixels)

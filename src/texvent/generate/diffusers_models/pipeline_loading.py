@@ -2,17 +2,14 @@
 
 from __future__ import annotations
 
-import dataclasses
 import inspect
-from collections.abc import Callable
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, TypeAlias
 
 from texvent._require import require
 from texvent.errors import ConfigError, InputError
-from texvent.generate.diffusers_models.adapter_loading import load_adapters
-from texvent.generate.diffusers_models.device_placement import Placement
 from texvent.generate.diffusers_models.guardrail import (
     GUARDRAIL_SWITCH,
     PART,
@@ -20,22 +17,45 @@ from texvent.generate.diffusers_models.guardrail import (
     load_guardrail,
     needs_guardrail,
 )
-from texvent.generate.diffusers_models.streamed_decoding import LTX
-from texvent.generate.diffusers_models.torchvision_stub import install_torchvision_stub
-from texvent.generate.video_models.adapters import AdapterFile
+from texvent.generate.video_config import DiffusersConfig
+from texvent.generate.video_models.known_models import VideoModel
 from texvent.generate.video_models.loading import loading, quiet_libraries
-from texvent.generate.video_models.weight_files import read_pipeline_index
+from texvent.generate.video_models.lora import Lora, load_loras
+from texvent.generate.video_models.model_files import read_pipeline_index
 
 EXTRA = "generate"
 Pipeline: TypeAlias = Any
 """diffusers.DiffusionPipeline; diffusers is imported only when a pipeline is loaded."""
 DECODER = "vae"
-TEXT_PARTS = ("text_encoder", "tokenizer")
-MOTION_PIPELINE = "AnimateDiffPipeline"
-"""Runs an image model with a motion adapter."""
 QUANTIZED_PARTS = ("transformer", "transformer_2")
-TILED_ONLY = ("AutoencoderKLAllegro",)
-"""Decoders that diffusers runs in tiles only."""
+GB = 1e9
+SEQUENTIAL_BELOW_GB = 9.0
+"""Free GPU memory below which even one whole part of a common model does not fit."""
+ROOMY_GB = 75.0
+"""Free GPU memory above which a model of unknown needs is put on the device as a whole."""
+QUANTIZED_SHARE = {"none": 1.0, "8bit": 0.6, "4bit": 0.45}
+"""Rough share of the memory that remains; decoder and text encoder are not quantised."""
+
+
+@dataclass(frozen=True)
+class Placement:
+    """How a pipeline is loaded."""
+
+    device: str
+    dtype: str
+    offload: str
+    """"none", "model" or "sequential"."""
+    tiles_decoder: bool
+    """Decode in tiles: less memory, faint differences where tiles meet."""
+    quantize: str = "none"
+    """Bits of the video transformer's weights: "none" (all), "8bit" or "4bit"."""
+
+    def describe(self) -> str:
+        """Device, number format and memory savings, for messages."""
+        facts = [self.device, self.dtype]
+        facts += [] if self.quantize == "none" else [f"weights in {self.quantize}"]
+        facts += [] if self.offload == "none" else [f"offload {self.offload}"]
+        return ", ".join(facts)
 
 
 _KEPT: dict[LoadRequest, Pipeline] = {}
@@ -44,7 +64,7 @@ _KEPT: dict[LoadRequest, Pipeline] = {}
 
 @dataclass(frozen=True)
 class LoadRequest:
-    """What decides a loaded pipeline; equal requests share one."""
+    """Facts that decide a loaded pipeline; equal requests share one."""
 
     folder: Path
     content: str
@@ -52,56 +72,14 @@ class LoadRequest:
     class_name: str | None
     """diffusers class, or None for the one the folder names."""
     placement: Placement
-    decoder: Path | None
-    """Folder of another decoder than the model's."""
-    decoder_in_float32: bool
-    motion_adapter: Path | None = None
-    """Folder of the motion adapter of an image model."""
-    adapters: tuple[AdapterFile, ...] = ()
+    decoder_in_float32: bool = False
+    loras: tuple[Lora, ...] = ()
     scheduler: tuple[tuple[str, Any], ...] = ()
-    """Settings of the noise schedule beside the saved ones; "class": another diffusers class."""
-    has_text_encoder: bool = True
-    """False leaves the text encoder out: prompts come as embeddings."""
+    """Settings of the noise schedule that replace the saved ones."""
 
 
-def resolve_device(wish: str, option: str = "generator_device") -> tuple[str, int | None]:
-    """The device, and its free memory in bytes (None for a CPU).
-
-    Args:
-        wish: "auto", or a torch device such as "cuda:1".
-        option: where the wish was given, for messages.
-
-    Raises:
-        ConfigError: there is no such device.
-        MissingDependencyError: torch is not installed.
-    """
-    torch = require("torch", extra=EXTRA)
-    if wish == "auto":
-        wish = "cuda" if torch.cuda.is_available() else "cpu"
-    try:
-        device = torch.device(wish)
-        torch.empty(1, device=device)
-        free = int(torch.cuda.mem_get_info(device)[0]) if device.type == "cuda" else None
-    except (RuntimeError, AssertionError) as error:
-        reason = str(error).splitlines()[0]
-        raise ConfigError(
-            f"{option} is {wish!r}, which torch cannot use here ({reason}); "
-            "allowed: auto, cpu, cuda, cuda:N, mps"
-        ) from error
-    return str(device), free
-
-
-def load_pipeline(
-    request: LoadRequest, announce: Callable[[str], None] = lambda line: None
-) -> Pipeline:
+def load_pipeline(request: LoadRequest) -> Pipeline:
     """The pipeline, in evaluation mode, placed as asked. The last one is kept for the next prompt.
-
-    One that has a text encoder also serves requests without, so that a batch that mixes new and
-    known prompts loads its model once.
-
-    Args:
-        request: what is loaded.
-        announce: receives what of an adapter is left out.
 
     Raises:
         FileFormatError: a weight file does not fit its network.
@@ -111,14 +89,93 @@ def load_pipeline(
     kept = find_kept(request)
     if kept is None:
         forget_pipeline()  # before the next is loaded: memory holds one
-        kept = _KEPT[request] = _load(request, announce)
+        kept = _KEPT[request] = _load(request)
     return kept
 
 
 def find_kept(request: LoadRequest) -> Pipeline | None:
     """The pipeline for that request if it is loaded already, else None."""
-    complete = dataclasses.replace(request, has_text_encoder=True)
-    return _KEPT.get(request) or _KEPT.get(complete)
+    return _KEPT.get(request)
+
+
+def resolve_device(name: str, option: str = "generator_device") -> tuple[str, int | None]:
+    """Device, and its free memory in bytes (None for a CPU).
+
+    Args:
+        name: "auto", or a torch device such as "cuda:1".
+        option: option that named it, for messages.
+
+    Raises:
+        ConfigError: there is no such device.
+        MissingDependencyError: torch is not installed.
+    """
+    torch = require("torch", extra=EXTRA)
+    if name == "auto":
+        name = "cuda" if torch.cuda.is_available() else "cpu"
+    try:
+        device = torch.device(name)
+        torch.empty(1, device=device)
+        free = int(torch.cuda.mem_get_info(device)[0]) if device.type == "cuda" else None
+    except (RuntimeError, AssertionError) as error:
+        reason = str(error).splitlines()[0]
+        raise ConfigError(
+            f"{option} is {name!r}, which torch cannot use here ({reason}); "
+            "allowed: auto, cpu, cuda, cuda:N, mps"
+        ) from error
+    return str(device), free
+
+
+def place(
+    model: VideoModel, config: DiffusersConfig, device: str, free_bytes: int | None
+) -> Placement:
+    """Choose the placement that is fastest and fits; what the user set is kept.
+
+    Args:
+        model: the model and its memory needs.
+        config: options; "auto" leaves a choice open.
+        device: resolved device, such as "cpu" or "cuda:0".
+        free_bytes: free memory of the GPU, or None on a CPU.
+
+    Raises:
+        ConfigError: an option needs a GPU and there is none.
+    """
+    if free_bytes is None:
+        for name, value in (("offload", config.offload), ("quantize", config.quantize)):
+            if value not in ("auto", "none"):
+                raise ConfigError(
+                    f"{name} is {value!r}, which needs a GPU, but the video is made on {device}; "
+                    f"leave --{name} out"
+                )
+        format_on_cpu = "float32" if config.dtype == "auto" else config.dtype
+        return Placement(device, format_on_cpu, "none", tiles_decoder=False)
+    quantize = _choose_quantization(model, config, free_bytes / GB)
+    offload: str = config.offload
+    if offload == "auto":
+        offload = _choose_offload(model, free_bytes / GB, QUANTIZED_SHARE[quantize])
+    dtype = model.dtype if config.dtype == "auto" else config.dtype
+    return Placement(device, dtype, offload, tiles_decoder=offload != "none", quantize=quantize)
+
+
+def _choose_quantization(model: VideoModel, config: DiffusersConfig, free_gb: float) -> str:
+    """As many bits as keep whole parts on the GPU; layer by layer is slower by an order."""
+    if config.quantize != "auto":
+        return config.quantize
+    if config.offload != "auto" or find_spec("bitsandbytes") is None:
+        return "none"
+    fitting = (
+        bits
+        for bits, share in QUANTIZED_SHARE.items()
+        if _choose_offload(model, free_gb, share) != "sequential"
+    )
+    return next(fitting, "none")
+
+
+def _choose_offload(model: VideoModel, free_gb: float, share: float) -> str:
+    if free_gb >= (model.gpu_gb or ROOMY_GB) * share:
+        return "none"
+    if free_gb >= (model.offload_gb or SEQUENTIAL_BELOW_GB) * share:
+        return "model"
+    return "sequential"
 
 
 def forget_pipeline() -> None:
@@ -144,26 +201,19 @@ def find_pipeline_class(request: LoadRequest) -> Any:
     return pipeline_class
 
 
-def _load(request: LoadRequest, announce: Callable[[str], None]) -> Pipeline:
+def _load(request: LoadRequest) -> Pipeline:
     # By the class itself: DiffusionPipeline.from_pretrained ignores optional parts given to it.
     pipeline_class = find_pipeline_class(request)
     parts = _load_guardrail_part(pipeline_class, request)
-    if not request.has_text_encoder:
-        parts.update(dict.fromkeys(TEXT_PARTS))
-    if request.decoder is not None:
-        dtype = "float32" if request.decoder_in_float32 else request.placement.dtype
-        parts[DECODER] = _load_network(request.decoder, dtype, "a decoder")
-    if request.motion_adapter is not None:
-        parts.update(_load_motion(request, request.motion_adapter))
     if request.placement.quantize != "none":
         parts["quantization_config"] = _quantization(request)
     pipe = _from_pretrained(pipeline_class, request, parts)
     if PART in parts:
         check_wiring(pipe)
-    for note in load_adapters(pipe, request.adapters):
-        announce(note)
+    load_loras(pipe, request.loras)
     if request.scheduler:
-        pipe.scheduler = _make_scheduler(pipe.scheduler, dict(request.scheduler))
+        saved = pipe.scheduler
+        pipe.scheduler = type(saved).from_config(saved.config, **dict(request.scheduler))
     with quiet_libraries():
         place_pipeline(pipe, request.placement)
     for part in pipe.components.values():
@@ -178,34 +228,8 @@ def _load_guardrail_part(pipeline_class: Any, request: LoadRequest) -> dict[str,
     """The guardrail, for models that must not run without it."""
     if not needs_guardrail(read_pipeline_index(request.folder)):
         return {}
-    install_torchvision_stub()
     has_switch = GUARDRAIL_SWITCH in inspect.signature(pipeline_class).parameters
     return {PART: load_guardrail(), **({GUARDRAIL_SWITCH: True} if has_switch else {})}
-
-
-def _make_scheduler(saved: Any, settings: dict[str, Any]) -> Any:
-    """A noise schedule with other settings than the saved one, or of another class."""
-    name = settings.pop("class", None)
-    kind = type(saved) if name is None else getattr(require("diffusers", extra=EXTRA), name)
-    return kind.from_config(saved.config, **settings)
-
-
-def _load_motion(request: LoadRequest, folder: Path) -> dict[str, Any]:
-    """A motion adapter, and the noise schedule that it was trained with (its authors' example)."""
-    scheduler = require("diffusers", extra=EXTRA).DDIMScheduler(
-        beta_schedule="linear", steps_offset=1, clip_sample=False
-    )
-    adapter = _load_network(folder, request.placement.dtype, "a motion adapter")
-    return {"motion_adapter": adapter, "scheduler": scheduler}
-
-
-def _load_network(folder: Path, dtype: str, role: str) -> Any:
-    """A network of any class that diffusers knows."""
-    torch = require("torch", extra=EXTRA)
-    with loading(folder, role):
-        return require("diffusers", extra=EXTRA).AutoModel.from_pretrained(
-            str(folder), dtype=getattr(torch, dtype), local_files_only=True, use_safetensors=True
-        )
 
 
 def _from_pretrained(pipeline_class: Any, request: LoadRequest, parts: dict[str, Any]) -> Pipeline:
@@ -254,8 +278,5 @@ def place_pipeline(pipe: Pipeline, placement: Placement) -> None:
     else:
         pipe.to(placement.device)
     decoder: Any = getattr(pipe, DECODER, None)
-    is_tiled = placement.tiles_decoder or type(decoder).__name__ in TILED_ONLY
-    if is_tiled and hasattr(decoder, "enable_tiling"):
+    if placement.tiles_decoder and hasattr(decoder, "enable_tiling"):
         decoder.enable_tiling()
-    if placement.tiles_decoder and type(decoder).__name__ == LTX:
-        decoder.use_framewise_decoding = True

@@ -1,4 +1,4 @@
-"""Around every `from_pretrained`: what the libraries say meanwhile, and what counts as damage.
+"""Context of every `from_pretrained`: library messages filtered, damage raised as an error.
 
 diffusers and transformers fill weights that a file lacks with random numbers and mention it in
 their log. Here that is an error. Their progress bars, and messages about their own insides, stay
@@ -19,24 +19,20 @@ from texvent.errors import FileFormatError
 EXTRA = "generate"
 LIBRARIES = ("diffusers", "transformers")
 DAMAGE = (OSError, ValueError, RuntimeError, AttributeError, TypeError, LookupError)
-"""What the libraries raise for files that do not fit, beside the error of safetensors."""
+"""Exceptions of the libraries for files that do not fit, beside that of safetensors."""
 LONGEST_REASON = 300
 NOISE = re.compile(
     r"requires torchvision \(not installed\); falling back"
     r"|should be kept in float32: \[\]"
-    # An image model's index lists parts that a video pipeline of the same weights does not have.
-    r"|Keyword arguments .* are not expected by .* and will be ignored"
     # Said several times; it was true of former versions of torch.
     r"|Pipelines loaded with `dtype=torch.float16` cannot run with `cpu`"
-    # What of an adapter fits nothing is an error of `adapter_loading`.
-    r"|No LoRA keys associated|Loading adapter weights from state_dict led|was unsuccessful with"
 )
-"""Messages that tell a user nothing."""
+"""Messages without use for a user."""
 REPORT = re.compile(r"LOAD REPORT.* from: (?P<folder>.+)")
 ROW = re.compile(r"^(?P<name>\S+)\s*\|\s*(?:\x1b\[\d+m)*(?P<status>MISSING|MISMATCH)", re.MULTILINE)
 """Of the report of transformers; its words may be coloured."""
 NEWLY = re.compile(r"at\s(?P<folder>.+) and are newly initialized: \['(?P<name>[^']+)'")
-"""What diffusers says of weights that its file lacks."""
+"""Message of diffusers about weights that its file lacks."""
 
 
 @contextlib.contextmanager
@@ -112,7 +108,7 @@ class _Sorter(logging.Handler):
 
 
 def _describe_loss(text: str) -> str | None:
-    """What a message says of weights that were not in their file, or None.
+    """The missing weights that a message reports, or None.
 
     Example:
         >>> _describe_loss("... at my/vae and are newly initialized: ['conv.bias']")

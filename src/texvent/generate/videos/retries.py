@@ -1,4 +1,4 @@
-"""Generate, look at the result, and warn, refuse or try another seed (paper 9.6)."""
+"""Failure filter: check a generated video, then warn, refuse or try another seed (paper 9.6)."""
 
 from __future__ import annotations
 
@@ -8,8 +8,7 @@ from collections.abc import Callable
 
 from texvent.errors import TexventError
 from texvent.generate.video_config import GeneratedVideoConfig
-from texvent.generate.videos.clip_model import check_clip_model
-from texvent.generate.videos.clip_score import measure_clip_score
+from texvent.generate.videos.clip_model import check_clip_model, measure_clip_score
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import MEASURES
 from texvent.runtime.progress import NoProgress, Progress
@@ -29,7 +28,7 @@ def generate_checked(
     seed: int,
     progress: Progress | None,
 ) -> StoredVideo:
-    """A video that passes the failure filter, or what `on_failure` says instead.
+    """A video that passes the failure filter, or the response of `on_failure`.
 
     Args:
         make: (seed, progress) → video.
@@ -64,7 +63,7 @@ def generate_checked(
 
 
 def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> VideoReport:
-    """What is wrong with the video itself, and whether it shows the prompt."""
+    """Problems of the video itself, and its agreement with the prompt."""
     measures = video.metadata.get(MEASURES) or {}
     report = judge_measures(measures) if has_all_measures(measures) else check_video(video)
     if config.agreement_model is None:

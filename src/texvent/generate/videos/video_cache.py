@@ -1,4 +1,4 @@
-"""Where generated videos and prompt embeddings are kept, by the content of what made them.
+"""Generated videos on disk, by the content of what made them.
 
 The key is a digest of everything that decides the pixels and nothing else, so that changing an
 option of the simulator finds the video again, and changing the seed does not.
@@ -37,7 +37,7 @@ def made_folder(kind: str) -> Path:
     """The cache's folder for one kind of result, made if need be.
 
     Args:
-        kind: "videos" or "prompts".
+        kind: "videos".
 
     Raises:
         OutputError: it cannot be made.

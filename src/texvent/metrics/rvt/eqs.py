@@ -17,7 +17,7 @@ from texvent.metrics.rvt.weights import WHERE_FROM, read_rvt_weights
 class EventQualityScore(Metric):
     """Mean cosine of 3×3 patches of RVT's features, over stages 1-3 and windows of 50 ms.
 
-    Never read it without the scores of its controls (`bench.selftest.controls`): it barely sees
+    Never read it without the scores of its controls (`metrics.controls`): it barely sees
     time, and rewards noise.
 
     Source: K. Chanda et al., "Event quality score (EQS): assessing the realism of simulated event

@@ -76,25 +76,6 @@ class EmitterStyle:
 
 
 @dataclass(frozen=True, kw_only=True)
-class LightStyle:
-    """Small lights on a body that go on and off."""
-
-    places: tuple[Vector, ...] = ()
-    """x and y in half extents, z in heights from below; empty: a string that winds around it."""
-    phases: tuple[float, ...] = (0.0,)
-    """When each goes on, in periods; repeated."""
-    colours: tuple[Colour, ...] = ((1.0, 0.42, 0.03),)
-    """Repeated."""
-    size: float = 0.06
-    """Radius by that of a ball as large as the body."""
-    blink_hz: float = 1.4
-    glow: float = 4.0
-    """Emission of a light that is on."""
-    intensity: float = 0.5
-    """Light that each sheds at 1 m; 0 = none."""
-
-
-@dataclass(frozen=True, kw_only=True)
 class EffectWords:
     """An effect: its names, where it comes from, and what shows it."""
 
@@ -120,7 +101,6 @@ class EffectWords:
     headroom: float = 0.0
     """Room that it needs in the image above its object, by its size."""
     emitters: tuple[EmitterStyle, ...] = ()
-    lights: LightStyle | None = None
 
 
 def _frozen(value: Any) -> Any:
@@ -147,7 +127,6 @@ def _effect(row: dict[str, Any], usual: Mapping[str, dict[str, Any]]) -> EffectW
         for kind, body in _BODIES.items()
         for one in row.pop(kind, ())
     )
-    row["lights"] = LightStyle(**_fields(row["lights"])) if "lights" in row else None
     row["happens_once"] = row.get("happens_once", False) or row.get("ends_source", False)
     return EffectWords(**row)
 

@@ -13,9 +13,8 @@ from typing import Any, Literal
 
 from texvent.scenes.models.tables import trait_values
 
-Wave = Literal["square", "sine", "flame", "rotating"]
-"""How a lamp's light goes up and down: on and off; as mains light does; as a flame does; as a beam
-that turns."""
+Wave = Literal["square", "sine", "flame"]
+"""How a lamp's light goes up and down: on and off; as mains light does; as a flame does."""
 
 
 @dataclass(frozen=True)

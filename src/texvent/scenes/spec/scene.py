@@ -43,7 +43,7 @@ RelationKind: TypeAlias = Literal[
     "on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
     "between", "around", "surround", "among",
     "past", "overtake", "through", "towards", "away from", "from", "follow", "with", "look at",
-    "hold", "carry", "wear", "ride", "ride along", "push", "pull", "kick", "hit", "throw", "catch",
+    "hold", "carry", "wear", "ride", "push", "kick", "hit", "throw", "catch",
     "collide",
 ]  # fmt: skip
 Material: TypeAlias = Literal[
@@ -59,11 +59,11 @@ MoveKind: TypeAlias = Literal[
 ]  # fmt: skip
 MoveDirection: TypeAlias = Literal[
     "left", "right", "up", "down", "in", "out", "clockwise", "counter-clockwise", "forward",
-    "backward", "behind", "front", "side", "above", "slower", "all axes",
+    "backward", "behind", "front", "side", "above", "all axes",
 ]  # fmt: skip
 Waveform: TypeAlias = Literal["sine", "strobe", "switch"]
 View: TypeAlias = Literal[
-    "aerial", "top", "high", "low", "level", "side", "front", "back", "shoulder", "first person"
+    "aerial", "top", "high", "low", "level", "side", "front", "back", "first person"
 ]
 
 
@@ -162,10 +162,10 @@ class SceneObject:
 
 @dataclass(frozen=True)
 class Effect:
-    """A particle effect or a light show: smoke, sparks, rain of leaves, lasers."""
+    """A particle effect: smoke, sparks, rain of leaves."""
 
     kind: Annotated[str, Word("effect")]
-    """Kind of particles or lights."""
+    """Kind of particles."""
     source: str | None = None
     """Id of the object that it comes from; left out: all around, or the middle of the scene."""
     colour: Annotated[str, Colour("effect")] | None = None
@@ -257,15 +257,11 @@ class Light:
     shadows: bool | None = None
     """Whether the sun or moon casts shadows."""
     tint: Annotated[str, Colour("light")] | None = None
-    """Colour of the light: "warm", "golden", "cold", a name or an sRGB code."""
-    hardness: Literal["soft", "hard"] | None = None
-    """Edges of shadows."""
-    brightness: Literal["bright", "gloomy", "dim"] | None = None
+    """Colour of the light: "warm", "cold", a name or an sRGB code."""
+    brightness: Literal["bright", "dim"] | None = None
     """Exposure."""
     direction: Literal["left", "right", "back", "front", "above"] | None = None
     """Position of the light source, seen from the camera."""
-    is_low: bool = False
-    """Whether the light source is near the horizon."""
     lamps: tuple[Lamp, ...] = ()
     """Lamps beside those of the objects; at most 16."""
 
@@ -306,7 +302,7 @@ class Scene:
     objects: tuple[SceneObject, ...] = ()
     """Bodies, the subject first."""
     effects: tuple[Effect, ...] = ()
-    """Particles and light shows."""
+    """Particle effects."""
     camera: Camera = field(default_factory=Camera)
     """Camera."""
     light: Light = field(default_factory=Light)

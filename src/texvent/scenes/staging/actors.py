@@ -1,13 +1,15 @@
-"""Actors: a model on a trajectory."""
+"""Actors: models on trajectories; and parts of placed models as the renderer's arrays of shapes."""
 
 from __future__ import annotations
 
 import zlib
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, fields
 from functools import cached_property
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.scenes.models.anchors import has_places, locate
 from texvent.scenes.models.materials import Material
@@ -15,8 +17,7 @@ from texvent.scenes.models.nouns import AFLOAT
 from texvent.scenes.models.people.props import Prop
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import bounds, compose, moved, rod
-from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.assemble import PlacedModel
+from texvent.scenes.scene import Float64Array, Primitives
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
@@ -32,6 +33,22 @@ def seeded(seed: int, *role: object) -> np.random.Generator:
 def is_centred(noun: Noun) -> bool:
     """Whether its models have their origin at their middle: what flies or dives, not boats."""
     return noun.habitat in ("air", "water") and noun.name not in AFLOAT
+
+
+def size_of(model: Model) -> float:
+    """Scale of a model: 1 = the usual size."""
+    return float(getattr(model, "scale", 1.0))
+
+
+@dataclass(frozen=True)
+class PlacedModel:
+    """Parts of one object with the pose of its body in the world."""
+
+    parts: Sequence[ModelPart]
+    to_world: Float64Array
+    """[3, 4] body → world."""
+    instance: int
+    """Ground-truth id; 0 = scenery."""
 
 
 @dataclass(frozen=True)
@@ -82,13 +99,10 @@ class Actor:
     """Ground-truth id, from 1."""
     lead_m: float = 0.0
     """Head start of its gait, m, so that a herd does not walk in step."""
-    extras: tuple[ModelPart, ...] = ()
-    """Parts that are not the model's, such as the rope it hangs from; body coordinates."""
     props: tuple[Prop, ...] = ()
     """What a person's activity needs, such as a guitar."""
     tether: Tether | None = None
-    """What ties it to who flies or pulls it."""
-
+    """What ties it to who flies it, or to the point that it hangs from."""
     enters: bool = False
     """Whether it comes into the picture only after the clip has begun."""
     leaves: bool = False
@@ -135,7 +149,7 @@ class Actor:
     def place(self, time_s: float) -> PlacedModel:
         """All that is drawn of it in the world at that instant."""
         to_world = self.trajectory.at(time_s).to_world()
-        parts = [*self.own_parts(self.pose(time_s)), *self.extras]
+        parts = self.own_parts(self.pose(time_s))
         if self.tether is not None:
             parts.append(self.tether.draw(to_world, time_s))
         return PlacedModel(parts, to_world, self.instance)
@@ -206,3 +220,66 @@ def corners_over(actors: Iterable[Actor], times: Iterable[float]) -> Float64Arra
     """[n, 3] corners of their boxes at these instants, m."""
     instants = [float(time) for time in times]
     return np.vstack([one.corners(time) for one in actors for time in instants])
+
+
+def assemble(placed: Sequence[PlacedModel]) -> Primitives:
+    """All parts as one structure of arrays, in the order given.
+
+    Args:
+        placed: objects with their parts.
+
+    Returns:
+        n primitives, where n is the total number of parts; `to_world` is body-to-world times
+        part-to-body.
+    """
+    parts = [part for model in placed for part in model.parts]
+    sizes = [len(model.parts) for model in placed]
+    to_body = np.array([part.to_body for part in parts], dtype=np.float64).reshape(-1, 3, 4)
+    body = np.array([model.to_world for model in placed], dtype=np.float64).reshape(-1, 3, 4)
+    body = np.repeat(body, sizes, axis=0)
+    to_world = body[:, :, :3] @ to_body
+    to_world[:, :, 3] += body[:, :, 3]
+    colours = np.array([part.colour for part in parts], dtype=np.float32).reshape(-1, 3)
+    seconds = np.array([part.second_colour for part in parts], dtype=np.float32).reshape(-1, 3)
+    return Primitives(
+        shape=np.array([part.shape for part in parts], dtype=np.int8),
+        to_world=to_world,
+        colour=colours,
+        second_colour=seconds,
+        texture=np.array([part.texture for part in parts], dtype=np.int8),
+        texture_scale=np.array([part.texture_scale for part in parts], dtype=np.float32),
+        emission=np.array([part.emission for part in parts], dtype=np.float32),
+        instance=np.repeat(np.array([model.instance for model in placed], dtype=np.int32), sizes),
+        mesh=_objects([part.mesh for part in parts]),
+        image=_objects([part.image for part in parts]),
+        image_face=np.array([part.image_face for part in parts], dtype=np.int8),
+    )
+
+
+def _objects(values: Sequence[object]) -> NDArray[np.object_] | None:
+    """The values as an array; None where all are None."""
+    if all(value is None for value in values):
+        return None
+    array = np.empty(len(values), dtype=np.object_)
+    array[:] = values
+    return array
+
+
+def join_primitives(groups: Sequence[Primitives]) -> Primitives:
+    """The shapes of all groups, in order."""
+    names = [field.name for field in fields(Primitives)]
+    return Primitives(**{name: _join(groups, name) for name in names})
+
+
+def _join(groups: Sequence[Primitives], name: str) -> Any:
+    """One field of all groups; what only some groups have is empty for the others."""
+    values = [getattr(group, name) for group in groups]
+    if all(value is None for value in values):
+        return None
+    empty = -1 if name == "image_face" else None
+    return np.concatenate(
+        [
+            np.full(len(group.shape), empty) if value is None else value
+            for group, value in zip(groups, values, strict=True)
+        ]
+    )

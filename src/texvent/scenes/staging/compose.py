@@ -8,9 +8,10 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from texvent.errors import InputError
 from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import AMID, SceneDescription
-from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.places import PLACES, Place, Scenery
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import (
@@ -20,8 +21,7 @@ from texvent.scenes.scene import (
     Ground,
     Primitives,
 )
-from texvent.scenes.staging.actors import Actor, seeded
-from texvent.scenes.staging.assemble import PlacedModel, assemble, join_primitives
+from texvent.scenes.staging.actors import Actor, PlacedModel, assemble, join_primitives, seeded
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import plan_travel
@@ -31,9 +31,8 @@ from texvent.scenes.staging.particles.choose import (
     stage_effects,
     with_headroom,
 )
-from texvent.scenes.staging.particles.emitter import Setting
+from texvent.scenes.staging.particles.effect import Setting
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
-from texvent.scenes.staging.preparation import choose_levels, prepare
 from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
 from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.surroundings.lighting import choose_lighting
@@ -48,10 +47,17 @@ from texvent.scenes.staging.surroundings.scenery import (
     scatter,
     under_snow,
 )
+from texvent.scenes.staging.trajectories.phases import left_out
 from texvent.sensor import SensorSize
 
 VIEW_INSTANTS = 7
 """Instants of the clip at which scenery must not hide anything."""
+
+
+_OFF_THE_BED = 0.5
+"""How high people swim above the bed of the sea, as a multiple of their height."""
+_SUNK = -0.18
+"""Height of the origin of what swims at the surface, in its sizes."""
 
 
 @dataclass(frozen=True)
@@ -107,7 +113,7 @@ class ComposedScene:
     @property
     def flicker_hz(self) -> float | None:
         """Highest frequency at which any light goes up and down, Hz; None = all is steady."""
-        rates = (self.animated_environment.fastest_hz, self.lamps.blink_hz)
+        rates = (self.animated_environment.flicker_hz, self.lamps.blink_hz)
         return max((rate for rate in rates if rate is not None), default=None)
 
     @property
@@ -138,9 +144,9 @@ def compose_scene(
     Raises:
         InputError: the duration is not a positive number.
     """
-    description, missing = prepare(description, nouns, duration_s)
+    description, missing = _prepare(description, duration_s)
     place = description.surroundings.name or "grass"
-    levels = choose_levels(PLACES[place], description, nouns)
+    levels = _choose_levels(PLACES[place], description, nouns)
     travel = plan_travel(description, place, duration_s)
     placer = ObjectPlacer(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
@@ -238,3 +244,67 @@ def _scatter_all(
     rules = under_snow(rules) if surroundings.has_snow else rules
     rng, taken = seeded(seed, "scenery", place), [item for _, item in around]
     return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around
+
+
+def _prepare(
+    description: SceneDescription, duration_s: float
+) -> tuple[SceneDescription, list[str]]:
+    """The description as it is staged, and what of it cannot be shown.
+
+    A camera that follows something which stays in its place would show nothing: it passes instead.
+
+    Raises:
+        InputError: the duration is not a positive number.
+    """
+    if not (math.isfinite(duration_s) and duration_s > 0.0):
+        raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
+    missing = [
+        f"the {one.noun}'s {motion.kind} after {motion.start_s:g} s "
+        f"(the clip ends at {duration_s:g} s)"
+        for one in description.objects
+        for motion in left_out([*filter(None, [one.motion]), *one.then], duration_s)
+    ]
+    index = _find_followed(description)
+    if index is None:
+        return description, missing
+    shot = description.shot
+    moves = tuple(
+        replace(move, kind="truck", direction="right") if move.kind == "follow" else move
+        for move in shot.moves
+    )
+    missing.append(f"following the {description.objects[index].noun}, which does not move")
+    return replace(description, shot=replace(shot, moves=moves)), missing
+
+
+def _find_followed(description: SceneDescription) -> int | None:
+    """Index of what the camera follows, if that rests; None if there is no such thing."""
+    objects, index = description.objects, description.shot.target
+    if not objects or not any(move.kind == "follow" for move in description.shot.moves):
+        return None
+    if index is None:
+        moving = [n for n, one in enumerate(objects) if one.motion and one.motion.is_moving]
+        index = moving[0] if moving else 0
+    motion = objects[index].motion
+    rests = motion is None or motion.kind in ("stand", "hang")
+    return index if rests and not objects[index].then else None
+
+
+def _choose_levels(
+    place: Place, description: SceneDescription, nouns: Mapping[str, Noun]
+) -> dict[str, float]:
+    """Height of origins above the ground: habitat or noun → multiple of an object's size.
+
+    "clear" is in metres, on top of that, for what flies.
+    """
+    if place.ground is Ground.NONE:
+        everything = {nouns[scene_object.noun].name: 0.0 for scene_object in description.objects}
+        return {"air": 2.0, "water": 0.0, **everything}
+    levels = {"air": 1.5, "water": 0.5, "clear": place.flight_m}
+    if place.ground is Ground.UNDERWATER:
+        swimming = [one for one in description.objects if one.motion and one.motion.kind == "swim"]
+        divers = [one.noun for one in swimming if nouns[one.noun].habitat == "ground"]
+        return {**levels, "water": 0.9, **dict.fromkeys(divers, _OFF_THE_BED)}
+    if place.ground is Ground.SEA or place.has_shore:
+        swimmers = {noun.name: _SUNK for noun in nouns.values() if noun.habitat == "water"}
+        return {**levels, "water": 0.0, **swimmers, **dict.fromkeys(AFLOAT, 0.0)}
+    return {**levels, **dict.fromkeys(AFLOAT, 0.25)}

@@ -5,9 +5,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from texvent.bench.oracle.camera import camera_level
-from texvent.bench.oracle.scenes import panning_texture
-from texvent.bench.oracle.smooth_texture import ValueNoise
 from texvent.interpolate.dis_flow import flow_cpu
 from texvent.interpolate.dis_flow.definitions import make_pyramid
 from texvent.interpolate.dis_flow.estimator import DisFlow
@@ -17,6 +14,9 @@ from texvent.interpolate.dis_flow.things.ways import covered, surroundings
 from texvent.interpolate.flow import FlowInterpolator
 from texvent.sensor import SensorSize
 from texvent.video import Frame
+from texvent_lab.bench.oracle.camera import camera_level
+from texvent_lab.bench.oracle.scenes import panning_texture
+from texvent_lab.bench.oracle.smooth_texture import ValueNoise
 
 WIDTH, HEIGHT = 192, 144
 

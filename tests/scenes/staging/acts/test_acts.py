@@ -38,7 +38,6 @@ SCENES = {
     "carry": ("carry", "worker", "box"),
     "ride a horse": ("ride", "man", "horse"),
     "push": ("push", "man", "box"),
-    "pull": ("pull", "man", "box"),
 }
 BY_SCENE = pytest.mark.parametrize("name", sorted(SCENES))
 
@@ -124,17 +123,6 @@ def test_hands_stay_at_the_back_of_what_is_pushed():
     np.testing.assert_allclose(gaps, gaps[0], atol=CONTACT_M)
     assert 0.0 <= gaps[0] < 0.05
     assert box.trajectory.at(2.0).distance_m > 0.8
-
-
-def test_what_is_pulled_follows_at_the_end_of_its_rope():
-    puller, box = act("pull", "man", "box").actors
-    assert box.tether is not None
-    for time_s in (0.0, 1.7):
-        to_world = box.trajectory.at(time_s).to_world()
-        rope = box.tether.draw(to_world, time_s).to_body
-        ends = [rope @ [0.0, 0.0, end, 1.0] for end in (-1.0, 1.0)]
-        hand = puller.anchor("right hand", time_s)[:, 3]
-        assert to_world @ [*ends[0], 1.0] == pytest.approx(hand, abs=1e-6)
 
 
 @pytest.mark.parametrize(

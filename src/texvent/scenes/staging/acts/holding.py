@@ -1,26 +1,37 @@
-"""What a body holds, wears, pushes or pulls: where it is fixed, and where the hands are then."""
+"""Holding, wearing, riding and pushing: where bodies are fixed, and where hands are then."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
+from texvent.scenes.description import Relation
 from texvent.scenes.models.people.outfit import CLOTHES
+from texvent.scenes.models.people.props import list_props
+from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import Affine, shift
+from texvent.scenes.models.support_surface import find_support, top_heights
 from texvent.scenes.models.tables import nouns_with, trait_value
-from texvent.scenes.staging.actors import Actor, Tether
+from texvent.scenes.staging.actors import Actor, Tether, size_of
 from texvent.scenes.staging.acts.acts import (
-    HeldAt,
-    Performed,
+    Cast,
+    held_at,
+    hides_riders,
     is_person,
     scaled,
-    size_of,
 )
 from texvent.scenes.staging.trajectories.action_trajectories import hover
-from texvent.scenes.staging.trajectories.trajectory import Trajectory, Vector, rotation
+from texvent.scenes.staging.trajectories.trajectory import (
+    Attached,
+    Performed,
+    Trajectory,
+    Vector,
+    rotation,
+)
 
 Grips = tuple[tuple[str, Vector], ...]
 
@@ -47,10 +58,13 @@ _KITE_YAW = 0.3 - 0.5 * math.pi - 1.0
 _SWAY_M = 0.28
 """How far the wind takes a kite to and fro, m."""
 _STRING_M = 0.008
-_HITCH_M = 0.5
-"""Between a vehicle and what it tows."""
 _STRETCH = 0.60
 """From the shoulder to the palm of an arm that is nearly straight, m."""
+
+_ROOM_SHARE = 0.42
+"""Share of its length on which people sit or stand."""
+_SEAT_M, _SADDLE_M = 0.42, 0.10
+"""Height of the hips over the origin of who sits, or sits astride, for an adult, m."""
 
 
 class Hold(NamedTuple):
@@ -78,9 +92,9 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
         subject = replace(subject, trajectory=path)
     is_flown = style == "flown on a string"
     activity = "move" if target.noun.name in nouns_with("moves in the hand") else "stand"
-    held: Trajectory = HeldAt(
-        subject, way.anchor, way.offset, way.is_upright, activity, turns=not is_flown
-    )  # fmt: skip
+    held: Trajectory = held_at(
+        subject, way.anchor, way.offset, is_upright=way.is_upright, activity=activity
+    )
     if is_flown:
         held = hover(held, _SWAY_M)
         tether = Tether(subject, "right hand", (0.0, 0.0, 0.0), _STRING_M)
@@ -96,12 +110,12 @@ def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
     turn = rotation(worn.get("yaw", 0.0), worn.get("pitch", 0.0), 0.0)
     x, y, z = scaled(worn.get("at", (0.0, 0.0, 0.0)), size_of(subject.model))
     offset = np.column_stack([turn, np.array([x, y, z + target.foot_m])])
-    return subject, carried(target, HeldAt(subject, worn["place"], offset), subject)
+    return subject, carried(target, held_at(subject, worn["place"], offset), subject)
 
 
 def carried(target: Actor, held: Trajectory, holder: Actor) -> Actor:
     """The thing on a trajectory that its holder gives it."""
-    return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0, extras=())
+    return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0)
 
 
 def choose_style(holder: Actor, thing: Actor) -> str:
@@ -141,13 +155,11 @@ def _in_right_hand(style: str, holder: Actor, thing: Actor) -> Hold:
     if style == "held as a tool":
         return Hold("right hand", along_tool(thing), False, grips)
     if style == "flown on a string":
-        # Behind who goes on, beside who stands; along the axes of the world.
-        yaw = holder.trajectory.at(0.0).yaw
-        x, y = (-math.cos(yaw), -math.sin(yaw)) if holder.is_mover else (1.0, 0.2)
-        place = np.array([size * x, size * y, 0.8 * size + foot])
-        return Hold(
-            "right hand", np.column_stack([rotation(_KITE_YAW, 0.0, 0.0), place]), grips=grips
-        )
+        # Behind who goes on, beside who stands; its face to the camera.
+        turn = rotation(-holder.trajectory.at(0.0).yaw, 0.0, 0.0)
+        x, y, z = size * np.array([-1.0, 0.0, 0.8] if holder.is_mover else turn @ [1.0, 0.2, 0.8])
+        axes = np.column_stack([turn @ rotation(_KITE_YAW, 0.0, 0.0), [x, y, z + foot]])
+        return Hold("right hand", axes, grips=grips)
     below, x = min(0.35 * model.height, 0.06), 0.0
     if style == "held hanging":
         below = model.height - 0.02
@@ -213,31 +225,126 @@ def push(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
         reach = size * (0.10 + math.sqrt(max(_STRETCH**2 - drop**2, 0.04)))
     side = min(0.16 * size, 0.45 * model.width)
     grips = (("left hand", (reach, side, height)), ("right hand", (reach, -side, height)))
-    subject = _performing(subject, "push along", grips)
+    if is_person(subject):
+        subject = replace(subject, trajectory=Performed(subject.trajectory, "push along", grips))
     return subject, _along(subject, target, reach + 0.02 + 0.5 * model.length)
-
-
-def pull(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
-    """A rope from the hand, or from the rear of a vehicle, to the thing's front."""
-    size, model = size_of(subject.model), target.model
-    behind = 0.9 * size
-    if subject.noun.motion == "drive":
-        behind = 0.5 * subject.model.length + _HITCH_M
-    hand = (-0.34 * size, -0.20 * size, 0.92 * size)
-    subject = _performing(subject, "pull along", (("right hand", hand),))
-    end = (0.5 * model.length, 0.0, 0.5 * model.height - target.foot_m)
-    target = _along(subject, target, -(behind + 0.5 * model.length))
-    return subject, replace(target, tether=Tether(subject, "right hand", end, 0.025))
-
-
-def _performing(subject: Actor, activity: str | None, grips: Grips) -> Actor:
-    if not is_person(subject):
-        return subject
-    return replace(subject, trajectory=Performed(subject.trajectory, activity, grips))
 
 
 def _along(subject: Actor, target: Actor, along_m: float) -> Actor:
     """The thing on the ground so far ahead of who moves it."""
     offset = shift(along_m, 0.0, target.foot_m)
-    path = HeldAt(subject, "ground", offset, is_upright=True, activity="move")
+    path = held_at(subject, "ground", offset, is_upright=True, activity="move")
     return replace(target, trajectory=path, lead_m=subject.lead_m, is_mover=subject.is_mover)
+
+
+def board(cast: Cast, relations: Sequence[Relation]) -> None:
+    """Seat everybody who rides something.
+
+    Several riders are shared out among several mounts; on one of them they sit behind each other.
+    The first person on a bicycle is the one that its model brings; those in a closed vehicle are
+    not seen.
+    """
+    crews: dict[int, list[int]] = {}
+    for relation in (one for one in relations if one.kind == "ride"):
+        mounts = cast.copies(relation.targets[0])
+        for turn, rider in enumerate(cast.copies(relation.subject) if mounts else ()):
+            at = mounts[turn % len(mounts)]
+            if rider != at and not any(rider in crew for crew in crews.values()):
+                crews.setdefault(at, []).append(rider)
+    for at, crew in crews.items():
+        for number, rider in enumerate(crew):
+            _seat(cast, rider, at, number, len(crew))
+
+
+def _seat(cast: Cast, rider: int, at: int, number: int, crew: int) -> None:
+    subject, ridden = cast.get(rider), cast.get(at)
+    is_own = number == 0 and is_person(subject) and style_of(ridden) == "built-in"
+    if is_own or hides_riders(ridden.noun):
+        cast.put(rider, None)
+    elif number < count_seats(ridden):
+        cast.put(rider, mount(subject, ridden, number, crew))
+
+
+def style_of(ridden: Actor) -> str:
+    """How something is ridden; most is sat on."""
+    return trait_value("ridden", ridden.noun.name) or "sat on"
+
+
+def count_seats(ridden: Actor) -> int:
+    """How many people it carries, the one who comes with its model among them."""
+    seats = trait_value("seats", ridden.noun.name)
+    if seats is not None:
+        return len(seats)
+    apart_m = trait_value("posture of riders", style_of(ridden))["apart"]
+    return max(1, int(_ROOM_SHARE * ridden.model.length / apart_m))
+
+
+def mount(rider: Actor, ridden: Actor, number: int = 0, crew: int = 1) -> Actor:
+    """The rider, on what it rides.
+
+    Args:
+        rider: who rides.
+        ridden: what it rides.
+        number: of its seat, from 0; the first one is for who steers.
+        crew: how many are on it.
+    """
+    style, size = style_of(ridden), size_of(rider.model)
+    posture = trait_value("posture of riders", style)
+    doing, props = "sit", rider.props
+    grips: Grips = ()
+    if not is_person(rider):
+        seat: Vector = (0.0, 0.0, find_support(ridden.model).height + rider.foot_m)
+    elif trait_value("seats", ridden.noun.name) is not None:
+        seat, grips = _on_seat(ridden, size, number)
+    else:
+        behind = 0.5 * (min(crew, count_seats(ridden)) - 1) - number
+        support, doing = find_support(ridden.model), posture["does"]
+        x, y = support.middle
+        seat = (x + behind * posture["apart"], y, support.height + posture["up"] * size)
+        props = list_props(doing) if style == "paddled" and ridden.is_mover else ()
+        if style == "astride":
+            seat, grips = _astride_back(ridden, size, behind * posture["apart"])
+        elif style == "at a bar":
+            x, z = 0.42 * ridden.model.length, 0.9 * ridden.model.height
+            seat = (-0.08, 0.0, 0.1 * ridden.model.height)
+            grips = (("left hand", (x, 0.2, z)), ("right hand", (x, -0.2, z)))
+    path: Trajectory = Attached.seated(ridden.trajectory, seat, doing)
+    if grips:
+        path = Performed(path, None, grips)
+    return replace(rider, trajectory=path, is_mover=ridden.is_mover, lead_m=0.0, props=props)
+
+
+def _on_seat(ridden: Actor, size: float, number: int) -> tuple[Vector, Grips]:
+    """In a seat of the vehicle, or on the saddle behind who steers."""
+    name = ridden.noun.name
+    x, y, z = scaled(trait_value("seats", name)[number], size_of(ridden.model))
+    feet = trait_value("feet from the seat", name)
+    if feet is None:
+        return (x, y, z - _SEAT_M * size), ()
+    return (x, y, z - _SADDLE_M * size), _astride(feet[0], feet[1], size)
+
+
+def _astride_back(ridden: Actor, size: float, along_m: float) -> tuple[Vector, Grips]:
+    """On the back, a leg on each side, hands ahead."""
+    model = ridden.model
+    parts = model.parts(Pose(0.0, 0.0, 0.0, "stand"))
+    back = float(top_heights(parts, np.array([along_m]), np.array([0.0]))[0])
+    if not np.isfinite(back):
+        back = 0.5 * model.height
+    across = np.linspace(0.0, 0.5 * model.width, 24)
+    inside = across[top_heights(parts, np.zeros_like(across), across) > 0.6 * back]
+    half = float(inside.max()) if inside.size else 0.2
+    side = min(half + 0.07 * size, 0.45 * size)
+    drop = -0.66 * size if half < 0.45 * size else -0.35 * size
+    return (along_m, 0.0, back), _astride(side, drop, size)
+
+
+def _astride(side: float, drop: float, size: float) -> Grips:
+    """Hips, feet and hands of who has a leg on each side."""
+    return (
+        ("hips", (0.0, 0.0, 0.10 * size)),
+        ("left foot", (0.14 * size, side, drop)),
+        ("right foot", (0.14 * size, -side, drop)),
+        ("left hand", (0.40 * size, 0.10 * size, 0.30 * size)),
+        ("right hand", (0.40 * size, -0.10 * size, 0.30 * size)),
+    )

@@ -8,18 +8,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.scenes.description import RIDES, Relation, SceneDescription
+from texvent.scenes.description import Relation, SceneDescription
 from texvent.scenes.models.people.activities import PAIR_GAPS
-from texvent.scenes.models.tables import nouns_with
-from texvent.scenes.staging.actors import Actor, Tether
+from texvent.scenes.staging.actors import Actor, size_of
 from texvent.scenes.staging.acts import holding, striking
-from texvent.scenes.staging.acts.acts import ACTS, Cast, is_person, size_of
-from texvent.scenes.staging.acts.riding import board
+from texvent.scenes.staging.acts.acts import ACTS, Cast, is_person
 from texvent.scenes.staging.trajectories.trajectory import Stationary, ahead
 
-_ORDER = ("push", "pull", "kick", "throw", "catch", "hit", "collide", "hold", "carry", "wear")
+_ORDER = ("push", "kick", "throw", "catch", "hit", "collide", "hold", "carry", "wear")
 """What moves bodies comes before what hangs on them."""
-_TIED = frozenset({"at", "on", "in", "ride", "ride along", "push", "pull"})
+_TIED = frozenset({"at", "on", "in", "ride", "push"})
 """Relations that give their subject its heading."""
 
 
@@ -42,16 +40,16 @@ def perform_acts(
     bound = {one for act in acts for one in (act.subject, *act.targets)}
     _look_at(cast, description.relations, duration_s)
     _face_each_other(cast, [n for n, one in enumerate(actors) if one.object_index not in bound])
-    ridden = {one.targets[0] for one in acts if one.kind in RIDES}
-    towed = [r for r in acts if r.kind in ("push", "pull") and r.targets[0] in ridden]
-    for relation in towed:
+    ridden = {one.targets[0] for one in acts if one.kind == "ride"}
+    pushed = [r for r in acts if r.kind == "push" and r.targets[0] in ridden]
+    for relation in pushed:
         _perform(cast, relation, duration_s)
-    board(cast, acts)
+    holding.board(cast, acts)
     for kind in _ORDER:
-        for relation in (one for one in acts if one.kind == kind and one not in towed):
+        for relation in (one for one in acts if one.kind == kind and one not in pushed):
             _perform(cast, relation, duration_s)
     _take_off_doubles(cast, actors)
-    return [_tied_to_ground(actor) for actor in cast.actors()]
+    return cast.actors()
 
 
 def _perform(cast: Cast, relation: Relation, duration_s: float) -> None:
@@ -74,7 +72,6 @@ def _perform(cast: Cast, relation: Relation, duration_s: float) -> None:
 _Act = Callable[[Actor, Actor, Actor | None, float], tuple[Actor | None, ...]]
 _ACTS: Mapping[str, _Act] = {
     "push": lambda who, what, _, __: holding.push(who, what),
-    "pull": lambda who, what, _, __: holding.pull(who, what),
     "hold": lambda who, what, _, __: holding.hold(who, what),
     "carry": lambda who, what, _, __: holding.hold(who, what),
     "wear": lambda who, what, _, __: holding.wear(who, what),
@@ -104,15 +101,6 @@ def _take_off_doubles(cast: Cast, actors: Sequence[Actor]) -> None:
             if thing.noun.name in nouns and thing.object_index != person.object_index:
                 cast.put(number, None)
                 nouns.discard(thing.noun.name)
-
-
-def _tied_to_ground(actor: Actor) -> Actor:
-    """A kite that no person holds is flown from out of the picture."""
-    if actor.noun.name not in nouns_with("flies on a string") or actor.tether is not None:
-        return actor
-    x, y, z = actor.trajectory.at(0.0).position
-    flier = (x + 0.8 * z, y - 1.2 * z, 0.0)
-    return replace(actor, tether=Tether(flier, "", (0.0, 0.0, 0.0), 0.008))
 
 
 def _face_each_other(cast: Cast, numbers: Sequence[int]) -> None:

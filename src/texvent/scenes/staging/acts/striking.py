@@ -16,30 +16,29 @@ from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.shapes import Affine, bounds, moved, shift
 from texvent.scenes.models.tables import trait_value
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor
+from texvent.scenes.staging.actors import Actor, size_of
 from texvent.scenes.staging.acts.acts import (
-    HeldAt,
-    Performed,
+    held_at,
     is_person,
     moving,
-    size_of,
-    vector,
 )
 from texvent.scenes.staging.acts.holding import along_tool
 from texvent.scenes.staging.trajectories.action_trajectories import (
     Arc,
     Flight,
-    Switched,
     about_pivot,
 )
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
+    Performed,
     Stationary,
+    Switched,
     Trajectory,
     Vector,
     ahead,
     rotation,
+    vector,
 )
 
 _FLIGHT_M = 2.4
@@ -85,7 +84,7 @@ def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]
     spot = np.array([tip[0], tip[1], low + 0.5 * thing.model.height]) + (radius - inset) * heading
     flight = _fly_off("kick", thing, _at(thing, spot, home.yaw), home, (contact_s, duration_s))
     rolling = math.hypot(*flight.velocity_m_s[:2]) / max(0.5 * thing.model.height, 0.05)
-    return subject, _on_its_way(thing, replace(flight, tumble_rad_s=rolling))
+    return subject, moving(thing, replace(flight, tumble_rad_s=rolling))
 
 
 def throw(
@@ -97,32 +96,32 @@ def throw(
     subject = moving(subject, path)
     reach = 0.5 * min(thing.model.length, thing.model.width) + 0.03
     anchor = "right hand" if is_person(subject) else "mouth"
-    held = HeldAt(subject, anchor, shift(reach, 0.0, -thing.lift_m))
+    held = held_at(subject, anchor, shift(reach, 0.0, -thing.lift_m))
     start = about_pivot(held.at(release_s), thing.lift_m)
     if catcher is None:
         flight = _fly_off("throw", thing, start, home, (release_s, duration_s))
         flight = replace(flight, tumble_rad_s=6.0)
-        return subject, _on_its_way(thing, Switched(held, flight, release_s)), None
+        return subject, moving(thing, Switched(held, flight, release_s)), None
     catch_s = min(release_s + _REACH_S, release_s + 0.75 * (duration_s - release_s))
     gap = 1.2 + 2.6 * (catch_s - release_s) + 0.5 * catcher.model.length
     place = ahead(home.position, home.yaw, gap, home.position[2])
     catcher = _stand_and_catch(catcher, place, home.yaw + math.pi, catch_s)
-    caught = HeldAt(catcher, *_catching(catcher, thing))
+    caught = held_at(catcher, *_catching(catcher, thing))
     end = about_pivot(caught.at(catch_s), thing.lift_m)
     arc = Arc(start, end, release_s, catch_s, 1.0)
     whole = Switched(Switched(held, arc, release_s), caught, catch_s)
-    return subject, _on_its_way(thing, whole), catcher
+    return subject, moving(thing, whole), catcher
 
 
 def catch(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
     """The thing comes flying from ahead and stays in the hands or in the mouth."""
     catch_s, home = contact_time(duration_s, 0.55), subject.trajectory.at(0.0)
     subject = _stand_and_catch(subject, home.position, home.yaw, catch_s)
-    caught = HeldAt(subject, *_catching(subject, thing))
+    caught = held_at(subject, *_catching(subject, thing))
     end = about_pivot(caught.at(catch_s), thing.lift_m)
     far = np.array(end.position) + (0.8 + 1.8 * catch_s) * heading_of(home.yaw) - [0.0, 0.0, 0.2]
     arc = Arc(replace(end, position=vector(far)), end, 0.0, catch_s, 1.0)
-    return subject, _on_its_way(thing, Switched(arc, caught, catch_s))
+    return subject, moving(thing, Switched(arc, caught, catch_s))
 
 
 def hit(
@@ -154,12 +153,8 @@ def hit(
         arc = Arc(replace(start, position=vector(far)), start, 0.0, contact_s, -1.0)
         whole = Switched(arc, whole, contact_s)
     if tool is not None:
-        tool = _on_its_way(tool, HeldAt(subject, "right hand", along_tool(tool)))
-    return subject, _on_its_way(thing, whole), tool
-
-
-def _on_its_way(thing: Actor, path: Trajectory) -> Actor:
-    return replace(thing, trajectory=path, is_mover=True, lead_m=0.0)
+        tool = moving(tool, held_at(subject, "right hand", along_tool(tool)))
+    return subject, moving(thing, whole), tool
 
 
 def _at(thing: Actor, middle: Float64Array, yaw: float) -> BodyState:

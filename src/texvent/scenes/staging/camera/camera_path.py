@@ -135,8 +135,6 @@ class Tie:
 
     trajectory: Trajectory
     """Of the subject."""
-    share: float = 1.0
-    """Of the subject's way that the camera goes along."""
     rises: bool = True
     """Whether it also rises and falls with it."""
     turns: bool = False
@@ -148,14 +146,13 @@ class Tie:
         tying = [move for move in moves if move.kind in ("follow", "orbit")]
         if not tying or not subject.is_mover:
             return None
-        share = next((one.pace for one in tying if one.direction == "slower"), 1.0)
         turns = any(one.direction in ("behind", "front") for one in tying)
-        return cls(subject.trajectory, share, subject.noun.habitat != "ground", turns)
+        return cls(subject.trajectory, subject.noun.habitat != "ground", turns)
 
     def way(self, time_s: float) -> Float64Array:
         """[3] by which the camera has gone along since the start, m."""
         now, start = self.trajectory.at(time_s).position, self.trajectory.at(0.0).position
-        return self.share * np.subtract(now, start) * [1.0, 1.0, float(self.rises)]
+        return np.subtract(now, start) * [1.0, 1.0, float(self.rises)]
 
     def turn(self, time_s: float) -> float:
         """Angle by which it has gone round since the start, rad."""

@@ -40,11 +40,6 @@ class Framing:
         """[3] unit vector from the target to the camera."""
         return direction(self.azimuth, self.elevation)
 
-    @property
-    def position(self) -> Float64Array:
-        """[3] m."""
-        return np.asarray(self.target + self.distance_m * self.offset)
-
 
 def pose(position: Sequence[float], target: Sequence[float]) -> Framing:
     """The framing of a camera at a point, m, that looks at another one."""

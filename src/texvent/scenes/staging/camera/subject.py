@@ -52,9 +52,9 @@ _OF_WHOLE_BODY = frozenset(
 )
 """Activities of which the legs, or what is at the feet, tell."""
 ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05, "level": 0.03,
-              "shoulder": 0.16, "high": 0.5}  # fmt: skip
+              "high": 0.5}  # fmt: skip
 """View → elevation of the camera, rad."""
-_BEARINGS = {"side": 0.0, "front": 0.5 * math.pi, "back": -0.5 * math.pi, "shoulder": -1.25}
+_BEARINGS = {"side": 0.0, "front": 0.5 * math.pi, "back": -0.5 * math.pi}
 """View → azimuth of the camera from the side of what it looks at, to its right; radians."""
 _FOLLOW_ELEVATIONS = {"behind": 0.22, "front": 0.22, "above": 0.7}
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
@@ -206,13 +206,11 @@ def list_views(
     if any(move.kind in _APPROACHES for move in moves) and main.object_index == shot.target:
         return _approach(near, scope._replace(tie=None))
     framing = shot.framing
-    if shot.view == "shoulder" and framing != "close":
-        framing = "medium"
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
         boxes = corners_over([main], times if tie is None else times[:1])
         return [View(_upper_part(main, boxes, framing), _NEAR_FILL)]
     fill = min([_FILL, *(_FILL_BY_MOVE.get(move.kind, _FILL) for move in moves)])
-    fill = fill if tie is None or tie.share < 1.0 else min(fill, _FOLLOWED_FILL)
+    fill = fill if tie is None else min(fill, _FOLLOWED_FILL)
     if shot.framing == "wide":
         fill = _WIDE_FILL
     goal = _LARGE_IN_WIDE if shot.framing == "wide" else 1.0

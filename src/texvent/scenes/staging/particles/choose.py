@@ -1,4 +1,4 @@
-"""Effects of a scene → particle systems and lights at their places."""
+"""Effects of a scene → particle systems at their places."""
 
 from __future__ import annotations
 
@@ -13,17 +13,21 @@ from texvent.scenes.models.anchors import locate
 from texvent.scenes.models.effects import EFFECTS, EmitterStyle
 from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.tables import nouns_with, trait_value
-from texvent.scenes.scene import Colour, Float64Array
+from texvent.scenes.models.tables import trait_value
+from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
-from texvent.scenes.staging.particles.emitter import Emitter, ParticleEffect, Setting, Source
-from texvent.scenes.staging.particles.lights import BodyLights, Lightning
-from texvent.scenes.staging.surroundings.environment import FALLS, let_fall
+from texvent.scenes.staging.particles.effect import (
+    FALLS,
+    ParticleEffect,
+    Setting,
+    Source,
+    let_fall,
+)
+from texvent.scenes.staging.particles.emitter import Emitter
 
 ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""
 _FALL_STEPS = 240
-_BLUE: Colour = (0.06, 0.2, 1.0)
 _BREATH = (1.0, 0.0, 0.3)
 """Direction of what comes from a mouth."""
 
@@ -94,17 +98,9 @@ def _make(
     effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
 ) -> list[ParticleEffect]:
     """What shows an effect at an object, or by itself."""
-    if effect.kind == "lightning":
-        return [Lightning.of(setting.base, setting.away, setting.framing.distance_m, rng)]
     words = EFFECTS[effect.kind]
     colour = rgb_of(effect.colour, "effect")
     source = _source(effect.kind, actor, setting)
-    if words.lights is not None:
-        noun = "" if actor is None else actor.noun.name
-        if effect.kind == "beacon" and noun in nouns_with("blue beacon"):
-            colour = colour or _BLUE
-        tapers = noun in nouns_with("tapers upwards")
-        return [BodyLights.of(words.lights, source, colour, tapers=tapers)]
     start_s = _start(effect, actor, setting) if words.happens_once else effect.start_s
     if effect.kind == "splash":  # stays where it began, on the water
         middle = source.at(np.array([start_s or 0.0]))[0]
@@ -162,8 +158,6 @@ def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
         target[2] = target[2] + height if height else 0.0
         return Source(float(size), target + behind * setting.away)
     bulk, model, noun = _bulk(actor), actor.model, actor.noun.name
-    if words.lights is not None:
-        return Source(bulk, np.array([0.0, 0.0, -actor.foot_m]), actor)
     if words.breathed and noun in PERSON_NOUNS:
         mouth = locate(model, "mouth", actor.pose(0.0))
         return Source(words.size * bulk, mouth @ [0.12 * bulk, 0.0, 0.0, 1.0], actor)

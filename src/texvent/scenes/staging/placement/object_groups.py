@@ -10,23 +10,21 @@ import numpy as np
 
 from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import STANDING, SceneDescription, SceneObject
-from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.people.outfit import CLOTHES
 from texvent.scenes.models.people.person import dress
 from texvent.scenes.models.people.posture import SEAT
 from texvent.scenes.models.people.props import HOLDS, Prop, list_props
-from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
-from texvent.scenes.models.shapes import bounds, moved, post
+from texvent.scenes.models.protocol import Model, Noun, Pose
+from texvent.scenes.models.shapes import bounds, moved
 from texvent.scenes.models.support_surface import find_support
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.trajectories.action_trajectories import Swing
+from texvent.scenes.staging.actors import is_centred, size_of
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.steered_path import sample_places
-from texvent.scenes.staging.trajectories.trajectory import Trajectory, Vector
+from texvent.scenes.staging.trajectories.trajectory import Vector
 
 GAP_M = 0.25
 """Least space between two objects, in units of the smaller one's size."""
@@ -62,8 +60,6 @@ class ObjectGroup:
     """Heading of each copy, where they differ."""
     on_chairs: bool = False
     """Whether each of its people sits on a chair that comes with them."""
-    lag: tuple[ObjectGroup, float] | None = None
-    """Whose line it follows, and how far behind, m."""
 
     @property
     def size_m(self) -> float:
@@ -150,9 +146,12 @@ def match_pace(group: ObjectGroup, partner: ObjectGroup, kind: str) -> None:
     What follows goes behind the partner, which is placed already; what is overtaken or passed goes
     the same way, slower, unless the scene says how it goes.
     """
+    motion = group.plan.motion
+    if kind == "follow" and partner.plan.path is not None and group.plan.is_path:
+        group.plan = replace(group.plan, yaw=partner.plan.yaw, path=partner.plan.path)
+        return
     if not (partner.plan.is_path and group.plan.is_path):
         return
-    motion = group.plan.motion
     if kind in ("follow", "with"):
         if kind == "follow" and partner.plan.motion.speed_m_s is None:
             partner.go(speed_m_s=max(partner.plan.speed_m_s, group.plan.speed_m_s))
@@ -244,7 +243,7 @@ def _stand_in_row(group: ObjectGroup, *, is_close: bool) -> None:
     long, wide = model.length, model.width
     cosine, sine = math.cos(plan.yaw), math.sin(plan.yaw)
     if is_close and group.noun.name in PERSON_NOUNS and plan.motion.kind != "lie":
-        long = wide = _SHOULDERS_M * float(getattr(model, "scale", 1.0))
+        long = wide = _SHOULDERS_M * size_of(model)
     if is_close and plan.is_path:
         ahead, aside = 0.75 * long, 1.25 * wide
         step = (ahead * cosine - aside * sine, ahead * sine + aside * cosine)
@@ -279,18 +278,13 @@ def stand_in_ring(group: ObjectGroup, radius_m: float) -> None:
 
 
 def part_in_midst(group: ObjectGroup, room_m: float) -> None:
-    """Set the copies of a group in two rows, left and right of a gap of twice that room."""
-    count, model = len(group.models), group.models[0]
-    if count < 2:
-        return
-    size = max(model.length, model.width)
-    group.offsets = []
-    for number in range(count):
-        row, side = number // 2, -1.0 if number % 2 == 0 else 1.0
-        rows = (count + 1 - number % 2) // 2
-        deep = (row - 0.5 * (rows - 1)) * 1.3 * size
-        group.offsets.append((side * (room_m + 0.5 * size), deep, 0.0))
-    group.fit()
+    """Move every second copy of a group to the left, the others to the right, by that room."""
+    if len(group.models) > 1:
+        group.offsets = [
+            (x + (room_m if number % 2 else -room_m), y, z)
+            for number, (x, y, z) in enumerate(group.offsets)
+        ]
+        group.fit()
 
 
 _SEAT_BACK_M = 0.03
@@ -318,7 +312,7 @@ def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Pro
     shown = {scene_object.noun for scene_object in description.objects}
     said = (group.scene_object.motion or STANDING, *group.scene_object.then)
     kinds = dict.fromkeys(motion.kind for motion in said)
-    size = float(getattr(group.models[0], "scale", 1.0))
+    size = size_of(group.models[0])
     props = [prop for kind in kinds for prop in list_props(kind, size)]
     props = props or list(HOLDS.get(group.noun.name, ()))
     if group.on_chairs and not shown & nouns_with("seat at a table"):
@@ -339,13 +333,3 @@ def _draw_chair(scale: float) -> Prop:
     axes = np.column_stack([np.eye(3), np.array([-_SEAT_BACK_M * scale, 0.0, -low])])
     placed = moved(model.parts(Pose(0.0, 0.0, 0.0, "stand")), axes)
     return Prop("ground", lambda _: placed)
-
-
-def hang_rope(trajectory: Trajectory, model: Model) -> tuple[ModelPart, ...]:
-    """The rope of what swings, m in body coordinates."""
-    if not isinstance(trajectory, Swing):
-        return ()
-    low, high = 0.9 * model.height, trajectory.length_m
-    thick = 2.0 * (0.012 + 0.004 * model.height)
-    size = (thick, thick, high - low)
-    return (post(Material((0.25, 0.2, 0.14)), (0.0, 0.0, 0.5 * (high + low)), size),)

@@ -14,9 +14,10 @@ from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
-from texvent.scenes.staging.acts.acts import OnPart
+from texvent.scenes.staging.actors import Actor, Tether, is_centred, lowest_point, seeded
+from texvent.scenes.staging.acts.acts import on_part
 from texvent.scenes.staging.acts.perform import perform_acts
+from texvent.scenes.staging.acts.settle import settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer
 from texvent.scenes.staging.placement.object_groups import (
@@ -25,28 +26,29 @@ from texvent.scenes.staging.placement.object_groups import (
     dressed,
     form_up,
     half_extents_over_clip,
-    hang_rope,
     match_pace,
     overlap,
     part_in_midst,
     rests,
     stagger,
 )
-from texvent.scenes.staging.placement.spatial_relations import (
+from texvent.scenes.staging.placement.relations import (
     INVERSE,
     ON_TARGET,
     Goal,
-    orbit,
     place_at_distance,
     place_by_subject,
     place_on_targets,
 )
-from texvent.scenes.staging.preparation import settle_motions
-from texvent.scenes.staging.trajectories.choose_trajectory import choose_trajectory
+from texvent.scenes.staging.trajectories.choose_trajectory import (
+    choose_trajectory,
+    orbit,
+    rope_length,
+)
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
-from texvent.scenes.staging.trajectories.steered_path import Lagging, SteeredPath, bend_path
-from texvent.scenes.staging.trajectories.trajectory import Riding, Trajectory, Vector
+from texvent.scenes.staging.trajectories.steered_path import bend_path
+from texvent.scenes.staging.trajectories.trajectory import Attached, Trajectory, Vector, vector
 
 _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
@@ -281,8 +283,8 @@ class ObjectPlacer:
                     group.index, group.noun, model, trajectory,
                     any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
-                    hang_rope(trajectory, model),
                     choose_props(self._description, group),
+                    _hang_rope(group, model, (x, y, z)),
                     enters=said[0].kind == "enter", leaves=said[-1].kind == "leave",
                     goes_across=said[0].direction == "across",
                 )
@@ -294,12 +296,13 @@ class ObjectPlacer:
     ) -> Trajectory:
         """The trajectory of a copy that is at `home` in the middle of the clip."""
         if group.orbits is not None:
-            return orbit(group, group.orbits, number, self._duration_s)
-        if group.lag is not None:
-            leader, gap = group.lag
-            path = self._choose(leader, leader.models[0], _tuple(leader.centre), 0, rng)
-            if isinstance(path, SteeredPath):
-                return Lagging(path, gap + number * 1.3 * model.length)
+            x, y, _ = group.orbits.centre
+            reach = float(np.max(group.orbits.half[:2])) + 0.9 * group.size_m
+            return orbit(
+                group.plan, model, (float(x), float(y), float(group.centre[2])),
+                reach + 0.1 * group.orbits.size_m, number / len(group.models),
+                is_flying=group.noun.habitat == "air",
+            )  # fmt: skip
         if group.carrier is not None:
             return self._ride_on(group, group.carrier, home)
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
@@ -308,16 +311,20 @@ class ObjectPlacer:
     def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Trajectory:
         """On what carries it, which moves as a whole, in a part, or only on its surface."""
         rng = seeded(self._seed, "lead", below.index, below.noun.name)
-        carrier = self._choose(below, below.models[0], _tuple(below.centre), 0, rng)
+        carrier = self._choose(below, below.models[0], vector(below.centre), 0, rng)
         (x, y, z), yaw = np.array(home) - below.centre, below.plan.yaw
         cosine, sine = math.cos(yaw), math.sin(yaw)
         place = (x * cosine + y * sine, y * cosine - x * sine, z)
         activity = group.plan.gesture or "sit"
         if group.carried_on is not None:
-            return OnPart(carrier, below.models[0], group.carried_on, place, activity)
-        return Riding(carrier, place, activity)
+            return on_part(carrier, below.models[0], group.carried_on, place, activity)
+        return Attached.seated(carrier, place, activity)
 
 
-def _tuple(centre: Float64Array) -> Vector:
-    x, y, z = centre
-    return (float(x), float(y), float(z))
+def _hang_rope(group: ObjectGroup, model: Model, home: Vector) -> Tether | None:
+    """The rope of what swings."""
+    if group.plan.motion.kind != "swing" or group.plan.path is not None or group.plan.gesture:
+        return None
+    x, y, z = home
+    above = (x, y, z + rope_length(model))
+    return Tether(above, "", (0.0, 0.0, 0.9 * model.height), 0.012 + 0.004 * model.height)

@@ -19,24 +19,17 @@ from texvent.scenes.scene import (
     Float32Array,
     Float64Array,
     Ground,
-    Primitives,
-    Shape,
     Texture,
 )
-from texvent.scenes.staging.particles.emitter import ParticleEffect, many_shapes
 from texvent.scenes.staging.surroundings.lighting import (
     DEPTHS,
-    STROKE_HZ,
     Lighting,
     choose_lighting,
-    lightning_level,
     towards_light,
     wave_level,
 )
 from texvent.scenes.staging.surroundings.road import RoadLine
 
-_FLASH = np.array((0.42, 0.47, 0.60), dtype=np.float32)
-"""Light of the brightest stroke of lightning."""
 TIMELAPSE = 60.0
 """How much faster the sky goes in a time lapse."""
 NO_ROOM_M = 9.0
@@ -54,10 +47,6 @@ _FOG_SIGHT = 3.0
 """In fog, sight (to 37 %) in camera distances."""
 
 
-_CLOUDED = 0.5
-"""Clouds of a sky with nothing else in it."""
-
-
 @dataclass(frozen=True)
 class AnimatedEnvironment:
     """The surroundings as a function of time: all fixed, but for flicker, waves and clouds."""
@@ -66,34 +55,18 @@ class AnimatedEnvironment:
     flicker_hz: float | None
     wave: str = "sine"
     """As `Illumination.wave`."""
-    has_lightning: bool = False
     time_scale: float = 1.0
     """How much faster than in life clouds and waves go."""
 
     def at(self, time_s: float) -> Environment:
         """The surroundings at that instant."""
         factor = np.float32(self.flicker(time_s))
-        base = replace(
+        return replace(
             self.base,
             time_s=self.time_scale * time_s,
             sun_colour=self.base.sun_colour * factor,
             ambient=self.base.ambient * factor,
         )
-        level = lightning_level(time_s) if self.has_lightning else 0.0
-        if level <= 0.0:
-            return base
-        flash = np.float32(level) * _FLASH
-        return replace(
-            base,
-            ambient=base.ambient + flash,
-            sky_top=base.sky_top + np.float32(0.5) * flash,
-            sky_horizon=base.sky_horizon + flash,
-        )
-
-    @property
-    def fastest_hz(self) -> float | None:
-        """Highest frequency at which the light goes up and down, Hz; None = it is steady."""
-        return STROKE_HZ if self.has_lightning else self.flicker_hz
 
     def flicker(self, time_s: float) -> float:
         """Share of full light at that instant: 1 at t = 0, period exactly 1 / flicker_hz."""
@@ -118,7 +91,6 @@ def build_environment(
     the room, where the place is one; `looking` is the unit vector [3] that the camera looks along.
     """
     lighting, said = choose_lighting(place, description.light), description.surroundings
-    has_lightning = any(effect.kind == "lightning" for effect in description.effects)
     colour, second = _ground_colours(place, said)
     sky_top, horizon = _sky_colours(place, lighting, said)
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
@@ -133,7 +105,7 @@ def build_environment(
         road_offset=np.array(road.offset, dtype=np.float64),
         sky_top=_array(sky_top),
         sky_horizon=_array(horizon),
-        clouds=_cloud_share(description, place, lighting, has_lightning=has_lightning),
+        clouds=_cloud_share(description, place, lighting),
         wave_height=said.wave_height,
         sun_direction=towards_light(_unit(lighting.sun_direction), looking, description.light),
         sun_colour=_array(mix(lighting.sun, _BLACK, 0.4 if is_dim else 0.0)),
@@ -153,7 +125,7 @@ def build_environment(
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )
     return AnimatedEnvironment(
-        base, description.light.flicker_hz, description.light.wave, has_lightning,
+        base, description.light.flicker_hz, description.light.wave,
         TIMELAPSE if description.is_timelapse else 1.0,
     )  # fmt: skip
 
@@ -175,16 +147,12 @@ def _sky_colours(place: Place, lighting: Lighting, said: Surroundings) -> tuple[
     return (average, average) if place.is_backdrop else (lighting.sky_top, lighting.sky_horizon)
 
 
-def _cloud_share(
-    description: SceneDescription, place: Place, lighting: Lighting, *, has_lightning: bool
-) -> float:
+def _cloud_share(description: SceneDescription, place: Place, lighting: Lighting) -> float:
     """Share of the sky that clouds cover."""
     said = description.surroundings
     usual = 0.0 if place.is_backdrop and said.sky is None else lighting.clouds
-    if place.ground is Ground.NONE and place.light == "" and not description.objects:
-        usual = max(usual, _CLOUDED)
     least = [usual if said.clouds is None else said.clouds]
-    least += [0.5] * description.is_timelapse + [0.9] * has_lightning
+    least += [0.5] * description.is_timelapse
     least += [0.8] * (said.weather in ("rain", "snow"))
     return max(least)
 
@@ -225,68 +193,3 @@ def _array(colour: Colour) -> Float32Array:
 def _unit(direction: tuple[float, float, float]) -> Float64Array:
     unit: Float64Array = np.array(direction) / np.linalg.norm(direction)
     return unit
-
-
-_DEPTH_BELOW_M = 0.6
-"""Drops return to the top when they are this far under the ground, out of sight."""
-
-
-@dataclass(frozen=True)
-class Fall:
-    """One kind of weather that falls; lengths are shares of the width of the box that it fills."""
-
-    count: int
-    half: tuple[float, float, float]
-    """Half extents of a drop."""
-    colour: Colour
-    shape: Shape
-    speed_m_s: float = 0.0
-    speed_share: float = 0.0
-    """How fast it falls: in m/s, and in widths of the box each second."""
-    sway: float = 0.0
-
-
-FALLS = {
-    "rain": Fall(170, (0.0018, 0.0018, 0.032), (0.66, 0.72, 0.80), Shape.CYLINDER, 8.0),
-    "snow": Fall(220, (0.0052,) * 3, (0.95, 0.96, 1.0), Shape.ELLIPSOID, 0.0, 0.09, 0.015),
-}
-"""Weather that falls."""
-
-
-@dataclass(frozen=True)
-class FallingParticles(ParticleEffect):
-    """Drops that fall through a box around what the camera looks at."""
-
-    kind: Fall
-    places: Float64Array
-    """[n, 3] at t = 0, m; z counts from the bottom of the box."""
-    base: Float64Array
-    """[3] middle of the ground that it falls on, m."""
-    extent_m: float
-    """Side of the box."""
-
-    def at(self, time_s: float) -> Primitives:
-        """All drops at that instant."""
-        kind, extent = self.kind, self.extent_m
-        speed = kind.speed_m_s + kind.speed_share * extent
-        fallen = np.mod(self.places[:, 2] - speed * time_s, _height(extent)) - _DEPTH_BELOW_M
-        sway = kind.sway * extent * np.sin(1.9 * time_s + 17.0 * self.places[:, 0])
-        maps = np.zeros((len(self.places), 3, 4))
-        maps[:, [0, 1, 2], [0, 1, 2]] = extent * np.array(kind.half)
-        maps[:, :, 3] = np.column_stack([self.places[:, 0] + sway, self.places[:, 1], fallen])
-        maps[:, :, 3] += self.base
-        return many_shapes(maps, kind.shape, kind.colour)
-
-
-def _height(extent_m: float) -> float:
-    return 0.8 * extent_m + _DEPTH_BELOW_M
-
-
-def let_fall(
-    weather: str, base: Float64Array, extent_m: float, rng: np.random.Generator
-) -> FallingParticles:
-    """Weather of `FALLS` over a square of that side around `base`, m."""
-    low = np.array([-0.5 * extent_m, -0.5 * extent_m, 0.0])
-    high = np.array([0.5 * extent_m, 0.5 * extent_m, _height(extent_m)])
-    places = rng.uniform(low, high, size=(FALLS[weather].count, 3))
-    return FallingParticles(FALLS[weather], places, base, extent_m)

@@ -15,8 +15,7 @@ from texvent.scenes.models.places import Place
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.variation import fraction
 from texvent.scenes.scene import LAMP_COLUMNS, Float64Array, Ground
-from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.assemble import PlacedModel
+from texvent.scenes.staging.actors import Actor, PlacedModel
 from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.surroundings.lighting import (
     FLAME_SHARES,
@@ -86,8 +85,8 @@ class LitActor:
     def _blink_of(self, lamp: Lamp) -> float | None:
         return lamp.blink_hz if self.blink_hz is None else self.blink_hz
 
-    def level(self, lamp: Lamp, time_s: float, number: int) -> float:
-        """Light of the object's lamp `number` at that instant, as a share of its usual light."""
+    def level(self, lamp: Lamp, time_s: float) -> float:
+        """Light of a lamp of the object at that instant, as a share of its usual light."""
         if not self.is_on(lamp):
             return 0.0
         full = self.strength if self.is_lit is None and not lamp.always_on else 1.0
@@ -97,7 +96,7 @@ class LitActor:
         wave = "square" if lamp.wave == "sine" and rate < MAINS_HZ else lamp.wave
         # Two candles do not flicker in step.
         phase = fraction(self.actor.instance, "flame")
-        level = wave_level(wave, rate * time_s, phase=phase, number=number)
+        level = wave_level(wave, rate * time_s, phase=phase)
         if wave == "flame" and self.blink_hz is not None:
             level = max(1.0 + _FLICKERING * (level - 1.0), 0.05)
         return full * level
@@ -105,9 +104,9 @@ class LitActor:
     def glow(self, placed: PlacedModel, time_s: float) -> PlacedModel:
         """The object with its glowing parts as bright as its lamps are at that instant."""
         parts = list(placed.parts)
-        for number, (index, _, lamp) in enumerate(self.lamps):
+        for index, _, lamp in self.lamps:
             if self.is_on(lamp) or self.is_lit is not None:
-                factor = lamp.boost * self.level(lamp, time_s, number)
+                factor = lamp.boost * self.level(lamp, time_s)
                 parts[index] = replace(parts[index], emission=parts[index].emission * factor)
         return replace(placed, parts=parts)
 
@@ -116,13 +115,13 @@ class LitActor:
         rows: list[Float64Array] = []
         done: set[Lamp] = set()
         placed = self.actor.place(time_s)
-        for number, (index, brightest, lamp) in enumerate(self.lamps):
+        for index, brightest, lamp in self.lamps:
             if lamp in done or not self.is_on(lamp):
                 continue
             if lamp.is_single:
                 done.add(lamp)
             part = placed.parts[index]
-            level = self.level(lamp, time_s, number) * part.emission / brightest
+            level = self.level(lamp, time_s) * part.emission / brightest
             rows.append(lamp_row(lamp, part, placed.to_world, level, time_s))
             rows[-1][13] = float(self.casts and lamp.intensity >= _DIMMEST_CASTER)
         return rows
@@ -242,7 +241,7 @@ def plan_lamps(
         light, reach = description.light, framing.distance_m
         rows.append(hidden_lamp(focus, reach, strength, light, looking))
     still = np.array(rows, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
-    if description.light.shadows is not False and description.light.hardness != "soft":
+    if description.light.shadows is not False:
         _choose_casters(lit, still, instant_s, focus)
     return LampPlan(description.light.lamps, tuple(lit), still)
 

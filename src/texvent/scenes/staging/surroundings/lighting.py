@@ -14,10 +14,7 @@ from texvent.scenes.models.places import Place
 from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Ground
 
 _WHITE: Colour = (1.0, 1.0, 1.0)
-_HARDNESS = {"soft": (0.45, 1.0, 0.33), "soft side": (0.8, 1.0, 0.12), "hard": (1.4, 0.5, 0.0)}
-"""Factors on direct and on ambient light, and share of direct light that becomes ambient; of soft
-light that comes from a side there is more."""
-_BRIGHTNESS, _DIM, _DIM_LAMPS = {"bright": 1.35, "gloomy": 0.5}, 0.22, 0.35
+_BRIGHT, _DIM, _DIM_LAMPS = 1.35, 0.22, 0.35
 """Factors on exposure, and strength of lamps in dim light."""
 _BACKLIT = 1.25
 """Exposure where things are lit from behind."""
@@ -29,7 +26,6 @@ _PURE = 0.85
 """How much of a named colour is in light of that colour."""
 _ELEVATIONS_DEG = {"left": 32.0, "right": 32.0, "back": 24.0, "front": 32.0, "above": 80.0}
 """Direction of light → height of the sun above the horizon."""
-_LOW_DEG = 14.0
 _BEARINGS_DEG = {"left": 90.0, "right": -90.0, "back": 12.0, "front": 165.0, "above": 0.0}
 """The same → bearing of the sun, from where the camera looks towards its left."""
 
@@ -115,8 +111,6 @@ _DARK = ("night", "moonlight", "lamp")
 def usual_lighting(place: Place, kind: str) -> Lighting:
     """The lighting of a place at a time of day, or under another light of `LIGHTINGS`."""
     if place.light == "underwater":
-        if kind in ("night", "moonlight", "dusk"):
-            return replace(_UNDERWATER, sun=(0.14, 0.22, 0.26), ambient=(0.05, 0.11, 0.16))
         return _UNDERWATER
     if place.light == "space" or (place.light and kind not in _DARK):
         return _DAYLIGHTS[place.light]
@@ -131,7 +125,7 @@ def choose_lighting(place: Place, light: Illumination) -> Lighting:
     lighting = usual_lighting(place, light.kind or "day")
     if light.shadows is not None:
         lighting = replace(lighting, shadows=light.shadows)
-    lighting = _illuminate(lighting, light)
+    lighting = _brighten(lighting, light.brightness)
     if light.direction == "back":
         lighting = replace(lighting, exposure=_BACKLIT * lighting.exposure)
     tint = tint_of(light)
@@ -159,22 +153,13 @@ def tint_of(light: Illumination) -> Colour | None:
     return mix(_WHITE, (red / most, green / most, blue / most), _PURE)
 
 
-def _illuminate(lighting: Lighting, light: Illumination) -> Lighting:
-    """Harder or softer, brighter or dimmer."""
-    if light.hardness is not None:
-        is_side = light.hardness == "soft" and light.direction is not None
-        direct, around, spread = _HARDNESS["soft side" if is_side else light.hardness]
-        around_it, spread_sun = (around,) * 3, _times(lighting.sun, (spread,) * 3)
-        ambient = _plus(_times(lighting.ambient, around_it), spread_sun)
-        sun = _times(lighting.sun, (direct,) * 3)
-        is_hard = light.hardness == "hard"
-        lighting = replace(lighting, sun=sun, ambient=ambient, shadows=is_hard)
-    if light.brightness == "dim":
-        # Lamps that are on anyway are dim enough.
-        dimmed = replace(lighting, exposure=_DIM * lighting.exposure, lamps=_DIM_LAMPS)
-        return lighting if lighting.lamps > 0.0 else dimmed
-    factor = _BRIGHTNESS.get(light.brightness or "", 1.0)
-    return replace(lighting, exposure=factor * lighting.exposure)
+def _brighten(lighting: Lighting, brightness: str | None) -> Lighting:
+    """Brighter or dimmer."""
+    if brightness == "bright":
+        return replace(lighting, exposure=_BRIGHT * lighting.exposure)
+    if brightness == "dim" and lighting.lamps == 0.0:  # lamps that are on are dim enough
+        return replace(lighting, exposure=_DIM * lighting.exposure, lamps=_DIM_LAMPS)
+    return lighting
 
 
 def towards_light(usual: Float64Array, looking: Float64Array, light: Illumination) -> Float64Array:
@@ -182,14 +167,10 @@ def towards_light(usual: Float64Array, looking: Float64Array, light: Illuminatio
 
     `looking` is the unit vector [3] that the camera looks along.
     """
-    if light.direction is None and not light.is_low:
+    if light.direction is None:
         return usual
-    elevation, bearing = math.radians(_LOW_DEG), math.atan2(usual[1], usual[0])
-    if light.direction is not None:
-        bearing = math.atan2(looking[1], looking[0])
-        bearing += math.radians(_BEARINGS_DEG[light.direction])
-        if not light.is_low:
-            elevation = math.radians(_ELEVATIONS_DEG[light.direction])
+    elevation = math.radians(_ELEVATIONS_DEG[light.direction])
+    bearing = math.atan2(looking[1], looking[0]) + math.radians(_BEARINGS_DEG[light.direction])
     flat = math.cos(elevation)
     return np.array([flat * math.cos(bearing), flat * math.sin(bearing), math.sin(elevation)])
 
@@ -206,7 +187,7 @@ def hidden_lamp(
     It is warm where it has no colour, and stands off the target [3] by shares of `reach_m`.
     """
     row, offset = np.zeros(LAMP_COLUMNS), _LAMP_OFFSET
-    if light.direction is not None or light.is_low:
+    if light.direction is not None:
         far = float(np.linalg.norm(offset))
         offset = far * towards_light(offset / far, looking, light)
     row[:3] = target + reach_m * offset
@@ -225,28 +206,18 @@ def _times(colour: Colour, factors: Colour) -> Colour:
     return colour[0] * factors[0], colour[1] * factors[1], colour[2] * factors[2]
 
 
-def _plus(first: Colour, second: Colour) -> Colour:
-    return first[0] + second[0], first[1] + second[1], first[2] + second[2]
-
-
 ON_SHARES = {"square": 0.5, "switch": 0.5, "strobe": 0.35}
 """Wave that goes on and off → share of a period that it is on."""
 DEPTHS = {"sine": 0.8, "switch": 0.9, "strobe": 0.96}
 """Wave of the light of a place → share of it that is gone at its darkest."""
 FLAME_SHARES = ((1.0, 0.13), (1.83, 0.09), (3.17, 0.06))
 """Sines that make a flame flicker: multiple of its frequency, and amplitude."""
-STROKE_HZ = 11.0
-"""Strokes of lightning that follow each other fastest, per second."""
-_FLASH_EVERY_S, _FIRST_S, _DECAY_S = 0.85, 0.3, 0.09
-_STROKES = ((0.0, 1.0), (0.09, 0.55), (0.20, 0.85))
-"""Strokes of one flash: seconds after its start, and brightness."""
 
 
-def wave_level(wave: str, cycles: float, *, phase: float = 0.0, number: int = 0) -> float:
+def wave_level(wave: str, cycles: float, *, phase: float = 0.0) -> float:
     """Share of full light after so many periods since t = 0; 1 at their beginning.
 
-    `phase`, 0..1, is that of a flame; of a beam that rotates every second lamp of an object, by its
-    `number`, is seen half a turn later.
+    `phase`, 0..1, is that of a flame.
     """
     turn = 2.0 * math.pi
     if wave in ON_SHARES:
@@ -256,25 +227,4 @@ def wave_level(wave: str, cycles: float, *, phase: float = 0.0, number: int = 0)
             share * math.sin(turn * (multiple * cycles + phase * (1.0 + multiple)))
             for multiple, share in FLAME_SHARES
         )
-    if wave == "rotating":
-        return max(math.cos(turn * cycles + math.pi * number), 0.0) ** 2
     return 0.5 + 0.5 * math.cos(turn * cycles)
-
-
-def flash_number(time_s: float) -> int:
-    """Number of the last flash of lightning that has begun; -1 = none."""
-    return math.floor((time_s - _FIRST_S) / _FLASH_EVERY_S)
-
-
-def lightning_level(time_s: float) -> float:
-    """Light of lightning at that instant, 0 = dark .. 1 = the brightest stroke.
-
-    Example:
-        >>> lightning_level(0.0), lightning_level(0.3)
-        (0.0, 1.0)
-    """
-    number = flash_number(time_s)
-    age = time_s - _FIRST_S - number * _FLASH_EVERY_S
-    levels = (light * math.exp((start - age) / _DECAY_S) for start, light in _STROKES
-              if age >= start)  # fmt: skip
-    return max(levels) if number >= 0 else 0.0

@@ -13,11 +13,10 @@ from texvent.scenes.models.places import Place
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array, Ground
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.acts import HeldAt
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
-from texvent.scenes.staging.trajectories.trajectory import Stationary
+from texvent.scenes.staging.trajectories.trajectory import Attached, Stationary
 
 _LEAST_TURN = 0.9
 """Least change of heading, radians, after which a road goes off there."""
@@ -190,5 +189,5 @@ def water_line(place: Place, actors: Sequence[Actor], path: CameraPath) -> RoadL
 
 
 def _is_in_water(actor: Actor) -> bool:
-    is_of_water = actor.noun.habitat == "water" and not isinstance(actor.trajectory, HeldAt)
+    is_of_water = actor.noun.habitat == "water" and not isinstance(actor.trajectory, Attached)
     return is_of_water or actor.trajectory.at(0.0).activity in _AFLOAT

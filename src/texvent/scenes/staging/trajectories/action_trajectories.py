@@ -14,6 +14,7 @@ import numpy as np
 
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
+    Stationary,
     Trajectory,
     Vector,
     rotation,
@@ -47,25 +48,6 @@ class Spin:
         return replace(state, pitch=turn) if self.axis == "pitch" else replace(state, roll=turn)
 
 
-@dataclass(frozen=True)
-class Swing:
-    """Hangs from a point above and swings as a pendulum of that length does (small angles)."""
-
-    home: Vector
-    """Where its origin hangs at rest."""
-    length_m: float
-    """From the body's origin up to the point it hangs from."""
-    amplitude_rad: float
-    pace: float = 1.0
-    yaw: float = 0.0
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        rate = self.pace * math.sqrt(GRAVITY_M_S2 / self.length_m)
-        angle = self.amplitude_rad * math.cos(rate * time_s)
-        return BodyState(self.home, self.yaw, pitch=angle, activity="swing", pivot_m=self.length_m)
-
-
 class Wave(NamedTuple):
     """A sine that is added to one coordinate of a body."""
 
@@ -93,6 +75,13 @@ class Oscillating:
             values[wave.axis] += wave.amplitude * math.sin(angle)
         x, y, z, yaw, pitch, roll = values.values()
         return replace(state, position=(x, y, z), yaw=yaw, pitch=pitch, roll=roll)
+
+
+def swing(home: Vector, length_m: float, amplitude_rad: float, pace: float = 1.0) -> Oscillating:
+    """A pendulum of small angles; its origin hangs at `home`, `length_m` below its pivot."""
+    rate_hz = pace * math.sqrt(GRAVITY_M_S2 / length_m) / (2.0 * math.pi)
+    hanging = Stationary(home, activity="swing", pivot_m=length_m)
+    return Oscillating(hanging, (Wave("pitch", amplitude_rad, rate_hz, 0.5 * math.pi),))
 
 
 def hover(path: Trajectory, amplitude_m: float, phase: float = 0.0) -> Oscillating:
@@ -204,16 +193,3 @@ def about_pivot(state: BodyState, pivot_m: float) -> BodyState:
     turn = rotation(state.yaw, state.pitch, state.roll)
     x, y, z = state.to_world()[:, 3] + turn @ pivot - pivot
     return replace(state, position=(float(x), float(y), float(z)), pivot_m=pivot_m)
-
-
-@dataclass(frozen=True)
-class Switched:
-    """One trajectory up to an instant, another from then on."""
-
-    before: Trajectory
-    after: Trajectory
-    at_s: float
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        return (self.before if time_s < self.at_s else self.after).at(time_s)

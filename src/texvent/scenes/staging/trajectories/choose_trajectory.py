@@ -17,9 +17,9 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     Flight,
     Oscillating,
     Spin,
-    Swing,
     Wave,
     hover,
+    swing,
 )
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.phases import NO_FLOOR_M, PATH_KINDS, activity_of
@@ -132,6 +132,23 @@ def _go_round(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Tra
     return Facing(circle) if plan.is_facing else circle
 
 
+def orbit(
+    plan: MotionPlan,
+    model: Model,
+    centre: Vector,
+    radius_m: float,
+    share: float,
+    *,
+    is_flying: bool,
+) -> Circle:
+    """Once round another object in the clip, from that share of the round on."""
+    rate = 2.0 * math.pi / max(plan.duration_s, 2.0) * plan.motion.pace
+    rate *= -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
+    activity = "run" if plan.motion.kind == "run" else "move"
+    lean = 0.3 if is_flying and model.length > model.height else 0.0
+    return Circle(centre, radius_m, rate, 2.0 * math.pi * share, activity, lean)
+
+
 def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
     """To and fro, or up and down: what stands on the ground rises from it."""
     kind, direction, rate = plan.motion.kind, plan.motion.direction, plan.motion.rate_hz
@@ -174,7 +191,7 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
         rate, pivot = 2.0 * math.pi * hz * pace, 0.5 * min(model.width, model.height)
         return Spin(place, rate, plan.yaw, axis=axis, pivot_m=pivot, activity=doing)
     if kind == "swing":
-        return Swing(home, max(1.6 * model.height, 0.6), 0.5, pace)
+        return swing(home, rope_length(model), 0.5, pace)
     if kind in ("hover", "float"):
         span = max(model.length, model.width, model.height)
         bob_m = 0.12 * min(span, _LARGEST_AFLOAT_M) * pace
@@ -185,6 +202,11 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     way = -1.0 if plan.motion.direction == "clockwise" else 1.0
     activity = kind if kind in _STAYING else "move"
     return Stationary(home, plan.yaw, activity, way * pace, way * _gain(plan))
+
+
+def rope_length(model: Model) -> float:
+    """From the origin of what swings up to the point that it hangs from, m."""
+    return max(1.6 * model.height, 0.6)
 
 
 def _spin(
@@ -211,26 +233,14 @@ def _fly_freely(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
     """Bouncing, falling and thrown objects: gravity decides."""
     kind, pivot, duration_s = plan.motion.kind, 0.5 * model.height, plan.duration_s
     floor = home[2]
-    if kind == "bounce":
-        height = min(max(3.0 * model.height, 0.8), 2.5)
-        along = 0.0 if plan.motion.direction is None else 0.5 * plan.speed_m_s
-        place = ahead(home, plan.yaw, -0.5 * along * duration_s, floor + height)
-        return Flight(BodyState(place, plan.yaw), _velocity(plan, along, 0.0), floor, 0.82)
     if kind == "fall":
         height = 0.5 * GRAVITY_M_S2 * (0.45 * duration_s) ** 2
         height = min(max(height, model.height), max(1.2 * model.height, 0.5))
         start = BodyState(_raised(home, height), plan.yaw, pivot_m=pivot)
         return Flight(start, floor_m=floor, restitution=0.3, start_s=0.1 * duration_s)
-    span, along = max(model.length, model.height), plan.travel_m / duration_s
-    height = min(max(1.0, model.height), 4.0 * span)
-    place = ahead(home, plan.yaw, -0.5 * plan.travel_m, floor + height)
-    up = min(0.5 * GRAVITY_M_S2 * min(0.55 * duration_s, 1.0),
-             math.sqrt(2.0 * GRAVITY_M_S2 * (0.2 + 4.0 * span)))  # fmt: skip
-    return Flight(
-        BodyState(place, plan.yaw, pivot_m=pivot), _velocity(plan, along, up), floor, 0.6,
-        tumble_rad_s=along / max(pivot, 0.05),
-    )  # fmt: skip
-
-
-def _velocity(plan: MotionPlan, along_m_s: float, up_m_s: float) -> Vector:
-    return (along_m_s * math.cos(plan.yaw), along_m_s * math.sin(plan.yaw), up_m_s)
+    height = min(max(3.0 * model.height, 0.8), 2.5)
+    is_still = kind == "bounce" and plan.motion.direction is None
+    along = 0.0 if is_still else 0.5 * plan.speed_m_s
+    place = ahead(home, plan.yaw, -0.5 * along * duration_s, floor + height)
+    velocity = (along * math.cos(plan.yaw), along * math.sin(plan.yaw), 0.0)
+    return Flight(BodyState(place, plan.yaw), velocity, floor, 0.82)

@@ -36,8 +36,6 @@ MIN_LENGTHS_PER_S = 0.35
 LEAST_SAILED = 0.15
 """The same of ships, at 24 knots for 80 m: others are seen to rest."""
 SMALL_M = 2.5
-THROWN_LENGTHS_PER_S = 8.0
-"""Of what is thrown, within bounds."""
 _DIAGONAL = 0.6
 """Metres up per metre along a diagonal of the picture."""
 RUN_FACTOR = 2.2
@@ -81,7 +79,7 @@ class MotionPlan:
         """Metres covered in the clip along the heading."""
         if self.is_path:
             return self.speed_m_s * self.duration_s
-        if self.motion.kind == "throw" or self.motion.direction == "to and fro":
+        if self.motion.direction == "to and fro":
             return 0.6 * self.speed_m_s * self.duration_s
         return 0.0
 
@@ -200,8 +198,6 @@ def _choose_speed(motions: Sequence[ObjectMotion], noun: Noun, model: Model) -> 
     if stated is not None:
         return stated
     speed = noun.speed_m_s if noun.speed_m_s > 0.0 else 1.0
-    if motion.kind == "throw":
-        return min(max(THROWN_LENGTHS_PER_S * max(model.length, model.height), 0.6), 4.0)
     if motion.kind == "run" and noun.motion == "walk":
         speed *= RUN_FACTOR
     # What flies has no road to be compared with: slower, it can be shown larger.

@@ -57,8 +57,6 @@ _CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
 """Metres up or down per metre along: in general, from a runway, and to it."""
 _LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
 """Shares of a phase after which wheels leave a runway, or meet it."""
-_SUNK = 0.8
-"""Share of its height that a vessel sinks."""
 _CLOCKWISE = frozenset({"clockwise", "right"})
 _REACHED = {"sit down": "sit", "stand up": "stand"}
 """Getting up and down after something else: the posture that the body goes over to."""
@@ -301,9 +299,7 @@ class _Builder:
             return
         size = max(self._model.length, self._model.height)
         climb = min(max(self._usual, 0.3 * size), size) * motion.pace
-        if not is_up and self._noun.motion == "sail":
-            climb = -_SUNK * self._model.height / span
-        elif not is_up and self._is_single:
+        if not is_up and self._is_single:
             self.initial_height = climb * 0.85 * span
             climb = -climb
         elif not is_up:

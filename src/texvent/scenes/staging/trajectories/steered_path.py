@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.staging.trajectories.action_trajectories import GRAVITY_M_S2, bounce_height
-from texvent.scenes.staging.trajectories.trajectory import BodyState, Vector, ahead
+from texvent.scenes.staging.trajectories.trajectory import BodyState, Vector
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _RADIANS_PER_STEP = 1.0
@@ -153,32 +153,6 @@ class SteeredPath:
             knot.time_s + elapsed, (x, y, max(z, self.floor_m)), knot.heading + turned,
             knot.distance_m + way, (speed, turn, climb, pitch),
         )  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Lagging:
-    """Follows a path at a constant distance behind, along the very same line."""
-
-    path: SteeredPath
-    gap_m: float
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        way = self.path.distance_at(time_s) - self.gap_m
-        if way <= 0.0:
-            place = ahead(self.path.start, self.path.yaw, way, self.path.start[2])
-            state = BodyState(place, self.path.yaw)
-        else:
-            low, high = 0.0, time_s
-            for _ in range(60):
-                middle = 0.5 * (low + high)
-                if self.path.distance_at(middle) < way:
-                    low = middle
-                else:
-                    high = middle
-            state = self.path.at(high)
-        leader = self.path.at(time_s)
-        return replace(state, distance_m=way, speed_m_s=leader.speed_m_s, activity=leader.activity)
 
 
 def _ramp(piece: Piece) -> float:

@@ -8,11 +8,14 @@ the ground they cover.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Protocol
 
 import numpy as np
 
+from texvent.scenes.models.shapes import compose, shift
 from texvent.scenes.scene import Float64Array
 
 Vector = tuple[float, float, float]
@@ -52,6 +55,11 @@ class BodyState:
         pivot = np.array([0.0, 0.0, self.pivot_m])
         offset = np.array(self.position) + pivot - turn @ pivot
         return np.column_stack([turn, offset])
+
+
+def vector(values: Float64Array) -> Vector:
+    """Three numbers of an array as a tuple of floats."""
+    return (float(values[0]), float(values[1]), float(values[2]))
 
 
 def ahead(home: Vector, yaw: float, along_m: float, height_m: float) -> Vector:
@@ -103,11 +111,14 @@ class Stationary:
     tempo: float = 1.0
     gain_per_s: float = 0.0
     """By how much the tempo grows each second."""
+    pivot_m: float = 0.0
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         mean = self.tempo + 0.5 * self.gain_per_s * time_s
-        return BodyState(self.home, self.yaw, activity=self.activity, tempo=mean)
+        return BodyState(
+            self.home, self.yaw, activity=self.activity, tempo=mean, pivot_m=self.pivot_m
+        )
 
 
 @dataclass(frozen=True)
@@ -234,17 +245,66 @@ class Facing:
 
 
 @dataclass(frozen=True)
-class Riding:
-    """Sits at a fixed place on another body and goes where that goes."""
+class Attached:
+    """Fixed to axes that another body carries: its own, those of a named place, or of a part."""
 
     carrier: Trajectory
-    seat: Vector
-    """In the carrier's body coordinates, m."""
-    activity: str = "sit"
+    axes: Callable[[float], Float64Array]
+    """Instant, s → [3, 4] these axes in the world."""
+    offset: Float64Array
+    """[3, 4] its body coordinates in these axes."""
+    activity: str = "stand"
+
+    @classmethod
+    def seated(cls, carrier: Trajectory, seat: Vector, activity: str) -> Attached:
+        """At a fixed place in the carrier's body coordinates, m."""
+        return cls(carrier, partial(_body_axes, carrier), shift(*seat), activity)
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         below = self.carrier.at(time_s)
-        place = below.to_world() @ np.array([*self.seat, 1.0])
-        seat = (float(place[0]), float(place[1]), float(place[2]))
-        return BodyState(seat, below.yaw, below.pitch, below.roll, activity=self.activity)
+        return replace(
+            state_of(compose(self.axes(time_s), self.offset)),
+            distance_m=below.distance_m,
+            speed_m_s=below.speed_m_s,
+            activity=self.activity,
+        )
+
+
+def _body_axes(path: Trajectory, time_s: float) -> Float64Array:
+    return path.at(time_s).to_world()
+
+
+@dataclass(frozen=True)
+class Performed:
+    """Another trajectory whose body does something in particular meanwhile."""
+
+    path: Trajectory
+    activity: str | None = None
+    """None = what the path says."""
+    grips: tuple[tuple[str, Vector], ...] = ()
+    contact_s: float | None = None
+    """Instant of contact of a single act, s."""
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        state = self.path.at(time_s)
+        return replace(
+            state,
+            activity=self.activity or state.activity,
+            grips=self.grips + state.grips,
+            act_s=state.act_s if self.contact_s is None else time_s - self.contact_s,
+        )
+
+
+@dataclass(frozen=True)
+class Switched:
+    """One trajectory up to an instant, another from then on."""
+
+    before: Trajectory
+    after: Trajectory
+    at_s: float
+
+    def at(self, time_s: float) -> BodyState:
+        """State at that instant."""
+        return (self.before if time_s < self.at_s else self.after).at(time_s)

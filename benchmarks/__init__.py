@@ -1,1 +1,0 @@
-"""Speed measurements that anyone can rerun: `python -m benchmarks.NAME`."""

@@ -1,7 +1,0 @@
-"""How fast texvent is: kernels, the whole pipeline by stage, peers, start-up, memory, GPU.
-
-    python -m benchmarks.speed [--quick] [--json FILE]
-
-`docs/speed.md` says what is measured and shows the committed figures;
-`docs/results/speed.schema.json` describes the JSON.
-"""

@@ -1,0 +1,1 @@
+"""Laboratory of texvent: benchmarks, trained networks, and the measurements behind its pages."""

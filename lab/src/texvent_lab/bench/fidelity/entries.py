@@ -1,0 +1,177 @@
+"""What the benchmark runs: every simulator by every way of filling the time between frames."""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal, TypeAlias
+
+from texvent.errors import ConfigError, shown
+from texvent.events import EventStream
+from texvent.extending import SIMULATORS, suggest
+from texvent.run.prepare import prepare_video
+from texvent.run.settings import Settings, resolve
+from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
+from texvent.video import FrameStream
+from texvent_lab.bench.oracle.recording import TrueFrames, render_video
+from texvent_lab.bench.oracle.scenes import Scene
+
+Track: TypeAlias = Literal[
+    "frames",
+    "true frames",
+    "frames, sensor known",
+    "true frames, sensor known",
+    "recorded",
+]
+"""Input of a simulator: frames as a camera records them, or the scene at any instant; and whether
+it knows the sensor. "recorded" marks events of a sensor, which no simulator made."""
+
+INTERPOLATIONS = ("none", "blend", "flow", "exact")
+"""Interpolators that are compared; "exact" gets the true frames, all others the camera's frames."""
+
+CALIBRATED = ("physical", "calibrated")
+"""Simulator and preset that know the oracle's sensor."""
+CALIBRATED_FRAMES_PER_PIXEL = 2.0
+"""Of motion: with fewer, what is missing between frames costs more than what is left of the
+sensor's constants."""
+SENSOR_FILE = Path(__file__).parents[1] / "oracle" / "sensor.toml"
+THRESHOLD_FILE = SENSOR_FILE.with_name("sensor_thresholds.npz")
+"""Their options and the thresholds of each pixel, from `texvent_lab.measure.oracle_sensor`."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Entry:
+    """One row of the benchmark."""
+
+    simulator: str
+    interpolate: str
+    preset: str | None = None
+    """Name of the options; default: the simulator's first preset."""
+    is_rate_matched: bool = True
+    """Whether the contrast threshold is fitted to the number of true events, or kept."""
+
+    @property
+    def name(self) -> str:
+        """How tables call it."""
+        preset = f" {self.preset}" if self.preset else ""
+        return f"{self.simulator}{preset}, {self.interpolate}"
+
+    @property
+    def track(self) -> Track:
+        """Whether it is given the true intermediate frames, or the sensor."""
+        if self.interpolate == "exact":
+            return "true frames, sensor known" if self._is_calibrated else "true frames"
+        return "frames, sensor known" if self._is_calibrated else "frames"
+
+    @property
+    def _is_calibrated(self) -> bool:
+        return (self.simulator, self.preset) == CALIBRATED
+
+    @classmethod
+    def parse(cls, name: str) -> Entry:
+        """The entry that tables call so."""
+        model, _, interpolate = name.rpartition(", ")
+        simulator, _, preset = model.partition(" ")
+        return cls(simulator=simulator, preset=preset or None, interpolate=interpolate)
+
+    def settings(self, seed: int) -> Settings:
+        """Resolved options of a run.
+
+        Raises:
+            ConfigError: the simulator, its preset or the interpolator does not exist.
+        """
+        options = {
+            "simulator": self.simulator,
+            "preset": None if self._is_calibrated else self.preset,
+            "interpolate": self.interpolate,
+            "frames_per_pixel": CALIBRATED_FRAMES_PER_PIXEL if self._is_calibrated else None,
+            "seed": seed,
+            "threshold_map": THRESHOLD_FILE if self._is_calibrated else None,
+        }
+        return resolve("simulate", options, config=SENSOR_FILE if self._is_calibrated else None)
+
+    @property
+    def default_threshold(self) -> float | None:
+        """Contrast threshold from which the fit starts, log units.
+
+        None for a simulator that has none, or whose threshold is kept.
+        """
+        if not self.is_rate_matched:
+            return None
+        try:
+            return contrast_threshold_of(self.settings(0).simulate)
+        except ConfigError:
+            return None
+
+    def simulate(self, scene: Scene, seed: int, threshold: float | None) -> EventStream:
+        """Events of one run on a scene of the oracle.
+
+        Args:
+            scene: what the camera sees.
+            seed: of the simulator's own noise.
+            threshold: contrast threshold δ, log units; None leaves the preset's.
+
+        Raises:
+            TexventError: the simulator cannot run as it is, such as without its weights.
+        """
+        video: FrameStream = (
+            TrueFrames(scene) if self.interpolate == "exact" else render_video(scene)
+        )
+        return simulate_video(video, self.settings(seed), threshold)
+
+
+def simulate_video(video: FrameStream, settings: Settings, threshold: float | None) -> EventStream:
+    """Events of a video with a contrast threshold, log units, or the settings' own (None)."""
+    if threshold is not None:
+        simulate = with_contrast_threshold(settings.simulate, threshold)
+        settings = dataclasses.replace(settings, simulate=simulate)
+    return prepare_video(video, settings).packets.collect()
+
+
+NAMED_PRESETS: Mapping[str, tuple[str, ...]] = {"texvent": ("accurate", "paper")}
+"""Simulator → presets that are compared, by name; of the others it is the first one."""
+
+
+def simulators_to_compare() -> list[tuple[str, str | None]]:
+    """(simulator, preset) of every registered simulator."""
+    return [
+        (simulator, preset)
+        for simulator in SIMULATORS.names()
+        for preset in NAMED_PRESETS.get(simulator, (None,))
+    ]
+
+
+def choose_entries(simulators: str | None = None, interpolations: str | None = None) -> list[Entry]:
+    """Entries from the words of a command line.
+
+    Args:
+        simulators: `NAME` or `NAME:PRESET`, separated by commas; None means all to compare,
+            and `CALIBRATED`.
+        interpolations: names separated by commas; None means `INTERPOLATIONS`.
+
+    Raises:
+        ConfigError: `physical` has no such preset.
+    """
+    chosen = [*simulators_to_compare(), CALIBRATED]
+    if simulators is not None:
+        words = (word.partition(":") for word in simulators.split(","))
+        chosen = [(simulator, preset or None) for simulator, _, preset in words]
+        _check_presets(chosen)
+    names = interpolations.split(",") if interpolations is not None else INTERPOLATIONS
+    return [
+        Entry(simulator=simulator, preset=preset, interpolate=interpolate)
+        for simulator, preset in chosen
+        for interpolate in names
+    ]
+
+
+def _check_presets(chosen: list[tuple[str, str | None]]) -> None:
+    """Refuse presets of `physical` that are neither its own nor the benchmark's."""
+    allowed = (*SIMULATORS.load(CALIBRATED[0]).presets, CALIBRATED[1])
+    for simulator, preset in chosen:
+        if simulator == CALIBRATED[0] and preset is not None and preset not in allowed:
+            raise ConfigError(
+                f"simulator {simulator!r} has no preset {shown(preset)}; {suggest(preset, allowed)}"
+            )

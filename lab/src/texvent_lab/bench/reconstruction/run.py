@@ -1,0 +1,305 @@
+"""Simulators scored by reconstruction: images made from their events, against the true frames.
+
+The idea of the paper's Tables 1, 3 and 8, by the protocol of EVREAL (Ercan et al., CVPRW 2023). A
+recording holds frames and events. A network makes an image at every frame from the events since
+the frame before, once from the recorded events and once from those that each simulator makes of
+the frames; all are compared with the frames themselves.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import itertools
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any, TypeAlias
+
+from texvent.calibrate.rate import match_rate
+from texvent.config import check_range
+from texvent.errors import ConfigError, InputError, TexventError
+from texvent.events import EventStream
+from texvent.metrics.image_measures import Measures
+from texvent.options.fields import option_names
+from texvent.pipeline import Simulation, video_to_events
+from texvent.represent.packet_slices import slice_between
+from texvent.simulate.thresholds import contrast_threshold_of
+from texvent.video import MICROSECONDS
+from texvent_lab.bench.fidelity.entries import Entry
+from texvent_lab.bench.markdown import MarkdownReport
+from texvent_lab.bench.progress import Progress, no_progress
+from texvent_lab.bench.real.frame_recording import FrameRecording
+from texvent_lab.bench.reconstruction.image_scores import ImageScores, ScoreCollector, score_images
+from texvent_lab.reconstruct.reconstructor import Intensity, Reconstructor
+
+ImageCallback: TypeAlias = Callable[[str, str, int, Intensity], None]
+"""Called with every image: recording, source of the events, time in µs, image."""
+
+RECORDED = "recorded"
+"""What the sensor's own events are called."""
+DEFAULT_SKIP = 10
+"""Images that do not count where no part of the recording is named: a network needs time."""
+MATCH_SECONDS = 1.0
+"""How much of a recording is simulated to fit the number of events."""
+
+
+def _ignore_image(recording: str, source: str, t_us: int, image: Intensity) -> None:
+    del recording, source, t_us, image
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReconstructionPlan:
+    """What is simulated, and what counts.
+
+    Raises:
+        ConfigError: a value is out of range, or an entry does not exist.
+    """
+
+    entries: Sequence[Entry] = (
+        Entry(simulator="texvent", preset="paper", interpolate="blend"),
+        Entry(simulator="texvent", preset="paper", interpolate="flow"),
+        Entry(simulator="texvent", preset="accurate", interpolate="flow"),
+        Entry(simulator="physical", interpolate="flow"),
+        Entry(simulator="esim", interpolate="flow"),
+        Entry(simulator="v2e", interpolate="flow"),
+    )
+    span_us: tuple[int, int] | None = None
+    """First and last time that counts, µs; None: EVREAL's part of recordings that it names, all
+    but the first `skip` images of others."""
+    skip: int | None = None
+    """Images at the start that do not count; None: 10 where no part is named, else none."""
+    is_rate_matched: bool = False
+    """Fit each contrast threshold to the number of recorded events, instead of keeping it."""
+    frames_gamma: float = 1.0
+    """Exponent that makes the frames linear: 1 for those of a DAVIS, 2.2 for ordinary video."""
+    seed: int = 0
+
+    def __post_init__(self) -> None:
+        check_range("frames_gamma", self.frames_gamma, 0.1, 10.0)
+        check_range("skip", self.skip, 0)
+        for entry in self.entries:
+            entry.settings(self.seed)
+
+    def frame_times_us(self, recording: FrameRecording) -> list[int]:
+        """Times of the frames of a recording up to the last one that counts, µs."""
+        span, _ = self.scored_part(recording)
+        times = (frame.t_us for frame in recording.frames)
+        return list(times if span is None else itertools.takewhile(lambda t: t <= span[1], times))
+
+    def scored_part(self, recording: FrameRecording) -> tuple[tuple[int, int] | None, int]:
+        """First and last µs that count, and how many images at the start do not."""
+        span = self.span_us or (recording.evreal_span_us if self.skip is None else None)
+        default = 0 if span is not None else DEFAULT_SKIP
+        return span, default if self.skip is None else self.skip
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReconstructionRow:
+    """One source of events on one recording."""
+
+    recording: str
+    source: str
+    """`RECORDED`, or the name of the entry."""
+    scores: ImageScores
+    events: int
+    """From the first frame to the last one that counts."""
+    threshold: float | None = None
+    """δ of a simulator that has one, log units."""
+    seconds: float = 0.0
+    """Simulating and reconstructing."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReconstructionReport(MarkdownReport):
+    """Everything a run found."""
+
+    network: str
+    sha256: str
+    """Of the network's weights file."""
+    is_published: bool
+    """True if that is known to be the published file."""
+    plan: ReconstructionPlan
+    rows: Sequence[ReconstructionRow]
+    absent: dict[str, str] = field(default_factory=dict)
+    """Measure → why it is left out."""
+    skipped: dict[str, str] = field(default_factory=dict)
+    """Entry → why it did not run."""
+
+    def markdown(self) -> str:
+        """All tables of the run."""
+        from texvent_lab.bench.reconstruction.table import reconstruction_tables  # reads reports
+
+        return reconstruction_tables(self)
+
+    def sources(self) -> list[str]:
+        """Sources of events, the recorded ones first."""
+        return list(dict.fromkeys(row.source for row in self.rows))
+
+    def rows_of(self, source: str) -> list[ReconstructionRow]:
+        """The rows of one source, in order of recordings."""
+        return [row for row in self.rows if row.source == source]
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class ReconstructionScorer:
+    """Turns events into images and compares these with the true frames."""
+
+    reconstructor: Reconstructor
+    """The network; it is reset before each recording."""
+    measures: Measures
+    plan: ReconstructionPlan
+    on_image: ImageCallback = _ignore_image
+
+    def score(
+        self, recording: FrameRecording, packets: Iterable[EventStream], *, source: str = RECORDED
+    ) -> ReconstructionRow:
+        """Score recorded or simulated events of a recording's scene.
+
+        Args:
+            recording: whose frames are the truth.
+            packets: the events, in time order.
+            source: what to call them.
+
+        Raises:
+            InputError: the events have another size than the frames, or no image counts.
+        """
+        start = time.perf_counter()
+        times_us = self.plan.frame_times_us(recording)
+        counted = _Counter()
+        slices = counted.pass_on(slice_between(packets, times_us, size=recording.frames.size))
+        images = self._reported(self.reconstructor.reconstruct_all(slices), recording, source)
+        scores = score_images(images, recording.frames, self.new_collector(recording))
+        return ReconstructionRow(
+            recording=recording.name,
+            source=source,
+            scores=scores,
+            events=counted.events,
+            seconds=time.perf_counter() - start,
+        )
+
+    def new_collector(self, recording: FrameRecording) -> ScoreCollector:
+        """A collector for the part of a recording that counts."""
+        span_us, skip = self.plan.scored_part(recording)
+        return ScoreCollector(self.measures, span_us=span_us, skip=skip)
+
+    def _reported(
+        self, images: Iterable[tuple[int, Intensity]], recording: FrameRecording, source: str
+    ) -> Iterator[tuple[int, Intensity]]:
+        for t_us, image in images:
+            self.on_image(recording.name, source, t_us, image)
+            yield t_us, image
+
+
+def run_reconstruction(
+    recordings: Sequence[FrameRecording],
+    scorer: ReconstructionScorer,
+    *,
+    progress: Progress = no_progress,
+) -> ReconstructionReport:
+    """Score the recorded events of each recording, and those of each simulator.
+
+    Args:
+        recordings: what the sensor saw.
+        scorer: network, measures, and the plan: what is simulated and what counts.
+        progress: told of every step.
+
+    Raises:
+        InputError: a recording cannot be read, or no image of it counts.
+    """
+    rows: list[ReconstructionRow] = []
+    skipped: dict[str, str] = {}
+    for recording in recordings:
+        progress(f"{recording.name}: recorded events")
+        rows.append(scorer.score(recording, recording.events))
+        for entry in scorer.plan.entries:
+            progress(f"{recording.name}: {entry.name}")
+            try:
+                simulation = simulate_recording(recording, entry, scorer.plan)
+                row = scorer.score(recording, simulation.packets, source=entry.name)
+            except TexventError as error:
+                skipped[entry.name] = f"{recording.name}: {error}"
+                continue
+            rows.append(dataclasses.replace(row, threshold=_threshold_of(simulation)))
+    reconstructor = scorer.reconstructor
+    return ReconstructionReport(
+        network=reconstructor.name,
+        sha256=reconstructor.sha256,
+        is_published=reconstructor.is_published,
+        plan=scorer.plan,
+        rows=rows,
+        absent=dict(scorer.measures.absent),
+        skipped=skipped,
+    )
+
+
+def simulate_recording(
+    recording: FrameRecording, entry: Entry, plan: ReconstructionPlan
+) -> Simulation:
+    """A run of a simulator on a recording's frames, not started.
+
+    Args:
+        recording: whose frames are simulated, and whose events are counted to fit δ.
+        entry: simulator and interpolator.
+        plan: seed, gamma of the frames, and whether δ is fitted.
+
+    Raises:
+        ConfigError: δ is to be fitted and the simulator has none.
+        InputError: no δ gives the recorded number of events.
+    """
+    settings = entry.settings(plan.seed)
+    if "gamma" in option_names(type(settings.simulate)):
+        simulate: Any = settings.simulate
+        linear = dataclasses.replace(simulate, gamma=plan.frames_gamma)
+        settings = dataclasses.replace(settings, simulate=linear)
+    simulation = video_to_events(recording.frames, settings)
+    if not plan.is_rate_matched:
+        return simulation
+    return match_rate(simulation, recorded_rate_hz(recording), seconds=MATCH_SECONDS)[0]
+
+
+def recorded_rate_hz(recording: FrameRecording) -> float:
+    """Recorded events per second over the start of the frames.
+
+    Raises:
+        InputError: nothing was recorded there.
+    """
+    start_us: int | None = None
+    last_us = 0
+    for frame in recording.frames:
+        start_us = frame.t_us if start_us is None else start_us
+        last_us = frame.t_us
+        if last_us - start_us >= MATCH_SECONDS * MICROSECONDS:
+            break
+    start_us = start_us or 0
+    count = 0
+    for packet in recording.events:
+        if len(packet) and int(packet.t[0]) >= last_us:
+            break
+        count += len(packet.cut(start_us, last_us))
+    if not count:
+        raise InputError(
+            f"{recording.name}: no event was recorded from {start_us} to {last_us} µs, so no "
+            "threshold can be fitted"
+        )
+    return count * MICROSECONDS / (last_us - start_us)
+
+
+def _threshold_of(simulation: Simulation) -> float | None:
+    try:
+        return contrast_threshold_of(simulation.settings.simulate)
+    except ConfigError:
+        return None
+
+
+@dataclass
+class _Counter:
+    """Counts the events of slices that pass by."""
+
+    events: int = 0
+
+    def pass_on(
+        self, slices: Iterable[tuple[int, EventStream]]
+    ) -> Iterator[tuple[int, EventStream]]:
+        for t_us, events in slices:
+            self.events += len(events)
+            yield t_us, events

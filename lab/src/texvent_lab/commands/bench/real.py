@@ -1,0 +1,104 @@
+"""`texvent bench real`: simulators against the events that a real sensor recorded."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from texvent.cli.notices import write_out
+from texvent.cli.options import parse_configs
+from texvent.config import check_range
+from texvent_lab.bench.fidelity.entries import Entry, choose_entries
+from texvent_lab.bench.fidelity.table import (
+    BASELINE,
+    check_baseline,
+    fidelity_tables,
+    motion_table,
+)
+from texvent_lab.bench.paper.config_entry import ConfigEntry
+from texvent_lab.bench.real.run import INTERPOLATIONS, RealPlan, real_entries, run_real
+from texvent_lab.bench.real.scene import WITH_FRAMES, RecordingPart, open_scene
+from texvent_lab.commands.bench.result_options import ResultOptions
+
+DESCRIPTION = """\
+Simulators get the frames that a sensor recorded, and are scored by the events it recorded.
+
+A source is a pulled data set (slider_depth, davis346), a folder of the Event-Camera Dataset, an
+EVREAL folder with images, a DSEC sequence, or an AEDAT4 file with frames. docs/real-data.md
+explains the tables."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class RealOptions:
+    """What to run."""
+
+    input_texts: ClassVar[tuple[str, ...]] = ("sources",)
+    positional: ClassVar[tuple[str, ...]] = ("sources",)
+    main_options: ClassVar[tuple[str, ...]] = (
+        "start", "seconds", "simulators", "interpolations", "config", "baseline", "out",
+        "overwrite",
+    )  # fmt: skip
+
+    sources: tuple[str, ...] = WITH_FRAMES
+    """Names of pulled data sets, or paths of recordings."""
+    start: float = 0.0
+    """Skip this much of each recording, in seconds."""
+    seconds: float = 4.0
+    """Longest part that is used, in seconds: δ is fitted on its first half, its second scored."""
+    offset_us: int | None = None
+    """Added to the times of the frames, µs; default: what the catalogue knows of a data set, 0
+    for others. `texvent calibrate` finds it; half of the exposure where stamps are its start."""
+    frames_gamma: float | None = None
+    """Exponent that makes the frames linear; default: 1 (DAVIS), for DSEC 2.2."""
+    simulators: str | None = None
+    """Names of simulators, separated by commas, a preset after a colon (physical:davis346);
+    default: all that are registered, texvent:paper, and sensor presets of physical."""
+    interpolations: str | None = None
+    """Names of interpolators, separated by commas; default: none,blend,flow."""
+    config: Path | None = None
+    """Sensor file that texvent calibrate wrote, or any config file: one more row, its threshold
+    left as it is."""
+    baseline: str = BASELINE
+    """Row that the others are compared with, pair by pair."""
+    jobs: int = 2
+    """Processes to use."""
+
+    def __post_init__(self) -> None:
+        check_range("start", self.start, 0.0)
+        check_range("seconds", self.seconds, 0.5)
+
+
+def run(arguments: Sequence[str]) -> None:
+    """Run the command."""
+    options, output = parse_configs(
+        arguments,
+        {"options": RealOptions(), "output": ResultOptions()},
+        prog="texvent bench real",
+        description=DESCRIPTION,
+    )
+    output.check()
+    entries = _choose_entries(options)
+    check_baseline(options.baseline, [entry.name for entry in entries])
+    part = RecordingPart(options.start, options.seconds, options.offset_us, options.frames_gamma)
+    scenes = [open_scene(source, part) for source in options.sources]
+    report = run_real(
+        scenes,
+        RealPlan(entries=entries),
+        jobs=options.jobs,
+        progress=output.progress,
+    )
+    output.write(report.document)
+    write_out(fidelity_tables(report, baseline=options.baseline))
+    write_out(f"\n{motion_table(report)}")
+
+
+def _choose_entries(options: RealOptions) -> list[Entry]:
+    entries: list[Entry] = real_entries()
+    if options.simulators or options.interpolations:
+        names = options.interpolations or ",".join(INTERPOLATIONS)
+        entries = choose_entries(options.simulators, names)
+    if options.config is not None:
+        entries.append(ConfigEntry.read(options.config))
+    return entries

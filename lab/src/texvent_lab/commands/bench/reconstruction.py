@@ -1,0 +1,157 @@
+"""`texvent bench reconstruction`: simulators scored by the images made from their events."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import ClassVar
+
+from texvent.cli.event_files.time_option import parse_time_range
+from texvent.cli.notices import write_out
+from texvent.cli.options import parse_configs
+from texvent.errors import ConfigError
+from texvent.io.atomic import atomic_file
+from texvent.metrics.image_measures import load_measures
+from texvent.sensor import parse_sensor
+from texvent_lab.bench.fidelity.entries import choose_entries
+from texvent_lab.bench.real.frame_recording import FrameRecording, open_recording
+from texvent_lab.bench.real.scene import locate_source
+from texvent_lab.bench.reconstruction.image_grid import ReconstructionGrid
+from texvent_lab.bench.reconstruction.noise_robustness import NoiseScore, noise_curve
+from texvent_lab.bench.reconstruction.run import (
+    ReconstructionPlan,
+    ReconstructionScorer,
+    run_reconstruction,
+)
+from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
+from texvent_lab.commands.bench.result_options import ResultOptions
+from texvent_lab.reconstruct.config import ReconstructConfig
+from texvent_lab.reconstruct.reconstructor import load_reconstructor
+
+DESCRIPTION = """\
+A network makes an image at every frame of a recording, once from the recorded events and once from
+those that each simulator makes of the frames. All are compared with the frames themselves.
+
+A recording is a pulled data set (slider_depth, davis346), a folder of the Event-Camera Dataset, an
+EVREAL folder with images, an AEDAT4 file with frames, or an event file with --frames. The
+network's weights must be yours: docs/reconstruction.md says where they come from."""
+GRID_PARTS = (0.2, 0.4, 0.6, 0.8)
+"""Where in the scored part the images of --image are taken."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReconstructionOptions:
+    """What to run."""
+
+    input_texts: ClassVar[tuple[str, ...]] = ("recordings", "frames")
+    positional: ClassVar[tuple[str, ...]] = ("recordings",)
+    main_options: ClassVar[tuple[str, ...]] = (
+        "network", "weights", "simulators", "interpolations", "match_rate", "time", "noise", "out",
+        "image", "overwrite",
+    )  # fmt: skip
+
+    recordings: tuple[str, ...] = ("slider_depth",)
+    """Names of pulled data sets, or paths of recordings."""
+    frames: str | None = None
+    """Frames of a recording that is an event file alone: a video or image folder on its clock."""
+    sensor: str | None = None
+    """Sensor size, for event formats that do not store it; default: that of the frames."""
+    simulators: str | None = None
+    """Names of simulators, separated by commas, a preset after a colon (physical:davis346);
+    default: texvent, physical, esim, v2e."""
+    interpolations: str | None = None
+    """Names of interpolators, separated by commas; default: flow, for texvent also blend."""
+    match_rate: bool = False
+    """Fit each contrast threshold to the number of recorded events, instead of keeping it."""
+    frames_gamma: float = 1.0
+    """Exponent that makes the frames linear: 1 for those of a DAVIS, 2.2 for ordinary video."""
+    time: str | None = None
+    """Score START,STOP alone, in seconds of the recording's clock. Without it: the part that EVREAL
+    scores, where it names the recording, else all."""
+    skip_frames: int | None = None
+    """Do not score this many images at the start, and score all others; default: 10, but 0 where
+    a part is named."""
+    noise: bool = False
+    """Also add noise to the recorded events step by step: the paper's Table 7."""
+    seed: int = 0
+    """Of the simulators and of the noise."""
+    image: Path | None = None
+    """PNG file with the images of the first recording, a row per source of events."""
+
+    def plan(self) -> ReconstructionPlan:
+        """What these options ask for.
+
+        Raises:
+            ConfigError: a value is out of range, or something named does not exist.
+        """
+        plan = ReconstructionPlan(
+            span_us=None if self.time is None else parse_time_range(self.time),
+            skip=self.skip_frames,
+            is_rate_matched=self.match_rate,
+            frames_gamma=self.frames_gamma,
+            seed=self.seed,
+        )
+        if self.simulators is None and self.interpolations is None:
+            return plan
+        simulators = self.simulators or "texvent,physical,esim,v2e"
+        return replace(plan, entries=choose_entries(simulators, self.interpolations or "flow"))
+
+    def open_recordings(self) -> list[FrameRecording]:
+        """The recordings.
+
+        Raises:
+            ConfigError: frames are given for several recordings.
+            InputError: a recording is not there, or holds no frames.
+        """
+        if self.frames is not None and len(self.recordings) != 1:
+            raise ConfigError(
+                f"frames belong to one recording; {len(self.recordings)} are given: run them one "
+                "by one"
+            )
+        size = parse_sensor(self.sensor) if self.sensor else None
+        return [
+            open_recording(locate_source(source)[0], frames=self.frames, size=size)
+            for source in self.recordings
+        ]
+
+
+def run(arguments: Sequence[str]) -> None:
+    """Run the command."""
+    options, network, output = parse_configs(
+        arguments,
+        {
+            "input": ReconstructionOptions(),
+            "network": ReconstructConfig(),
+            "output": ResultOptions(),
+        },
+        prog="texvent bench reconstruction",
+        description=DESCRIPTION,
+    )
+    output.check(options.image)
+    plan = options.plan()
+    reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
+    recordings = options.open_recordings()
+    scorer = ReconstructionScorer(reconstructor=reconstructor, measures=load_measures(), plan=plan)
+    if options.image is not None:
+        grid = ReconstructionGrid(recordings[0], _instants(recordings[0], plan))
+        scorer = replace(scorer, on_image=grid)
+    report = run_reconstruction(recordings, scorer, progress=output.progress)
+    noise: list[NoiseScore] = []
+    for recording in recordings if options.noise else ():
+        output.progress(f"{recording.name}: noise")
+        noise += noise_curve(recording, scorer)
+    output.write(lambda: reconstruction_document(report, noise))
+    if options.image is not None:
+        with atomic_file(options.image, overwrite=output.overwrite) as part:
+            part.write_bytes(grid.png())
+    write_out(reconstruction_tables(report, noise))
+
+
+def _instants(recording: FrameRecording, plan: ReconstructionPlan) -> list[int]:
+    """Times spread over the part that is scored, µs."""
+    span, skip = plan.scored_part(recording)
+    times = [frame.t_us for frame in recording.frames][1 + skip :]
+    first, last = span or (times[0], times[-1])
+    last = min(last, times[-1])
+    return [round(first + part * (last - first)) for part in GRID_PARTS]

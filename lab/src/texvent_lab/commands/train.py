@@ -1,0 +1,60 @@
+"""`texvent train TASK SPECIFICATION`: a network trained, or a training continued."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import ClassVar
+
+from texvent.cli.notices import write_out
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_configs
+from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent_lab.registries import TASKS
+from texvent_lab.train.schedule import Hardware
+
+DESCRIPTION = """Train a network on events, as a TOML or YAML file says. The same command goes on
+where a training was stopped or killed. Needs torch: pip install 'texvent-lab[train]'.
+
+  texvent train classification digits.toml -o digits
+  texvent evaluate classification real.toml digits/weights.pt"""
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrainOptions:
+    """What to train, and where its files go."""
+
+    positional: ClassVar[tuple[str, ...]] = ("task", "specification")
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+    outputs: ClassVar[tuple[str, ...]] = ("out",)
+
+    task: str = REQUIRED
+    """classification, reconstruction, depth, flow or latents."""
+    specification: Path = REQUIRED
+    """Data, network and schedule: TOML or YAML."""
+    out: Path = REQUIRED
+    """Folder of the training: checkpoint.pt, weights.pt, history.json, curves.png."""
+    quiet: bool = False
+    """Show the result only."""
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Run the command; returns 0."""
+    options, hardware = parse_configs(
+        arguments,
+        {"training": TrainOptions(), "hardware": Hardware()},
+        prog="texvent train",
+        description=DESCRIPTION,
+    )
+    kind = TASKS.load(options.task)
+    from texvent_lab.train.history import HIDDEN
+    from texvent_lab.train.run import train_from_file  # brings torch
+
+    folder = options.out.absolute()
+    with ConsoleProgress(is_quiet=options.quiet) as progress:
+        state = train_from_file(kind, options.specification, folder, hardware, progress)
+    best = state.rows[state.best_epoch - 1]
+    scores = ", ".join(f"{name} {best[name]:.4g}" for name in best if name not in HIDDEN)
+    write_out(f"{options.out}: best epoch {state.best_epoch} of {state.epochs}: {scores}\n")
+    return 0

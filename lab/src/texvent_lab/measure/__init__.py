@@ -1,0 +1,1 @@
+"""Speed measurements that anyone can rerun: `python -m texvent_lab.measure.NAME`."""

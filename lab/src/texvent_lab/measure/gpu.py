@@ -1,0 +1,322 @@
+"""Time of the GPU backend, beside the copy bandwidth of the same GPU in the same run.
+
+    python -m texvent_lab.measure.gpu [--json FILE]
+
+Whole calls as a user makes them: frames on the device → events on the device, in order, the one
+wait for their number included. A few calls follow each other without another wait, as in a loop
+over batches. RIFE has random weights: its time does not depend on them. Warm-up calls, which
+compile the kernels, are not timed. It ends within four minutes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import platform
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Literal
+
+import numpy as np
+
+from texvent import __version__
+from texvent.config import InterpolateConfig
+from texvent.errors import TexventError
+from texvent.extending import require
+from texvent.interpolate.rife.interpolator import RifeInterpolator
+from texvent.interpolate.rife.layouts import RIFE_4_6, RifeLayout
+from texvent.interpolate.rife.weights import RifeWeights, write_rife_weights
+from texvent.sensor import SensorSize
+from texvent.simulate import gpu
+from texvent.simulate.esim.simulator import EsimConfig
+from texvent.simulate.gpu.device import EXTRA, default_device
+from texvent.simulate.gpu.frame_pairs import GpuPairs
+from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
+from texvent.video import Video
+from texvent_lab.measure.speed.timing import Quartiles, rounded
+
+VGA, HD = SensorSize(640, 480), SensorSize(1280, 720)
+DARK, BRIGHT = 100, 145
+"""Levels ln(175 / 130) = 0.297 apart: one event at δ = 0.2."""
+FRAME_US = 1_000
+FRAMES_PER_PAIR = 8
+Precision = Literal["float32", "float16"]
+
+
+@dataclass(frozen=True)
+class Plan:
+    """What is measured."""
+
+    size: SensorSize = HD
+    densities: tuple[float, ...] = (0.001, 0.01, 0.05, 0.2)
+    batches: tuple[int, ...] = (1, 2, 4, 8, 16, 32)
+    frames: int = 64
+    """Frames of every clip in a call."""
+    repeats: int = 15
+    calls: int = 4
+    """Calls of the simulator that are timed together."""
+    rife_sizes: tuple[SensorSize, ...] = (VGA, HD)
+    precisions: tuple[Precision, ...] = ("float32", "float16")
+    between: int = 10
+    """Intermediate frames of a pair; 10 is the paper's ablation E7."""
+    copy_bytes: int = 2**30
+    layout: RifeLayout = RIFE_4_6
+
+
+def measure(plan: Plan, device: str) -> dict[str, Any]:
+    """All figures, ready for JSON."""
+    copy = measure_copy(plan, device)
+    rows = list(measure_simulation(plan, device, copy.median))
+    pairs = list(measure_pairs(plan, device))
+    return {
+        "schema": 1,
+        "environment": describe(device),
+        "copy_gb_per_s": copy.as_json(),
+        "simulation": rows,
+        "rife_pairs": pairs,
+        "targets": check_targets(rows, pairs),
+    }
+
+
+def describe(device: str) -> dict[str, Any]:
+    """Device and versions."""
+    torch, triton = require("torch", extra=EXTRA), require("triton", extra=EXTRA)
+    is_gpu = device == "cuda"
+    return {
+        "device": torch.cuda.get_device_name() if is_gpu else "CPU, Triton's interpreter",
+        "cuda": torch.version.cuda if is_gpu else None,
+        "python": platform.python_version(),
+        "texvent": __version__,
+        "torch": torch.__version__,
+        "triton": triton.__version__,
+    }
+
+
+def measure_copy(plan: Plan, device: str) -> Quartiles:
+    """GB/s of a copy within the device's memory, bytes read and written."""
+    torch = require("torch", extra=EXTRA)
+    source = torch.empty(plan.copy_bytes, dtype=torch.uint8, device=device)
+    target = torch.empty_like(source)
+    times = _times(lambda: target.copy_(source), plan.repeats, device)
+    return Quartiles.of([2 * plan.copy_bytes / 1e9 / one for one in times])
+
+
+def measure_simulation(plan: Plan, device: str, copy: float) -> Iterator[dict[str, Any]]:
+    """Microseconds per frame: by density, by batch, and of the other kinds."""
+    usual = plan.batches[len(plan.batches) // 2]
+    cases: list[tuple[str, str, float, int]] = []
+    cases += [("paper", "uint8", density, usual) for density in plan.densities]
+    cases += [("paper", "uint8", 0.01, batch) for batch in plan.batches if batch != usual]
+    cases += [(model, "uint8", 0.01, usual) for model in ("accurate", "esim")]
+    cases += [("paper", "float32", 0.01, usual)]
+    for model, pixels, density, batch in cases:
+        frames = make_clips(plan, density, batch, pixels, device)
+        clips = _Clips(_config(model), frames, plan)
+        times = _times(clips.run, plan.repeats, device, calls=plan.calls)
+        count = batch * plan.frames
+        per_frame = Quartiles.of([one / count for one in times], scale=1e6)
+        rate = frames.element_size() * frames.numel() / 1e9 / (per_frame.median * count * 1e-6)
+        yield {
+            "model": model,
+            "size": str(plan.size),
+            "pixels": pixels,
+            "density": density,
+            "batch": batch,
+            "frames": plan.frames,
+            "events_per_frame": rounded(clips.events / count),
+            "us_per_frame": per_frame.as_json(),
+            "frames_gb_per_s": rounded(rate),
+            "share_of_copy": rounded(rate / copy),
+        }
+
+
+def make_clips(plan: Plan, density: float, batch: int, pixels: str, device: str) -> Any:
+    """[B, T, H, W] in which about `density` of the pixels change level in every frame."""
+    torch = require("torch", extra=EXTRA)
+    generator = torch.Generator(device).manual_seed(0)
+    shape = plan.size.shape
+    bright = torch.zeros(batch, *shape, dtype=torch.bool, device=device)
+    dtype = getattr(torch, pixels)
+    clips = torch.empty(batch, plan.frames, *shape, dtype=dtype, device=device)
+    for index in range(plan.frames):
+        bright ^= torch.rand(batch, *shape, device=device, generator=generator) < density
+        clips[:, index] = torch.where(bright, BRIGHT, DARK).to(dtype)
+    return clips
+
+
+def _config(model: str) -> TexventConfig | EsimConfig:
+    if model == "esim":
+        return EsimConfig()
+    return TexventSimulator.presets[model]
+
+
+class _Clips:
+    """A simulator that gets the same frames again and again, later every time."""
+
+    def __init__(self, config: TexventConfig | EsimConfig, frames: Any, plan: Plan) -> None:
+        self._simulator = gpu.GpuSimulator(config)
+        self._frames = frames
+        self._steps_us = np.arange(1, plan.frames + 1) * FRAME_US
+        self._is_source = np.arange(plan.frames) % FRAMES_PER_PAIR == 0
+        self._calls = 0
+        self.events = 0
+
+    def run(self) -> None:
+        times_us = self._steps_us + self._calls * self._steps_us[-1]
+        self.events = len(self._simulator.step(self._frames, times_us, self._is_source))
+        self._calls += 1
+
+
+def measure_pairs(plan: Plan, device: str) -> Iterator[dict[str, Any]]:
+    """Milliseconds per pair of source frames: RIFE and simulation, all on the device."""
+    torch = require("torch", extra=EXTRA)
+    with tempfile.TemporaryDirectory() as folder:
+        weights = write_random_weights(plan.layout, Path(folder) / "rife.safetensors")
+        for size in plan.rife_sizes:
+            generator = torch.Generator(device).manual_seed(0)
+            coarse = torch.rand(2, 1, 9, 16, device=device, generator=generator) * 255
+            pictures = torch.nn.functional.interpolate(coarse, size.shape, mode="bilinear")[:, 0]
+            for precision in plan.precisions:
+                config = InterpolateConfig(
+                    interpolate="rife",
+                    interpolator_weights=weights,
+                    interpolator_device="cuda" if device == "cuda" else "cpu",
+                    interpolator_precision=precision,
+                )
+                rife = RifeInterpolator(config, Video(np.zeros((1, 1, 1), np.uint8), [0]))
+                yield _measure_pair(
+                    plan, GpuPairs(gpu.GpuSimulator(), rife, count=plan.between), pictures
+                ) | {"precision": precision}
+
+
+def _measure_pair(plan: Plan, pairs: GpuPairs, pictures: Any) -> dict[str, Any]:
+    torch = require("torch", extra=EXTRA)
+    device = pictures.device.type
+    calls = iter(range(1, 1_000_000))
+    events: list[int] = []
+
+    def step() -> None:
+        call = next(calls)
+        events.append(len(pairs.step(pictures[call % 2], call * 40_000)))
+
+    step()
+    if device == "cuda":
+        torch.cuda.reset_peak_memory_stats()
+    times = _times(step, plan.repeats, device)
+    peak = torch.cuda.max_memory_allocated() / 2**20 if device == "cuda" else 0
+    height, width = pictures.shape[-2:]
+    return {
+        "size": str(SensorSize(width, height)),
+        "frames_per_pair": plan.between + 1,
+        "events_per_pair": rounded(float(np.median(events[1:]))),
+        "ms_per_pair": Quartiles.of(times, scale=1e3).as_json(),
+        "ms_per_frame": Quartiles.of(times, scale=1e3 / (plan.between + 1)).as_json(),
+        "peak_mib": rounded(float(peak)),
+    }
+
+
+def write_random_weights(layout: RifeLayout, path: Path) -> Path:
+    """Weights of an untrained network, whose flows are small."""
+    torch = require("torch", extra=EXTRA)
+    generator = torch.Generator().manual_seed(0)
+    tensors = {
+        name: torch.randn(shape, generator=generator) * 0.02
+        for name, shape in layout.tensor_shapes().items()
+    }
+    write_rife_weights(RifeWeights(layout, tensors), path)
+    return path
+
+
+def check_targets(rows: list[dict[str, Any]], pairs: list[dict[str, Any]]) -> list[dict[str, Any]]:
+    """The project's targets for a GPU, met or not, where they were measured."""
+    found = [
+        ("us per 1280x720 frame, 1 %, batch 8", 2.0, row["us_per_frame"]["median"])
+        for row in rows
+        if (row["model"], row["pixels"], row["density"], row["batch"], row["size"])
+        == ("paper", "uint8", 0.01, 8, "1280x720")
+    ]
+    found += [
+        ("ms per 640x480 pair, RIFE float16 + simulation", 6.5, row["ms_per_pair"]["median"])
+        for row in pairs
+        if (row["size"], row["precision"]) == ("640x480", "float16")
+    ]
+    return [
+        {"name": name, "limit": limit, "value": value, "is_met": value <= limit}
+        for name, limit, value in found
+    ]
+
+
+def _times(call: Callable[[], Any], repeats: int, device: str, *, calls: int = 1) -> list[float]:
+    """Seconds per call in each repeat after two untimed ones; the device is idle in between."""
+    torch = require("torch", extra=EXTRA)
+    wait = torch.cuda.synchronize if device == "cuda" else _nothing
+    times = []
+    for index in range(repeats + 2):
+        wait()
+        start = time.perf_counter()
+        for _ in range(calls):
+            call()
+        wait()
+        if index >= 2:
+            times.append((time.perf_counter() - start) / calls)
+    return times
+
+
+def _nothing() -> None:
+    """The CPU has finished when a call returns."""
+
+
+def as_text(document: dict[str, Any]) -> str:
+    """The figures as two tables."""
+    lines = [f"{name}: {value}" for name, value in document["environment"].items()]
+    lines.append(f"copy: {document['copy_gb_per_s']['median']} GB/s")
+    lines.append("model     pixels   density  batch  events/frame  us/frame (q1..q3)  of copy")
+    for row in document["simulation"]:
+        time_us = row["us_per_frame"]
+        lines.append(
+            f"{row['model']:9} {row['pixels']:8} {row['density']:7.1%} {row['batch']:6}"
+            f" {row['events_per_frame']:13,.0f} {time_us['median']:8.2f}"
+            f" ({time_us['q1']:.2f}..{time_us['q3']:.2f}) {row['share_of_copy']:8.1%}"
+        )
+    lines.append("RIFE + simulation   ms/pair (q1..q3)  ms/frame  peak MiB")
+    for row in document["rife_pairs"]:
+        time_ms = row["ms_per_pair"]
+        lines.append(
+            f"{row['size']:9} {row['precision']:9} {time_ms['median']:8.2f}"
+            f" ({time_ms['q1']:.2f}..{time_ms['q3']:.2f}) {row['ms_per_frame']['median']:9.2f}"
+            f" {row['peak_mib']:9,.0f}"
+        )
+    for target in document["targets"]:
+        verdict = "met" if target["is_met"] else "missed"
+        lines.append(f"{target['name']}: {target['value']} (at most {target['limit']}): {verdict}")
+    return "\n".join(lines)
+
+
+def main(words: list[str] | None = None) -> int:
+    """Measure, print, write; 2 without a GPU."""
+    parser = argparse.ArgumentParser(
+        prog="python -m texvent_lab.measure.gpu", description=(__doc__ or "").split("\n")[0]
+    )
+    parser.add_argument("--json", type=Path, help="write the figures here")
+    chosen = parser.parse_args(words)
+    try:
+        device = default_device()
+    except TexventError as error:
+        print(f"nothing was measured: {error}", file=sys.stderr)
+        return 2
+    if device != "cuda":
+        print("nothing was measured: times in Triton's interpreter say nothing", file=sys.stderr)
+        return 2
+    document = measure(Plan(), device)
+    if chosen.json is not None:
+        chosen.json.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+    print(as_text(document))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

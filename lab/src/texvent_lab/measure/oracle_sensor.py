@@ -1,0 +1,106 @@
+"""Calibrate `physical` to the sensor that makes the benchmark's true events.
+
+    python -m texvent_lab.measure.oracle_sensor
+
+writes src/texvent/bench/oracle/sensor.toml and, beside it, sensor_thresholds.npz.
+
+It does what docs/calibration.md tells the owner of a sensor to do, with recordings that the
+benchmark does not score: a field at rest, without frames; a camera at rest before a texture of
+which one half moves, with the frames of an ordinary camera, which tell the balance; a field that
+flickers, without frames; and the texture again, now that the bandwidth is known.
+"""
+
+from __future__ import annotations
+
+import argparse
+import dataclasses
+from pathlib import Path
+
+import numpy as np
+
+from texvent.calibrate.estimates import describe_estimates
+from texvent.calibrate.events_only.flicker import measure_flicker
+from texvent.calibrate.events_only.static_scene import measure_static_scene
+from texvent.calibrate.fit import fit_sensor
+from texvent.calibrate.preset import describe_fit, describe_scene, write_preset
+from texvent.calibrate.recording import Recording
+from texvent.config import InterpolateConfig
+from texvent.events import EventStream
+from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.physical.threshold_map import write_threshold_map
+from texvent_lab.bench.fidelity.entries import SENSOR_FILE, THRESHOLD_FILE
+from texvent_lab.bench.oracle.camera import EXPOSURE
+from texvent_lab.bench.oracle.pixel import NOISY, REFERENCE_SEED
+from texvent_lab.bench.oracle.recording import FPS, SIZE, record, render_video
+from texvent_lab.bench.oracle.scenes import Float64Array, Scene, panning_texture
+from texvent_lab.bench.oracle.smooth_texture import ValueNoise
+
+FLICKER_HZ, RATIO, BRIGHT = 4.0, 5.0, 1 / EXPOSURE
+"""Bright is what the camera shows as white."""
+FRAMES = 2 * int(FPS) + 1
+REST_FRAMES = 10 * int(FPS) + 1
+TEXTURE = 7
+"""The texture on which the benchmark fits thresholds; others are scored."""
+FRAMES_PER_PIXEL = 2.0
+"""Of motion, while frames are compared with events: what fine texture does between them counts."""
+VELOCITY = (60.0, 14.0)
+"""Of the half that moves, px/s."""
+
+
+def flickering_field(seconds: float) -> Float64Array:
+    """Radiance of a flat field, bright for the first half of each cycle."""
+    is_bright = seconds * FLICKER_HZ % 1.0 < 0.5
+    return np.full(SIZE.shape, BRIGHT if is_bright else BRIGHT / RATIO)
+
+
+def field_at_rest(seconds: float) -> Float64Array:
+    """Radiance of a flat field under steady light."""
+    del seconds
+    return np.full(SIZE.shape, BRIGHT / RATIO)
+
+
+def half_moving(seconds: float) -> Float64Array:
+    """A texture from dark to over-range light, its lower half in motion."""
+    noise = ValueNoise(TEXTURE)
+    image = panning_texture(noise, SIZE, 0.0, (0.0, 0.0))
+    moving = panning_texture(noise, SIZE, seconds, VELOCITY)
+    half = SIZE.height // 2
+    image[half:] = moving[half:]
+    return image * np.linspace(0.05, 1.8, SIZE.width)
+
+
+def recorded(scene: Scene, frames: int = FRAMES) -> EventStream:
+    """What the benchmark's sensor records of a scene, while its camera takes so many frames."""
+    return record(scene, {"events": (NOISY, REFERENCE_SEED)}, frames=frames)["events"]
+
+
+def main() -> None:
+    """Write both files."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--folder", type=Path, default=SENSOR_FILE.parent)
+    folder = parser.parse_args().folder
+    video = render_video(half_moving, frames=FRAMES)
+    interpolate = InterpolateConfig(frames_per_pixel=FRAMES_PER_PIXEL)
+    recording = Recording(video, recorded(half_moving), interpolate)
+    rest = measure_static_scene(recorded(field_at_rest, REST_FRAMES), PhysicalConfig())
+    first = fit_sensor(recording, start=rest.config, report=print).config
+    flicker = measure_flicker(recorded(flickering_field), first, hz=FLICKER_HZ, ratio=RATIO)
+    pixels = write_threshold_map(flicker.thresholds, folder / THRESHOLD_FILE.name, overwrite=True)
+    start = dataclasses.replace(flicker.config, threshold_map=pixels)
+    fit = fit_sensor(recording, start=start, keep=["cutoff_hz"], report=print)
+    # Its camera has no grain, so pixels may begin anywhere; entries name the map's place.
+    config = dataclasses.replace(fit.config, initial_phase="random", threshold_map=None)
+    lines = [
+        *describe_scene(rest, "the benchmark's sensor", "a field at rest"),
+        *describe_scene(flicker, "the benchmark's sensor", "a field that flickers"),
+        *describe_fit(
+            fit,
+            "a texture of which one half moves, see lab/src/texvent_lab/measure/oracle_sensor.py",
+        ),
+        *describe_estimates(fit.found, fit.kept),
+    ]
+    write_preset(config, lines, folder / SENSOR_FILE.name, size=SIZE, overwrite=True)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,52 @@
+"""Choose a benchmark; see the package."""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from pathlib import Path
+
+from texvent.errors import TexventError
+from texvent_lab.measure.prompts import public, score, sheet
+
+
+def main() -> int:
+    """Run a benchmark; returns the exit code."""
+    chosen = _parser().parse_args()
+    try:
+        chosen.run(chosen)
+    except TexventError as error:
+        print(f"error: {error}", file=sys.stderr)
+        return error.exit_code
+    return 0
+
+
+def _parser() -> argparse.ArgumentParser:
+    parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.prompts")
+    commands = parser.add_subparsers(required=True)
+    one = commands.add_parser("sheet", help="film strips of prompts, for grading")
+    one.add_argument("prompts", type=Path, help=".csv with columns id, prompt, and perhaps style")
+    one.add_argument("-o", "--out", type=Path, required=True, help="folder")
+    one.add_argument("--jobs", type=int, default=1, help="processes")
+    one.add_argument("--no-events", action="store_true", help="stills and reports only: faster")
+    one.add_argument("--again", action="store_true", help="draw what is there anew")
+    one.set_defaults(run=sheet.run)
+    one = commands.add_parser("public", help="draw the prompts of VBench, Movie Gen and COCO")
+    one.add_argument("--vbench", type=Path, required=True, help="all_dimension.txt")
+    one.add_argument("--moviegen", type=Path, required=True, help="MovieGenVideoBench.txt")
+    one.add_argument("--coco", type=Path, required=True, help="captions_val2017.json")
+    one.add_argument("-o", "--out", type=Path, required=True, help="folder")
+    one.set_defaults(run=public.run)
+    one = commands.add_parser("mosaic", help="all prompts of a sheet as one small image")
+    one.add_argument("folder", type=Path, help="what sheet has made")
+    one.add_argument("-o", "--out", type=Path, required=True, help=".jpg")
+    one.set_defaults(run=sheet.write_mosaic)
+    one = commands.add_parser("score", help="the table of a grader's sheet")
+    one.add_argument("grades", type=Path, help=".csv; columns: " + ", ".join(score.COLUMNS))
+    one.add_argument("--json", type=Path, help="write the figures here")
+    one.set_defaults(run=score.run)
+    return parser
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,167 @@
+"""A grader's sheet, summed.
+
+The columns of the sheet, one row per prompt; yes and no may be 1 and 0, and an empty cell is no:
+
+* `id`, and perhaps `style`;
+* `nouns_asked`, `nouns_shown`: how many things the sentence names, how many a stranger recognises;
+* `motion`: yes, partly or no; none where the sentence asks for no motion;
+* `silently_wrong`: something is shown that the sentence does not say, or missing, and not reported;
+* `fully_right`: all is shown as the sentence says; `fully_reported`: all that is not is reported;
+* `stand_in`: what is shown has nothing to do with the sentence, or nothing is shown;
+* `grade`: 0 to 5; `remark`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import math
+import statistics
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from texvent.errors import InputError, shown
+from texvent_lab.measure.prompts.rates import Share
+
+COLUMNS = (
+    "id", "nouns_asked", "nouns_shown", "motion", "silently_wrong", "fully_right",
+    "fully_reported", "stand_in", "grade", "remark",
+)  # fmt: skip
+MOTIONS = ("yes", "partly", "no", "none")
+_YES, _NO = ("yes", "y", "1", "true", "x"), ("no", "n", "0", "false", "")
+TARGETS = {
+    "nouns shown": "≥ 75 %",
+    "motion right": "≥ 75 %",
+    "silently wrong": "≤ 5 %",
+    "fully right or fully reported": "≥ 80 %",
+    "stand-in": "≤ 5 %",
+}
+
+
+def run(options: argparse.Namespace) -> None:
+    """Print the table, for all prompts and for each style."""
+    rows = read_grades(options.grades)
+    styles = list(dict.fromkeys(row["style"] for row in rows if row["style"]))
+    parts = {"all": rows, **{one: [row for row in rows if row["style"] == one] for one in styles}}
+    sums = {name: sum_grades(part) for name, part in parts.items()}
+    print(as_markdown(sums))
+    if options.json is not None:
+        plain = {
+            name: {key: _plain(value) for key, value in one.items()} for name, one in sums.items()
+        }
+        options.json.write_text(json.dumps(plain, indent=1) + "\n", encoding="utf-8")
+
+
+def read_grades(path: Path) -> list[dict[str, Any]]:
+    """The rows of a grader's sheet.
+
+    Raises:
+        InputError: a column is missing, or a cell is none of what is allowed.
+    """
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            rows = list(csv.DictReader(file))
+    except OSError as error:
+        raise InputError(f"cannot read {path}: {error.strerror}") from error
+    if not rows:
+        raise InputError(f"{path} has no rows")
+    missing = [name for name in COLUMNS if name not in rows[0] and name != "remark"]
+    if missing:
+        raise InputError(f"{path} lacks the columns {', '.join(missing)}")
+    return [_read_row(row, f"{path} line {number}") for number, row in enumerate(rows, 2)]
+
+
+def _read_row(row: Mapping[str, str | None], where: str) -> dict[str, Any]:
+    cells = {name: (row.get(name) or "").strip() for name in (*COLUMNS, "style")}
+    asked, shows = (_number(cells[name], name, where) for name in ("nouns_asked", "nouns_shown"))
+    if shows > asked:
+        raise InputError(f"{where}: {shows:g} nouns are shown of {asked:g} that are asked")
+    motion = cells["motion"].lower() or "none"
+    if motion not in MOTIONS:
+        raise InputError(
+            f"{where}: motion is {shown(motion)}; it must be one of {', '.join(MOTIONS)}"
+        )
+    flags = {
+        name: _flag(cells[name], name, where)
+        for name in ("silently_wrong", "fully_right", "fully_reported", "stand_in")
+    }
+    grade = _number(cells["grade"], "grade", where)
+    if not 0 <= grade <= 5:
+        raise InputError(f"{where}: grade is {grade:g}; it must lie within 0 and 5")
+    return {
+        "id": cells["id"], "style": cells["style"], "nouns_asked": asked, "nouns_shown": shows,
+        "motion": motion, "grade": grade, **flags,
+    }  # fmt: skip
+
+
+def _number(text: str, name: str, where: str) -> float:
+    try:
+        number = float(text)
+    except ValueError:
+        number = math.nan
+    if not (math.isfinite(number) and number >= 0):
+        raise InputError(f"{where}: {name} is {shown(text)}; it must be a number, 0 or more")
+    return number
+
+
+def _flag(text: str, name: str, where: str) -> bool:
+    if text.lower() not in (*_YES, *_NO):
+        raise InputError(f"{where}: {name} is {shown(text)}; it must be yes or no")
+    return text.lower() in _YES
+
+
+def sum_grades(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """The figures of the issue's table, by name.
+
+    Nouns of one prompt are not independent, so that the interval of `nouns shown` is a little too
+    narrow.
+    """
+    moving = [row for row in rows if row["motion"] != "none"]
+    grades = [row["grade"] for row in rows]
+
+    def share(test: Any) -> Share:
+        return Share(sum(map(test, rows)), len(rows))
+
+    asked = round(sum(row["nouns_asked"] for row in rows))
+    return {
+        "prompts": len(rows),
+        "nouns shown": Share(sum(row["nouns_shown"] for row in rows), asked),
+        "motion right": Share(sum(row["motion"] == "yes" for row in moving), len(moving)),
+        "motion right or partly": Share(
+            sum(row["motion"] in ("yes", "partly") for row in moving), len(moving)
+        ),
+        "silently wrong": share(lambda row: row["silently_wrong"]),
+        "fully right": share(lambda row: row["fully_right"]),
+        "fully right or fully reported": share(
+            lambda row: row["fully_right"] or row["fully_reported"]
+        ),
+        "stand-in": share(lambda row: row["stand_in"]),
+        "mean grade": statistics.fmean(grades),
+        "standard error of the grade": (
+            statistics.stdev(grades) / math.sqrt(len(grades)) if len(grades) > 1 else math.nan
+        ),
+    }
+
+
+def as_markdown(sums: Mapping[str, Mapping[str, Any]]) -> str:
+    """A table with a column for each part; shares with Wilson's interval at 95 %."""
+    lines = [
+        f"| | {' | '.join(sums)} | target |",
+        f"|---|{'---|' * len(sums)}---|",
+    ]
+    for name in next(iter(sums.values())):
+        cells = (_cell(one[name]) for one in sums.values())
+        lines.append(f"| {name} | {' | '.join(cells)} | {TARGETS.get(name, '')} |")
+    return "\n".join(lines)
+
+
+def _cell(value: Any) -> str:
+    return f"{value:.2f}" if isinstance(value, float) else str(value)
+
+
+def _plain(value: Any) -> Any:
+    if isinstance(value, Share):
+        return value.tables
+    return None if isinstance(value, float) and math.isnan(value) else value

@@ -1,0 +1,202 @@
+"""What a folder of NT-ImageNet holds: captions as a list of prompts, streams, a specification.
+
+Only ids, captions, counts of events and our own events are written: ImageNet's images may not be
+redistributed, and N-ImageNet's events stay under their own licence (AGPL-3.0).
+"""
+
+from __future__ import annotations
+
+import csv
+import json
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass, fields
+from io import StringIO
+from pathlib import Path
+from typing import Any
+
+from texvent.batch.identity import derived_seed
+from texvent.errors import FileFormatError, OutputError, one_line
+from texvent.io.atomic import atomic_file
+from texvent_lab.nt_imagenet.caption_store import FILE
+from texvent_lab.nt_imagenet.selection import Stream
+
+CAPTIONS, STREAMS, PAIRS = "captions.jsonl", "streams.csv", "pairs.csv"
+REPORT, REPORT_TEXT, SPECIFICATION = "report.json", "report.txt", "specification.toml"
+OWN = frozenset({CAPTIONS, STREAMS, PAIRS, REPORT, REPORT_TEXT, SPECIFICATION, FILE})
+
+
+@dataclass(frozen=True, kw_only=True)
+class Captioned:
+    """A stream and its caption: a line of `captions.jsonl`, and a prompt of a data set."""
+
+    id: str
+    caption: str
+    label: str
+    """WordNet id."""
+    seed: int
+    """Seed of the video made from it; it is another for every id, so equal captions stay apart."""
+
+    @classmethod
+    def of(cls, stream: Stream, caption: str) -> Captioned:
+        """The caption of a stream."""
+        seed = derived_seed("NT-ImageNet", stream.id)
+        return cls(id=stream.id, caption=caption, label=stream.wnid, seed=seed)
+
+
+def prepare_folder(folder: Path) -> None:
+    """Make the folder, or go on with one of this command.
+
+    Raises:
+        OutputError: it holds other files, or cannot be made.
+    """
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+        foreign = sorted(
+            one.name for one in folder.iterdir()
+            if one.name not in OWN and not one.name.startswith(".")
+        )  # fmt: skip
+    except OSError as error:
+        raise OutputError(f"cannot make {folder}: {one_line(error)}") from error
+    if foreign and not (folder / STREAMS).exists():
+        raise OutputError(f"{folder} holds other files ({foreign[0]}); name another folder with -o")
+
+
+def write_captions(folder: Path, captioned: Iterable[Captioned]) -> None:
+    """Write the list of prompts."""
+    _write(folder / CAPTIONS, "".join(_line(asdict(one)) for one in captioned))
+
+
+def read_captioned(path: Path) -> list[Captioned]:
+    """What `write_captions` wrote.
+
+    Raises:
+        FileFormatError: it cannot be read or holds something else.
+    """
+    try:
+        lines = StringIO(path.read_text(encoding="utf-8"))
+        captioned = [Captioned(**json.loads(line)) for line in lines]
+    except (OSError, ValueError, TypeError) as error:
+        raise FileFormatError(
+            f"{path} cannot be read as captions ({one_line(error)}); give the {CAPTIONS} of "
+            "texvent nt-imagenet"
+        ) from error
+    if not captioned:
+        raise FileFormatError(f"{path} holds no caption")
+    return captioned
+
+
+def write_streams(folder: Path, streams: Sequence[Stream], root: Path) -> None:
+    """Write the table of streams, their paths counted from N-ImageNet's folder of classes."""
+    _write_table(
+        folder / STREAMS,
+        ("id", "class", "events", "duration_us", "stream"),
+        ((s.id, s.wnid, s.events, s.duration_us, s.path.relative_to(root)) for s in streams),
+    )
+
+
+def read_streams(path: Path) -> list[Stream]:
+    """What `write_streams` wrote; paths count from N-ImageNet's folder of classes.
+
+    Raises:
+        FileFormatError: it cannot be read or holds something else.
+    """
+    try:
+        with path.open(encoding="utf-8", newline="") as file:
+            return [
+                Stream(
+                    id=row["id"],
+                    wnid=row["class"],
+                    path=Path(row["stream"]),
+                    events=int(row["events"]),
+                    duration_us=int(row["duration_us"]),
+                )
+                for row in csv.DictReader(file)
+            ]
+    except (OSError, ValueError, KeyError, TypeError, csv.Error) as error:
+        raise FileFormatError(
+            f"{path} cannot be read as a table of streams ({one_line(error)}); run texvent dataset "
+            "nt-imagenet again without --events"
+        ) from error
+
+
+@dataclass(frozen=True, kw_only=True)
+class Pair:
+    """A sample of ours beside the recorded stream of the same caption: a line of `pairs.csv`."""
+
+    id: str
+    label: str
+    stream: str
+    """Recorded stream, from N-ImageNet's folder of classes."""
+    stream_events: int
+    shard: str
+    """Our sample: its file in the data set, and its key there."""
+    key: str
+    events: int
+
+
+def write_pairs(folder: Path, pairs: Sequence[Pair]) -> None:
+    """Write the table of pairs."""
+    names = [one.name for one in fields(Pair)]
+    _write_table(folder / PAIRS, names, ([getattr(one, name) for name in names] for one in pairs))
+
+
+def write_report(folder: Path, facts: Mapping[str, Any], text: str) -> None:
+    """Write the report for programs and for people."""
+    _write(folder / REPORT, json.dumps(facts, indent=1, ensure_ascii=False) + "\n")
+    _write(folder / REPORT_TEXT, text)
+
+
+def write_specification(folder: Path, *, generator: str | None) -> bool:
+    """Write a specification to make events of the captions, unless there is one already.
+
+    Returns:
+        Whether it was written.
+    """
+    path = folder / SPECIFICATION
+    if path.exists():
+        return False
+    line = f'generator = "{generator}"' if generator else '# generator = "wan-1.3b"'
+    _write(path, _SPECIFICATION.format(captions=CAPTIONS, generator=line))
+    return True
+
+
+_SPECIFICATION = """\
+# Events of our own for the captions of NT-ImageNet:
+#     texvent dataset plan specification.toml
+#     texvent dataset make specification.toml -o events
+name = "nt-imagenet"
+description = "Events simulated from captions of ImageNet's validation images"
+# license = "..."       # of captions and events; a set that is published needs one
+samples_per_shard = 50
+
+[splits]
+test = 1.0
+
+[[sources]]
+file = "{captions}"
+
+[options]
+sensor = "640x480"      # that of N-ImageNet's recordings
+# Without a generator the embedded one draws what it knows of a caption, which is little: name a
+# learned one (texvent generators).
+{generator}
+
+[variants.texvent]
+"""
+
+
+def _write(path: Path, text: str) -> None:
+    with atomic_file(path, overwrite=True) as part:
+        part.write_text(text, encoding="utf-8")
+
+
+def _write_table(path: Path, names: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
+    with (
+        atomic_file(path, overwrite=True) as part,
+        part.open("w", encoding="utf-8", newline="") as file,
+    ):
+        csv.writer(file, lineterminator="\n").writerows([names, *rows])
+
+
+def _line(table: Mapping[str, Any]) -> str:
+    return json.dumps(table, ensure_ascii=False) + "\n"

@@ -1,0 +1,48 @@
+"""The published networks, with the normalisations that belong to them.
+
+Source of the normalisations and of the files: B. Ercan et al., "EVREAL: towards a comprehensive
+benchmark and analysis suite for event-based video reconstruction", CVPRW 2023, and its project.
+"""
+
+from __future__ import annotations
+
+from texvent_lab.reconstruct.et_net import EtNet
+from texvent_lab.reconstruct.firenet import FireNet, FireNetPlus
+from texvent_lab.reconstruct.protocol import PublishedNetwork
+from texvent_lab.reconstruct.recurrent_unet import E2vid, E2vidPlus, HyperE2vid
+
+EVREAL = "the project ercanburak/EVREAL on GitHub carries it as pretrained/{}/model.pth"
+FIRENET_SHA256 = "a64af3191a00e9f01cd47d086d9a88c35ff1e63756566ca44b4ff02301ca696e"
+FIRENET_PLUS_SHA256 = "76122a81cf6313d84036509f388f150127482bcd977d46e8de650b7f841239f8"
+
+FIRENET = PublishedNetwork(
+    "firenet",
+    FireNet,
+    EVREAL.format("FireNet"),
+    is_normalised=True,
+    sha256=(FIRENET_SHA256,),
+)
+FIRENET_PLUS = PublishedNetwork(
+    "firenet+",
+    FireNetPlus,
+    EVREAL.format("FireNet+"),
+    sha256=(FIRENET_PLUS_SHA256,),
+)
+E2VID = PublishedNetwork(
+    "e2vid",
+    E2vid,
+    f"{EVREAL.format('E2VID')}, and uzh-rpg/rpg_e2vid links to it",
+    is_normalised=True,
+    is_stretched=True,
+)
+E2VID_PLUS = PublishedNetwork("e2vid+", E2vidPlus, EVREAL.format("E2VID+"))
+HYPER_E2VID = PublishedNetwork(
+    "hypere2vid",
+    HyperE2vid,
+    f"{EVREAL.format('HyperE2VID')}, and ercanburak/HyperE2VID links to it",
+)
+ET_NET = PublishedNetwork(
+    "et-net",
+    EtNet,
+    f"{EVREAL.format('ET-Net')}, and WarranWeng/ET-Net links to it",
+)

@@ -1,0 +1,192 @@
+"""Events to images: voxel grid, network, and the normalisations that belong to it."""
+
+from __future__ import annotations
+
+import copy
+from collections.abc import Iterable, Iterator
+from pathlib import Path
+from typing import TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.events import EventStream
+from texvent.extending import require
+from texvent.networks.layers import EXTRA
+from texvent.networks.padding import Padding
+from texvent.networks.weight_files import Tensor
+from texvent.represent.voxel_grid import voxel_e2vid
+from texvent.sensor import SensorSize
+from texvent_lab.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
+from texvent_lab.reconstruct.config import Device
+from texvent_lab.reconstruct.protocol import PublishedNetwork
+from texvent_lab.registries import RECONSTRUCTORS
+
+Intensity: TypeAlias = NDArray[np.float32]
+"""An image, [H, W] float32, 0..1."""
+
+LOWEST, HIGHEST = 1.0, 99.0
+"""Percentiles that become black and white where a network's images are stretched."""
+
+
+def load_reconstructor(
+    name: str, weights: Path | None = None, *, device: Device = "auto"
+) -> Reconstructor:
+    """A network ready to see its first events.
+
+    Args:
+        name: such as "firenet"; `RECONSTRUCTORS` lists all.
+        weights: file with its published weights; default: its place in the weights folder.
+        device: where it runs: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one.
+
+    Raises:
+        ConfigError: unknown name, or "cuda" without a GPU that torch can use.
+        InputError: there is no weights file; the message says where it comes from.
+        FileFormatError: the file is damaged or of another network.
+        MissingDependencyError: torch is not installed.
+    """
+    published: PublishedNetwork = RECONSTRUCTORS.load(name)
+    path = find_weights(published, weights)
+    torch = require("torch", extra=EXTRA)
+    has_gpu = torch.cuda.is_available()
+    if device == "cuda" and not has_gpu:
+        raise ConfigError("device is cuda, but torch finds no GPU here; use --device cpu or auto")
+    chosen = ("cuda" if has_gpu else "cpu") if device == "auto" else device
+    return Reconstructor(published, read_checkpoint(published, path), device=chosen)
+
+
+class Reconstructor:
+    """A published network, used as its authors do.
+
+    The events between two instants go in, and the image at the second one comes out. It
+    remembers what it has seen until `reset`.
+
+    Source of the protocol: B. Ercan et al., "EVREAL", CVPRW 2023, section 3, and its program.
+    Deviations: events that all have one time fall in the first bin of the voxel grid (the program
+        spreads them over all bins); an image whose percentiles coincide is not stretched (the
+        program divides by zero); the first image is at the second frame (the program first shows
+        the network an empty grid, for the first frame); an event at a frame's own time belongs to
+        the slice after it (the program also moves the last event before it there).
+    """
+
+    def __init__(
+        self, published: PublishedNetwork, checkpoint: Checkpoint, *, device: str = "cpu"
+    ) -> None:
+        """A network that has seen nothing.
+
+        Args:
+            published: which one.
+            checkpoint: its weights.
+            device: "cpu" or "cuda".
+        """
+        tensors = {name: one.to(device) for name, one in checkpoint.tensors.items()}
+        self._network = published.network(tensors, checkpoint.settings)
+        self._published = published
+        self._device = device
+        self._size: SensorSize | None = None
+        self.sha256 = checkpoint.sha256
+        """Of the weights file."""
+        self.is_published = checkpoint.sha256 in published.sha256
+        """True if the weights file is known to be the published one."""
+
+    @property
+    def name(self) -> str:
+        """Name of the network."""
+        return self._published.name
+
+    def twin(self) -> Reconstructor:
+        """The same network, having seen nothing; both share their weights."""
+        twin = copy.copy(self)
+        twin._network = copy.copy(self._network)
+        twin.reset()
+        return twin
+
+    def reset(self) -> None:
+        """Forget everything seen, as before another recording."""
+        self._network.reset()
+        self._size = None
+
+    def reconstruct(self, events: EventStream) -> Intensity:
+        """The image at the end of a slice of events; slices follow one another in time.
+
+        Args:
+            events: the slice, which may be empty.
+
+        Returns:
+            [H, W] float32, 0..1.
+
+        Raises:
+            InputError: another sensor size than before, or the slice does not fit into the
+                device's memory.
+            FileFormatError: the weights give numbers that are NaN or infinite.
+        """
+        if self._size not in (None, events.size):
+            raise InputError(
+                f"these events are of a {events.size} sensor, those before of a {self._size} one; "
+                "reset the reconstructor between recordings"
+            )
+        self._size = events.size
+        published = self._published
+        grid = voxel_e2vid(events, bins=self._network.bins, normalise=published.is_normalised)
+        image = self._run(grid)
+        if not np.isfinite(image).all():
+            raise FileFormatError(
+                f"the output of {self.name} is NaN or infinite; its weights are damaged"
+            )
+        if published.is_stretched:
+            image = stretch(image)
+        return np.clip(image, 0.0, 1.0)
+
+    def reconstruct_all(
+        self, slices: Iterable[tuple[int, EventStream]]
+    ) -> Iterator[tuple[int, Intensity]]:
+        """The images of a whole recording.
+
+        Args:
+            slices: (instant in µs, the events up to it) in time order, as `packet_slices` cuts
+                them.
+
+        Yields:
+            (instant, image), one per slice.
+
+        Raises:
+            InputError, FileFormatError: as `reconstruct`.
+        """
+        self.reset()
+        for t_us, events in slices:
+            yield t_us, self.reconstruct(events)
+
+    def _run(self, grid: Intensity) -> Intensity:
+        """The network's output for a voxel grid, [H, W]."""
+        torch = require("torch", extra=EXTRA)
+        padding = Padding.centred(grid.shape[1:], self._network.multiple)
+        try:
+            with torch.inference_mode():
+                voxel: Tensor = torch.from_numpy(grid)[None].to(self._device)
+                output = self._network.step(padding.around(voxel))
+                image: Intensity = padding.off(output)[0, 0].cpu().numpy()
+        except RuntimeError as error:
+            if "memory" not in str(error):
+                raise
+            raise InputError(
+                f"{self.name} does not fit into the memory of device {self._device} at "
+                f"{grid.shape[2]}x{grid.shape[1]} px; crop or scale the events down first (texvent "
+                "convert)"
+            ) from error
+        return image
+
+
+def stretch(image: Intensity) -> Intensity:
+    """The image scaled so that its 1st percentile becomes 0 and its 99th 1.
+
+    Source: robust normalisation of EVREAL; rpg_e2vid does the same.
+
+    Example:
+        >>> stretch(np.linspace(0, 100, 101, dtype=np.float32))[[1, 50, 99]].tolist()
+        [0.0, 0.5, 1.0]
+    """
+    low, high = np.percentile(image, (LOWEST, HIGHEST))
+    if high <= low:
+        return image
+    return np.asarray((image - low) / (high - low), np.float32)

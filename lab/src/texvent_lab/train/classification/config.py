@@ -1,0 +1,165 @@
+"""What a training file may say for classification."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Literal
+
+from texvent.config import check_choices, check_range
+from texvent.errors import ConfigError
+from texvent.sensor import as_size
+from texvent_lab.train.schedule import Schedule
+
+if TYPE_CHECKING:
+    from texvent_lab.train.task import Task
+
+SOURCE_KINDS = "folder, specification and recordings"
+"""Of samples."""
+BELONGS_TO: Mapping[str, tuple[str, ...]] = {
+    "variant": ("folder", "specification"),
+    "sensor": ("recordings",),
+    "flip_polarity": ("recordings",),
+}
+"""Option → the kinds of samples that have it."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Source:
+    """Labelled samples, of one of folder, specification and recordings."""
+
+    folder: Path | None = None
+    """A data set that texvent dataset made."""
+    specification: Path | None = None
+    """Of a data set, simulated again whenever a sample is read; its filters are not applied."""
+    recordings: Path | None = None
+    """Recordings of any format that texvent reads: a folder of splits, each a folder of classes,
+    each a folder of files."""
+    split: str = "train"
+    """Trained on."""
+    variant: str | None = None
+    """Of a data set; None: all of a folder, the only one of a specification."""
+    sensor: str | None = None
+    """Of recordings whose files do not say it, such as "34x34"."""
+    flip_polarity: bool = False
+    """Exchange ON and OFF of recordings; those of N-MNIST need it to match a camera's."""
+    per_class: int | None = None
+    """Train on so many samples of each class, drawn by `seed`; None: on all."""
+
+    def __post_init__(self) -> None:
+        check_range("per_class", self.per_class, 1)
+        if len(self._given) > 1:
+            raise ConfigError(f"{' and '.join(self._given)} are given; give one of {SOURCE_KINDS}")
+        for name, kinds in BELONGS_TO.items():
+            if getattr(self, name) and self._given and self._given[0] not in kinds:
+                raise ConfigError(
+                    f"{name} belongs to {' or '.join(kinds)}, not to {self._given[0]}; leave it out"
+                )
+        if self.sensor is not None:
+            as_size(self.sensor)
+
+    @property
+    def kind(self) -> str:
+        """Which of the three it is.
+
+        Raises:
+            ConfigError: none of them.
+        """
+        if not self._given:
+            raise ConfigError(
+                f"there are no samples to train on; give one of {SOURCE_KINDS} in [data]"
+            )
+        return self._given[0]
+
+    @property
+    def is_given(self) -> bool:
+        """True if there are samples."""
+        return bool(self._given)
+
+    @property
+    def _given(self) -> list[str]:
+        names = ("folder", "specification", "recordings")
+        return [name for name in names if getattr(self, name) is not None]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClassData(Source):
+    """Labelled samples, and what is made of them."""
+
+    validation_split: str = "test"
+    """Scored after every epoch."""
+    classes: int | None = None
+    """Only the first so many classes in the order of their names; None: all."""
+    slice_events: int | None = None
+    """A random run of so many events of each sample, drawn anew in every epoch; None: all."""
+    image_size: str | None = None
+    """Size that coordinates are scaled to, rounded down, such as "224x224"; None: the sensor's."""
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        check_range("classes", self.classes, 2)
+        check_range("slice_events", self.slice_events, 1)
+        if self.image_size is not None:
+            as_size(self.image_size)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClassNetwork:
+    """The network and what it is shown."""
+
+    name: Literal["small-cnn", "resnet34"] = "small-cnn"
+    width: int | None = None
+    """Channels of its first layer; None: 16 of small-cnn, 64 of resnet34."""
+    representation: str = "histogram-2d"
+    """See docs/representations.md."""
+    representation_options: Mapping[str, Any] = field(default_factory=dict)
+
+    def __post_init__(self) -> None:
+        check_choices(self)
+        check_range("width", self.width, 1, 4096)
+
+
+@dataclass(frozen=True, kw_only=True)
+class Augmentation:
+    """Changes of training samples, drawn anew in every epoch."""
+
+    shift: int = 2
+    """Largest shift along each axis, px; what leaves the sensor is dropped."""
+    flip_x: bool = False
+    """Mirror half of the samples."""
+    flip_time: bool = False
+    """Reverse half of the samples in time, with opposite polarity."""
+
+    def __post_init__(self) -> None:
+        check_range("shift", self.shift, 0, 10_000)
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClassificationConfig:
+    """A classifier of recordings."""
+
+    seed: int = 0
+    """Of the initial weights, the order of samples and their augmentation."""
+    start_from: Path | None = None
+    """Weights that training begins with, of the same network; its last layer begins anew where
+    they are of other classes. None: random ones."""
+    data: ClassData = field(default_factory=ClassData)
+    extra: Source = field(default_factory=Source)
+    """More samples to train on, of the same classes."""
+    network: ClassNetwork = field(default_factory=ClassNetwork)
+    augmentation: Augmentation = field(default_factory=Augmentation)
+    schedule: Schedule = field(default_factory=Schedule)
+
+    def __post_init__(self) -> None:
+        check_range("seed", self.seed, 0, 2**63 - 1)
+        if self.extra != Source() and not self.extra.is_given:
+            raise ConfigError(
+                f"[extra] has no samples; give one of {SOURCE_KINDS} in it, or leave it out"
+            )
+
+    def make_task(self) -> Task:
+        """The task; this imports torch."""
+        from texvent_lab.train.classification.task import ClassificationTask
+
+        return ClassificationTask(self)

@@ -1,0 +1,71 @@
+"""Recordings by class: a folder per class, of files of any format that texvent reads."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from texvent.batch.identity import digest
+from texvent.errors import InputError
+from texvent.events import EventStream
+from texvent.io.files import event_extensions, load
+from texvent.sensor import SensorSize, as_size
+from texvent_lab.train.classification.config import Source
+
+
+class RecordedSamples:
+    """A split of recordings; see `LabelledSamples`."""
+
+    def __init__(self, source: Source, split: str) -> None:
+        """List the files; none is read.
+
+        Raises:
+            InputError: no such folder, no classes in it, or no files in them.
+        """
+        folder = Path(source.recordings or "") / split
+        if not folder.is_dir():
+            raise InputError(
+                f"there is no folder {folder}; recordings holds a folder per split, which holds a "
+                "folder per class"
+            )
+        self.name = str(folder)
+        self._size = None if source.sensor is None else as_size(source.sensor)
+        self._is_flipped = source.flip_polarity
+        classes = sorted(one for one in folder.iterdir() if one.is_dir())
+        self.labels = tuple(one.name for one in classes)
+        extensions = event_extensions()
+        self._files = [
+            (number, path)
+            for number, one in enumerate(classes)
+            for path in sorted(one.iterdir())
+            if path.suffix.lower() in extensions
+        ]
+        if not self._files:
+            raise InputError(f"{folder} holds no event files in folders of classes")
+        names = [str(path.relative_to(folder)) for _, path in self._files]
+        self.identity = f"{len(names)} ({digest(names)[:12]})"
+
+    def __len__(self) -> int:
+        """Number of samples."""
+        return len(self._files)
+
+    def class_number(self, number: int) -> int:
+        """See `LabelledSamples`."""
+        return self._files[number][0]
+
+    def events(self, number: int) -> EventStream:
+        """See `LabelledSamples`."""
+        events = load(self._files[number][1], size=self._size)
+        if not self._is_flipped:
+            return events
+        return EventStream(events.x, events.y, events.t, 1 - events.p, events.size)
+
+    def sizes(self) -> dict[str, SensorSize]:
+        """Of the first file of each class."""
+        first: dict[int, int] = {}
+        for number, (label, _) in enumerate(self._files):
+            first.setdefault(label, number)
+        return {self.title(number): self.events(number).size for number in first.values()}
+
+    def title(self, number: int) -> str:
+        """See `LabelledSamples`."""
+        return str(self._files[number][1])

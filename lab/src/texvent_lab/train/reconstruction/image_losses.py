@@ -1,0 +1,98 @@
+"""Losses of images that need no weights, and the consistency of images in time."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from texvent.extending import require
+from texvent.metrics.structural_similarity import CONTRAST, LUMINANCE, gaussian_window
+from texvent.networks.weight_files import Tensor
+from texvent_lab.train.schedule import EXTRA
+
+LEAST_SUM = 1e-5
+"""Added to what the difference of two images is divided by."""
+
+
+def l1(images: Tensor, true: Tensor) -> Tensor:
+    """Mean absolute difference of each pair of images, [n] from [n, 1, H, W]."""
+    return (images - true).abs().mean(dim=(1, 2, 3))
+
+
+def dissimilarity(images: Tensor, true: Tensor) -> Tensor:
+    """1 − SSIM of each pair of images, [n] from [n, 1, H, W]."""
+    return 1 - ssim(images, true)
+
+
+def ssim(a: Tensor, b: Tensor) -> Tensor:
+    """See `texvent.metrics.structural_similarity.structural_similarity`.
+
+    Args:
+        a: [n, 1, H, W], 0..1, sides of 11 px or more.
+        b: alike.
+
+    Returns:
+        Of each pair, [n].
+    """
+    means = _smooth([a, b, a * a, b * b, a * b])
+    mean_a, mean_b, square_a, square_b, product = means
+    variance = square_a - mean_a**2 + square_b - mean_b**2
+    covariance = product - mean_a * mean_b
+    c1, c2 = LUMINANCE**2, CONTRAST**2
+    similarity = (2 * mean_a * mean_b + c1) * (2 * covariance + c2)
+    return (similarity / ((mean_a**2 + mean_b**2 + c1) * (variance + c2))).mean(dim=(1, 2, 3))
+
+
+def _smooth(images: list[Tensor]) -> list[Tensor]:
+    """Gaussian-weighted mean around every pixel that is far enough from the border."""
+    torch = require("torch", extra=EXTRA)
+    weights = torch.as_tensor(gaussian_window().astype(np.float32), device=images[0].device)
+    joined = torch.cat(images)
+    # Variances are small differences of squares: never in the narrow numbers of mixed precision.
+    with torch.autocast(joined.device.type, enabled=False):
+        for kernel in (weights[None, None, None], weights[None, None, :, None]):
+            joined = torch.nn.functional.conv2d(joined, kernel.to(joined.dtype))
+    return list(joined.chunk(len(images)))
+
+
+def inconsistency(
+    images: tuple[Tensor, Tensor], true: tuple[Tensor, Tensor], flow: Tensor, *, alpha: float
+) -> Tensor:
+    """How much two images in succession differ where they show the same.
+
+    The later image is looked up where each pixel of the earlier one has moved. The difference,
+    divided by the sum of both, counts less where the true images differ there too, and not at all
+    where the flow is not known or leaves the image.
+
+    Args:
+        images: the earlier and the later one, [n, 1, H, W].
+        true: alike, 0..1.
+        flow: displacement (x, y) of what each pixel of the earlier image shows, px, [n, 2, H, W];
+            NaN where it is not known.
+        alpha: see `ReconstructionLoss.consistency_alpha`.
+
+    Returns:
+        Of each pair, the mean over all pixels, [n].
+
+    Source: W.-S. Lai et al., "Learning blind video temporal consistency", ECCV 2018; with this
+        difference, the program of T. Stoffregen et al., "Reducing the sim-to-real gap for event
+        cameras", ECCV 2020.
+    """
+    torch = require("torch", extra=EXTRA)
+    height, width = flow.shape[-2:]
+    y, x = torch.meshgrid(
+        torch.arange(height, device=flow.device),
+        torch.arange(width, device=flow.device),
+        indexing="ij",
+    )
+    place = torch.stack([x, y]) + flow
+    limits = torch.tensor([width - 1, height - 1], device=flow.device)[:, None, None]
+    # A comparison with NaN is false.
+    is_known = ((place >= 0) & (place <= limits)).all(dim=1, keepdim=True)
+    grid = (2 * place / limits.clamp(min=1) - 1).nan_to_num(0).movedim(1, -1)
+    both = torch.cat([images[1], true[1]], dim=1)
+    later, true_later = torch.nn.functional.grid_sample(
+        both, grid.to(both.dtype), padding_mode="border", align_corners=True
+    ).split(1, dim=1)
+    weight = torch.exp(-alpha * (true_later - true[0]) ** 2) * is_known
+    error = (later - images[0]).abs() / (later.abs() + images[0].abs() + LEAST_SUM)
+    return (weight * error).mean(dim=(1, 2, 3))

@@ -1,0 +1,191 @@
+"""Reconstruction: events → images, by a network with memory."""
+
+from __future__ import annotations
+
+import functools
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.dataset.targets import Target
+from texvent.errors import ConfigError
+from texvent.extending import require
+from texvent.metrics.image_measures import Float64Array, load_measures
+from texvent.metrics.lpips.weights import find_lpips_weights, read_lpips_weights
+from texvent.networks.weight_files import STATE, Tensor
+from texvent.represent.voxel_grid import voxel_e2vid
+from texvent_lab.reconstruct.checkpoint import Checkpoint
+from texvent_lab.reconstruct.protocol import PublishedNetwork
+from texvent_lab.reconstruct.reconstructor import Intensity, Reconstructor
+from texvent_lab.registries import RECONSTRUCTORS
+from texvent_lab.train.batches import Batches
+from texvent_lab.train.reconstruction.augmentation import add_hot_pixels, add_noise, draw_pauses
+from texvent_lab.train.reconstruction.config import ReconstructionAugmentation, ReconstructionConfig
+from texvent_lab.train.reconstruction.network import new_network
+from texvent_lab.train.reconstruction.sequence_loss import SequenceLoss
+from texvent_lab.train.schedule import EXTRA
+from texvent_lab.train.sequences.clips import WindowedClips
+from texvent_lab.train.sequences.views import FLOW, crop_randomly, flip_randomly
+from texvent_lab.train.task import Score
+
+VOXELS, IMAGES = "voxels", "images"
+WHITE = np.float32(255)
+
+
+class ReconstructionTask:
+    """Closeness to the true images and consistency in time, scored as the benchmark scores.
+
+    Source: H. Rebecq et al., "High speed and high dynamic range video with an event camera", TPAMI
+        2021, section 3.2; T. Stoffregen et al., "Reducing the sim-to-real gap for event cameras",
+        ECCV 2020.
+    """
+
+    score: ClassVar[Score] = Score("ssim", is_higher_better=True)
+
+    def __init__(self, config: ReconstructionConfig) -> None:
+        """Read the specification and simulate the first validation clip.
+
+        Raises:
+            InputError, ConfigError, FileFormatError: the data does not fit; the message says why.
+        """
+        self._config = config
+        self._published: PublishedNetwork = RECONSTRUCTORS.load(config.network.name)
+        self._validation = WindowedClips.open(config.data, config.data.validation_split, ["frame"])
+
+    @functools.cached_property
+    def _loss(self) -> SequenceLoss:
+        options = self._config.loss
+        weights = None
+        if options.lpips:
+            weights = read_lpips_weights(find_lpips_weights(options.lpips_net))
+        return SequenceLoss(options, weights)
+
+    def make_network(self) -> Any:
+        """See `Task`."""
+        return new_network(self._published, self._config.seed)
+
+    def batches(self, *, workers: int) -> Batches:
+        """See `Task`."""
+        config, published = self._config, self._published
+        targets: list[Target] = ["frame", "flow"] if config.loss.consistency else ["frame"]
+        clips = WindowedClips.open(config.data, config.data.split, targets)
+        network = published.network(self.make_network().tensors, {})
+        self._check_sides(clips, network.multiple)
+        return Batches(
+            make=ReconstructionExamples(
+                clips, config.augmentation, network.bins, published.is_normalised
+            ),
+            count=len(clips),
+            batch_size=config.schedule.batch_size,
+            seed=config.seed,
+            workers=workers,
+        )
+
+    def _check_sides(self, clips: WindowedClips, multiple: int) -> None:
+        """Refuse a crop that the network or its loss cannot take."""
+        crop = clips.data.crop
+        sides = tuple(clips.size) if crop is None else (crop, crop)
+        least_side = self._loss.least_side
+        if min(sides) < least_side or any(side % multiple for side in sides):
+            raise ConfigError(
+                f"{self._published.name} would be trained on {sides[0]}x{sides[1]} px; give a crop "
+                f"of at least {least_side} px"
+                + (f" that {multiple} divides" if multiple > 1 else "")
+            )
+
+    def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
+        """See `Task`."""
+        images = network(batch[VOXELS].to(device)).float()
+        flow = batch[FLOW].to(device) if FLOW in batch else None
+        return self._loss.to(device)(images, batch[IMAGES].to(device), flow)
+
+    def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
+        """Means over windows of whole clips, by the path that `texvent reconstruct` takes."""
+        del workers
+        torch, measures = require("torch", extra=EXTRA), load_measures().chosen
+        checkpoint = Checkpoint(self._tensors(network), {}, sha256="")
+        reconstructor = Reconstructor(self._published, checkpoint, device=str(device))
+        values: dict[str, list[float]] = {one.name: [] for one in measures}
+        with torch.autocast(device.type, enabled=False):
+            for number in range(len(self._validation)):
+                windows = self._validation.read(number)
+                reconstructor.reset()
+                pairs = zip(windows.events, windows.targets["frame"], strict=True)
+                for place, (events, frame) in enumerate(pairs):
+                    image = reconstructor.reconstruct(events)
+                    if (place + 1) % self._config.score_every == 0:
+                        for one in measures:
+                            values[one.name].append(one.compare(*_as_scored(image, frame)))
+        # Small images have no LPIPS.
+        defined = {name: [x for x in values[name] if not np.isnan(x)] for name in values}
+        return {name: float(np.mean(numbers)) for name, numbers in defined.items() if numbers}
+
+    def published(self, network: Any) -> Mapping[str, Any]:
+        """See `Task`."""
+        return {STATE: {name: one.cpu() for name, one in self._tensors(network).items()}}
+
+    def read(self, network: Any, content: Mapping[str, Any], path: Path) -> None:
+        """See `Task`."""
+        network.read(content, path, self._published.where_from)
+
+    def _tensors(self, network: Any) -> dict[str, Tensor]:
+        return {name: one.detach() for name, one in network.tensors.items()}
+
+
+def _as_scored(image: Intensity, frame: NDArray[np.float32]) -> tuple[Float64Array, Float64Array]:
+    """An image, 0..1, and the true one, 0..255, as measures compare them."""
+    return image.astype(np.float64), np.clip(frame.astype(np.float64) / WHITE, 0.0, 1.0)
+
+
+@dataclass(frozen=True)
+class ReconstructionExamples:
+    """Voxel grids, true images and flow of training sequences, by number of the clip."""
+
+    clips: WindowedClips
+    augmentation: ReconstructionAugmentation
+    bins: int
+    is_normalised: bool
+
+    @property
+    def identity(self) -> str:
+        """See `MakeSample`."""
+        return self.clips.identity
+
+    def __call__(self, number: int, chance: np.random.Generator) -> Mapping[str, Any]:
+        """A random run of the clip.
+
+        Returns:
+            `voxels` [windows, bins, H, W], `images` [windows, 1, H, W], 0..1, and `flow`
+            [windows, 2, H, W] if the clips have it, all float32.
+        """
+        options, data = self.augmentation, self.clips.data
+        is_pause = draw_pauses(
+            data.length, begin=options.pause_begin, stay=options.pause_stay, chance=chance
+        )
+        windows = self.clips.draw(number, chance, int(np.sum(~is_pause)))
+        grids = [
+            voxel_e2vid(events, bins=self.bins, normalise=self.is_normalised)
+            for events in windows.events
+        ]
+        maps = {VOXELS: np.stack(grids), IMAGES: windows.targets["frame"][:, None] / WHITE}
+        if "flow" in windows.targets:
+            maps[FLOW] = windows.targets["flow"]
+        maps = crop_randomly(maps, data.crop, chance)
+        if options.flip:
+            maps = flip_randomly(maps, chance)
+        # A pause shows the last window again, without its events and its motion.
+        maps = {name: one[np.cumsum(~is_pause) - 1] for name, one in maps.items()}
+        for name in maps.keys() - {IMAGES}:
+            maps[name][is_pause] = 0
+        voxels = add_noise(maps[VOXELS], deviation=options.noise, chance=chance)
+        maps[VOXELS] = add_hot_pixels(
+            voxels,
+            deviation=options.hot_pixels,
+            max_fraction=options.hot_pixel_fraction,
+            chance=chance,
+        )
+        return maps

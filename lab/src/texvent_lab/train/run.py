@@ -1,0 +1,115 @@
+"""A training from its file, and the scores of trained weights."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from texvent.errors import InputError
+from texvent.extending import full_version, require
+from texvent.io.atomic import atomic_file
+from texvent.networks.weight_files import describe_file, read_mapping
+from texvent.options.values import plain
+from texvent.runtime.progress import NO_PROGRESS, Progress
+from texvent_lab.reconstruct.checkpoint import LEFT_BY_TRAINING
+from texvent_lab.train.checkpoint import TrainingState
+from texvent_lab.train.loop import train
+from texvent_lab.train.reading import read_training
+from texvent_lab.train.schedule import EXTRA, Hardware
+from texvent_lab.train.task import PredictingTask, TaskConfig
+
+WHERE_FROM = "texvent train writes it as weights.pt"
+"""Of a weights file, for messages."""
+
+
+def train_from_file(
+    kind: type[TaskConfig],
+    specification: Path,
+    folder: Path,
+    hardware: Hardware,
+    progress: Progress = NO_PROGRESS,
+) -> TrainingState:
+    """Train as a file says, or go on where that was stopped.
+
+    Args:
+        kind: of the task; `TASKS` has them.
+        specification: TOML or YAML; see docs/training.md.
+        folder: of the training; made if it is missing.
+        hardware: what trains.
+        progress: told of batches and epochs.
+
+    Raises:
+        InputError, ConfigError, FileFormatError: before any work, what the file asks for cannot be
+            done; the message says why.
+        OutputError: the folder cannot be made.
+        TexventError: the loss is no longer a number.
+    """
+    config = read_training(specification, kind())
+    return train(
+        config.make_task(),
+        config.schedule,
+        folder,
+        tables=plain(config),
+        hardware=hardware,
+        progress=progress,
+    )
+
+
+@dataclass(frozen=True)
+class Evaluation:
+    """Scores of trained weights on the validation samples of a training file."""
+
+    scores: Mapping[str, float]
+    facts: Mapping[str, Any]
+    """Weights, version, what they were scored on, predictions if there are any: plain values."""
+
+    def write(self, path: Path, *, overwrite: bool) -> None:
+        """Write both as JSON.
+
+        Raises:
+            OutputError: the file exists, or cannot be written.
+        """
+        text = json.dumps({"scores": self.scores, **self.facts}, indent=1)
+        with atomic_file(path, overwrite=overwrite) as part:
+            part.write_text(text + "\n", encoding="utf-8")
+
+
+def evaluate_from_file(
+    kind: type[TaskConfig], specification: Path, weights: Path, hardware: Hardware
+) -> Evaluation:
+    """Score trained weights; the training samples are not opened.
+
+    Args:
+        kind: of the task; `TASKS` has them.
+        specification: as for training; its schedule is not used, but for the size of a batch.
+        weights: what training wrote, or published weights of the same layout.
+        hardware: what computes.
+
+    Raises:
+        InputError, ConfigError, FileFormatError: the file, the samples or the weights do not fit.
+    """
+    config = read_training(specification, kind())
+    if not weights.is_file():
+        raise InputError(f"there is no weights file {weights}; texvent train writes weights.pt")
+    task, device = config.make_task(), hardware.find_device()
+    network = task.make_network()
+    content = read_mapping(weights, WHERE_FROM, extra=EXTRA, stand_ins=LEFT_BY_TRAINING)
+    task.read(network, content, weights)
+    network.to(device).eval()
+    with require("torch", extra=EXTRA).inference_mode(), hardware.autocast(device):
+        predictions = {}
+        if isinstance(task, PredictingTask):
+            predictions = task.predict(network, device, workers=hardware.workers)
+            scores = task.scores(predictions)
+        else:
+            scores = task.validate(network, device, workers=hardware.workers)
+    facts = {
+        "texvent_version": full_version(),
+        "weights": describe_file(weights),
+        "scored_on": plain(config),
+        **({"predictions": predictions} if predictions else {}),
+    }
+    return Evaluation(scores, facts)

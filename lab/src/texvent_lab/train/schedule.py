@@ -1,0 +1,106 @@
+"""How long and how a network is trained, and on what."""
+
+from __future__ import annotations
+
+from contextlib import AbstractContextManager, nullcontext
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from texvent.config import check_choices, check_range
+from texvent.errors import ConfigError
+from texvent.extending import require
+
+EXTRA = "train"
+"""The texvent extra that brings torch and matplotlib."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Schedule:
+    """What decides a training beside the network and its data.
+
+    Raises:
+        ConfigError: a value out of range.
+    """
+
+    epochs: int = 15
+    """Passes over the training samples."""
+    batch_size: int = 128
+    """Samples per step."""
+    optimizer: Literal["adam", "adamw"] = "adam"
+    """Adam, or Adam with decoupled weight decay."""
+    learning_rate: float = 1e-3
+    """Step size of the optimiser."""
+    weight_decay: float = 0.0
+    """Of the optimiser."""
+    amsgrad: bool = False
+    """Whether the optimiser keeps the largest second moment."""
+    patience: int | None = None
+    """Epochs without a better score after which the learning rate is multiplied by
+    `reduction`; None: it stays."""
+    reduction: float = 0.1
+    """See `patience`."""
+    stop_after: int | None = None
+    """Epochs without a better score after which training ends; None: all epochs."""
+    clip_gradient: float | None = None
+    """Largest norm of the gradient; None: any."""
+
+    def __post_init__(self) -> None:
+        check_choices(self)
+        check_range("epochs", self.epochs, 1, 1_000_000)
+        check_range("batch_size", self.batch_size, 1, 1_000_000)
+        check_range("learning_rate", self.learning_rate, 1e-12, 1e3)
+        check_range("weight_decay", self.weight_decay, 0.0, 1e3)
+        check_range("patience", self.patience, 1, 1_000_000)
+        check_range("reduction", self.reduction, 1e-6, 1.0)
+        check_range("stop_after", self.stop_after, 1, 1_000_000)
+        check_range("clip_gradient", self.clip_gradient, 1e-9, 1e9)
+
+    def make_optimizer(self, network: Any) -> Any:
+        """The optimiser of a network's parameters."""
+        torch = require("torch", extra=EXTRA)
+        kinds = {"adam": torch.optim.Adam, "adamw": torch.optim.AdamW}
+        return kinds[self.optimizer](
+            network.parameters(),
+            lr=self.learning_rate,
+            weight_decay=self.weight_decay,
+            amsgrad=self.amsgrad,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class Hardware:
+    """What trains. On one kind of CPU, with as many threads, equal runs give equal weights."""
+
+    device: Literal["auto", "cpu", "cuda"] = "auto"
+    """auto is the GPU if torch finds one."""
+    precision: Literal["float32", "bfloat16"] = "float32"
+    """Number type of the network's computation; bfloat16 is for GPUs (mixed precision)."""
+    compile: bool = False
+    """Compile the network with torch.compile: slower to start, faster on long trainings."""
+    workers: int = 0
+    """Processes that make batches; 0: this one."""
+
+    def __post_init__(self) -> None:
+        check_choices(self)
+        check_range("workers", self.workers, 0, 1024)
+
+    def find_device(self) -> Any:
+        """The torch device.
+
+        Raises:
+            MissingDependencyError: torch is not installed.
+            ConfigError: "cuda" without a GPU that torch can use.
+        """
+        torch = require("torch", extra=EXTRA)
+        has_gpu = torch.cuda.is_available()
+        if self.device == "cuda" and not has_gpu:
+            raise ConfigError("device is cuda, but torch finds no GPU here; use cpu or auto")
+        return torch.device("cuda" if has_gpu and self.device != "cpu" else "cpu")
+
+    def autocast(self, device: Any) -> AbstractContextManager[Any]:
+        """What the network is computed in, to be entered."""
+        if self.precision == "float32":
+            return nullcontext()
+        torch = require("torch", extra=EXTRA)
+        context: AbstractContextManager[Any] = torch.autocast(device.type, torch.bfloat16)
+        return context

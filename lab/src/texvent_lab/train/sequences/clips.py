@@ -1,0 +1,131 @@
+"""Clips of a specification as windows: each is simulated once, then read from disk."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from texvent.dataset.simulated_clips import SimulatedClips
+from texvent.dataset.targets import Target, record_clip
+from texvent.errors import InputError
+from texvent.runtime.cache_folder import cache_folder, make_folder
+from texvent.sensor import SensorSize
+from texvent_lab.train.sequences.clip_file import Windows, count_windows, read_clip, write_clip
+from texvent_lab.train.sequences.config import SequenceData
+
+
+@dataclass(frozen=True, eq=False)
+class WindowedClips:
+    """A split of a specification, cut into windows.
+
+    The file of a clip is named by a digest of all that decides it, so a changed specification is
+    never read from old files. Processes that need the same clip at once write equal files.
+    """
+
+    data: SequenceData
+    split: str
+    targets: tuple[Target, ...]
+
+    @classmethod
+    def open(cls, data: SequenceData, split: str, targets: Sequence[Target]) -> WindowedClips:
+        """Read the specification, and simulate the first clip, which shows most mistakes.
+
+        Args:
+            data: which clips, and how they are cut.
+            split: which of them.
+            targets: what else each window comes with. Videos know only `frame`.
+
+        Raises:
+            InputError, ConfigError: the specification, split or variant does not exist, the split
+                is empty, the first clip cannot be simulated or is too short, or the crop is larger
+                than the sensor.
+            OutputError: the cache folder cannot be made.
+        """
+        clips = cls(data, split, tuple(targets))
+        if clips.simulated.recipe.items.are_videos:
+            clips = replace(clips, targets=tuple(one for one in targets if one == "frame"))
+        if not len(clips):
+            raise InputError(
+                f"split {split} of {data.specification} has no clips; give it a larger share in "
+                "splits, or the specification more clips"
+            )
+        make_folder(clips.folder)
+        clips.read(0, 0, data.length)
+        size = clips.size
+        if data.crop is not None and data.crop > min(size):
+            raise InputError(
+                f"crop is {data.crop} px, but {data.specification} has a sensor of {size}; give at "
+                f"most {min(size)}"
+            )
+        return clips
+
+    def __len__(self) -> int:
+        """Number of clips."""
+        return len(self.simulated)
+
+    @cached_property
+    def simulated(self) -> SimulatedClips:
+        """The same clips without windows."""
+        data = self.data
+        return SimulatedClips(data.specification, split=self.split, variant=data.variant)
+
+    @property
+    def identity(self) -> str:
+        """Of all clips of the specification."""
+        return self.simulated.recipe.identity
+
+    @property
+    def folder(self) -> Path:
+        """Where the simulated clips are."""
+        return self.data.cache or cache_folder("sequences")
+
+    @cached_property
+    def size(self) -> SensorSize:
+        """Of the sensor of the first clip."""
+        return self.read(0, 0, 1).events[0].size
+
+    def draw(self, number: int, chance: np.random.Generator, count: int | None = None) -> Windows:
+        """A random run of windows of a clip.
+
+        Args:
+            number: of the clip.
+            chance: of this clip in this epoch.
+            count: windows; None: `data.length` of them.
+
+        Raises:
+            InputError: the clip is shorter, or cannot be simulated.
+        """
+        wanted = self.data.length if count is None else count
+        available = count_windows(self._path(number))
+        first = int(chance.integers(max(available - wanted, 0) + 1))
+        return self.read(number, first, wanted)
+
+    def read(self, number: int, first: int = 0, count: int | None = None) -> Windows:
+        """Some windows of a clip, from window `first` on; without a count, all that follow.
+
+        Raises:
+            InputError: the clip does not have them, or cannot be simulated.
+        """
+        path = self._path(number)
+        available = count_windows(path)
+        wanted = available - first if count is None else count
+        if first + wanted > available:
+            raise InputError(
+                f"clip {number} of split {self.split} has {available} windows of "
+                f"{self.data.slice_us} µs, fewer than {first + wanted}; make its duration longer, "
+                "or length or slice_us smaller"
+            )
+        return read_clip(path, first, wanted, self.targets)
+
+    def _path(self, number: int) -> Path:
+        """The file of a clip, simulated now if it is not there."""
+        facts = (self.data.slice_us, *sorted(self.targets))
+        path = self.folder / f"{self.simulated.identity(number, *facts)}.h5"
+        if not path.exists():
+            clip = record_clip(self.simulated.simulation(number), self.data.slice_us)
+            write_clip(path, clip, self.targets)
+        return path

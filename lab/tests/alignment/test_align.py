@@ -1,0 +1,208 @@
+"""Alignment by a tiny random CLIP of the real format, of our events and of recorded streams."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+pytestmark = pytest.mark.torch
+os.environ["HF_HUB_OFFLINE"] = "1"
+torch = pytest.importorskip("torch")
+transformers = pytest.importorskip("transformers")
+torch.set_num_threads(1)
+
+from tests.generate import tiny_pipelines  # noqa: E402
+
+from texvent.cli.app import main  # noqa: E402
+from texvent.events import EventStream  # noqa: E402
+from texvent.generate.videos.clip_model import ClipModel, _prepare  # noqa: E402
+from texvent.sensor import SensorSize  # noqa: E402
+from texvent_lab.alignment.align import align, alignment_table  # noqa: E402
+from texvent_lab.alignment.recordings import (  # noqa: E402
+    Recording,
+    list_samples,
+    list_streams,
+)
+from texvent_lab.alignment.views import DrawnEvents  # noqa: E402
+from texvent_lab.nt_imagenet.files import read_captioned  # noqa: E402
+
+from ..nt_imagenet.tiny_data import WNIDS, stream_id, write_n_imagenet  # noqa: E402
+from ..reconstruct.network_files import save_published  # noqa: E402
+
+CAPTIONS = ["a red car drives left", "a dog runs", "a ball bounces", "a blue bus drives right"]
+
+
+@pytest.fixture(scope="module")
+def clip(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tiny_pipelines.save_clip(tmp_path_factory.mktemp("models") / "clip")
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Captions, streams with them, and our events of all but the last caption."""
+    folder = tmp_path_factory.mktemp("data")
+    write_n_imagenet(folder / "N", {WNIDS[0]: {1: 3_000, 2: 4_000, 3: 5_000, 4: 6_000}})
+    lines = [json.dumps({"id": stream_id(number), "caption": one})
+             for number, one in enumerate(CAPTIONS, start=1)]  # fmt: skip
+    (folder / "c.jsonl").write_text("\n".join(lines))
+    words = ["--n-imagenet", str(folder / "N"), "--captions", str(folder / "c.jsonl"),
+             "--class-count", "1", "-o", str(folder / "nt"), "-q"]  # fmt: skip
+    assert main(["nt-imagenet", *words]) == 0
+    short = (folder / "nt" / "captions.jsonl").read_text().splitlines()[:3]
+    (folder / "nt" / "three.jsonl").write_text("\n".join(short))
+    specification = (folder / "nt" / "specification.toml").read_text()
+    specification = f"filters = {{min_events = 0}}\n{specification}"
+    specification = specification.replace("captions.jsonl", "three.jsonl")
+    specification = specification.replace('"640x480" ', '"32x24"\nduration = 0.1')
+    (folder / "nt" / "three.toml").write_text(specification)
+    words = [str(folder / "nt" / "three.toml"), "-o", str(folder / "events"), "--workers", "1"]
+    assert main(["dataset", "make", *words, "-q"]) == 0
+    return folder
+
+
+def recordings(events: list[EventStream], texts: list[str]) -> list[Recording]:
+    return [
+        Recording(str(number), text, lambda one=one: one)
+        for number, (one, text) in enumerate(zip(events, texts, strict=True))
+    ]
+
+
+def test_the_score_is_that_of_the_similarities_of_transformers(clip: Path, data: Path) -> None:
+    samples = list_samples(data / "events")["texvent"]
+    draw = DrawnEvents(images=2, events_per_image=15)
+    (row,) = align({"ours": samples}, {"drawn": draw}, ClipModel(clip))
+    whole = transformers.CLIPModel.from_pretrained(clip).eval()
+    tokenizer = transformers.AutoTokenizer.from_pretrained(clip)
+    processor = transformers.CLIPImageProcessorPil(
+        size={"shortest_edge": 32}, crop_size={"height": 32, "width": 32}
+    )
+    similarity, counts = np.empty((3, 3)), []
+    for place, sample in enumerate(samples):
+        images = [np.asarray(image) for image in draw(sample.load())]
+        counts.append(len(images))
+        words = tokenizer([one.text for one in samples], padding=True, return_tensors="pt")
+        pixels = processor(images=images, return_tensors="pt")["pixel_values"]
+        with torch.no_grad():
+            out = whole(**words, pixel_values=pixels)
+        mean = out.image_embeds.mean(0)
+        similarity[place] = (mean / mean.norm()) @ out.text_embeds.T
+    assert row.report.measured.mean_similarity == pytest.approx(
+        np.diag(similarity).mean(), abs=0.005
+    )
+    assert row.report.chance.mean_similarity == pytest.approx(similarity.mean(), abs=0.005)
+    assert max(counts) == 2
+    assert (row.report.recordings, row.report.texts) == (3, 3)
+
+
+def test_recordings_of_one_text_are_right_with_the_same_text(clip: Path) -> None:
+    model, size = ClipModel(clip), SensorSize(32, 32)
+    rng = np.random.default_rng(1)
+    x, y, t = rng.integers(0, 32, 200), rng.integers(0, 32, 200), np.arange(200)
+    events = EventStream(x, y, t, rng.integers(0, 2, 200), size)
+    same = recordings([events] * 4, ["a cat", "a cat", "a dog", "a dog"])
+    (row,) = align({"same": same}, {"drawn": DrawnEvents()}, model)
+    # One image is nearer to one of two texts, whatever the model: half of them are right.
+    assert row.report.texts == 2
+    assert row.report.measured.recall[1] == 0.5
+    assert row.report.chance.recall[1] == 0.5
+
+
+def train(folder: Path, samples: list[Recording]) -> Path:
+    """A tiny CLIP that has learned the pairs by heart."""
+    tiny_pipelines.save_clip(folder)
+    model = transformers.CLIPModel.from_pretrained(folder)
+    tokenizer = transformers.AutoTokenizer.from_pretrained(folder)
+    words = tokenizer([one.text for one in samples], padding=True, return_tensors="pt")
+    pixels = torch.cat([_prepare(DrawnEvents(images=1)(one.load())[0], 32) for one in samples])
+    optimiser = torch.optim.Adam(model.parameters(), lr=3e-3)
+    for _ in range(1500):
+        optimiser.zero_grad()
+        loss = model(**words, pixel_values=pixels, return_loss=True).loss
+        loss.backward()
+        optimiser.step()
+        if loss.item() < 0.02:
+            break
+    assert loss.item() < 0.1, loss
+    model.save_pretrained(folder)
+    return folder
+
+
+def test_a_model_that_knows_the_pairs_finds_them_and_no_others(data: Path, tmp_path: Path) -> None:
+    samples = list_samples(data / "events")["texvent"]
+    samples += list_streams(data / "N", read_captioned(data / "nt" / "captions.jsonl")[3:])
+    model, views = ClipModel(train(tmp_path / "clip", samples)), {"drawn": DrawnEvents(images=1)}
+    others = [replace(one, text=samples[number - 1].text) for number, one in enumerate(samples)]
+    right, wrong = align({"right": samples, "wrong": others}, views, model)
+    assert right.report.measured.recall[1] == 1.0
+    assert right.report.measured.mean_similarity > right.report.shuffled.mean_similarity + 0.1
+    assert wrong.report.measured.recall[1] == 0.0
+    assert wrong.report.chance.recall[1] == 0.25
+
+
+def run(clip: Path, out: Path, *words: str) -> Any:
+    assert main(["align", *words, "--clip", str(clip), "-o", str(out), "-q"]) == 0
+    return json.loads(out.read_text())
+
+
+def test_ours_and_recorded_streams_rank_the_captions_that_both_have(
+    clip: Path, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    real = ["--n-imagenet", str(data / "N"), "--captions", str(data / "nt" / "captions.jsonl")]
+    both = run(clip, tmp_path / "both.json", str(data / "events"), *real)
+    said = capsys.readouterr().out
+    assert [row["source"] for row in both["rows"]] == ["texvent", "N-ImageNet"]
+    assert [row["texts"] for row in both["rows"]] == [3, 3]
+    assert said.count("texts exchanged") == said.count("chance") == 2
+    alone = run(clip, tmp_path / "real.json", *real)
+    assert [row["texts"] for row in alone["rows"]] == [4]
+    assert alone["rows"][0]["chance"]["recall"] == {"1": 0.25, "5": 1.0, "10": 1.0}
+    ours = run(clip, tmp_path / "ours.json", str(data / "events"))
+    assert ours["rows"][0]["measured"] == both["rows"][0]["measured"]
+    assert ours["texts_cut"] == 0
+    limited = run(clip, tmp_path / "two.json", *real, "--limit", "2")
+    assert limited["rows"][0]["recordings"] == 2
+
+
+def test_reconstructed_images_are_scored_beside_drawn_events(
+    clip: Path, data: Path, tmp_path: Path
+) -> None:
+    weights = tmp_path / "firenet.pth"
+    save_published(torch, "firenet", weights)
+    network = ["--reconstruct", "--network", "firenet", "--weights", str(weights)]
+    found = run(clip, tmp_path / "a.json", str(data / "events"), *network, "--device", "cpu")
+    assert [row["view"] for row in found["rows"]] == ["drawn events", "firenet images"]
+    drawn, made = (row["measured"]["mean_similarity"] for row in found["rows"])
+    assert drawn != made
+    assert found["network"] == "firenet"
+    assert len(found["weights_sha256"]) == 64
+
+
+def test_long_texts_are_counted(clip: Path) -> None:
+    model = ClipModel(clip)
+    assert model.count_tokens("a cat " * 30) > model.most_tokens
+
+
+def test_a_table_gives_the_control_below_each_score(clip: Path, data: Path) -> None:
+    rows = align(list_samples(data / "events"), {"drawn": DrawnEvents()}, ClipModel(clip))
+    lines = alignment_table(rows).splitlines()
+    assert len(lines) == 4
+    assert lines[0].split()[:3] == ["events", "seen", "as"]
+    assert lines[3].split()[:4] == ["chance", "0.333", "1.000", "1.000"]
+
+
+def test_mistakes_are_named(
+    clip: Path, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    def said(*words: str) -> str:
+        assert main(["align", *words]) == 2
+        return capsys.readouterr().err
+
+    assert "nothing to score" in said("--clip", str(clip))
+    assert "need their texts" in said("--n-imagenet", str(data / "N"), "--clip", str(clip))
+    assert "there is no CLIP model in" in said(str(data / "events"), "--clip", str(tmp_path))

@@ -1,0 +1,162 @@
+"""Retrieval on matrices whose ranks are known by hand, and what holds for every matrix."""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from texvent.errors import InputError
+from texvent_lab.alignment.retrieval import Retrieval, RetrievalReport, score_retrieval
+
+BY_HAND = np.array(
+    [
+        [0.9, 0.1, 0.2, 0.3],  # own text first
+        [0.5, 0.4, 0.3, 0.2],  # second
+        [0.3, 0.2, 0.1, 0.4],  # last
+        [0.1, 0.1, 0.1, 0.1],  # all equal
+    ]
+)
+
+
+def score(similarity: NDArray[Any], own: Any = None, **options: Any) -> RetrievalReport:
+    return score_retrieval(similarity, own, **{"resamples": 20, "exchanges": 20, **options})
+
+
+def close(one: Retrieval, other: Retrieval) -> bool:
+    return np.allclose(values(one), values(other))
+
+
+def values(one: Retrieval) -> list[float]:
+    return [*one.recall.values(), one.median_rank, one.mean_similarity]
+
+
+@st.composite
+def matrices(draw: st.DrawFn) -> NDArray[np.float64]:
+    """Square, with many ties."""
+    side = draw(st.integers(1, 12))
+    levels = draw(st.integers(1, 6))
+    rng = np.random.default_rng(draw(st.integers(0, 10_000)))
+    return rng.integers(-levels, levels + 1, (side, side)) / levels
+
+
+def test_ranks_by_hand() -> None:
+    measured = score(BY_HAND).measured
+    assert measured.recall[1] == (1 + 0 + 0 + 1 / 4) / 4
+    assert measured.recall[5] == 1.0
+    assert measured.median_rank == (2 + 2.5) / 2
+    assert measured.mean_similarity == pytest.approx((0.9 + 0.4 + 0.1 + 0.1) / 4)
+
+
+def test_recordings_may_share_a_text() -> None:
+    similarity = np.array([[0.9, 0.1], [0.2, 0.8], [0.3, 0.4]])
+    report = score(similarity, np.array([0, 1, 0]))
+    assert (report.recordings, report.texts) == (3, 2)
+    assert report.measured.recall[1] == pytest.approx(2 / 3)
+    assert report.chance.recall[1] == 0.5
+
+
+def test_the_bootstrap_interval_is_that_of_a_share() -> None:
+    count = 400
+    rng = np.random.default_rng(1)
+    similarity = rng.random((count, count)) * 0.5
+    is_first = np.arange(count) < 100
+    similarity[is_first, np.arange(count)[is_first]] = 1.0
+    similarity[~is_first, np.arange(count)[~is_first]] = -1.0
+    report = score(similarity, resamples=2000)
+    error = math.sqrt(0.25 * 0.75 / count)
+    assert report.measured.recall[1] == 0.25
+    assert report.low.recall[1] == pytest.approx(0.25 - 1.96 * error, abs=0.01)
+    assert report.high.recall[1] == pytest.approx(0.25 + 1.96 * error, abs=0.01)
+
+
+def test_exchanged_texts_come_out_at_chance_and_the_p_value_tells_pairs_from_none() -> None:
+    rng = np.random.default_rng(2)
+    noise = rng.normal(size=(60, 60))
+    unrelated = score(noise, exchanges=400)
+    assert unrelated.shuffled.recall[10] == pytest.approx(10 / 60, abs=0.01)
+    assert unrelated.shuffled.median_rank == pytest.approx(30.5, abs=1.5)
+    assert unrelated.shuffled.mean_similarity == pytest.approx(noise.mean(), abs=0.03)
+    assert 0.01 < unrelated.p_value < 0.99
+    assert score(noise, exchanges=400, seed=1).shuffled != unrelated.shuffled
+    paired = score(noise + np.eye(60), exchanges=400)
+    assert paired.p_value == 1 / 401
+    assert paired.shuffled.recall[1] < paired.low.recall[1]
+
+
+@given(matrices())
+@settings(max_examples=60)
+def test_perfect_pairs_give_one(matrix: NDArray[np.float64]) -> None:
+    report = score(matrix + 3.0 * np.eye(len(matrix)))
+    assert set(report.measured.recall.values()) == {1.0}
+    assert report.measured.median_rank == 1.0
+    assert close(report.measured, dataclasses.replace(
+        report.low, mean_similarity=report.measured.mean_similarity))  # fmt: skip
+
+
+@given(matrices())
+@settings(max_examples=60)
+def test_all_cyclic_exchanges_together_are_exactly_chance(matrix: NDArray[np.float64]) -> None:
+    side = len(matrix)
+    chance = score(matrix).chance
+    shifted = [score(matrix, (np.arange(side) + shift) % side).measured for shift in range(side)]
+    for k, expected in chance.recall.items():
+        assert np.mean([one.recall[k] for one in shifted]) == pytest.approx(expected)
+    assert np.mean([one.mean_similarity for one in shifted]) == pytest.approx(
+        chance.mean_similarity
+    )
+
+
+@given(matrices(), st.integers(0, 1000))
+@settings(max_examples=60)
+def test_the_order_of_pairs_and_the_scale_do_not_matter(
+    matrix: NDArray[np.float64], seed: int
+) -> None:
+    order = np.random.default_rng(seed).permutation(len(matrix))
+    before = score(matrix).measured
+    assert close(before, score(matrix[np.ix_(order, order)]).measured)
+    scaled = score(2 * matrix + 1).measured
+    assert scaled.recall == before.recall
+    assert scaled.median_rank == before.median_rank
+
+
+@given(st.integers(1, 30))
+def test_a_model_that_sees_no_difference_is_at_chance(side: int) -> None:
+    report = score(np.full((side, side), 0.25))
+    assert close(report.measured, report.chance)
+    assert close(report.shuffled, report.chance)
+    assert report.p_value == 1.0
+
+
+def test_exchanges_within_classes_leave_what_the_classes_give() -> None:
+    groups = np.repeat(["cat", "dog", "fish"], 20)
+    by_class = (groups[:, None] == groups).astype(float)
+    only_class = score(by_class, groups=groups)
+    assert only_class.within is not None
+    assert close(only_class.measured, only_class.within)
+    assert only_class.measured.recall[1] == pytest.approx(1 / 20)
+    assert only_class.p_within == 1.0
+    assert only_class.p_value < 0.1
+    assert only_class.shuffled.median_rank > only_class.within.median_rank == 10.5
+    paired = score(by_class + 0.1 * np.eye(60), groups=groups)
+    assert paired.measured.recall[1] == 1.0
+    assert paired.p_within == 1 / 21
+    assert score(by_class).within is None
+    alone = score(by_class + np.eye(60), groups=np.arange(60))
+    assert alone.within is not None
+    assert close(alone.within, alone.measured), "nothing to exchange with"
+
+
+def test_mistakes_are_named() -> None:
+    with pytest.raises(InputError, match=r"shape \(0, 3\)"):
+        score(np.empty((0, 3)))
+    with pytest.raises(InputError, match="NaN or infinity"):
+        score(np.array([[np.nan]]))
+    with pytest.raises(InputError, match="2 recordings and 1 texts"):
+        score(np.ones((2, 1)))

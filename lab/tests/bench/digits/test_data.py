@@ -1,0 +1,220 @@
+"""MNIST's files, N-MNIST's recordings, how its sensor moved, and digits that move so."""
+
+import dataclasses
+import math
+import shutil
+import zipfile
+
+import numpy as np
+import pytest
+
+from texvent.capture.camera_path.saccades import DURATION_US, digit_corner
+from texvent.errors import FileFormatError, InputError
+from texvent.events import EventStream
+from texvent.run.prepare import prepare_video
+from texvent.sensor import SensorSize
+from texvent_lab.bench.digits.arms import find_arm
+from texvent_lab.bench.digits.data.idx import read_idx, read_mnist
+from texvent_lab.bench.digits.data.inputs import represent_all
+from texvent_lab.bench.digits.data.polarity import polarity_agreement
+from texvent_lab.bench.digits.data.recordings import read_recordings
+from texvent_lab.bench.digits.data.sheet import MARGIN, PITCH, Digits, DigitSheet
+
+from .synthetic_data import encode, figures, record, tile_events, write_idx, write_mnist
+
+MEASURED = """
+5 .2 .4, 25 .3 1.2, 35 .3 2.1, 45 .4 3.3, 55 .9 4.2, 65 1.2 5.4, 75 1.4 6.1, 105 2.0 5.8,
+125 2.8 5.6, 135 3.3 5.0, 145 4.0 4.1, 155 4.3 2.9, 165 4.7 1.8, 175 4.9 1.1, 195 5.2 1.0,
+235 5.0 .8, 245 4.4 .9, 255 3.4 1.0, 265 2.4 1.0, 275 1.9 .3, 285 1.1 .4, 295 .8 .3"""
+"""ms, x and y px of a digit's corner, measured on 100 pairs."""
+ONE = np.ones(1)
+
+
+def corner(t_ms, speed=1.0, amplitude=1.0):
+    return digit_corner(1000 * t_ms, speed * ONE, amplitude * ONE)[0]
+
+
+def test_the_path_is_the_measured_one():
+    rows = np.array([[float(one) for one in row.split()] for row in MEASURED.split(",")])
+    # Positions were measured in windows of 10 ms.
+    path = [np.mean([corner(t + dt) for dt in (-4, -2, 0, 2, 4)], axis=0) for t in rows[:, 0]]
+    errors = np.array(path) - rows[:, 1:]
+    assert np.sqrt((errors**2).mean()) < 0.15
+    assert np.abs(errors).max() < 0.5
+
+
+def test_the_path_rests_at_both_ends_and_scales():
+    assert corner(0) == pytest.approx([0.3, 0.4])
+    assert corner(310) == pytest.approx(corner(1000))
+    start = corner(0)
+    assert corner(150, amplitude=1.2) - start == pytest.approx(1.2 * (corner(150) - start))
+    assert corner(100, speed=1.1) == pytest.approx(corner(110))
+
+
+def slow_render(image, black, x, y):
+    """A pixel's mean over its area, in 32×32 samples, of a digit with its corner at (x, y)."""
+    samples = (np.arange(34 * 32) + 0.5) / 32
+    column, row = np.floor(samples - x).astype(int), np.floor(samples - y).astype(int)
+    inside = ((row >= 0) & (row < 28))[:, None] & ((column >= 0) & (column < 28))[None]
+    cover = np.where(inside, image[row.clip(0, 27)][:, column.clip(0, 27)] / 255, 0.0)
+    return black + (255 - black) * cover.reshape(34, 32, 34, 32).mean(axis=(1, 3))
+
+
+def test_pixels_are_means_over_their_area():
+    images = figures(3, 0)
+    shift = np.array([[0.25, -0.5], [-1.0, 1.0], [0.0, 0.0]])
+    digits = Digits(images, np.ones(3), np.ones(3), shift, np.array([20.0, 30.0, 40.0]))
+    sheet = DigitSheet(digits)
+    at_ms = 150
+    tiles = sheet.cut(sheet.at(1000 * at_ms).pixels)
+    for number, tile in enumerate(tiles):
+        x, y = corner(at_ms) + shift[number]
+        expected = slow_render(images[number], digits.black[number], x, y)
+        # 32 samples know an edge to 1/64 px, of at most 235 levels.
+        np.testing.assert_allclose(tile, expected, atol=235 / 32)
+        assert abs(tile.mean() - expected.mean()) < 0.1
+
+
+def test_draws_depend_on_the_seed_and_the_number_of_the_image_alone():
+    images, numbers = figures(5, 0), np.array([7, 8, 9, 10, 11])
+    whole = Digits.draw(images, numbers, 3)
+    part = Digits.draw(images[2:4], numbers[2:4], 3)
+    for name in ("amplitude", "speed", "shift", "black"):
+        assert np.array_equal(getattr(whole, name)[2:4], getattr(part, name))
+    assert not np.array_equal(whole.speed, Digits.draw(images, numbers, 4).speed)
+    many = Digits.draw(np.zeros((500, 28, 28), np.uint8), np.arange(500), 0)
+    assert 0.8 <= many.amplitude.min() < 0.82 < 1.18 < many.amplitude.max() <= 1.2
+    assert 0.9 <= many.speed.min() < 0.91 < 1.09 < many.speed.max() <= 1.1
+    assert 1 >= np.abs(many.shift).max() > 0.98
+    assert 0.05 * 255 <= many.black.min() < 0.06 * 255 < 0.19 * 255 < many.black.max() <= 51
+
+
+@pytest.mark.parametrize("arm", ["esim", "texvent accurate", "frame difference"])
+def test_a_digit_has_the_same_events_on_a_sheet_as_alone(arm):
+    images = figures(5, 1)
+    digits = Digits.draw(images, np.arange(5), 0)
+    way = find_arm(arm).ways[0]
+    settings = find_arm(arm).settings(way)
+    if arm == "texvent accurate":  # its noise is drawn by place
+        silent = dataclasses.replace(settings.simulate, noise="none")
+        settings = dataclasses.replace(settings, simulate=silent)
+    sheet = DigitSheet(digits)
+    together = prepare_video(sheet, settings).packets.collect()
+    for number in (0, 4):
+        one = slice(number, number + 1)
+        alone_sheet = DigitSheet(
+            Digits(
+                images[one],
+                digits.amplitude[one],
+                digits.speed[one],
+                digits.shift[one],
+                digits.black[one],
+            )
+        )
+        alone = prepare_video(alone_sheet, settings).packets.collect()
+        expected, found = tile_events(alone_sheet, alone, 0), tile_events(sheet, together, number)
+        assert len(expected) > 100
+        for name in "xytp":
+            assert np.array_equal(getattr(found, name), getattr(expected, name)), name
+
+
+def test_images_of_a_sheet_are_those_of_its_digits():
+    sheet = DigitSheet(Digits.as_measured(figures(5, 2)))
+    events = prepare_video(sheet, find_arm("texvent paper").settings("exact")).packets.collect()
+    images, counts = represent_all(events)
+    for number in range(5):
+        own, own_counts = represent_all(tile_events(sheet, events, number))
+        assert np.array_equal(sheet.cut(counts)[number], own_counts)
+        for name, image in own.items():
+            assert np.array_equal(sheet.cut(images[name])[number], image), name
+            assert image.any()
+
+
+def test_recordings_laid_out_on_a_sheet_keep_their_events():
+    sheet = DigitSheet(Digits.as_measured(figures(3, 0)))
+    recorded = record(figures(3, 0))
+    together = sheet.lay_out(recorded)
+    assert len(sheet.inside(together)) == len(together) == sum(map(len, recorded))
+    assert (np.diff(together.t) >= 0).all()
+    for number, own in enumerate(recorded):
+        found = tile_events(sheet, together, number)
+        orders = (np.lexsort((one.p, one.x, one.y, one.t)) for one in (found, own))
+        for name, (a, b) in zip("xytp", [[*orders]] * 4, strict=True):
+            assert np.array_equal(getattr(found, name)[a], getattr(own, name)[b])
+    outside = EventStream([0, MARGIN, PITCH - 1], [5, 5, 5], [1, 2, 3], [1, 1, 1], sheet.size)
+    assert sheet.inside(outside).t.tolist() == [2]
+
+
+def test_polarity_is_checked_against_the_brightness_of_the_digit():
+    images = figures(6, 3)
+    sheet, recorded = DigitSheet(Digits.as_measured(images)), record(images)
+    assert polarity_agreement(sheet, recorded) > 0.97
+    opposite = [EventStream(one.x, one.y, one.t, 1 - one.p, one.size) for one in recorded]
+    assert polarity_agreement(sheet, opposite) < 0.03
+    late = EventStream([5], [5], [DURATION_US], [1], SensorSize(34, 34))
+    assert math.isnan(polarity_agreement(sheet, [late] * 6))
+
+
+def test_idx_files_are_read_compressed_or_not(tmp_path):
+    values = np.arange(24, dtype=np.uint8).reshape(2, 3, 4)
+    for name in ("a-ubyte", "a-ubyte.gz"):
+        write_idx(tmp_path / name, values)
+        assert np.array_equal(read_idx(tmp_path / name), values)
+    images = write_mnist(tmp_path / "mnist", 20)
+    found = read_mnist(tmp_path / "mnist")
+    assert np.array_equal(found.images, images)
+    assert found.labels.tolist() == [*range(10)] * 2
+
+
+def test_mnist_that_is_incomplete_is_refused(tmp_path):
+    with pytest.raises(InputError, match=r"no t10k-images-idx3-ubyte\.gz in"):
+        read_mnist(tmp_path)
+    write_mnist(tmp_path / "m", 20)
+    write_idx(tmp_path / "m" / "t10k-labels-idx1-ubyte", np.zeros(19))
+    with pytest.raises(FileFormatError, match="20 images and labels of shape"):
+        read_mnist(tmp_path / "m")
+    write_idx(tmp_path / "m" / "t10k-images-idx3-ubyte.gz", np.zeros((19, 30, 28)))
+    with pytest.raises(FileFormatError, match="must be 28x28"):
+        read_mnist(tmp_path / "m")
+
+
+EVENTS = encode([1, 2], [3, 4], [10, 70_000], [1, 0])
+
+
+def numbered(folder):
+    folder.mkdir()
+    for number in (7, 60_001):
+        (folder / f"{number}.bin").write_bytes(EVENTS)
+    (folder / "labels.csv").write_text("id,label\n7,3\n60001,9\n")
+    return folder
+
+
+def zipped(folder):
+    source = numbered(folder / "files")
+    path = folder / "some.zip"
+    with zipfile.ZipFile(path, "w") as archive:
+        for file in source.iterdir():
+            archive.write(file, file.name)
+    shutil.rmtree(source)
+    return path
+
+
+def published(folder):
+    for name in ("Train/3/00007.bin", "Test/9/00001.bin"):
+        (folder / name).parent.mkdir(parents=True)
+        (folder / name).write_bytes(EVENTS)
+    return folder
+
+
+@pytest.mark.parametrize("layout", [lambda path: numbered(path / "n"), zipped, published])
+def test_recordings_are_read_from_every_layout_with_polarity_flipped(tmp_path, layout):
+    path = layout(tmp_path)
+    train, test = read_recordings(path, [7, 60_001])
+    assert (train.label, test.label) == (3, 9)
+    events = train.events
+    assert events.x.tolist() == [1, 2]
+    assert events.y.tolist() == [3, 4]
+    assert events.t.tolist() == [10, 70_000]
+    assert events.p.tolist() == [0, 1]  # the stored bit is 1 where brightness falls
+    with pytest.raises(InputError, match="8"):
+        read_recordings(path, [8])

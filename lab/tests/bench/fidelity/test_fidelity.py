@@ -1,0 +1,358 @@
+"""The oracle benchmark: fitting, scoring, its document and its tables."""
+
+import dataclasses
+import json
+import math
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.events import EventStream
+from texvent.extending import SIMULATORS
+from texvent.metrics.compare import compare
+from texvent.pipeline import video_to_events
+from texvent.run.settings import resolve
+from texvent.simulate.physical.threshold_map import read_threshold_map
+from texvent_lab.bench.fidelity.details import BINS, describe
+from texvent_lab.bench.fidelity.entries import INTERPOLATIONS, Entry, choose_entries
+from texvent_lab.bench.fidelity.results import read_report
+from texvent_lab.bench.fidelity.run import (
+    FULL,
+    FidelityPlan,
+    fit_threshold,
+    record_truths,
+    run_fidelity,
+    score_entry,
+)
+from texvent_lab.bench.fidelity.table import fidelity_tables
+from texvent_lab.bench.oracle.camera import EXPOSURE
+from texvent_lab.bench.oracle.pixel import IDEAL, NOISY, PixelArray
+from texvent_lab.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, record
+
+from ..synthetic_report import synthetic_report
+
+CLEAN = Entry(simulator="physical", preset="clean", interpolate="exact")
+QUICK = FidelityPlan(
+    scenes=("translate",),
+    targets=("ideal",),
+    fit_seeds=(7,),
+    score_seeds=(7,),
+    metrics=("stpp", "count_ratio", "nearest"),
+    entries=(CLEAN, Entry(simulator="esim", interpolate="none")),
+)
+
+
+@pytest.fixture(scope="module")
+def report():
+    return run_fidelity(QUICK)
+
+
+def test_an_ideal_model_with_true_frames_recovers_the_ideal_oracle():
+    """The two were written apart: each checks the other."""
+    scene = oracle_scene("translate", 7)
+    truth = record(scene, {"ideal": (IDEAL, 1)})["ideal"]
+    options = {"simulator": "physical", "preset": "clean", "interpolate": "exact"}
+    # The oracle's dark level on the camera's linear scale; 200 frames between two.
+    same_pixel = {"balance": 255 * EXPOSURE * IDEAL.dark_level, "count": "fixed"}
+    settings = resolve("simulate", {**options, **same_pixel, "fixed_count": 199})
+    events = video_to_events(TrueFrames(scene), settings).packets.collect()
+    scores = compare(events, truth, ["count_ratio", "stpp", "nearest", "van_rossum"])
+    assert scores["count_ratio"] == pytest.approx(1.0, abs=0.01)
+    assert scores["stpp"] > 0.97
+    assert scores["nearest"] < 0.2
+    assert scores["van_rossum"] < 0.02
+
+
+def test_a_model_without_intermediate_frames_is_further_from_the_truth(report):
+    clean, frames_only = report.scores[:2]
+    assert frames_only.track == "frames"
+    assert frames_only.summary("stpp").mean < clean.summary("stpp").mean - 0.1
+    assert frames_only.normalised("stpp", report.references[0]) < 0.8
+
+
+def test_the_rate_is_matched_on_the_fitting_seeds(report):
+    for score in report.scores:
+        assert score.is_matched
+        assert score.values["count_ratio"][0] == pytest.approx(1, abs=0.021)
+
+
+def test_details_say_where_and_when_events_are_wrong(report):
+    exact, frames_only = (score.details for score in report.scores[:2])
+    assert np.mean(exact.levels) == pytest.approx(report.scores[0].summary("stpp").mean)
+    # Times: within 2 ms of the truth there are far more events of the exact entry.
+    middle = slice(BINS // 2 - 4, BINS // 2 + 4)
+    assert sum(exact.time_error[middle]) > 0.7 > 2 * sum(frames_only.time_error[middle])
+    assert sum(exact.time_error) <= 1 + 1e-9
+    # Motion: 125 px/s are found again in the events, and they lie on moving edges.
+    assert exact.flow_error[0] < min(30, frames_only.flow_error[0])
+    assert exact.sharpness[0] > 1.4 > frames_only.sharpness[0]
+
+
+def test_scenes_at_rest_and_scenes_without_one_motion_have_no_flow_error(report):
+    truth = oracle_truth("static")
+    details = describe([truth], [truth], (0.0, 0.0))
+    assert math.isnan(details.flow_error[0])
+    assert math.isnan(details.sharpness[0])
+    empty = EventStream.empty(truth.size)
+    assert sum(describe([empty], [truth], None).time_error) == 0
+
+
+def oracle_truth(name):
+    return record(oracle_scene(name, 7), {"ideal": (NOISY, 1)})["ideal"]
+
+
+def test_a_document_read_back_gives_the_report(report):
+    document = json.loads(json.dumps(report.document(), allow_nan=False))
+    assert read_report(document).document() == document
+    restored = read_report(json.loads(json.dumps(synthetic_report().document())))
+    assert math.isnan(restored.scores[2].values["stpp"][0])
+    assert fidelity_tables(restored) == fidelity_tables(synthetic_report())
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [({"schema": "other-1"}, "'other-1'"), ({"scores": [{}]}, "scores lacks scene")],
+)
+def test_a_document_of_another_kind_is_refused(report, changes, message):
+    with pytest.raises(FileFormatError, match=message):
+        read_report({**report.document(), **changes})
+
+
+def test_entries_are_chosen_by_name_and_preset():
+    entries = choose_entries("physical:davis346,esim", "none")
+    assert [entry.name for entry in entries] == ["physical davis346, none", "esim, none"]
+    assert [Entry.parse(entry.name) for entry in entries] == entries
+
+
+def test_a_wrong_preset_names_the_calibrated_one():
+    with pytest.raises(
+        ConfigError, match=r"has no preset 'calibrate'; .*did you mean 'calibrated'"
+    ):
+        choose_entries("physical:calibrate", "flow")
+
+
+def test_the_calibrated_entry_knows_the_sensor():
+    (entry,) = choose_entries("physical:calibrated", "exact")
+    assert Entry.parse(entry.name) == entry
+    assert entry.track == "true frames, sensor known"
+    found = entry.settings(0).simulate
+    # Half of the radiance is level 115, from which on the true bandwidth is 250 Hz.
+    assert found.cutoff_limit_hz == pytest.approx(250, rel=0.02)
+    for level, tolerance in ((28, 0.4), (57, 0.4), (115, 0.2)):
+        share = (level + found.balance) / (255 + found.balance)
+        bandwidth = min(found.cutoff_hz * share, found.cutoff_limit_hz)
+        assert bandwidth == pytest.approx(250 * level / 115, rel=tolerance)
+    true = PixelArray(NOISY, SIZE, 0)
+    measured = read_threshold_map(found.threshold_map)
+    for each, own in zip(measured, (true._on, true._off), strict=True):
+        error = each.reshape(-1) * own.mean() - own
+        assert np.sqrt(np.nanmean(error**2)) < 0.2 * own.std()
+    assert found.contrast_threshold == pytest.approx(NOISY.threshold, rel=0.15)
+    assert found.threshold_sigma == pytest.approx(NOISY.threshold_sigma, rel=0.15)
+
+
+def test_floor_and_null_bound_the_scores(report):
+    reference = report.reference("translate", "ideal")
+    # Ideal pixels have no noise: a second recording is the same recording.
+    assert reference.floor["stpp"] == [1.0]
+    assert reference.null["stpp"][0] < 0.7
+    with pytest.raises(StopIteration):
+        report.reference("translate", "noisy")
+
+
+def test_the_document_is_json_with_everything_needed_to_repeat_it(report):
+    document = json.loads(json.dumps(report.document(), allow_nan=False))
+    assert document["schema"] == "texvent-fidelity-2"
+    assert {"commit", "python", "packages", "device"} <= set(document["environment"])
+    assert document["fit_seeds"] == document["score_seeds"] == [7]
+    assert {score["entry"] for score in document["scores"]} == {
+        "another sensor of the kind",
+        "physical clean, exact",
+        "esim, none",
+    }
+    assert 0.5 < document["scores"][0]["normalised"]["stpp"] < 1
+    # Ideal pixels are alike, in any sensor.
+    assert document["scores"][-1]["normalised"]["stpp"] == 1
+
+
+def test_a_simulator_that_cannot_run_is_named_with_the_reason(report):
+    ((truth, _, _),) = record_truths(
+        FidelityPlan(scenes=("static",), targets=("ideal",), score_seeds=(7,)), "static"
+    )
+    skipped = score_entry(QUICK, truth, Entry(simulator="v2ce", interpolate="none"))
+    assert skipped[0] == "v2ce, none"
+    assert "weights" in skipped[1]
+
+
+def test_a_scene_without_true_events_has_undefined_ratios_not_numbers():
+    plan = FidelityPlan(
+        scenes=("static",), targets=("ideal",), score_seeds=(7,), metrics=("nearest", "stpp")
+    )
+    ((truth, reference, _),) = record_truths(plan, "static")
+    score = score_entry(plan, truth, Entry(simulator="esim", interpolate="none"))
+    assert math.isnan(score.default_ratio)
+    assert math.isnan(score.values["nearest"][0])
+    assert not score.is_matched
+    assert reference.events == [0]
+
+
+def test_default_entries_are_every_simulator_by_every_interpolation():
+    entries = choose_entries()
+    assert len(entries) == (len(SIMULATORS.names()) + 2) * len(INTERPOLATIONS)
+    assert "texvent accurate, flow" in {entry.name for entry in entries}
+    assert {entry.track for entry in entries} == {
+        "frames",
+        "true frames",
+        "frames, sensor known",
+        "true frames, sensor known",
+    }
+
+
+def test_the_full_plan_covers_ten_scenes_two_kinds_of_pixels_and_eight_seeds():
+    assert len(FULL.scenes) == 10
+    assert set(FULL.targets) == {"noisy", "ideal"}
+    assert len({*FULL.fit_seeds, *FULL.score_seeds}) == 8
+    assert not set(FULL.fit_seeds) & set(FULL.score_seeds)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"scenes": ("mixd",)}, "did you mean 'mixed'"),
+        ({"metrics": ("spp",)}, "did you mean 'stpp'"),
+        ({"targets": ("loud",)}, "targets are noisy, ideal"),
+        ({"score_seeds": ()}, "seeds at least one"),
+    ],
+)
+def test_a_plan_that_names_something_unknown_is_refused(changes, message):
+    with pytest.raises(ConfigError, match=message):
+        FidelityPlan(**changes)
+
+
+def test_an_unknown_simulator_and_no_process_are_refused_before_any_work():
+    entry = Entry(simulator="esmi", interpolate="none")
+    with pytest.raises(InputError, match="did you mean 'esim'"):
+        run_fidelity(FidelityPlan(entries=(entry,)))
+    with pytest.raises(ConfigError, match="jobs is 0"):
+        run_fidelity(QUICK, jobs=0)
+
+
+def test_tables_rank_by_stpp_and_show_floor_null_errors_and_paired_differences():
+    table = fidelity_tables(synthetic_report())
+    lines = table.splitlines()
+    assert "| better | 0.85 | 0.85 |" in lines
+    rows = [line for line in lines if line.count("|") == 8]
+    order = [row.split(" | ")[0].strip("| ") for row in rows[2:]]
+    assert order == [
+        "floor: second recording",
+        "better",
+        "texvent paper, blend",
+        "lost",
+        "null: times shuffled",
+    ]
+    # Differences of 0.2 and 0.4 on the same two seeds: 0.3 ± 0.1.
+    assert "+0.300 ± 0.100" in rows[3]
+    assert "0.100 (count not reached)" in rows[3]
+    assert "6.000 ± 1.000" in rows[3]
+    assert "undefined" in rows[5]
+    assert "- v2ce, none: needs weights" in table
+
+
+def test_undefined_values_become_null_in_the_document():
+    document = synthetic_report().document()
+    assert document["scores"][2]["values"]["stpp"] == [None, None]
+    assert document["scores"][0]["normalised"]["stpp"] == pytest.approx(
+        np.clip((0.2 - 0.45) / (0.2 - 0.85), 0, 1)
+    )
+
+
+def test_without_true_events_the_threshold_is_kept_and_nothing_is_searched():
+    counted = []
+    match, ratio = fit_threshold(lambda δ: counted.append(δ) or 10, 0, 0.2)
+    assert (match.threshold, match.is_matched) == (0.2, False)
+    assert math.isnan(match.ratio)
+    assert math.isnan(ratio)
+    assert not counted
+
+
+def six_textures(**entries):
+    """A report of one scene with six textures: entry → STPP on each."""
+    report = synthetic_report()
+    (reference,) = report.references
+    bounds = {"floor": {"stpp": [0.9] * 6}, "null": {"stpp": [0.2] * 6}}
+    scores = [
+        dataclasses.replace(report.scores[0], entry=name, values={"stpp": values}, **changes)
+        for name, (values, changes) in entries.items()
+    ]
+    return dataclasses.replace(
+        report,
+        references=[dataclasses.replace(reference, **bounds)],
+        scores=scores,
+        score_seeds=[1, 2, 3, 4, 5, 6],
+    )
+
+
+STEADY = [0.60, 0.61, 0.62, 0.63, 0.64, 0.65]
+TRACKS = {
+    "steady": (STEADY, {}),
+    "twin": ([0.61, 0.60, 0.63, 0.62, 0.64, 0.64], {}),
+    "behind": ([one - 0.1 for one in STEADY], {}),
+    "true frames": ([0.8] * 6, {"track": "true frames"}),
+    "half": ([0.7] * 6, {"track": "recorded"}),
+    "lost": ([math.nan] * 6, {}),
+}
+
+
+def test_tables_say_how_far_an_entry_is_behind_the_best_that_gets_the_same_frames():
+    table = fidelity_tables(six_textures(**TRACKS), baseline="twin")
+    cells = {row.split(" | ")[0].strip("| "): row for row in table.splitlines() if "|" in row}
+    assert cells["entry"].endswith("| STPP − twin | behind the best |")
+    assert cells["steady"].endswith("| best |")
+    assert cells["true frames"].endswith("| best |")
+    assert cells["behind"].endswith("| 0.100 [0.100, 0.100] |")
+    assert cells["twin"].endswith("] ≈ |")
+    assert "| +0.002 [" in cells["steady"]
+    assert cells["half"].endswith("|  |")
+    assert cells["lost"].endswith("| undefined | undefined |")
+    assert "95 % interval over 6 textures" in table
+
+
+def test_the_document_says_how_far_each_entry_is_behind():
+    document = six_textures(**TRACKS).document()
+    behind = {score["entry"]: score["behind_best"] for score in document["scores"]}
+    assert behind["steady"] is behind["half"] is behind["true frames"] is None
+    assert (behind["behind"]["best"], behind["behind"]["is_told"]) == ("steady", True)
+    assert behind["behind"]["p"] == pytest.approx(2 / 64)
+    assert behind["twin"]["is_told"] is False
+    assert behind["lost"]["p"] is None
+
+
+def test_few_textures_and_few_scenes_are_said_to_be_too_few():
+    table = fidelity_tables(synthetic_report())
+    assert "2 textures are too few to tell entries apart; 6 and more are needed." in table
+    assert "scenes are too few" not in table  # one scene has no mean over scenes
+    assert "behind the best" not in table
+
+
+def test_kinds_of_pixels_of_one_scene_count_as_one_window_over_scenes():
+    report = six_textures(steady=(STEADY, {}), other=([one - 0.1 for one in STEADY], {}))
+    places = [(f"scene {number}", kind) for number in range(6) for kind in ("noisy", "ideal")]
+    report = dataclasses.replace(
+        report,
+        references=[
+            dataclasses.replace(report.references[0], scene=scene, target=kind)
+            for scene, kind in places
+        ],
+        scores=[
+            dataclasses.replace(score, scene=scene, target=kind)
+            for score in report.scores
+            for scene, kind in places
+        ],
+    )
+    overall = report.overall_comparison()
+    assert overall.windows == 6
+    assert overall.behind_best["other"].difference.mean == pytest.approx(0.1 / 0.7)
+    overview = fidelity_tables(report).partition("###")[0]
+    assert "| 0.143 [0.143, 0.143] |" in overview
+    assert "over 6 scenes" in overview

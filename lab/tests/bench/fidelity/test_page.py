@@ -1,0 +1,54 @@
+"""The published pages are what `texvent bench page` makes of the published results."""
+
+import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from texvent_lab.bench.document import read_document
+from texvent_lab.bench.fidelity import page
+from texvent_lab.bench.fidelity.results import read_report
+from texvent_lab.bench.fidelity.table import BASELINE
+
+from ..synthetic_report import synthetic_report
+
+RESULTS = Path(__file__).parents[4] / "docs" / "results"
+
+
+@pytest.mark.parametrize(
+    ("result", "baseline"),
+    [
+        ("fidelity.json.gz", BASELINE),
+        ("real-davis346.json.gz", "texvent accurate, flow"),
+        ("real-slider_depth.json.gz", "texvent accurate, flow"),
+    ],
+)
+def test_published_pages_and_charts_are_those_of_the_published_results(
+    result, baseline, monkeypatch
+):
+    # Event images are simulated again, which takes minutes.
+    monkeypatch.setattr(page, "event_image_grid", lambda report, scene: b"")
+    report = read_report(read_document(RESULTS / result))
+    files = page.page_files(report, result, baseline=baseline, has_charts=True)
+    for name, content in files.items():
+        assert (RESULTS / name).is_file()
+        if content:
+            assert content == (RESULTS / name).read_bytes()
+
+
+def test_text_of_a_result_is_no_html_in_page_or_charts(monkeypatch):
+    monkeypatch.setattr(page, "event_image_grid", lambda report, scene: b"")
+    hostile = '</text></script><script>alert(1)</script>"><img src=x onerror=alert(1)>\u2028| x'
+    report = synthetic_report()
+    report = replace(
+        report,
+        references=[replace(one, scene=hostile) for one in report.references],
+        scores=[replace(one, scene=hostile, entry=hostile) for one in report.scores],
+    )
+    for name, content in page.page_files(report, "result.json", baseline=BASELINE).items():
+        text = content.decode()
+        assert "<script" not in text, name
+        assert "<img" not in text, name
+        if name.endswith(".svg"):
+            ElementTree.fromstring(text)

@@ -1,0 +1,225 @@
+"""The paper's tables: its figures, ours next to them, and what is missing."""
+
+import dataclasses
+import json
+
+import numpy as np
+import pytest
+
+from texvent.cli.app import main
+from texvent.errors import ConfigError, InputError
+from texvent.metrics.compare import compare
+from texvent.metrics.event_frames import EventFrameLpips
+from texvent_lab.bench.paper import simulator_tables
+from texvent_lab.bench.paper.ablation_tables import ablation_figures, leave_out_other_tables
+from texvent_lab.bench.paper.config_entry import read_ablations
+from texvent_lab.bench.paper.network_tables import accuracy_figures
+from texvent_lab.bench.paper.published_tables import (
+    TABLES,
+    OurFigures,
+    compare_with_paper,
+    join_figures,
+)
+from texvent_lab.bench.paper.run import PaperInputs, measure_table
+from texvent_lab.bench.paper.simulator_tables import event_frame_figures
+from texvent_lab.bench.real.scene import RecordingPart, open_scene
+
+from ..synthetic_report import synthetic_report
+
+
+def silent(line):
+    del line
+
+
+def keep_few(monkeypatch):
+    """Three of the columns, without motion compensation, which is tested elsewhere."""
+    few = {
+        column: dataclasses.replace(simulator_tables.ENTRIES[column], interpolate="none")
+        for column in ("VID2E", "V2CE", "Texvent")
+    }
+    monkeypatch.setattr(simulator_tables, "ENTRIES", few)
+
+
+def test_every_row_of_a_table_has_a_figure_per_column():
+    assert set(TABLES) == {1, 2, 4, 5, 7, 8, 9}
+    for table in TABLES.values():
+        assert all(len(figures) == len(table.columns) for figures in table.rows.values())
+    # From the paper's text: the best of Tables 1, 2 and 9, and what E12 costs.
+    assert TABLES[1].rows["event frames: MSE ↓"][-1] == 0.045
+    assert max(TABLES[2].rows["EQS ↑"]) == TABLES[2].rows["EQS ↑"][-1] == 0.8851
+    assert TABLES[9].rows["Acc@5 ↑"][-1] == 0.5458
+    *_, random_times, own = TABLES[5].rows["EQS ↑"]
+    assert own - random_times == pytest.approx(0.0021)
+
+
+def test_our_figures_stand_below_the_papers_with_notes_and_what_is_missing():
+    ours = OurFigures(
+        {"EQS ↑": {"V2E": "0.5000"}, "more": {"Texvent": "7"}}, ["how"], ["eqs: FILE"]
+    )
+    lines = compare_with_paper(TABLES[2], ours).splitlines()
+    paper = next(index for index, line in enumerate(lines) if line.startswith("| EQS ↑ | paper"))
+    assert lines[paper].endswith("| 0.8824 | 0.8851 |")
+    assert lines[paper + 1] == "|  | here | – | 0.5000 | – | – | – | – |"
+    assert "| more | here | – | – | – | – | – | 7 |" in lines
+    assert lines[-2:] == ["- how", "- Not measured: eqs: FILE"]
+    # A row without a figure of ours has no empty line below it.
+    assert sum("| here |" in line for line in lines) == 2
+    joined = join_figures([ours, ours, OurFigures({"x": {}}, ["again"])])
+    assert (joined.notes, joined.needs) == (("how", "again"), ("eqs: FILE",))
+
+
+def test_ablations_give_scores_and_paired_differences_to_the_papers_setting():
+    report = synthetic_report()
+    names = {"texvent paper, blend": "Texvent", "better": "E12", "lost": "E9"}
+    report = dataclasses.replace(
+        report, scores=[dataclasses.replace(one, entry=names[one.entry]) for one in report.scores]
+    )
+    figures = ablation_figures(5, report).figures
+    assert figures["STPP ↑, mixed, noisy pixels"]["E12"] == "0.750 (count not reached)"
+    assert figures["− Texvent, mixed, noisy pixels"]["E12"] == "+0.300 ± 0.100"
+    assert "E10" not in figures["STPP ↑, mixed, noisy pixels"]
+
+
+def test_thresholds_are_fitted_unless_the_user_wants_the_papers_way(capsys, tmp_path, pan_folder):
+    (tmp_path / "Texvent.toml").write_text('interpolate = "none"\n')
+    words = ["bench", "paper", "--table", "5", "--no-oracle", "--recordings", str(pan_folder)]
+    words += ["--configs", str(tmp_path), "-q", "-o", str(tmp_path / "out.json"), "--jobs", "1"]
+    assert main(words) == 0
+    printed = capsys.readouterr().out
+    assert "### Table 5" in printed
+    assert "Table 4" not in printed
+    document = json.loads((tmp_path / "out.json").read_text())
+    assert document["is_rate_matched"] is True
+    (report,) = document["reports"]
+    assert report["scores"][1]["threshold"] != 0.2
+    kept = read_ablations(tmp_path, is_rate_matched=False)[0]
+    assert kept.default_threshold is None
+
+
+def test_event_frames_are_compared_where_simulators_can_run(pan_folder, monkeypatch):
+    keep_few(monkeypatch)
+    monkeypatch.setattr(EventFrameLpips, "missing", lambda self: "no weights")
+    scenes = [open_scene(str(pan_folder), RecordingPart(offset_us=5_000))]
+    found = event_frame_figures(scenes, is_rate_matched=True, jobs=1, progress=silent)
+    mse = found.figures["event frames: MSE ↓"]
+    assert set(mse) == {"VID2E", "Texvent"}
+    assert all(0 < float(value) < 1 for value in mse.values())
+    assert any(need.startswith("v2ce, none: ") for need in found.needs)
+    assert "ef_lpips: no weights" in found.needs
+    # A recording compared with itself would have 0.
+    recorded = scenes[0].recorded(scenes[0].scored[0])
+    assert compare(recorded, recorded, ["ef_mse"]) == {"ef_mse": 0.0}
+
+
+def test_tables_say_which_input_is_missing(monkeypatch, tmp_path):
+    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
+    for number, word in ((1, "data pull"), (7, "data pull"), (8, "data pull"), (9, "--folder")):
+        found = measure_table(number, PaperInputs(), silent)
+        assert not found.figures
+        assert word in " ".join(found.needs)
+
+
+def test_the_network_of_a_table_is_named_with_the_place_of_its_weights(
+    monkeypatch, tmp_path, pan_folder
+):
+    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
+    inputs = PaperInputs(recordings=(str(pan_folder),))
+    found = measure_table(8, inputs, silent)
+    assert "et-net" in found.needs[0]
+    with pytest.raises(ConfigError, match="unknown reconstructor 'e3vid'"):
+        dataclasses.replace(inputs, network="e3vid")
+    with pytest.raises(InputError, match="no weights file"):
+        measure_table(8, dataclasses.replace(inputs, weights=tmp_path / "none.pth"), silent)
+
+
+def test_seconds_per_pair_are_measured_for_what_runs(monkeypatch):
+    keep_few(monkeypatch)
+    monkeypatch.setattr(simulator_tables, "TIMED_PAIRS", 2)
+    found = measure_table(2, PaperInputs(), silent)
+    seconds = {column: float(value) for column, value in found.figures["time, s"].items()}
+    assert set(seconds) == {"VID2E", "Texvent"}
+    assert all(value > 0 for value in seconds.values())
+    assert any("EQS" in need for need in found.needs)
+
+
+def test_weights_that_are_missing_are_refused_before_anything_is_timed(tmp_path):
+    steps = []
+    with pytest.raises(InputError, match="no weights file"):
+        measure_table(2, PaperInputs(rvt_weights=tmp_path / "none.ckpt"), steps.append)
+    assert steps == []
+
+
+def test_missing_weights_are_told_before_the_event_frames(monkeypatch, tmp_path, pan_folder):
+    keep_few(monkeypatch)
+    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
+    steps = []
+    found = measure_table(1, PaperInputs(recordings=(str(pan_folder),)), steps.append)
+    assert "images; " in steps[0]
+    assert "event frames: MSE ↓" in found.figures
+    assert found.needs[-1].startswith("images; ")
+
+
+def test_one_table_runs_its_own_rows_alone(tmp_path):
+    for name in ("E7", "E9", "Texvent", "mine"):
+        (tmp_path / f"{name}.toml").write_text('interpolate = "none"\n')
+    entries = read_ablations(tmp_path)
+    names = [{one.name for one in leave_out_other_tables(table, entries)} for table in (4, 5)]
+    assert names == [{"E7", "Texvent", "mine"}, {"E9", "Texvent", "mine"}]
+
+
+def test_a_baseline_that_does_not_run_is_refused_at_once(capsys, pan_folder, tmp_path):
+    (tmp_path / "E1.toml").write_text('interpolate = "none"\n')
+    words = ["--configs", str(tmp_path), "--no-oracle", "--recordings", str(pan_folder)]
+    assert main(["bench", "paper", *words, "--baseline", "E7"]) != 0
+    assert "baseline 'E7' does not run; allowed: E1" in capsys.readouterr().err
+
+
+def test_a_table_that_the_paper_lacks_is_refused(capsys):
+    assert main(["bench", "paper", "--table", "3"]) != 0
+    assert "the tables are 1, 2, 4, 5, 7, 8, 9" in capsys.readouterr().err
+
+
+@pytest.mark.torch
+def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path):
+    torch = pytest.importorskip("torch")
+    from texvent.events import EventStream
+    from texvent.networks.resnet34 import resnet_shapes
+    from texvent.sensor import SensorSize
+
+    for name in ("n01", "n02"):
+        place = tmp_path / "streams" / "texvent" / name
+        place.mkdir(parents=True)
+        t = np.arange(40)
+        EventStream(t % 8, t % 6, t, t % 2, SensorSize(8, 6)).save(
+            place / "a.npz", format="n-imagenet"
+        )
+    shapes = resnet_shapes(2, 2, width=4, blocks=(1, 1, 1, 1))
+    state = {name: torch.ones(shape) for name, shape in shapes.items()}
+    torch.save({"state_dict": state}, tmp_path / "weights.tar")
+    weights = tmp_path / "weights.tar"
+    found = accuracy_figures(tmp_path / "streams", weights, classes=None, progress=silent)
+    # Both classes have the same score, so the right one is never beaten.
+    assert found.figures["Acc@1 ↑"] == {"Texvent": "1.0000"}
+    assert "vid2e" in found.needs[0]
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(InputError, match="original, vid2e"):
+        accuracy_figures(
+            tmp_path / "empty", tmp_path / "weights.tar", classes=None, progress=silent
+        )
+
+
+def test_ablations_with_windows_enough_have_intervals():
+    report = synthetic_report()
+    steps = [0.50, 0.52, 0.51, 0.53, 0.50, 0.52]
+    values = {"Texvent": steps, "E12": [one + 0.1 for one in steps]}
+    bounds = {"floor": {"stpp": [0.9] * 6}, "null": {"stpp": [0.2] * 6}}
+    report = dataclasses.replace(
+        report,
+        references=[dataclasses.replace(report.references[0], **bounds)],
+        scores=[
+            dataclasses.replace(report.scores[0], entry=name, values={"stpp": one})
+            for name, one in values.items()
+        ],
+    )
+    figures = ablation_figures(5, report).figures
+    assert figures["− Texvent, mixed, noisy pixels"]["E12"] == "+0.100 [+0.100, +0.100]"

@@ -1,0 +1,139 @@
+"""Recordings of real sensors in the benchmark, on a small one made here in the usual layouts."""
+
+import json
+import shutil
+
+import numpy as np
+import pytest
+from tests.capture.dsec_sequence import write_sequence
+
+from texvent.cli.app import main
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent_lab.bench.fidelity.entries import Entry
+from texvent_lab.bench.fidelity.page import page_files
+from texvent_lab.bench.fidelity.results import read_report
+from texvent_lab.bench.fidelity.table import fidelity_tables, motion_table
+from texvent_lab.bench.paper.config_entry import ConfigEntry
+from texvent_lab.bench.real.run import HALVES, RealPlan, adapt_settings, real_entries, run_real
+from texvent_lab.bench.real.scene import RecordingPart, open_scene
+
+PLAN = RealPlan(
+    metrics=("stpp", "count_ratio"),
+    entries=(
+        Entry(simulator="esim", interpolate="flow"),
+        Entry(simulator="esim", interpolate="none"),
+        Entry(simulator="v2ce", interpolate="none"),
+    ),
+)
+
+
+@pytest.fixture(scope="module")
+def report(pan_folder):
+    return run_real([open_scene(str(pan_folder), RecordingPart(offset_us=5_000))], PLAN)
+
+
+def test_the_first_half_is_fitted_and_whole_segments_of_the_second_are_scored(pan_folder):
+    scene = open_scene(str(pan_folder), RecordingPart(offset_us=5_000))
+    assert scene.fit.stop_us <= scene.scored[0].start_us
+    assert [span.stop_us - span.start_us for span in scene.scored] == [100_000] * 4
+    assert scene.video.times_us[0] == 40_000
+    # Frames from before the warm-up to after the end.
+    video = scene.frames_around(scene.scored[0])
+    assert video.times_us[0] <= scene.scored[0].start_us - 100_000
+    assert video.times_us[-1] >= scene.scored[0].stop_us
+    later = open_scene(str(pan_folder), RecordingPart(start_s=0.2, offset_us=0))
+    assert later.video.times_us[0] == 235_000
+
+
+def test_motion_compensation_comes_closest_and_the_bounds_bound_it(report):
+    halves, flow, none = report.scores
+    assert halves.entry == HALVES
+    assert flow.summary("stpp").mean > none.summary("stpp").mean + 0.05
+    (reference,) = report.references
+    assert reference.floor["stpp"] == [1.0] * 4
+    assert np.mean(reference.null["stpp"]) < flow.summary("stpp").mean < 1
+    assert flow.values["count_ratio"] == pytest.approx([1] * 4, abs=0.15)
+    assert "weights" in report.skipped["v2ce, none"]
+    # Patches of the flow entry move as those of the recording do.
+    assert np.nanmean(flow.details.flow_error) < 40
+
+
+def test_an_offset_that_is_wrong_scores_lower(pan_folder, report):
+    wrong = run_real([open_scene(str(pan_folder), RecordingPart(offset_us=20_000))], PLAN)
+    assert wrong.scores[1].summary("stpp").mean < report.scores[1].summary("stpp").mean - 0.02
+
+
+def test_the_document_states_what_was_used_and_gives_the_page_again(report):
+    document = json.loads(json.dumps(report.document(), allow_nan=False))
+    (facts,) = document["protocol"].values()
+    assert facts["frame_offset_us"] == 5_000
+    assert len(facts["scored_us"]) == 4
+    restored = read_report(document)
+    assert fidelity_tables(restored) == fidelity_tables(report)
+    files = page_files(restored, "real")
+    assert set(files) == {"real.md", "real-bars.svg", "real-levels.svg", "real-times.svg"}
+    page = files["real.md"].decode()
+    assert page.startswith("# Simulators against recorded events")
+    assert "STPP − " not in page
+    page = page_files(restored, "real", baseline="esim, none")["real.md"].decode()
+    assert "STPP − esim, none" in page
+    assert "floor: the recording itself" in page
+    assert "frame_offset_us 5000" in page
+    assert "flow error px/s" in motion_table(report)
+
+
+def test_frames_of_a_davis_are_linear_to_models_that_ask(pan_folder):
+    scene = open_scene(str(pan_folder))
+    physical = adapt_settings(Entry(simulator="physical", interpolate="flow").settings(0), scene)
+    assert physical.simulate.gamma == 1.0
+    assert physical.interpolate.max_intermediate == 16
+    esim = Entry(simulator="esim", interpolate="flow").settings(0)
+    assert adapt_settings(esim, scene).simulate == esim.simulate
+
+
+def test_a_config_file_is_a_row_with_its_own_threshold(pan_folder, tmp_path):
+    (tmp_path / "mine.toml").write_text('simulator = "esim"\ninterpolate = "blend"\n')
+    entry = ConfigEntry.read(tmp_path / "mine.toml")
+    plan = RealPlan(metrics=("stpp",), entries=(entry,))
+    score = run_real([open_scene(str(pan_folder))], plan).scores[1]
+    assert (score.entry, score.threshold) == ("mine", None)
+
+
+def test_true_frames_are_refused_for_recordings(pan_folder):
+    plan = RealPlan(entries=(Entry(simulator="esim", interpolate="exact"),))
+    with pytest.raises(ConfigError, match="true frames"):
+        run_real([open_scene(str(pan_folder))], plan)
+    assert all(entry.track == "frames" for entry in real_entries())
+
+
+def test_recordings_that_are_missing_or_too_short_are_refused(pan_folder, tmp_path, monkeypatch):
+    with pytest.raises(InputError, match=r"share 0\.100 s in the part"):
+        open_scene(str(pan_folder), RecordingPart(seconds=0.2))
+    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
+    with pytest.raises(InputError, match="texvent data pull slider_depth"):
+        open_scene("slider_depth")
+    copy = shutil.copytree(pan_folder, tmp_path / "other")
+    (copy / "events.txt").write_text("".join(f"{9 + i / 1e3:.6f} 1 1 1\n" for i in range(9)))
+    with pytest.raises(InputError, match="same clock"):
+        open_scene(str(copy))
+
+
+def test_an_unknown_name_and_an_unknown_baseline_are_refused_with_what_is_allowed(capsys):
+    assert main(["bench", "real", "slider_dept"]) != 0
+    assert "the name of a data set: slider_depth, davis346" in capsys.readouterr().err
+    words = ["--simulators", "esim", "--interpolations", "none", "--baseline", "esim"]
+    assert main(["bench", "real", "slider_dept", *words]) != 0
+    assert "baseline 'esim' does not run; allowed: esim, none" in capsys.readouterr().err
+
+
+def test_a_dsec_sequence_opens_as_a_scene_with_display_gamma(tmp_path):
+    folder = write_sequence(tmp_path / "seq", frames=20)
+    times = np.arange(0, 1_000_000, 500)
+    events = EventStream(times % 32, times % 24, 1_000_000 + times, times % 2, SensorSize(32, 24))
+    events.save(folder / "events" / "left" / "events.h5", overwrite=True, format="dsec")
+    scene = open_scene(str(folder))
+    assert scene.frames_gamma == 2.2
+    assert scene.video.size == scene.events.size == SensorSize(32, 24)
+    assert (scene.name, scene.offset_us) == ("seq", 0)

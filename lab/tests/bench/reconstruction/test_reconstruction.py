@@ -1,0 +1,242 @@
+"""Events judged by the images made of them, on a recording whose events explain its frames."""
+
+import dataclasses
+import json
+import math
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError
+from texvent.metrics.image_measures import load_measures
+from texvent_lab.bench.fidelity.entries import Entry
+from texvent_lab.bench.reconstruction.image_grid import ReconstructionGrid
+from texvent_lab.bench.reconstruction.image_scores import ImageScores
+from texvent_lab.bench.reconstruction.noise_robustness import NoiseLevel, noise_curve
+from texvent_lab.bench.reconstruction.run import (
+    DEFAULT_SKIP,
+    RECORDED,
+    ReconstructionPlan,
+    ReconstructionReport,
+    ReconstructionRow,
+    ReconstructionScorer,
+    recorded_rate_hz,
+    run_reconstruction,
+    simulate_recording,
+)
+from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
+from texvent_lab.bench.selftest.perturbations import add_background, scatter
+
+from .synthetic_network import FRAMES, SIZE, STEP_US, StandInReconstructor, moving_bar
+
+ESIM = Entry(simulator="esim", interpolate="blend")
+
+
+@pytest.fixture(autouse=True)
+def no_weights(tmp_path, monkeypatch):
+    """LPIPS takes long; the measures that need no weights are enough here."""
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
+
+
+def scorer(**plan):
+    plan.setdefault("entries", (ESIM,))
+    return ReconstructionScorer(
+        reconstructor=StandInReconstructor(),
+        measures=load_measures(),
+        plan=ReconstructionPlan(**plan),
+    )
+
+
+def test_events_that_explain_the_frames_score_as_well_as_images_can():
+    row = scorer(skip=0).score(moving_bar(), moving_bar().events)
+    assert row.source == RECORDED
+    assert row.events == len(moving_bar().events.collect())
+    assert len(row.scores.t_us) == FRAMES - 1
+    assert row.scores.mean("mse") < 1e-12
+    assert row.scores.mean("ssim") == pytest.approx(1.0, abs=1e-6)
+
+
+def test_a_run_scores_the_recorded_events_and_every_simulator():
+    recordings = [moving_bar("one"), moving_bar("two", frames=13)]
+    report = run_reconstruction(recordings, scorer(skip=2))
+    assert [(row.recording, row.source) for row in report.rows] == [
+        ("one", RECORDED),
+        ("one", ESIM.name),
+        ("two", RECORDED),
+        ("two", ESIM.name),
+    ]
+    assert [len(row.scores.t_us) for row in report.rows_of(RECORDED)] == [FRAMES - 3, 10]
+    recorded, simulated = report.rows[:2]
+    assert recorded.threshold is None
+    assert simulated.threshold is not None
+    assert recorded.scores.mean("mse") < simulated.scores.mean("mse")
+
+
+def test_a_simulator_that_cannot_run_is_skipped_with_the_reason():
+    report = run_reconstruction(
+        [moving_bar()], scorer(entries=(Entry(simulator="v2ce", interpolate="none"), ESIM))
+    )
+    assert [row.source for row in report.rows] == [RECORDED, ESIM.name]
+    assert "v2ce_3d.pt" in report.skipped["v2ce, none"]
+
+
+def test_by_default_the_part_that_evreal_names_counts_else_all_but_the_first_images():
+    plan = ReconstructionPlan()
+    assert plan.scored_part(moving_bar("slider_depth")) == ((1_000_000, 2_500_000), 0)
+    assert plan.scored_part(moving_bar()) == (None, DEFAULT_SKIP)
+    chosen = ReconstructionPlan(span_us=(5, 6))
+    assert chosen.scored_part(moving_bar("slider_depth")) == ((5, 6), 0)
+    assert ReconstructionPlan(skip=3).scored_part(moving_bar("slider_depth")) == (None, 3)
+
+
+def test_nothing_is_reconstructed_after_the_part_that_counts():
+    seen = []
+    end_us = 5 * STEP_US
+    one = scorer(span_us=(2 * STEP_US, end_us))
+    reporting = dataclasses.replace(one, on_image=lambda *seen_one: seen.append(seen_one[2]))
+    row = reporting.score(moving_bar(), moving_bar().events)
+    assert row.scores.t_us == [number * STEP_US for number in range(2, 6)]
+    assert seen == [number * STEP_US for number in range(1, 6)]
+    assert row.events == len(moving_bar().events.collect().between(0, end_us))
+
+
+def test_a_fitted_threshold_gives_about_the_recorded_number_of_events():
+    recording = moving_bar()
+    plan = ReconstructionPlan(is_rate_matched=True)
+    simulated = simulate_recording(recording, ESIM, plan).packets.collect()
+    seconds = (FRAMES - 1) * STEP_US / 1e6
+    assert len(simulated) / seconds == pytest.approx(recorded_rate_hz(recording), rel=0.1)
+
+
+def test_frames_of_a_sensor_are_linear_for_models_that_ask():
+    plan = ReconstructionPlan(frames_gamma=1.5)
+    entry = Entry(simulator="physical", interpolate="none")
+    assert simulate_recording(moving_bar(), entry, plan).settings.simulate.gamma == 1.5
+
+
+def test_an_unknown_simulator_is_refused_before_any_work():
+    with pytest.raises(ConfigError, match="unknown simulator"):
+        ReconstructionPlan(entries=(Entry(simulator="esimm", interpolate="none"),))
+
+
+def test_more_noise_degrades_the_images_more():
+    levels = [NoiseLevel("scattered", share) for share in (0.0, 0.1, 0.5)]
+    levels += [NoiseLevel("background", rate_hz) for rate_hz in (0.0, 5.0, 50.0)]
+    points = noise_curve(moving_bar(), scorer(skip=0), levels)
+    for kind in ("scattered", "background"):
+        for scores in ("against_clean", "against_frames"):
+            errors = [
+                getattr(point, scores).mean("mse") for point in points if point.level.kind == kind
+            ]
+            assert errors[0] < 1e-12
+            assert errors[0] < errors[1] < errors[2]
+
+
+def test_noise_is_the_same_each_time_and_of_the_amount_asked_for():
+    events = moving_bar().events.collect()
+    level = NoiseLevel("background", 100.0)
+    noisy = level.apply(events, 0, 560_000, seed=0)
+    assert noisy.equals(level.apply(events, 0, 560_000, seed=0))
+    assert not noisy.equals(level.apply(events, 0, 560_000, seed=1))
+    expected = 100.0 * SIZE.width * SIZE.height * 0.56
+    assert len(noisy) - len(events) == pytest.approx(expected, abs=4 * math.sqrt(expected))
+    scattered = NoiseLevel("scattered", 1.0).apply(events, 0, 560_000, seed=0)
+    assert len(scattered) == len(events)
+
+
+def test_scattered_events_keep_their_number_and_the_others_stay():
+    events = moving_bar().events.collect()
+    rng = np.random.default_rng(0)
+    assert scatter(events, rng, share=0.0).equals(events)
+    moved = scatter(events, rng, share=0.25)
+
+    def cells(one):
+        return set(zip(one.x.tolist(), one.y.tolist(), one.t.tolist(), strict=True))
+
+    assert len(cells(events) & cells(moved)) / len(cells(events)) == pytest.approx(0.75, abs=0.1)
+    background = add_background(events, rng, rate_hz=0.0, span_us=(0, 10))
+    assert background.equals(events)
+
+
+@pytest.mark.parametrize(("kind", "amount"), [("scattered", 1.1), ("background", -1.0)])
+def test_noise_out_of_range_is_refused(kind, amount):
+    with pytest.raises(ConfigError, match=kind):
+        NoiseLevel(kind, amount)
+
+
+def test_tables_and_document_state_every_figure():
+    recordings = [moving_bar("one"), moving_bar("two")]
+    report = run_reconstruction(recordings, scorer())
+    noise = noise_curve(recordings[0], scorer(), [NoiseLevel("scattered", 0.05)])
+    text = reconstruction_tables(report, noise)
+    for part in ("### one, stand-in (4 images)", "### all recordings", "| esim, blend | ×"):
+        assert part in text
+    assert "| 5% of the events scattered |" in text
+    assert "not measured: lpips: LPIPS's weights are not here" in text
+    document = json.loads(json.dumps(reconstruction_document(report, noise), allow_nan=False))
+    assert document["schema"] == "texvent-reconstruction-1"
+    assert len(document["rows"]) == 4
+    assert len(document["rows"][0]["values"]["ssim"]) == 4
+    assert document["rows"][1]["mean"]["mse"] == pytest.approx(report.rows[1].scores.mean("mse"))
+    assert document["noise"][0]["amount"] == 0.05
+    assert document["network"] == {
+        "name": "stand-in",
+        "sha256": "0" * 64,
+        "is_published": False,
+    }
+
+
+def test_the_grid_shows_frames_and_every_source():
+    cv2 = pytest.importorskip("cv2")
+    recording = moving_bar()
+    grid = ReconstructionGrid(recording, [90_000, 300_000])
+    grid("bar", RECORDED, 120_000, np.full(SIZE.shape, 1.0))
+    grid("bar", RECORDED, 160_000, np.full(SIZE.shape, 0.0))  # not one of the instants
+    grid("other", "esim", 120_000, np.full(SIZE.shape, 0.0))
+    image = cv2.imdecode(np.frombuffer(grid.png(), np.uint8), cv2.IMREAD_GRAYSCALE)
+    height, width = image.shape
+    assert width == 2 * (SIZE.width + 6) + 6
+    assert height == 2 * (SIZE.height + 11 + 12) + 6
+    top = 6 + 11 + 6
+    frame = image[top : top + SIZE.height, 6 : 6 + SIZE.width]
+    assert frame[0, 3] == 178
+    assert frame[0, 8] == 128
+    below = top + SIZE.height + 11 + 12
+    assert (image[below : below + SIZE.height, 6 : 6 + SIZE.width] == 255).all()
+
+
+def test_tables_mark_the_best_simulated_source_and_those_like_it():
+    rng = np.random.default_rng(0)
+    noise = rng.normal(0, 0.01, (3, 40))
+    mse = {
+        RECORDED: noise[0] + 0.05,
+        "best": noise[0] + 0.1,
+        "like it": noise[1] + 0.1001,
+        "behind": noise[2] + 0.2,
+        "drifting": noise[0] + 0.2 + np.linspace(0, 0.5, 40),
+    }
+    rows = [
+        ReconstructionRow(
+            recording="r",
+            source=source,
+            events=10,
+            scores=ImageScores(t_us=range(40), values={"mse": values.tolist()}),
+        )
+        for source, values in mse.items()
+    ]
+    short = ImageScores(t_us=range(9), values={"mse": [0.01] * 9})
+    rows.append(dataclasses.replace(rows[1], source="elsewhere", scores=short))
+    report = ReconstructionReport(
+        network="n", sha256="", is_published=False, plan=ReconstructionPlan(entries=()), rows=rows
+    )
+    lines = {line.split(" | ")[0].strip("| "): line for line in report.markdown().splitlines()}
+    ends = {source: lines[source].rpartition(" | ")[2] for source in mse}
+    assert "(" not in ends[RECORDED] + ends["behind"]
+    assert "(best)" in ends["best"]
+    assert "(≈)" in ends["like it"]
+    assert "(?)" in ends["drifting"]
+    assert lines["elsewhere"].endswith("| 0.0100 |")  # of other frames, so not compared
+    assert "(≈): cannot be told apart" in report.markdown()
+    behind = {row["source"]: row["behind_best"] for row in reconstruction_document(report)["rows"]}
+    assert behind["best"]["mse"] is None
+    assert (behind["behind"]["mse"]["best"], behind["behind"]["mse"]["is_told"]) == ("best", True)

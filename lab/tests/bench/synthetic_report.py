@@ -1,0 +1,61 @@
+"""A report with known numbers, for the tests of tables and charts."""
+
+import math
+
+from texvent_lab.bench.fidelity.details import BINS, Details
+from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
+
+
+def synthetic_details(**changes):
+    return Details(
+        **{
+            "levels": [[0.9 - 0.1 * row] * 6 for row in range(5)],
+            "time_error": [0.02] * BINS,
+            "sharpness": [1.5, 1.4],
+            "flow_error": [10.0, math.nan],
+            **changes,
+        }
+    )
+
+
+def synthetic_report():
+    metrics = {"stpp": [0.9, 0.8], "nearest": [1.0, 3.0]}
+    reference = Reference(
+        scene="mixed",
+        target="noisy",
+        events=[100, 200],
+        floor=metrics,
+        null={"stpp": [0.1, 0.3], "nearest": [9.0, 9.0]},
+        details=synthetic_details(),
+    )
+
+    def score(entry, stpp, **changes):
+        return Score(
+            **{
+                "scene": "mixed",
+                "target": "noisy",
+                "entry": entry,
+                "track": "frames",
+                "threshold": 0.1,
+                "is_matched": True,
+                "default_ratio": 0.5,
+                "seconds": 1.0,
+                "values": {"stpp": stpp, "nearest": [5.0, 7.0]},
+                "details": synthetic_details(),
+                **changes,
+            }
+        )
+
+    scores = [
+        score("texvent paper, blend", [0.5, 0.4]),
+        score("better", [0.7, 0.8], is_matched=False),
+        score("lost", [math.nan, math.nan]),
+    ]
+    return FidelityReport(
+        environment={"commit": "0123abc", "device": "a processor, 2 cores"},
+        fit_seeds=[7],
+        score_seeds=[21, 33],
+        references=[reference],
+        scores=scores,
+        skipped={"v2ce, none": "needs weights"},
+    )

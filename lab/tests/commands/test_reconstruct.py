@@ -1,0 +1,133 @@
+"""`texvent reconstruct` and `texvent bench reconstruction`, from files to files."""
+
+import json
+
+import cv2
+import numpy as np
+import pytest
+
+from texvent.cli.app import main
+
+from ..bench.reconstruction.synthetic_network import SIZE, moving_bar
+from ..reconstruct.network_files import save_published
+
+pytestmark = pytest.mark.torch
+torch = pytest.importorskip("torch")
+
+
+@pytest.fixture(autouse=True)
+def empty_cache(tmp_path, monkeypatch):
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
+
+
+@pytest.fixture
+def weights(tmp_path):
+    return save_published(torch, "firenet", tmp_path / "firenet.pth")
+
+
+@pytest.fixture
+def events(tmp_path):
+    return moving_bar().events.collect().save(tmp_path / "bar.h5")
+
+
+@pytest.fixture
+def recording(tmp_path):
+    """The bar in the layout of the Event-Camera Dataset."""
+    folder = tmp_path / "bar"
+    (folder / "images").mkdir(parents=True)
+    bar = moving_bar()
+    bar.events.collect().save(folder / "events.txt")
+    lines = []
+    for number, frame in enumerate(bar.frames):
+        name = f"images/{number:04d}.png"
+        cv2.imwrite(str(folder / name), np.rint(frame.pixels).astype(np.uint8))
+        lines.append(f"{frame.t_us / 1e6:.6f} {name}\n")
+    (folder / "images.txt").write_text("".join(lines))
+    return folder
+
+
+def run(capsys, *words):
+    code = main([str(word) for word in words])
+    return code, capsys.readouterr()
+
+
+def network(weights):
+    return ("--network", "firenet", "--weights", weights, "--device", "cpu")
+
+
+def test_events_become_a_folder_of_pictures_with_their_times(events, weights, tmp_path, capsys):
+    out = tmp_path / "frames"
+    code, said = run(capsys, "reconstruct", events, "-o", out, "--fps", "50", *network(weights))
+    assert (code, said.out) == (0, f"{out}\n")
+    lines = (out / "timestamps.txt").read_text().splitlines()
+    assert len(lines) == len(list(out.glob("frame_*.png"))) == 27
+    assert cv2.imread(str(out / "frame_0000000000.png"), cv2.IMREAD_UNCHANGED).shape == SIZE.shape
+    facts = json.loads((out / "texvent.json").read_text())
+    assert facts["network"] == "firenet"
+    assert len(facts["weights_sha256"]) == 64
+
+
+def test_events_become_a_film_by_count_and_in_a_range(events, weights, tmp_path, capsys):
+    out = tmp_path / "film.mp4"
+    words = ("--events-per-image", "40", "--time", "0.1,0.4", "--quiet")
+    code, said = run(capsys, "reconstruct", events, "-o", out, *words, *network(weights))
+    assert (code, said.out, said.err) == (0, "", "")
+    assert out.stat().st_size > 0
+
+
+@pytest.mark.parametrize(
+    ("words", "message"),
+    [
+        (("--fps", "0"), "fps is 0"),
+        (("--events-per-image", "0"), "--events-per-image is 0"),
+        (("--network", "firenets"), "did you mean 'firenet'"),
+    ],
+)
+def test_wrong_options_are_refused_before_any_work(words, message, events, weights, capsys):
+    out = weights.parent / "film.mp4"
+    code, said = run(capsys, "reconstruct", events, "-o", out, *network(weights), *words)
+    assert code == 2
+    assert message in said.err
+    assert said.err.count("\n") == 1
+    assert not out.exists()
+
+
+def test_who_has_no_weights_is_told_what_to_get(events, tmp_path, capsys):
+    code, said = run(capsys, "reconstruct", events, "-o", tmp_path / "x.mp4")
+    assert code == 2
+    assert "e2vid needs its weights" in said.err
+    assert "ercanburak/EVREAL" in said.err
+
+
+def test_the_benchmark_prints_its_tables_and_keeps_every_value(
+    recording, weights, tmp_path, capsys
+):
+    out, image = tmp_path / "result.json", tmp_path / "grid.png"
+    words = ("--simulators", "esim", "--interpolations", "blend", "--skip-frames", "2", "--noise")
+    files = ("-o", out, "--image", image, "-q")
+    code, said = run(
+        capsys, "bench", "reconstruction", recording, *words, *files, *network(weights)
+    )
+    assert code == 0
+    assert "### bar, firenet (12 images)" in said.out
+    assert "| esim, blend |" in said.out
+    document = json.loads(out.read_text())
+    assert [row["source"] for row in document["rows"]] == ["recorded", "esim, blend"]
+    assert len(document["noise"]) == 10
+    assert cv2.imread(str(image)) is not None
+
+
+def test_events_and_frames_of_a_recording_may_lie_apart(recording, weights, capsys):
+    words = ("--frames", recording / "images", "--simulators", "esim", "-q")
+    code, said = run(
+        capsys, "bench", "reconstruction", recording / "events.txt", *words, *network(weights)
+    )
+    assert code == 0
+    assert "### events, firenet (4 images)" in said.out
+
+
+def test_a_recording_without_frames_is_refused(tmp_path, weights, capsys):
+    (tmp_path / "empty").mkdir()
+    code, said = run(capsys, "bench", "reconstruction", tmp_path / "empty", *network(weights))
+    assert code == 2
+    assert "has no events.txt" in said.err

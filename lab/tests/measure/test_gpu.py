@@ -1,0 +1,69 @@
+"""The benchmark of the GPU backend runs to its end, here at a size that the interpreter can do."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+
+import pytest
+
+from texvent.interpolate.rife import layouts as rife_layouts
+from texvent.interpolate.rife import weights as rife_weights
+from texvent.sensor import SensorSize
+from texvent_lab.measure import gpu
+
+TINY = SensorSize(24, 16)
+
+
+@pytest.mark.torch
+def test_every_figure_is_measured_and_stored(monkeypatch):
+    torch = pytest.importorskip("torch")
+    pytest.importorskip("triton")
+    narrow = replace(rife_layouts.RIFE_4_6, widths=(8,) * len(rife_layouts.RIFE_4_6.widths))
+    for module in (rife_layouts, rife_weights):
+        monkeypatch.setattr(module, "LAYOUTS", (narrow,))
+    plan = gpu.Plan(
+        size=TINY, densities=(0.2,), batches=(1, 2), frames=2, repeats=1, calls=1,
+        rife_sizes=(TINY,), precisions=("float32",), between=1, copy_bytes=2**20, layout=narrow,
+    )  # fmt: skip
+    document = json.loads(
+        json.dumps(gpu.measure(plan, "cuda" if torch.cuda.is_available() else "cpu"))
+    )
+    assert document["copy_gb_per_s"]["median"] > 0
+    cases = [(row["model"], row["pixels"], row["batch"]) for row in document["simulation"]]
+    assert ("paper", "uint8", 1) in cases
+    assert {("esim", "uint8", 2), ("accurate", "uint8", 2), ("paper", "float32", 2)} <= set(cases)
+    for row in document["simulation"]:
+        assert row["us_per_frame"]["q1"] <= row["us_per_frame"]["median"]
+        share = row["events_per_frame"] / (TINY.width * TINY.height)
+        assert 0 <= share < 0.4
+        if row["density"] == 0.2:
+            assert share > 0.1
+    assert document["rife_pairs"][0]["frames_per_pair"] == 2
+    text = gpu.as_text(document)
+    assert text.count("paper") == len(plan.densities) + len(plan.batches)
+
+
+def test_targets_are_judged_where_they_were_measured():
+    row = {"model": "paper", "pixels": "uint8", "density": 0.01, "batch": 8, "size": "1280x720"}
+    fast, slow = ({**row, "us_per_frame": {"median": one}} for one in (1.5, 2.5))
+    pair = {"size": "640x480", "precision": "float16", "ms_per_pair": {"median": 7.0}}
+    assert [one["is_met"] for one in gpu.check_targets([fast, slow], [pair])] == [
+        True,
+        False,
+        False,
+    ]
+    assert gpu.check_targets([{**fast, "batch": 4}], []) == []
+
+
+def test_without_a_gpu_it_says_so_in_one_line(capsys):
+    try:
+        import torch
+    except ImportError:
+        torch = None
+    if torch is not None and torch.cuda.is_available():
+        pytest.skip("there is a GPU here")
+    assert gpu.main([]) == 2
+    lines = capsys.readouterr().err.strip().splitlines()
+    assert len(lines) == 1
+    assert lines[0].startswith("nothing was measured: ")

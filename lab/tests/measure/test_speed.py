@@ -1,0 +1,216 @@
+"""The speed benchmark: its arithmetic by hand, its document by its schema."""
+
+import itertools
+import json
+import time
+from pathlib import Path
+
+import jsonschema
+import numpy as np
+import pytest
+
+from texvent.sensor import SensorSize
+from texvent_lab.bench.machine import describe_environment
+from texvent_lab.measure.speed import kernels, scenes
+from texvent_lab.measure.speed.duel import match_count, measure_duel, ratio_to_fastest
+from texvent_lab.measure.speed.floor import Bandwidth
+from texvent_lab.measure.speed.kernels import Plan, measure_kernels
+from texvent_lab.measure.speed.peers import OURS, PEERS, Contender
+from texvent_lab.measure.speed.stages import StageClock, measure_pipeline
+from texvent_lab.measure.speed.tables import BEGIN, END, as_markdown, put_into_page
+from texvent_lab.measure.speed.targets import TARGETS, check_targets
+from texvent_lab.measure.speed.timing import Quartiles, cpu_in_turns, rounded
+
+ROOT = Path(__file__).parents[3]
+SCHEMA = json.loads((ROOT / "docs/results/speed.schema.json").read_text(encoding="utf-8"))
+COMMITTED = ROOT / "docs/results/speed.json"
+SPREAD = {"median": 2.0, "q1": 1.0, "q3": 3.0, "n": 3}
+BANDWIDTHS = {1: Bandwidth(dram=40e9, cache=100e9), 2: Bandwidth(dram=80e9, cache=200e9)}
+
+
+def contender(name, events_of, *, needs=()):
+    """A simulator that makes `events_of(threshold)` events."""
+    return Contender(name, name, needs, lambda: lambda clip, threshold: events_of(threshold))
+
+
+def test_quartiles_by_hand():
+    assert Quartiles.of([4.0, 1.0, 3.0, 2.0, 5.0]) == Quartiles(3.0, 2.0, 4.0, 5)
+    assert Quartiles.of([0.001], scale=1e3).as_json() == {"median": 1, "q1": 1, "q3": 1, "n": 1}
+    assert rounded(123456.0) == 123500.0
+
+
+def test_calls_take_turns():
+    seen = []
+    times = cpu_in_turns({"a": lambda: seen.append("a"), "b": lambda: seen.append("b")}, rounds=3)
+    assert seen == ["a", "b"] * 3
+    assert {name: len(values) for name, values in times.items()} == {"a": 3, "b": 3}
+
+
+@pytest.mark.parametrize(
+    ("ours", "peers", "expected"),
+    [(2.0, [11.0, 5.0], 2.5), (4.0, [1.0], 0.25), (3.0, [], None)],
+)
+def test_the_ratio_is_the_fastest_peer_over_ours(ours, peers, expected):
+    assert ratio_to_fastest(ours, peers) == expected
+
+
+def test_a_threshold_is_found_that_gives_the_count():
+    threshold, count = match_count(lambda tried: round(1000 / tried), 5000)
+    assert count == pytest.approx(5000, rel=0.02)
+    assert threshold == pytest.approx(0.2, rel=0.02)
+
+
+def test_the_nearest_count_is_kept_where_none_is_close():
+    _, count = match_count(lambda tried: 100 if tried < 0.5 else 10, 60)
+    assert count == 100
+
+
+def test_the_floor_by_hand():
+    # 1000 bytes at 1 GB/s, then 1000 of state and 13 for each of 100 events at 2 GB/s.
+    floor = Bandwidth(dram=1e9, cache=2e9).floor_s(SensorSize(50, 20), 100)
+    assert floor == pytest.approx(1e-6 + 2300 / 2e9)
+
+
+def test_stages_inside_one_another_are_counted_once():
+    clock = StageClock()
+    with clock.stage("count"):
+        time.sleep(0.02)
+        with clock.stage("decode"):
+            time.sleep(0.05)
+        time.sleep(0.02)
+    clock.end_pair()
+    assert clock.pairs[0]["decode"] >= 0.05
+    assert clock.pairs[0]["count"] >= 0.04
+    # The wait inside belongs to "decode" alone; there is room for a busy machine.
+    assert sum(clock.pairs[0].values()) < clock.pairs[0]["decode"] + clock.pairs[0]["count"] + 1e-9
+    assert set(clock.pairs[0]) == {"count", "decode"}
+
+
+def test_the_embedded_heavy_clip_is_as_heavy_as_the_peers_clip():
+    clip = scenes.embedded_heavy_clip()
+    assert clip.pixels.shape == (9, 260, 346)
+    assert scenes.mean_log_change(clip.pixels) == pytest.approx(0.27, abs=0.02)
+
+
+def test_pixels_jump_at_the_density_that_is_asked_for_both_ways():
+    frames = scenes.jumping_pixels(SensorSize(200, 100), 0.05, 6)
+    shown = [one.pixels for one in itertools.islice(scenes.to_and_fro(frames), 12)]
+    shares = [np.mean(a != b) for a, b in itertools.pairwise(shown)]
+    assert shares == pytest.approx([0.05] * 11, rel=0.1)
+
+
+def test_real_video_is_brought_to_200_frames_per_second():
+    dense = scenes.dense_video(scenes.source_frames(scenes.EXCERPT, 3), 17)
+    assert dense.pixels.dtype == np.uint8
+    assert set(np.diff(dense.times_us)) == {5000}
+
+
+def test_a_peer_is_measured_at_our_event_count_and_a_missing_one_is_named():
+    ours = contender("ours", lambda threshold: round(200 / threshold))
+    peers = (
+        contender("peer", lambda threshold: round(500 / threshold)),
+        contender("absent", lambda threshold: 0, needs=("no_such_module",)),
+    )
+    row = measure_duel(scenes.embedded_heavy_clip(count=3), "heavy", ours, peers, rounds=3)
+    found, absent = row["peers"]
+    assert row["ours"]["events_per_pair"] == 500
+    assert found["threshold"] == pytest.approx(0.5, rel=0.02)
+    assert abs(found["count_difference"]) <= 0.02
+    assert not absent["installed"]
+    assert "no_such_module is not installed" in absent["problem"]
+    expected = found["ms_per_pair"]["median"] / row["ours"]["ms_per_pair"]["median"]
+    assert row["ratio_to_fastest_peer"] == pytest.approx(expected, rel=0.01)
+
+
+@pytest.mark.parametrize("peer", [*PEERS, *OURS], ids=lambda one: one.name)
+def test_contenders_count_events_of_a_clip(peer):
+    if peer.missing() is not None:
+        pytest.skip(f"{peer.name}: {peer.missing()}")
+    simulate, clip = peer.prepare(), scenes.embedded_heavy_clip(SensorSize(64, 48), 3)
+    assert simulate(clip, 0.1) > simulate(clip, 0.4) > 0
+
+
+@pytest.fixture(scope="module")
+def document():
+    """A document of real rows, as small as they can be, and made-up start-up times."""
+    patch = pytest.MonkeyPatch()
+    patch.setattr(kernels, "DENSITIES", (0.001, 0.05, 0.2))
+    patch.setattr(kernels, "SIZES", (SensorSize(1280, 720),))
+    ours = contender("texvent, paper preset", lambda threshold: round(200 / threshold))
+    peers = (contender("peer", lambda tried: round(500 / tried)),)
+    clip = scenes.embedded_heavy_clip(count=3)
+    made = {
+        "schema_version": 1,
+        "quick": True,
+        "environment": describe_environment(),
+        "load_at_start": 0.5,
+        "load_at_end": 0.5,
+        "seconds": 1.0,
+        "bandwidth": {str(threads): one.as_json() for threads, one in BANDWIDTHS.items()},
+        "kernels": measure_kernels(Plan(frames=2, steps=1), BANDWIDTHS),
+        "pipeline": [
+            measure_pipeline(
+                scenes.EXCERPT, "excerpt", interpolate=interpolate, engine=engine, pairs=1
+            )
+            for interpolate, engine in (("none", "fused"), ("flow", "drawn"))
+        ],
+        "peers": [{**measure_duel(clip, "heavy", ours, peers, rounds=3), "file": "embedded"}],
+        "startup": {
+            "help_cpu_s": SPREAD,
+            "generate_help_cpu_s": SPREAD,
+            "simulate_help_cpu_s": SPREAD,
+            "first_events_s": SPREAD,
+            "cold_first_events_s": 9.0,
+        },
+        "gpu": {"available": False, "note": "no GPU: torch is not installed"},
+    }
+    patch.undo()
+    return {**made, "targets": check_targets(made)}
+
+
+def test_the_schema_is_one():
+    jsonschema.Draft202012Validator.check_schema(SCHEMA)
+
+
+def test_what_is_measured_follows_the_schema(document):
+    jsonschema.validate(document, SCHEMA)
+
+
+def test_stages_and_kernels_are_plausible(document):
+    none, flow = document["pipeline"]
+    assert none["stages_ms"]["flow"]["median"] == 0
+    assert none["overlapped_ms"] > 0
+    assert min(flow["stages_ms"][stage]["median"] for stage in ("flow", "warp", "simulate")) > 0
+    for row in document["kernels"]:
+        if row["model"] == "texvent":
+            assert row["events_per_frame"] == pytest.approx(row["density"] * 921_600, rel=0.1)
+
+
+def test_targets_are_met_missed_or_not_measured(document):
+    rows = {row["name"]: row for row in document["targets"]}
+    assert len(rows) == len(TARGETS)
+    shown = rows["texvent --help, CPU seconds"]
+    assert shown == {**shown, "wanted": "at most 0.3", "value": 2.0, "is_met": False}
+    unknown = rows["heavy clip, esim: time of the fastest peer over ours"]
+    assert (unknown["value"], unknown["is_met"]) == (None, None)
+    fast = json.loads(json.dumps(document))
+    fast["startup"]["help_cpu_s"]["median"] = 0.1
+    assert {row["name"]: row["is_met"] for row in check_targets(fast)}[shown["name"]] is True
+
+
+def test_the_page_gets_the_tables_between_its_marks(document):
+    page = put_into_page(f"# Speed\n\n{BEGIN}\nyesterday\n{END}\nmore\n", document)
+    assert page.startswith(f"# Speed\n\n{BEGIN}\n\nCommit ")
+    assert page.endswith(f"{END}\nmore\n")
+    assert "yesterday" not in page
+    assert as_markdown(document) in page
+    assert put_into_page(page, document) == page
+    with pytest.raises(ValueError, match="must hold"):
+        put_into_page("# Speed\n", document)
+
+
+def test_the_committed_page_shows_the_committed_figures():
+    committed = json.loads(COMMITTED.read_text(encoding="utf-8"))
+    jsonschema.validate(committed, SCHEMA)
+    page = (ROOT / "docs/speed.md").read_text(encoding="utf-8")
+    assert put_into_page(page, committed) == page

@@ -1,0 +1,142 @@
+"""Captions: read, kept one by one, checked."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent_lab.nt_imagenet.caption_checks import (
+    CaptionCheck,
+    check_captions,
+    find_duplicates,
+    normalised,
+)
+from texvent_lab.nt_imagenet.caption_store import CaptionStore, read_captions
+from texvent_lab.nt_imagenet.similar_captions import similar_pairs
+
+SHARK = ("great white shark", "white shark")
+FACTS = {"model": "a", "longest": 200}
+
+
+def check(caption: str, names: tuple[str, ...] = SHARK) -> CaptionCheck:
+    return check_captions({"a": caption}, {"a": "n1"}, {"n1": names})["a"]
+
+
+def test_captions_are_read_from_tables_and_lines(tmp_path: Path) -> None:
+    table, lines = tmp_path / "a.csv", tmp_path / "a.jsonl"
+    table.write_text('id,caption\na,"A tench,\nheld."\nb,Two\n')
+    lines.write_text('{"id": "a", "caption": "A tench, held."}\n{"name": "b", "prompt": "Two"}\n')
+    assert read_captions(table) == read_captions(lines) == {"a": "A tench, held.", "b": "Two"}
+    lines.write_text('"no id"\n')
+    with pytest.raises(FileFormatError, match="line 1 needs id"):
+        read_captions(lines)
+    lines.write_text('{"id": "a", "caption": "x"}\n{"id": "a", "caption": "y"}\n')
+    with pytest.raises(FileFormatError, match="line 2 gives a another caption than before"):
+        read_captions(lines)
+
+
+def test_a_store_goes_on_after_its_last_whole_line(tmp_path: Path) -> None:
+    store = CaptionStore(tmp_path / "made.jsonl", FACTS)
+    asked: list[str] = []
+
+    def make(id: str) -> str:
+        asked.append(id)
+        if id == "c":
+            raise InputError("c is damaged")
+        return f" caption\n of {id}"
+
+    captions, failures = store.fill(["a", "b", "c"], make)
+    assert captions == {"a": "caption of a", "b": "caption of b"}
+    assert failures == {"c": "c is damaged"}
+    whole = store.path.read_bytes()
+    store.path.write_bytes(whole[:-9])  # killed while b was written
+    assert store.read() == {"a": "caption of a"}
+    assert store.fill(["d", "b", "a"], make)[0] == {
+        "d": "caption of d", "b": "caption of b", "a": "caption of a"}  # fmt: skip
+    assert asked == ["a", "b", "c", "d", "b"]
+    assert list(store.read()) == ["a", "d", "b"]
+
+
+def test_an_error_that_ends_all_keeps_what_was_made(tmp_path: Path) -> None:
+    store = CaptionStore(tmp_path / "made.jsonl", FACTS)
+
+    def make(id: str) -> str:
+        if id == "b":
+            raise KeyboardInterrupt
+        return id
+
+    with pytest.raises(KeyboardInterrupt):
+        store.fill(["a", "b"], make)
+    assert store.read() == {"a": "a"}
+
+
+def test_captions_of_two_models_are_not_mixed(tmp_path: Path) -> None:
+    CaptionStore(tmp_path / "made.jsonl", FACTS).fill(["a"], str.upper)
+    with pytest.raises(ConfigError, match=r"'model': 'a'.*'model': 'b'"):
+        CaptionStore(tmp_path / "made.jsonl", {**FACTS, "model": "b"}).read()
+    (tmp_path / "made.jsonl").write_text('{"model": "a"}\nno JSON\n')
+    with pytest.raises(FileFormatError, match="damaged"):
+        CaptionStore(tmp_path / "made.jsonl", {"model": "a"}).read()
+
+
+@pytest.mark.parametrize(
+    ("caption", "names_class", "names_kind"),
+    [
+        ("A Great White Shark swims.", True, True),
+        ("Two white sharks circle.", True, True),
+        ("A great-white shark's fin", True, True),
+        ("A shark in the sea", False, True),
+        ("White sharkskin", False, False),
+    ],
+)
+def test_classes_are_named_as_words_of_their_own(
+    caption: str, names_class: bool, names_kind: bool
+) -> None:
+    found = check(caption)
+    assert (found.names_class, found.names_kind) == (names_class, names_kind)
+
+
+def test_classes_without_names_are_not_judged() -> None:
+    found = check("A tench", ())
+    assert found.names_class is None
+    assert found.names_kind is None
+    assert "class" not in found.problems
+
+
+@pytest.mark.parametrize(("words", "is_fine"), [(38, False), (39, True), (124, True), (125, False)])
+def test_lengths_are_those_of_the_paper(words: int, is_fine: bool) -> None:
+    found = check(" ".join(["word"] * words))
+    assert found.words == words
+    assert ("length" not in found.problems) == is_fine
+
+
+@pytest.mark.parametrize(
+    ("caption", "is_refusal"),
+    [
+        ("I'm sorry, but I can't help with that.", True),
+        ("I’m unable to see the image.", True),
+        ("As an AI, I see no picture.", True),
+        ("A sorry dog that cannot stand.", False),
+    ],
+)
+def test_refusals_are_told_from_descriptions(caption: str, is_refusal: bool) -> None:
+    assert check(caption).is_refusal == is_refusal
+
+
+def test_duplicates_differ_in_case_and_punctuation_alone() -> None:
+    captions = {"a": "A dog, running.", "b": "a dog running", "c": "a dog runs"}
+    assert find_duplicates(captions) == [("a", "b")]
+    checks = check_captions(captions, dict.fromkeys(captions, "n1"), {})
+    assert [id for id, one in checks.items() if one.is_duplicate] == ["b"]
+    assert normalised("ﬁsh — Ünder  water!") == "fish ünder water"
+
+
+def test_similar_pairs_are_those_of_a_high_cosine() -> None:
+    angles = np.radians([0, 15, 90, 20])
+    vectors = np.stack([np.cos(angles), np.sin(angles)], axis=1).astype(np.float32)
+    pairs = similar_pairs(["a", "b", "c", "d"], vectors)
+    assert [pair[:2] for pair in pairs] == [("b", "d"), ("a", "b")]
+    np.testing.assert_allclose([pair[2] for pair in pairs], np.cos(np.radians([5, 15])), atol=1e-6)

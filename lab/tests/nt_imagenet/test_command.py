@@ -1,0 +1,143 @@
+"""`texvent nt-imagenet` with captions made elsewhere: to events of our own, and back."""
+
+from __future__ import annotations
+
+import csv
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from texvent.cli.app import main
+from texvent.dataset.contents.made_set import MadeSet
+from texvent_lab.nt_imagenet.files import read_captioned, read_streams
+
+from .tiny_data import WNIDS, contents, stream_id, write_imagenet, write_n_imagenet
+
+CAPTIONS = {
+    1: "a red car drives left",
+    2: "a tench rests on a table",
+    3: "a blue bus drives right",
+    4: "a red car drives left",
+}
+"""The last is that of another image of the same class: they must stay apart."""
+
+
+@pytest.fixture(scope="module")
+def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("data")
+    counts = {WNIDS[0]: {1: 3_000, 2: 3_100, 4: 3_400}, WNIDS[1]: {3: 3_300, 5: 3_500}}
+    write_n_imagenet(folder / "N_Imagenet", counts)
+    write_imagenet(folder / "ImageNet", {})
+    lines = [json.dumps({"id": stream_id(n), "caption": one}) for n, one in CAPTIONS.items()]
+    (folder / "elsewhere.jsonl").write_text("\n".join([*lines, '{"id": "other", "caption": "x"}']))
+    return folder
+
+
+def nt(data: Path, out: Path, *more: str) -> int:
+    words = ["--n-imagenet", str(data / "N_Imagenet"), "--imagenet", str(data / "ImageNet"),
+             "--captions", str(data / "elsewhere.jsonl"), "--class-count", "2", "-q"]  # fmt: skip
+    return main(["nt-imagenet", *words, "-o", str(out), *more])
+
+
+@pytest.fixture(scope="module")
+def built(data: Path) -> Path:
+    # Image 5 has no caption, which is said and costs nothing else.
+    assert nt(data, data / "nt") == 1
+    return data / "nt"
+
+
+def report(folder: Path) -> Any:
+    return json.loads((folder / "report.json").read_text())
+
+
+def test_what_is_written_holds_ids_captions_and_counts_alone(built: Path) -> None:
+    assert {path.name for path in built.iterdir()} == {
+        "captions.jsonl", "streams.csv", "report.json", "report.txt", "specification.toml"
+    }  # fmt: skip
+    captioned = read_captioned(built / "captions.jsonl")
+    assert {one.id: one.caption for one in captioned} == {
+        stream_id(number): caption for number, caption in CAPTIONS.items()
+    }
+    assert len({one.seed for one in captioned}) == 4
+    streams = read_streams(built / "streams.csv")
+    assert [one.events for one in streams] == [3_000, 3_100, 3_400, 3_300, 3_500]
+    assert streams[0].path == Path(WNIDS[0], f"{stream_id(1)}.npz")
+
+
+def test_the_report_counts_problems_and_leaves_nothing_out(built: Path) -> None:
+    found = report(built)
+    assert found["made_by"]["of_file"] == 4
+    assert found["streams"]["incomplete_classes"] == {WNIDS[0]: 3, WNIDS[1]: 2}
+    captions = found["captions"]
+    assert list(captions["missing"]) == [stream_id(5)]
+    assert captions["names_class"] == 0.25
+    assert len(captions["problems"]["length"]) == 4
+    assert captions["duplicates"] == [[stream_id(1), stream_id(4)]]
+    assert found["left_out"] == []
+    text = (built / "report.txt").read_text()
+    assert "25.0% say a name of the class" in text
+    assert "may not be redistributed" in " ".join(text.split())
+
+
+def test_captions_are_left_out_only_on_request(data: Path, tmp_path: Path) -> None:
+    assert nt(data, tmp_path / "nt", "--leave-out", "duplicate,class") == 1
+    captioned = read_captioned(tmp_path / "nt" / "captions.jsonl")
+    assert [one.id for one in captioned] == [stream_id(2)]
+    assert len(report(tmp_path / "nt")["left_out"]) == 3
+
+
+def test_the_same_command_twice_gives_the_same_files_and_keeps_the_specification(
+    data: Path, tmp_path: Path
+) -> None:
+    out = tmp_path / "nt"
+    nt(data, out)
+    before = contents(out)
+    nt(data, out)
+    assert contents(out) == before
+    (out / "specification.toml").write_text("mine")
+    nt(data, out)
+    assert (out / "specification.toml").read_text() == "mine"
+
+
+def test_the_captions_become_events_that_stand_beside_their_streams(
+    built: Path, tmp_path: Path
+) -> None:
+    specification = built / "specification.toml"
+    small = specification.read_text().replace('"640x480" ', '"32x24"\nduration = 0.4')
+    quick = built / "quick.toml"
+    small = small.replace("[variants.texvent]", "[variants.texvent]\nseeds = 2")
+    quick.write_text(f"repeats = 2\nfilters = {{min_events = 0}}\n{small}")
+    events = tmp_path / "events"
+    assert main(["dataset", "make", str(quick), "-o", str(events), "--workers", "1", "-q"]) == 0
+    quick.unlink()
+    assert main(["nt-imagenet", "-o", str(built), "--events", str(events)]) == 0
+    with (built / "pairs.csv").open() as file:
+        pairs = list(csv.DictReader(file))
+    (built / "pairs.csv").unlink()
+    shards = MadeSet.open(events).shards()
+    samples = {one.key: (shard, one) for shard in shards for one in shard.samples}
+    assert len(pairs) == len(samples) == 4 * 2 * 2
+    for pair in pairs:
+        shard, sample = samples[pair["key"]]
+        number = int(pair["id"][-8:])
+        assert sample.prompt == CAPTIONS[number]
+        assert shard.place == pair["shard"]
+        assert pair["stream"].endswith(f"{pair['id']}.npz")
+        assert int(pair["events"]) == sample.events
+        assert sample.label == pair["label"]
+    assert {pair["id"] for pair in pairs} == {stream_id(number) for number in CAPTIONS}
+
+
+def test_events_of_other_prompts_are_refused(
+    built: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    other = tmp_path / "other.toml"
+    other.write_text(
+        'name = "other"\noptions = {duration = 0.1, sensor = "32x24"}\n'
+        '[[sources]]\nprompts = ["a dog runs"]\n'
+    )
+    assert main(["dataset", "make", str(other), "-o", str(tmp_path / "o"), "-q"]) == 0
+    assert main(["nt-imagenet", "-o", str(built), "--events", str(tmp_path / "o")]) == 2
+    assert "was not made from these captions" in capsys.readouterr().err

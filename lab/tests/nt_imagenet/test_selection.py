@@ -1,0 +1,81 @@
+"""Classes and streams chosen by the paper's rules, from files as N-ImageNet has them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from texvent.errors import FileFormatError
+from texvent_lab.nt_imagenet.images import find_class_names, find_image
+from texvent_lab.nt_imagenet.selection import choose_classes, select_streams
+
+from .tiny_data import NAMES, WNIDS, stream_id, write_imagenet, write_n_imagenet
+
+COUNTS = {
+    WNIDS[1]: {5: 4_000, 6: 2_999, 7: 3_000},
+    WNIDS[0]: {1: 3_500, 2: 170_001, 3: 170_000, 4: 9_000},
+    WNIDS[2]: {8: 10},
+}
+
+
+@pytest.fixture(scope="module")
+def n_imagenet(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return write_n_imagenet(tmp_path_factory.mktemp("data") / "N_Imagenet", COUNTS)
+
+
+def test_streams_in_range_are_taken_in_order_of_their_ids(n_imagenet: Path) -> None:
+    chosen = select_streams(n_imagenet, WNIDS[:2], per_class=2)
+    assert [one.id for one in chosen.streams] == [stream_id(n) for n in (1, 3, 5, 7)]
+    assert [one.events for one in chosen.streams] == [3_500, 170_000, 4_000, 3_000]
+    assert chosen.too_many == (stream_id(2),)
+    assert chosen.too_few == (stream_id(6),)
+    assert all(0 < one.duration_us <= 50_000 for one in chosen.streams)
+    assert chosen.incomplete(2) == {}
+    assert chosen.incomplete(3) == {wnid: 2 for wnid in WNIDS[:2]}
+
+
+def test_the_folder_of_classes_itself_is_as_good(n_imagenet: Path) -> None:
+    inside = n_imagenet / "extracted_val"
+    assert (
+        select_streams(inside, WNIDS[:1]).streams == select_streams(n_imagenet, WNIDS[:1]).streams
+    )
+
+
+def test_the_first_classes_in_order_of_their_ids_are_taken_unless_named(
+    n_imagenet: Path, tmp_path: Path
+) -> None:
+    assert choose_classes(n_imagenet, 2) == WNIDS[:2]
+    listed = tmp_path / "classes.txt"
+    listed.write_text(f"{WNIDS[2]} great white shark\n\n{WNIDS[0]}\n")
+    assert choose_classes(n_imagenet, 2, listed) == (WNIDS[2], WNIDS[0])
+
+
+def test_a_damaged_file_costs_that_stream_alone(tmp_path: Path) -> None:
+    folder = write_n_imagenet(tmp_path, {WNIDS[0]: {1: 3_000, 2: 3_000}})
+    path = folder / "extracted_val" / WNIDS[0] / f"{stream_id(1)}.npz"
+    path.write_bytes(path.read_bytes()[:2_000])
+    chosen = select_streams(folder, WNIDS[:1])
+    assert [one.id for one in chosen.streams] == [stream_id(2)]
+    assert list(chosen.unreadable) == [stream_id(1)]
+
+
+@pytest.mark.parametrize("by_class", [True, False])
+def test_images_are_found_by_class_and_all_in_one_folder(tmp_path: Path, by_class: bool) -> None:
+    folder = write_imagenet(tmp_path, {1: WNIDS[0]}, by_class=by_class)
+    for place in (folder, folder / "val"):
+        found = find_image(place, WNIDS[0], stream_id(1))
+        assert found is not None
+        assert found.name == f"{stream_id(1)}.JPEG"
+    assert find_image(folder, WNIDS[0], stream_id(2)) is None
+
+
+def test_names_of_classes_come_from_the_list_beside_the_images(tmp_path: Path) -> None:
+    folder = write_imagenet(tmp_path / "images", {})
+    names = find_class_names(folder)
+    assert names["n01484850"] == ("great white shark", "white shark")
+    assert len(names) == len(NAMES)
+    assert find_class_names(tmp_path) == find_class_names(None) == {}
+    (tmp_path / "bad.txt").write_text("n01440764\n")
+    with pytest.raises(FileFormatError, match="line 1 is 'n01440764'"):
+        find_class_names(None, tmp_path / "bad.txt")

@@ -1,0 +1,149 @@
+"""Published files are read without running what they hold; others are refused by name."""
+
+import hashlib
+import pickle
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from texvent.errors import FileFormatError
+from texvent_lab.reconstruct import networks
+from texvent_lab.reconstruct.checkpoint import read_checkpoint
+from texvent_lab.registries import RECONSTRUCTORS
+
+from .network_files import HEADS, config_parser, random_tensors, save_published, small_shapes
+
+pytestmark = pytest.mark.torch
+torch = pytest.importorskip("torch")
+
+
+def read(name, path):
+    return read_checkpoint(RECONSTRUCTORS.load(name), path)
+
+
+@pytest.mark.parametrize("name", HEADS)
+def test_published_checkpoints_give_their_tensors(name, tmp_path):
+    path = save_published(torch, name, tmp_path / "model.pth")
+    checkpoint = read(name, path)
+    expected = random_tensors(small_shapes(name))
+    assert checkpoint.tensors.keys() == expected.keys()
+    for key, array in expected.items():
+        np.testing.assert_array_equal(checkpoint.tensors[key].numpy(), array)
+    assert checkpoint.sha256 == hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+@pytest.mark.parametrize("suffix", [".pth", ".safetensors"])
+def test_tensors_alone_are_read_too(suffix, tmp_path):
+    arrays = random_tensors(small_shapes("firenet"))
+    state = {name: torch.from_numpy(array) for name, array in arrays.items()}
+    path = tmp_path / f"plain{suffix}"
+    if suffix == ".pth":
+        torch.save(state, path)
+    else:
+        pytest.importorskip("safetensors.torch").save_file(state, path)
+    checkpoint = read("firenet", path)
+    assert checkpoint.tensors.keys() == arrays.keys()
+    assert checkpoint.settings == {}
+
+
+@pytest.mark.parametrize("name", ["e2vid", "e2vid+", "hypere2vid", "firenet"])
+def test_what_each_program_says_about_its_network_is_found(name, tmp_path):
+    settings = {"num_bins": 5, "final_activation": "sigmoid"}
+    path = save_published(torch, name, tmp_path / "model.pth", settings=settings)
+    assert dict(read(name, path).settings) == settings
+
+
+def test_what_training_left_beside_the_weights_does_no_harm(tmp_path):
+    config = config_parser({"arch": {"args": {"kwargs": {"final_activation": "sigmoid"}}}})
+    config.resume = tmp_path / "before.pth"
+    left = {"config": config, "monitor_best": np.float64(0.25), "saved": np.arange(3)[1]}
+    path = save_published(torch, "e2vid+", tmp_path / "model.pth", **left)
+    assert dict(read("e2vid+", path).settings) == {"final_activation": "sigmoid"}
+
+
+def test_arguments_of_the_network_itself_are_found_too(tmp_path):
+    config = config_parser({"arch": {"type": "FireNet", "args": {"num_bins": 5}}})
+    path = save_published(torch, "firenet+", tmp_path / "model.pth", config=config)
+    assert dict(read("firenet+", path).settings) == {"num_bins": 5}
+
+
+def test_counters_of_training_are_left_out(tmp_path):
+    shapes = small_shapes("e2vid", "unetrecurrent.encoders.0.conv.norm_layer.weight")
+    arrays = random_tensors(shapes)
+    state = {name: torch.from_numpy(array) for name, array in arrays.items()}
+    counter = "unetrecurrent.encoders.0.conv.norm_layer.num_batches_tracked"
+    torch.save({"state_dict": {**state, counter: torch.tensor(7)}}, tmp_path / "model.pth")
+    assert read("e2vid", tmp_path / "model.pth").tensors.keys() == shapes.keys()
+
+
+def test_no_code_of_a_file_runs(tmp_path):
+    class Trap:
+        def __reduce__(self):
+            return (open, (str(tmp_path / "sprung"), "w"))
+
+    path = save_published(torch, "firenet", tmp_path / "model.pth", trap=Trap())
+    with pytest.raises(FileFormatError, match="save the tensors alone"):
+        read("firenet", path)
+    assert not (tmp_path / "sprung").exists()
+
+
+def test_a_file_of_another_network_is_named(tmp_path):
+    path = save_published(torch, "firenet+", tmp_path / "model.pth")
+    with pytest.raises(FileFormatError, match=r"is not e2vid's: .*it fits firenet\+"):
+        read("e2vid", path)
+
+
+def test_a_known_published_file_of_another_network_is_recognised_by_its_digest(
+    tmp_path, monkeypatch
+):
+    path = save_published(torch, "firenet", tmp_path / "model.pth")
+    digest = hashlib.sha256(path.read_bytes()).hexdigest()
+    monkeypatch.setattr(networks, "FIRENET", replace(networks.FIRENET, sha256=(digest,)))
+    with pytest.raises(FileFormatError, match=r"published file of firenet, not of firenet\+"):
+        read("firenet+", path)
+    assert read("firenet", path).sha256 == digest
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        (lambda state: state.pop("net.pred.conv2d.bias"), "lacks net.pred.conv2d.bias"),
+        (lambda state: state.update(more=torch.zeros(2)), "has the unknown more"),
+        (
+            lambda state: state.update({"net.pred.conv2d.bias": torch.zeros(2)}),
+            r"net\.pred\.conv2d\.bias of shape \[2\] instead of \[1\]",
+        ),
+        (
+            lambda state: state.update({HEADS["firenet"]: torch.zeros(2)}),
+            "first layer of another kind",
+        ),
+        (lambda state: state["net.pred.conv2d.bias"].fill_(float("nan")), "NaN or infinite"),
+    ],
+)
+def test_a_changed_file_is_refused_with_the_tensor(change, message, tmp_path):
+    arrays = random_tensors(small_shapes("firenet"))
+    state = {name: torch.from_numpy(array) for name, array in arrays.items()}
+    change(state)
+    torch.save({"state_dict": state}, tmp_path / "model.pth")
+    with pytest.raises(FileFormatError, match=message):
+        read("firenet", tmp_path / "model.pth")
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"not a pickle", pickle.dumps([1, 2], 2), pickle.dumps({"state_dict": 3}, 2)]
+)
+def test_damaged_files_are_refused_in_one_line(content, tmp_path):
+    path = tmp_path / "model.pth"
+    path.write_bytes(content)
+    with pytest.raises(FileFormatError) as told:
+        read("firenet", path)
+    assert str(path) in str(told.value)
+    assert "\n" not in str(told.value)
+
+
+def test_a_truncated_checkpoint_is_refused(tmp_path):
+    path = save_published(torch, "et-net", tmp_path / "model.pth")
+    path.write_bytes(path.read_bytes()[:-2000])
+    with pytest.raises(FileFormatError, match="damaged"):
+        read("et-net", path)

@@ -1,0 +1,88 @@
+"""Every network against its slow twin in NumPy float64, on untrained weights."""
+
+import numpy as np
+import pytest
+
+from texvent_lab.reconstruct.firenet import FireNet, FireNetPlus
+
+from .network_files import network_class, random_tensors, small_shapes
+from .networks_numpy import run_et_net, run_firenet, run_unet
+
+pytestmark = pytest.mark.torch
+torch = pytest.importorskip("torch")
+
+HAS_NORM = "unetrecurrent.encoders.0.conv.norm_layer.weight"
+IS_GRU = "unetrecurrent.encoders.0.recurrent_block.reset_gate.weight"
+IS_TRANSPOSED = "unetrecurrent.decoders.1.transposed_conv2d.weight"
+
+
+def grids(count=3, height=16, width=24):
+    random = np.random.default_rng(5)
+    shape = (count, 5, height, width)
+    return random.normal(0, 1, shape) * (random.random(shape) < 0.3)
+
+
+def check(name, expected_of, *, settings=None, marks=()):
+    tensors = random_tensors(small_shapes(name, *marks))
+    network = network_class(name)(
+        {key: torch.from_numpy(one) for key, one in tensors.items()}, settings or {}
+    )
+    state = {key: one.astype(np.float64) for key, one in tensors.items()}
+    expected = np.stack(expected_of(grids(), state))
+    assert expected.std() > 1e-3
+    for _ in range(2):  # the second time after a reset
+        network.reset()
+        found = np.stack(
+            [network.step(torch.from_numpy(one[None]).float())[0, 0].numpy() for one in grids()]
+        )
+        np.testing.assert_allclose(found, expected, rtol=0, atol=2e-5)
+
+
+@pytest.mark.parametrize(("name", "network"), [("firenet", FireNet), ("firenet+", FireNetPlus)])
+def test_firenet_equals_its_definition(name, network):
+    check(name, lambda voxels, state: run_firenet(voxels, state, network.names))
+
+
+@pytest.mark.parametrize("marks", [(), (HAS_NORM,), (HAS_NORM, IS_TRANSPOSED), (IS_TRANSPOSED,)])
+def test_e2vid_equals_its_definition_in_every_variant(marks):
+    check("e2vid", lambda voxels, state: run_unet(voxels, state, has_sigmoid=True), marks=marks)
+
+
+def test_e2vid_with_gated_recurrent_units_equals_its_definition():
+    check("e2vid", lambda voxels, state: run_unet(voxels, state, has_sigmoid=True), marks=(IS_GRU,))
+
+
+@pytest.mark.parametrize("activation", ["", "none", "sigmoid"])
+def test_e2vid_plus_ends_as_its_file_says(activation):
+    check(
+        "e2vid+",
+        lambda voxels, state: run_unet(voxels, state, has_sigmoid=activation == "sigmoid"),
+        settings={"final_activation": activation},
+    )
+
+
+def test_e2vid_ends_with_a_sigmoid_whatever_its_file_says():
+    check(
+        "e2vid",
+        lambda voxels, state: run_unet(voxels, state, has_sigmoid=True),
+        settings={"final_activation": ""},
+    )
+
+
+def test_hyper_e2vid_equals_its_definition_pixel_by_pixel():
+    check(
+        "hypere2vid",
+        lambda voxels, state: run_unet(voxels, state, has_sigmoid=False, is_dynamic=True),
+    )
+
+
+def test_et_net_equals_its_definition():
+    check("et-net", run_et_net)
+
+
+def test_memory_makes_the_same_grid_give_another_image():
+    tensors = random_tensors(small_shapes("firenet"))
+    network = FireNet({key: torch.from_numpy(one) for key, one in tensors.items()}, {})
+    voxel = torch.from_numpy(grids(1)).float()
+    first, second = network.step(voxel), network.step(voxel)
+    assert not torch.equal(first, second)

@@ -1,0 +1,92 @@
+"""Changed copies of recordings, by hand and by properties."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from tests.represent.definitions import rows, streams
+
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+from texvent.transform.region import resize
+from texvent_lab.train.classification.augmentation import augment, take_run
+from texvent_lab.train.classification.config import Augmentation
+
+pytestmark = pytest.mark.torch
+pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+NONE = Augmentation(shift=0)
+
+
+class Chance:
+    """Draws that are given: whether time and x are flipped, and the shift."""
+
+    def __init__(self, *, time: bool = False, x: bool = False, shift: tuple[int, int] = (0, 0)):
+        self._flips, self._shift = np.where([time, x], 0.1, 0.9), np.array(shift)
+
+    def random(self, count: int) -> np.ndarray:
+        return self._flips
+
+    def integers(self, low: int, high: int, count: int) -> np.ndarray:
+        assert ((low <= self._shift) & (self._shift < high)).all()
+        return self._shift
+
+
+def events() -> EventStream:
+    return EventStream([0, 1, 3], [0, 2, 1], [10, 14, 20], [1, 0, 1], SensorSize(4, 3))
+
+
+def test_reversed_events_begin_at_zero_with_the_opposite_polarity() -> None:
+    found = augment(events(), Augmentation(shift=0, flip_time=True), Chance(time=True))
+    assert rows(found) == [(3, 1, 0, 0), (1, 2, 6, 1), (0, 0, 10, 0)]
+
+
+def test_mirrored_events_are_at_the_other_side() -> None:
+    found = augment(events(), Augmentation(shift=0, flip_x=True), Chance(x=True))
+    assert rows(found) == [(3, 0, 10, 1), (2, 2, 14, 0), (0, 1, 20, 1)]
+
+
+def test_what_is_shifted_out_is_dropped() -> None:
+    found = augment(events(), Augmentation(shift=2), Chance(shift=(1, -1)))
+    assert rows(found) == [(2, 1, 14, 0)]
+
+
+def test_nothing_is_changed_that_is_not_asked_for() -> None:
+    assert augment(events(), NONE, Chance(time=True, x=True)).equals(events())
+
+
+@given(streams(), st.booleans(), st.booleans())
+def test_done_twice_it_is_undone(stream: EventStream, time: bool, x: bool) -> None:
+    whole, chance = Augmentation(shift=0, flip_time=True, flip_x=True), Chance(time=time, x=x)
+    twice = augment(augment(stream, whole, chance), whole, chance)
+    np.testing.assert_array_equal(twice.x, stream.x)
+    np.testing.assert_array_equal(twice.p, stream.p)
+    np.testing.assert_array_equal(twice.t - twice.t[:1], stream.t - stream.t[:1])
+
+
+@given(streams(), st.integers(0, 3), st.integers(0, 2**32))
+def test_no_event_is_made_up(stream: EventStream, shift: int, seed: int) -> None:
+    augmentation = Augmentation(shift=shift, flip_time=True, flip_x=True)
+    found = augment(stream, augmentation, np.random.default_rng(seed))
+    assert len(found) <= len(stream)
+    assert len(found) == len(stream) or shift
+
+
+def test_coordinates_are_scaled_and_rounded_down() -> None:
+    large = EventStream([0, 20, 639], [0, 479, 240], [1, 2, 3], [1, 0, 1], SensorSize(640, 480))
+    found = resize(large, SensorSize(224, 224))
+    assert rows(found) == [(0, 0, 1, 1), (7, 223, 2, 0), (223, 112, 3, 1)]
+    assert found.size == (224, 224)
+
+
+def test_a_run_is_drawn_of_longer_recordings_only() -> None:
+    stream = EventStream([0] * 9, [0] * 9, range(9), [1] * 9, SensorSize(1, 1))
+    assert take_run(stream, None, np.random.default_rng(0)) is stream
+    assert take_run(stream, 9, np.random.default_rng(0)) is stream
+    firsts = set()
+    for seed in range(60):
+        run = take_run(stream, 7, np.random.default_rng(seed))
+        assert np.diff(run.t).tolist() == [1] * 6
+        firsts.add(int(run.t[0]))
+    assert firsts == {0, 1, 2}

@@ -1,0 +1,137 @@
+"""Networks: against torch's own layers, in training and after it; initial weights; read back."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.cli.app import main
+
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from texvent.networks.resnet34 import BLOCKS  # noqa: E402
+from texvent_lab.train.classification.networks import resnet34, small_cnn  # noqa: E402
+
+from ...bench.classification.torch_resnet import torch_resnet  # noqa: E402
+from ..written_samples import bar  # noqa: E402
+
+pytestmark = pytest.mark.torch
+
+
+def images(count: int = 4, side: int = 70) -> torch.Tensor:
+    chance = np.random.default_rng(3)
+    return torch.from_numpy((chance.random((count, 2, side, side + 6)) < 0.2).astype(np.float32))
+
+
+@pytest.mark.parametrize("is_training", [True, False])
+def test_resnet34_computes_what_torchs_layers_do(is_training: bool) -> None:
+    network = resnet34(2, 3, seed=1, width=4).train(is_training)
+    layers = torch_resnet(network.tensors, BLOCKS).train(is_training)
+    for _ in range(2):  # the second time with the statistics that the first has noted
+        with torch.no_grad():
+            found, expected = network(images()), layers(images())
+        torch.testing.assert_close(found, expected, rtol=1e-4, atol=1e-5)
+    noted = dict(layers.named_buffers())
+    for name, tensor in network.tensors.items():
+        if name.endswith(("running_mean", "running_var")):
+            torch.testing.assert_close(tensor, noted[name], rtol=1e-4, atol=1e-6)
+
+
+def test_its_gradients_are_those_of_torchs_layers() -> None:
+    network = resnet34(2, 3, seed=1, width=4).train()
+    layers = torch_resnet(network.tensors, BLOCKS).train()
+    network(images()).square().sum().backward()
+    layers(images()).square().sum().backward()
+    for name, parameter in layers.named_parameters():
+        torch.testing.assert_close(
+            network.tensors[name].grad, parameter.grad, rtol=1e-3, atol=1e-4, msg=name
+        )
+
+
+def test_kernels_begin_as_torchvisions_and_the_replaced_layers_as_torchs() -> None:
+    found = resnet34(2, 10, seed=5).tensors
+    tensors = {name: one.detach() for name, one in found.items()}
+    for name in ("layer1.0.conv1.weight", "layer3.0.downsample.0.weight", "layer4.2.conv2.weight"):
+        kernel = tensors[name]
+        expected = math.sqrt(2 / (kernel.shape[0] * kernel.shape[2] * kernel.shape[3]))
+        assert float(kernel.std()) == pytest.approx(expected, rel=0.02)
+        assert float(kernel.mean()) == pytest.approx(0, abs=0.02 * expected)
+        # Normal, not uniform: the fourth moment.
+        assert float((kernel / expected).pow(4).mean()) == pytest.approx(3, rel=0.1)
+    for name, inputs in (("conv1.weight", 2 * 14 * 14), ("fc.weight", 512)):
+        assert float(tensors[name].abs().max()) == pytest.approx(1 / math.sqrt(inputs), rel=0.01)
+    assert set(tensors["layer2.1.bn1.weight"].tolist()) == {1.0}
+    assert set(tensors["layer2.1.bn1.running_mean"].tolist()) == {0.0}
+
+
+def test_the_seed_decides_the_weights() -> None:
+    one, two, three = (resnet34(2, 3, seed, width=2).tensors for seed in (1, 1, 2))
+    assert all(torch.equal(one[name], two[name]) for name in one)
+    assert not torch.equal(one["layer1.0.conv1.weight"], three["layer1.0.conv1.weight"])
+
+
+def test_a_wider_small_network_has_that_many_channels() -> None:
+    network = small_cnn(2, 7, seed=0, width=5)
+    assert [len(network.tensors[f"conv{stage}.weight"]) for stage in range(3)] == [5, 10, 20]
+    assert network(images()).shape == (4, 7)
+
+
+def test_trained_weights_are_read_by_bench_classify(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    for split, count in (("train", 4), ("val", 2)):
+        for label, name in enumerate(("n01", "n02")):
+            folder = tmp_path / "recorded" / split / name
+            folder.mkdir(parents=True)
+            for number in range(count):
+                bar(label, number).save(folder / f"{number}.npz", format="n-imagenet")
+    (tmp_path / "spec.toml").write_text(
+        'data = {recordings = "recorded", validation_split = "val", image_size = "224x224"}\n'
+        'network = {name = "resnet34", width = 2, representation = "binary-event-image"}\n'
+        "schedule = {epochs = 1, batch_size = 8}\n"
+    )
+    words = [str(tmp_path / "spec.toml"), "-o", str(tmp_path / "run"), "--device", "cpu", "-q"]
+    assert main(["train", "classification", *words]) == 0
+    assert "accuracy" in capsys.readouterr().out
+    weights = str(tmp_path / "run" / "weights.pt")
+    folder = str(tmp_path / "recorded" / "val")
+    assert main(["bench", "classify", folder, "--weights", weights, "-q"]) == 0
+    benched = capsys.readouterr().out
+    assert main(["evaluate", "classification", words[0], weights, "--device", "cpu"]) == 0
+    scored = dict(line.rsplit(maxsplit=1) for line in capsys.readouterr().out.splitlines())
+    text = Path(words[0]).read_text().replace("binary-event-image", "dist")
+    (tmp_path / "other.toml").write_text(text)
+    assert main(["evaluate", "classification", str(tmp_path / "other.toml"), weights]) == 2
+    assert "with representation 'binary-event-image', and [net" in capsys.readouterr().err
+    # Both make the same images, since no file has 30,000 events to draw from.
+    assert benched.startswith(f"top-1 {float(scored['accuracy']):.4f} ± ")
+    assert f"± {float(scored['accuracy standard error']):.4f}" in benched
+
+
+def test_a_checkpoint_of_n_imagenets_program_is_evaluated(tmp_path: Path) -> None:
+    for label, name in enumerate(("n01", "n02")):
+        folder = tmp_path / "recorded" / "test" / name
+        folder.mkdir(parents=True)
+        bar(label, 0).save(folder / "a.npz", format="n-imagenet")
+    (tmp_path / "spec.toml").write_text(
+        'data = {recordings = "recorded", image_size = "64x48"}\n'
+        'network = {name = "resnet34", width = 2, representation = "binary-event-image"}\n'
+    )
+    # Several GPUs put "module." before every name; torch counts the batches of normalisations.
+    state = {f"module.{name}": one for name, one in resnet34(2, 2, 1, width=2).tensors.items()}
+    state["module.bn1.num_batches_tracked"] = torch.tensor(7)
+    torch.save({"epoch": 3, "state_dict": state}, tmp_path / "published.tar")
+    paths = [str(tmp_path / "spec.toml"), str(tmp_path / "published.tar")]
+    assert main(["evaluate", "classification", *paths, "--device", "cpu"]) == 0
+
+
+def test_bench_classify_refuses_a_network_that_was_shown_other_images(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    notes = {"training": {"network": {"representation": "dist"}}}
+    torch.save({"state_dict": resnet34(2, 2, 1, width=2).tensors, "texvent": notes}, tmp_path / "w")
+    assert main(["bench", "classify", str(tmp_path), "--weights", str(tmp_path / "w")]) == 2
+    assert "was trained on dist, and this benchmark shows binary" in capsys.readouterr().err

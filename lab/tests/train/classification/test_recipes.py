@@ -1,0 +1,80 @@
+"""The training files of the repository: read as they are, and run on tiny data."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.cli.app import main
+from texvent.dataset.specification.reading import read_specification
+
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from texvent_lab.train.classification.config import ClassificationConfig  # noqa: E402
+from texvent_lab.train.reading import read_training  # noqa: E402
+
+pytestmark = pytest.mark.torch
+ROOT = Path(__file__).parents[4]
+FILES = ROOT / "configs" / "training"
+
+
+def write_n_imagenet(folder: Path, classes: int, per_class: int) -> None:
+    """Files as those of N-ImageNet: no sensor size, polarity as bool."""
+    chance = np.random.default_rng(1)
+    for split in ("extracted_train", "extracted_val"):
+        for label in range(classes):
+            place = folder / split / f"n{label:08d}"
+            place.mkdir(parents=True)
+            for number in range(per_class):
+                events = np.zeros(500, [("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
+                events["x"] = chance.integers(200 * label, 200 * label + 200, 500)
+                events["y"], events["t"] = chance.integers(0, 480, 500), np.arange(500)
+                events["p"] = chance.integers(0, 2, 500)
+                np.savez(place / f"{number}.npz", event_data=events)
+
+
+def test_n_imagenets_recipe_is_the_published_one() -> None:
+    found = read_training(FILES / "n-imagenet-resnet34.toml", ClassificationConfig())
+    assert (found.seed, found.data.slice_events, found.data.image_size) == (1, 30_000, "224x224")
+    assert found.data.recordings == FILES / "N_Imagenet"
+    schedule = found.schedule
+    assert schedule.optimizer == "adam"
+    assert (schedule.learning_rate, schedule.weight_decay) == (3e-4, 1e-4)
+    assert (schedule.epochs, schedule.batch_size, schedule.patience) == (100, 256, 3)
+    augmentation = found.augmentation
+    assert (augmentation.shift, augmentation.flip_x, augmentation.flip_time) == (20, True, True)
+
+
+def test_n_imagenets_recipe_learns_files_of_its_layout(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    write_n_imagenet(tmp_path / "N_Imagenet", classes=3, per_class=4)
+    text = (FILES / "n-imagenet-resnet34.toml").read_text()
+    text = text.replace("epochs = 100", "epochs = 1")
+    text = text.replace("[network]", "[network]\nwidth = 2")
+    (tmp_path / "spec.toml").write_text(text)
+    words = [str(tmp_path / "spec.toml"), "-o", str(tmp_path / "run"), "--device", "cpu", "-q"]
+    assert main(["train", "classification", *words]) == 0
+    assert re.search(r"best epoch 1 of 1: .*accuracy 0\.\d", capsys.readouterr().out)
+
+
+def test_the_first_example_is_a_specification_and_a_training_of_it() -> None:
+    specification = read_specification(FILES / "shapes.toml")
+    training = read_training(FILES / "shapes-classifier.toml", ClassificationConfig())
+    assert training.data.folder == FILES / specification.name
+    assert {training.data.split, training.data.validation_split} <= {*specification.splits}
+
+
+def test_the_training_files_of_the_page_are_read(tmp_path: Path) -> None:
+    page = (ROOT / "docs" / "training-classification.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```toml\n# ([\w-]+\.toml).*?\n(.*?)```", page, re.DOTALL)
+    assert [name for name, _ in blocks] == ["digits.toml", "table6.toml", "table6-extra.toml"]
+    for name, text in blocks:
+        (tmp_path / name).write_text(text)
+        if "[[sources]]" in text:
+            read_specification(tmp_path / name)
+        else:
+            read_training(tmp_path / name, ClassificationConfig())

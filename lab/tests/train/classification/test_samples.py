@@ -1,0 +1,336 @@
+"""Samples of every kind, put together, and refused before any work where they do not fit."""
+
+from __future__ import annotations
+
+import json
+import pickle
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.dataset.loading.written_set import write_shard
+
+import texvent.dataset
+from texvent.cli.app import main
+from texvent.events import EventStream
+from texvent.sensor import SensorSize
+
+from ..written_samples import SIZE, bar, write_bars
+
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from texvent_lab.train.classification.config import ClassData, ClassificationConfig  # noqa: E402
+from texvent_lab.train.classification.samples import open_training, open_validation  # noqa: E402
+from texvent_lab.train.classification.task import ClassificationTask  # noqa: E402
+from texvent_lab.train.reading import read_training  # noqa: E402
+
+pytestmark = pytest.mark.torch
+
+SPECIFICATION = """\
+name = "tiny"
+filters = {min_events = 1}
+splits = {train = 0.5, test = 0.5}
+options = {duration = 0.1, sensor = "32x24"}
+[[sources]]
+template = "a {colour} {thing} drives left"
+words.colour = ["red", "green", "blue", "white"]
+words.thing = ["car", "bus"]
+label = "{thing}"
+"""
+
+
+def write_recordings(folder: Path, *, per_class: int = 4, format: str = "npz") -> Path:
+    """Moving bars as files: train and val, of classes bus and car."""
+    for first, split in enumerate(("train", "val")):
+        for label, name in enumerate(("bus", "car")):
+            place = folder / split / name
+            place.mkdir(parents=True, exist_ok=True)
+            for number in range(per_class):
+                bar(label, 100 * first + number).save(place / f"{number}.{format}")
+    return folder
+
+
+def write(path: Path, data: str, more: str = "") -> Path:
+    path.write_text(
+        f"data = {{{data}}}\n{more}\n[schedule]\nepochs = 1\nbatch_size = 4\nlearning_rate = 0.01\n"
+    )
+    return path
+
+
+def train(path: Path, *words: str) -> int:
+    out = str(path.parent / path.stem)
+    return main(["train", "classification", str(path), "-o", out, "--device", "cpu", "-q", *words])
+
+
+def weights(path: Path) -> dict[str, torch.Tensor]:
+    return torch.load(path.parent / path.stem / "weights.pt", weights_only=True)["state_dict"]
+
+
+def config(path: Path) -> ClassificationConfig:
+    return read_training(path, ClassificationConfig())
+
+
+def error_of(path: Path, capsys: pytest.CaptureFixture[str], *words: str) -> str:
+    """What refuses a training: one line, and nothing is written."""
+    assert train(path, *words) == 2
+    error = capsys.readouterr().err.strip()
+    assert len(error.splitlines()) == 1, error
+    return error
+
+
+RECORDED = 'recordings = "rec", validation_split = "val"'
+
+
+def test_training_on_a_specification_equals_training_on_its_stored_samples(tmp_path: Path) -> None:
+    (tmp_path / "tiny.toml").write_text(SPECIFICATION)
+    texvent.dataset.make(tmp_path / "tiny.toml", tmp_path / "tiny")
+    stored = write(tmp_path / "stored.toml", 'folder = "tiny"')
+    simulated = write(tmp_path / "simulated.toml", 'specification = "tiny.toml"')
+    assert train(stored) == train(simulated) == 0
+    one, two = weights(stored), weights(simulated)
+    assert all(torch.equal(one[name], two[name]) for name in one)
+    histories = [
+        json.loads((tmp_path / name / "history.json").read_text())["epochs"]
+        for name in ("stored", "simulated")
+    ]
+    for rows in zip(*histories, strict=True):
+        assert rows[0]["training loss"] == rows[1]["training loss"]
+
+
+def test_a_specification_can_be_simulated_by_worker_processes(tmp_path: Path) -> None:
+    (tmp_path / "tiny.toml").write_text(SPECIFICATION)
+    path = write(tmp_path / "spec.toml", 'specification = "tiny.toml"')
+    samples = open_validation(config(path))
+    assert pickle.loads(pickle.dumps(samples)).events(1).equals(samples.events(1))
+
+
+@pytest.mark.parametrize(
+    ("format", "sensor"), [("npz", ""), ("aedat4", ""), ("h5", ""), ("bin", ', sensor = "16x12"')]
+)
+def test_recordings_of_any_format_are_read(tmp_path: Path, format: str, sensor: str) -> None:
+    write_recordings(tmp_path / "rec", format=format)
+    samples = open_validation(config(write(tmp_path / "spec.toml", RECORDED + sensor)))
+    assert samples.class_number.tolist() == [0, 0, 0, 0, 1, 1, 1, 1]
+    for place in range(len(samples)):
+        assert samples.events(place).equals(bar(place // 4, 100 + place % 4))
+
+
+def test_recorded_and_simulated_samples_are_mixed(tmp_path: Path) -> None:
+    write_recordings(tmp_path / "rec")
+    write_bars(tmp_path / "made")
+    path = write(
+        tmp_path / "mixed.toml",
+        RECORDED + ", per_class = 2",
+        'extra = {folder = "made", per_class = 3}',
+    )
+    chosen = open_training(config(path), open_validation(config(path)))
+    assert chosen.labels == ("bus", "car")
+    assert np.bincount(chosen.source).tolist() == [4, 6]
+    assert np.bincount(chosen.class_number).tolist() == [5, 5]
+    # Labels of a made set are numbered otherwise: bus, car, dog.
+    for place in range(len(chosen)):
+        events = chosen.events(place)
+        assert events.size == SIZE
+        assert (events.x.mean() > 8) == chosen.class_number[place]
+    assert train(path) == 0
+    assert json.loads((tmp_path / "mixed" / "history.json").read_text())["epochs"]
+
+
+def test_few_of_each_class_are_drawn_by_the_seed(tmp_path: Path) -> None:
+    write_recordings(tmp_path / "rec", per_class=9)
+    paths = [
+        write(tmp_path / f"{seed}.toml", f"{RECORDED}, per_class = 3", f"seed = {seed}")
+        for seed in (0, 0, 1)
+    ]
+    numbers = [
+        open_training(config(path), open_validation(config(path))).number.tolist() for path in paths
+    ]
+    assert len(numbers[0]) == 6
+    assert numbers[0] == numbers[1] != numbers[2]
+
+
+def test_only_the_first_classes_are_told_apart(tmp_path: Path) -> None:
+    write_recordings(tmp_path / "rec")
+    for split in ("train", "val"):
+        (tmp_path / "rec" / split / "ape").mkdir()
+        bar(0, 7).save(tmp_path / "rec" / split / "ape" / "a.npz")
+    path = write(tmp_path / "two.toml", f"{RECORDED}, classes = 2")
+    validation = open_validation(config(path))
+    assert validation.labels == ("ape", "bus")
+    assert len(open_training(config(path), validation)) == 5
+    assert len(validation) == 5
+
+
+def test_polarity_is_exchanged_where_it_is_asked_for(tmp_path: Path) -> None:
+    write_recordings(tmp_path / "rec")
+    plain, flipped = (
+        open_validation(ClassificationConfig(data=ClassData(
+            recordings=tmp_path / "rec", validation_split="val", flip_polarity=is_flipped)))
+        for is_flipped in (False, True)
+    )  # fmt: skip
+    for place in range(len(plain)):
+        one, two = plain.events(place), flipped.events(place)
+        np.testing.assert_array_equal(one.p + two.p, 1)
+        np.testing.assert_array_equal(one.x, two.x)
+
+
+def test_images_have_the_size_that_is_asked_for_whatever_the_sensor(tmp_path: Path) -> None:
+    write_recordings(tmp_path / "rec")
+    events = bar(0, 1)
+    large = EventStream.from_columns(
+        4 * events.x.astype(int), 4 * events.y.astype(int), events.t, events.p, size=(64, 48)
+    )
+    large.save(tmp_path / "rec" / "val" / "bus" / "large.npz")
+    path = write(tmp_path / "scaled.toml", f'{RECORDED}, image_size = "8x6"')
+    task = ClassificationTask(config(path))
+    batch = next(task._batches(task._validation, task._config.augmentation, 0, shuffle=False)
+                 .epoch(0))  # fmt: skip
+    assert batch["image"].shape == (4, 2, 6, 8)
+    assert train(path) == 0
+
+
+def test_a_sample_without_events_is_an_image_of_zeros(tmp_path: Path) -> None:
+    write_recordings(tmp_path / "rec")
+    for split in ("train", "val"):
+        EventStream.empty(SIZE).save(tmp_path / "rec" / split / "car" / "empty.npz")
+    for name in ("histogram-2d", "dist"):
+        path = write(
+            tmp_path / f"{name}.toml",
+            f"{RECORDED}, slice_events = 10",
+            f'network = {{representation = "{name}"}}\naugmentation = {{flip_time = true}}',
+        )
+        assert train(path) == 0
+
+
+def test_classes_that_only_one_split_has_are_refused(tmp_path, capsys) -> None:
+    write_recordings(tmp_path / "rec")
+    path = write(tmp_path / "spec.toml", RECORDED)
+    (tmp_path / "rec" / "train" / "dog").mkdir()
+    dog = tmp_path / "rec" / "train" / "dog" / "a.npz"
+    bar(1, 3).save(dog)
+    assert "rec/train has samples of class 'dog', which" in error_of(path, capsys)
+    (tmp_path / "rec" / "val" / "dog").mkdir()
+    dog.rename(tmp_path / "rec" / "val" / "dog" / "a.npz")
+    assert "has samples of class 'dog', and" in error_of(path, capsys)
+    assert not (tmp_path / "spec").exists()
+
+
+def test_sizes_that_differ_are_refused(tmp_path, capsys) -> None:
+    write_recordings(tmp_path / "rec")
+    path = write(tmp_path / "spec.toml", RECORDED)
+    small = EventStream([1], [1], [1], [1], SensorSize(8, 6))
+    small.save(tmp_path / "rec" / "val" / "car" / "0.npz", overwrite=True)
+    error = error_of(path, capsys)
+    assert "val/car/0.npz has 8x6, others 16x12; give image_size" in error
+    assert not (tmp_path / "spec").exists()
+    for one in (tmp_path / "rec" / "val").glob("*/*.npz"):
+        small.save(one, overwrite=True)
+    assert "samples to train on have 16x12, those of" in error_of(path, capsys)
+    assert not (tmp_path / "spec").exists()
+
+
+def test_sizes_within_a_data_set_are_all_checked(tmp_path, capsys) -> None:
+    write_bars(tmp_path / "made")
+    odd = {"odd0": bar(0, 1), "odd1": EventStream([1], [1], [1], [1], SensorSize(8, 6))}
+    record = write_shard(tmp_path / "made", "paper", "train", 1, odd, labels=("bus", "car"))
+    facts = json.loads(record.with_suffix(".json").read_text())
+    facts["samples"][-1] |= {"width": 8, "height": 6}
+    record.with_suffix(".json").write_text(json.dumps(facts))
+    path = write(tmp_path / "spec.toml", 'folder = "made"')
+    assert "odd1 has 8x6, others 16x12" in error_of(path, capsys)
+
+
+@pytest.mark.parametrize("workers", ["0", "1"])
+def test_a_damaged_file_is_named_in_one_line(tmp_path, capsys, workers: str) -> None:
+    write_recordings(tmp_path / "rec")
+    path = write(tmp_path / "spec.toml", RECORDED)
+    (tmp_path / "rec" / "train" / "car" / "2.npz").write_bytes(b"PK\x03\x04damaged")
+    assert "rec/train/car/2.npz" in error_of(path, capsys, "--workers", workers)
+
+
+def test_another_size_later_on_is_named(tmp_path, capsys) -> None:
+    write_recordings(tmp_path / "rec")
+    path = write(tmp_path / "spec.toml", RECORDED)
+    small = EventStream([1], [1], [1], [1], SensorSize(8, 6))
+    small.save(tmp_path / "rec" / "train" / "car" / "2.npz", overwrite=True)
+    assert "car/2.npz has 8x6, others 16x12" in error_of(path, capsys)
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        ("", "there are no samples to train on; give one of folder, specification and recordings"),
+        (f'{RECORDED}, folder = "made"', "folder and recordings are given; give one of"),
+        ('recordings = "rec", validation_split = "test"', "there is no folder"),
+        ('recordings = "rec", validation_split = "none"', "holds no event files in folders of"),
+        ('recordings = "rec", validation_split = "one"', "has 1 classes, and a network tells at"),
+        (f'{RECORDED}, variant = "esim"', "variant belongs to folder or specification, not to rec"),
+        ('folder = "made", flip_polarity = true', "flip_polarity belongs to recordings, not to f"),
+        (f"{RECORDED}}}\nextra = {{per_class = 3", "[extra] has no samples; give one of folder"),
+        (
+            'recordings = "rec", validation_split = "few", classes = 2',
+            "holds no sample of ['ape', ",
+        ),
+        (f"{RECORDED}, classes = 5", "classes is 5; "),
+        (f"{RECORDED}, per_class = 0", "per_class is 0; it must be at least 1"),
+        (f'{RECORDED}, sensor = "big"', "'big'"),
+        (f'{RECORDED}, image_size = "0x4"', "0x4"),
+        ('specification = "none.toml"', "none.toml"),
+        ('folder = "made", validation_split = "val"', "unknown split 'val'; allowed: test, train"),
+    ],
+)
+def test_samples_that_do_not_fit_are_refused_in_one_line(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str], data: str, message: str
+) -> None:
+    write_recordings(tmp_path / "rec")
+    (tmp_path / "rec" / "none").mkdir()
+    (tmp_path / "rec" / "one" / "bus").mkdir(parents=True)
+    bar(0, 1).save(tmp_path / "rec" / "one" / "bus" / "a.npz")
+    for name in ("ape", "bee", "bus"):
+        (tmp_path / "rec" / "few" / name).mkdir(parents=True)
+    bar(0, 1).save(tmp_path / "rec" / "few" / "bus" / "a.npz")
+    write_bars(tmp_path / "made")
+    assert message in error_of(write(tmp_path / "spec.toml", data), capsys)
+    assert not (tmp_path / "spec").exists()
+
+
+@pytest.mark.parametrize("labels", [(), ("bus", None)])
+def test_samples_without_a_class_are_refused(tmp_path, capsys, labels) -> None:
+    samples = {f"k{number}": bar(0, number) for number in range(4)}
+    for split in ("train", "test"):
+        record = write_shard(tmp_path / "made", "paper", split, 0, samples, labels=("bus", "car"))
+        if labels != ("bus", "car"):
+            facts = json.loads(record.with_suffix(".json").read_text())
+            facts["samples"][-1]["label"] = None
+            record.with_suffix(".json").write_text(json.dumps(facts))
+    error = error_of(write(tmp_path / "spec.toml", 'folder = "made"'), capsys)
+    assert "1 of 4 samples of split test of" in error
+    assert "have no class, such as sample k3; give all sources a label" in error
+
+
+def test_training_begins_with_given_weights_and_a_new_last_layer_for_other_classes(
+    tmp_path: Path,
+) -> None:
+    write_recordings(tmp_path / "rec")
+    first = write(tmp_path / "first.toml", RECORDED)
+    assert train(first) == 0
+    again = write(tmp_path / "again.toml", RECORDED, 'start_from = "first/weights.pt"')
+    network = ClassificationTask(config(again)).make_network()
+    assert all(torch.equal(network.tensors[name], one) for name, one in weights(first).items())
+    for split in ("train", "val"):
+        (tmp_path / "rec" / split / "dog").mkdir()
+        bar(0, 5).save(tmp_path / "rec" / split / "dog" / "a.npz")
+    network = ClassificationTask(config(again)).make_network()
+    assert torch.equal(network.tensors["conv1.weight"], weights(first)["conv1.weight"])
+    assert network.tensors["linear.weight"].shape == (3, 64)
+    assert train(again) == 0
+
+
+def test_weights_that_do_not_fit_cannot_be_begun_with(tmp_path, capsys) -> None:
+    write_recordings(tmp_path / "rec")
+    first = write(tmp_path / "first.toml", RECORDED, "network = {width = 4}")
+    assert train(first) == 0
+    again = write(tmp_path / "again.toml", RECORDED, 'start_from = "first/weights.pt"')
+    assert "first/weights.pt does not fit the network: it has conv0" in error_of(again, capsys)
+    missing = write(tmp_path / "missing.toml", RECORDED, 'start_from = "none.pt"')
+    assert "there is no weights file" in error_of(missing, capsys)

@@ -1,0 +1,164 @@
+"""Losses: equal to the metrics they stand for, hand-computed, with correct gradients."""
+
+import numpy as np
+import pytest
+from tests.metrics.lpips.lpips_files import narrow_weights
+
+from texvent.metrics.lpips.distance import lpips_distance
+from texvent.metrics.structural_similarity import structural_similarity
+
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from texvent_lab.train.reconstruction.config import ReconstructionLoss  # noqa: E402
+from texvent_lab.train.reconstruction.image_losses import (  # noqa: E402
+    dissimilarity,
+    inconsistency,
+    l1,
+    ssim,
+)
+from texvent_lab.train.reconstruction.lpips import LpipsLoss  # noqa: E402
+from texvent_lab.train.reconstruction.sequence_loss import SequenceLoss  # noqa: E402
+
+pytestmark = pytest.mark.torch
+
+
+def images(count=3, height=40, width=36, seed=0):
+    return np.random.default_rng(seed).random((count, 1, height, width)).astype(np.float32)
+
+
+def test_lpips_equals_the_metric():
+    weights, a, b = narrow_weights(), images(), images(seed=1)
+    found = LpipsLoss(weights)(torch.from_numpy(a), torch.from_numpy(b))
+    expected = [lpips_distance(x[0], y[0], weights) for x, y in zip(a, b, strict=True)]
+    np.testing.assert_allclose(found, expected, rtol=1e-4)
+    assert LpipsLoss(weights)(torch.from_numpy(a), torch.from_numpy(a)).tolist() == [0, 0, 0]
+
+
+def test_lpips_has_the_gradient_of_finite_differences():
+    weights, side = narrow_weights(), 35
+    loss = LpipsLoss(weights)
+    loss._tensors = {name: one.double() for name, one in loss._tensors.items()}
+    a = torch.from_numpy(images(1, side, side)).double().requires_grad_()
+    b = torch.from_numpy(images(1, side, side, seed=2)).double()
+    # Features are narrowed to float32 before they are compared, so steps are not tiny.
+    loss(a, b).sum().backward()
+    rng = np.random.default_rng(0)
+    for _ in range(3):
+        direction = torch.from_numpy(rng.normal(size=a.shape))
+        step = 1e-3 / direction.norm()
+        with torch.no_grad():
+            change = loss(a + step * direction, b) - loss(a - step * direction, b)
+        expected = float(change.sum() / (2 * step))
+        assert float((a.grad * direction).sum()) == pytest.approx(expected, rel=0.05)
+
+
+def test_lpips_has_a_finite_gradient_where_all_features_are_zero():
+    weights = narrow_weights()
+    arrays = {
+        name: np.full_like(one, -9) if name.startswith("bias") else one
+        for name, one in weights.arrays.items()
+    }
+    loss = LpipsLoss(type(weights)(weights.layout, arrays))
+    a = torch.zeros(1, 1, 35, 35, requires_grad=True)
+    loss(a, torch.from_numpy(images(1, 35, 35))).sum().backward()
+    assert torch.isfinite(a.grad).all()
+
+
+def test_ssim_equals_the_metric():
+    a, b = images(), images(seed=1)
+    b[0] = a[0] * 0.5 + 0.2
+    found = ssim(torch.from_numpy(a), torch.from_numpy(b))
+    expected = [
+        structural_similarity(x[0].astype(np.float64), y[0].astype(np.float64))
+        for x, y in zip(a, b, strict=True)
+    ]
+    np.testing.assert_allclose(found, expected, rtol=0, atol=1e-5)
+    np.testing.assert_allclose(
+        dissimilarity(torch.from_numpy(a), torch.from_numpy(b)), 1 - found, atol=1e-6
+    )
+
+
+def test_mixed_precision_changes_no_similarity_and_hardly_lpips():
+    a, b, lpips = torch.from_numpy(images()), torch.from_numpy(images(seed=1)), narrow_weights()
+    with torch.autocast("cpu", torch.bfloat16):
+        mixed, mixed_lpips = ssim(a, b), LpipsLoss(lpips)(a, b)
+    torch.testing.assert_close(mixed, ssim(a, b), rtol=0, atol=0)
+    torch.testing.assert_close(mixed_lpips, LpipsLoss(lpips)(a, b), rtol=0.02, atol=0)
+
+
+def test_l1_is_the_mean_absolute_difference():
+    a = torch.tensor([[[[0.0, 1.0]]], [[[0.5, 0.5]]]])
+    assert l1(a, torch.zeros_like(a)).tolist() == [0.5, 0.5]
+
+
+def test_ssim_and_consistency_have_correct_gradients():
+    def double(seed):
+        return torch.from_numpy(images(2, 12, 13, seed)).double()
+
+    a, b = double(0).requires_grad_(), double(1).requires_grad_()
+    flow = torch.from_numpy(np.random.default_rng(3).normal(0, 2, (2, 2, 12, 13)))
+
+    def compare(one, other):
+        return inconsistency((one, other), (double(4), double(5)), flow, alpha=5.0)
+
+    assert torch.autograd.gradcheck(compare, (a, b), eps=1e-7, atol=1e-4)
+    assert torch.autograd.gradcheck(ssim, (a, b.detach()), eps=1e-6, atol=1e-2, rtol=1e-2)
+
+
+def row(*values):
+    return torch.tensor(values, dtype=torch.float64).reshape(1, 1, 1, -1)
+
+
+def move(*values):
+    flow = torch.zeros(1, 2, 1, len(values), dtype=torch.float64)
+    flow[0, 0, 0] = torch.tensor(values)
+    return flow
+
+
+def test_consistency_by_hand():
+    # Every pixel moves one to the right; the last one leaves the image.
+    flow = move(1.0, 1.0, 1.0)
+    images_, true = (row(0.2, 0.4, 0.6), row(0.0, 0.3, 0.4)), (row(0.5, 0.5, 0.5),) * 2
+    expected = (0.1 / (0.5 + 1e-5) + 0.0) / 3
+    assert inconsistency(images_, true, flow, alpha=50).item() == pytest.approx(expected)
+
+
+def test_consistency_counts_less_where_the_true_images_differ():
+    flow = move(0.0, 0.0)
+    images_, true = (row(0.2, 0.2), row(0.4, 0.4)), (row(0.5, 0.5), row(0.5, 0.7))
+    error = 0.2 / (0.6 + 1e-5)
+    expected = error * (1 + np.exp(-50 * 0.04)) / 2
+    assert inconsistency(images_, true, flow, alpha=50).item() == pytest.approx(expected)
+
+
+def test_consistency_takes_places_between_pixels_and_ignores_unknown_flow():
+    flow = move(0.25, float("nan"), float("inf"))
+    images_, true = (row(0.5, 0.9, 0.9), row(0.2, 0.6, 0.1)), (row(0.5, 0.5, 0.5),) * 2
+    expected = 0.2 / (0.8 + 1e-5) / 3
+    assert inconsistency(images_, true, flow, alpha=50).item() == pytest.approx(expected)
+    unknown = torch.full((1, 2, 1, 3), float("nan"), dtype=torch.float64)
+    later = images_[1].clone().requires_grad_()
+    loss = inconsistency((images_[0], later), true, unknown, alpha=50)
+    loss.sum().backward()
+    assert loss.item() == 0
+    assert not later.grad.any()
+
+
+def test_the_consistency_of_a_window_is_with_the_one_before_along_its_own_flow():
+    scene = torch.from_numpy(images(1, 20, 24)).double()
+    moving = torch.stack([scene[..., :, 4:], scene[..., :, :20]], dim=1)
+    flow = torch.zeros(1, 2, 2, 20, 20, dtype=torch.float64)
+    flow[:, 1, 0] = 4
+    options = ReconstructionLoss(lpips=0, l1=1.0, consistency=1.0, consistency_from=1)
+    assert SequenceLoss(options, None)(moving, moving, flow).item() < 1e-9
+    assert SequenceLoss(options, None)(moving, moving, flow.flip(1)).item() > 0.01
+
+
+def test_images_that_move_with_the_flow_are_consistent():
+    scene = torch.from_numpy(images(1, 20, 24)).double()
+    earlier, later = scene[..., :, 4:], scene[..., :, :20]
+    flow = torch.zeros(1, 2, 20, 20, dtype=torch.float64)
+    flow[:, 0] = 4
+    assert inconsistency((earlier, later), (earlier, later), flow, alpha=50).item() < 1e-9
+    still = torch.zeros_like(flow)
+    assert inconsistency((earlier, later), (earlier, earlier), still, alpha=50).item() > 0.1

@@ -1,0 +1,269 @@
+"""Training of reconstruction networks: examples, learning, published files."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from tests.metrics.lpips.lpips_files import narrow_weights
+
+from texvent.cli.app import main
+from texvent.metrics.image_measures import mean_squared_error
+from texvent.metrics.lpips.layout import ALEX
+from texvent.metrics.lpips.weights import weights_file_name, write_lpips_weights
+from texvent.metrics.structural_similarity import structural_similarity
+from texvent.represent.voxel_grid import voxel_e2vid
+from texvent_lab.registries import RECONSTRUCTORS
+
+from ..sequences.windowed_specification import TEXT, write_specification
+
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from texvent_lab.reconstruct.checkpoint import Checkpoint  # noqa: E402
+from texvent_lab.reconstruct.networks import FIRENET  # noqa: E402
+from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor  # noqa: E402
+from texvent_lab.train.reading import read_training  # noqa: E402
+from texvent_lab.train.reconstruction.config import (  # noqa: E402
+    ReconstructionAugmentation,
+    ReconstructionConfig,
+)
+from texvent_lab.train.reconstruction.task import ReconstructionTask  # noqa: E402
+from texvent_lab.train.run import evaluate_from_file, train_from_file  # noqa: E402
+from texvent_lab.train.schedule import Hardware  # noqa: E402
+
+pytestmark = pytest.mark.torch
+CPU = Hardware(device="cpu")
+DEVICE = torch.device("cpu")
+UNCHANGED = ReconstructionAugmentation(
+    flip=False, noise=0.0, hot_pixels=0.0, hot_pixel_fraction=0.0, pause_begin=0.0
+)
+TRAINING = """\
+network = {name = "firenet"}
+loss = {lpips = 0.0, l1 = 1.0, ssim = 1.0}
+[data]
+specification = "tiny.toml"
+variant = "esim"
+slice_us = 20000
+length = 4
+crop = 16
+cache = "cache"
+[schedule]
+epochs = 2
+batch_size = 1
+learning_rate = 0.005
+"""
+
+
+@pytest.fixture(autouse=True)
+def no_weights_of_this_machine(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "texvent-cache"))
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A training file, its specification, and clips that are simulated once for all tests."""
+    folder = tmp_path_factory.mktemp("training")
+    write_specification(folder)
+    write(folder, TRAINING)
+    return folder
+
+
+def write(folder: Path, text: str, name: str = "training.toml") -> Path:
+    path = folder / name
+    path.write_text(text)
+    return path
+
+
+def config_of(folder: Path, **changes: Any) -> ReconstructionConfig:
+    return replace(read_training(folder / "training.toml", ReconstructionConfig()), **changes)
+
+
+def weights(folder: Path) -> dict[str, torch.Tensor]:
+    return torch.load(folder / "weights.pt", weights_only=True)["state_dict"]
+
+
+def test_unchanged_examples_are_the_windows_themselves(folder: Path) -> None:
+    config = config_of(folder, augmentation=UNCHANGED)
+    config = replace(config, data=replace(config.data, crop=None))
+    make = ReconstructionTask(config).batches(workers=0).make
+    example, clips = make(1, np.random.default_rng(5)), make.clips
+    windows = clips.draw(1, skip_drawn(4, 5), 4)
+    grids = [voxel_e2vid(events, normalise=True) for events in windows.events]
+    np.testing.assert_array_equal(example["voxels"], grids)
+    np.testing.assert_array_equal(example["images"][:, 0], windows.targets["frame"] / 255)
+    np.testing.assert_array_equal(example["flow"], windows.targets["flow"])
+    assert {str(one.dtype) for one in example.values()} == {"float32"}
+
+
+def skip_drawn(count: int, seed: int) -> np.random.Generator:
+    """Chance after the pauses were drawn."""
+    chance = np.random.default_rng(seed)
+    chance.random(count)
+    return chance
+
+
+def test_in_a_pause_nothing_happens_and_nothing_is_lost(folder: Path) -> None:
+    always = replace(UNCHANGED, pause_begin=1.0, pause_stay=0.0)
+    make = ReconstructionTask(config_of(folder, augmentation=always)).batches(workers=0).make
+    example = make(0, np.random.default_rng(0))
+    # Every second window is a pause.
+    for pause in (1, 3):
+        assert not example["voxels"][pause].any()
+        assert not example["flow"][pause].any()
+        np.testing.assert_array_equal(example["images"][pause], example["images"][pause - 1])
+    assert example["voxels"][[0, 2]].any()
+    assert not np.array_equal(example["images"][0], example["images"][2])
+
+
+def test_examples_depend_on_chance_alone(folder: Path) -> None:
+    make = ReconstructionTask(config_of(folder)).batches(workers=0).make
+    one, same, other = (make(0, np.random.default_rng(seed)) for seed in (1, 1, 2))
+    assert all(np.array_equal(one[name], same[name]) for name in one)
+    assert not np.array_equal(one["voxels"], other["voxels"])
+
+
+def test_training_lowers_the_loss_on_a_fixed_set(folder: Path, tmp_path: Path) -> None:
+    # Everything moves, and strong edges everywhere let sixteen steps teach something (from each of
+    # four seeds the loss falls below 0.62 of what it was).
+    moving = TEXT.replace(
+        "a {colour} ball flies {way}", "a {colour} checkerboard, the camera pans {way}"
+    )
+    (folder / "moving.toml").write_text(moving)
+    text = TRAINING.replace("epochs = 2", "epochs = 8").replace("tiny.toml", "moving.toml") + (
+        "[augmentation]\nflip = false\nnoise = 0\nhot_pixels = 0\npause_begin = 0\n"
+    )
+    path = write(folder, text, "fixed.toml")
+    state = train_from_file(ReconstructionConfig, path, tmp_path / "run", CPU)
+    losses = [row["training loss"] for row in state.rows]
+    assert losses[-1] < 0.8 * losses[0]
+    assert state.rows[-1]["mse"] < state.rows[0]["mse"]
+
+
+def test_mixed_precision_trains_weights_of_full_precision(folder: Path, tmp_path: Path) -> None:
+    mixed = replace(CPU, precision="bfloat16")
+    state = train_from_file(ReconstructionConfig, folder / "training.toml", tmp_path / "run", mixed)
+    assert np.isfinite(state.rows[-1]["training loss"])
+    assert {one.dtype for one in weights(tmp_path / "run").values()} == {torch.float32}
+
+
+@pytest.mark.parametrize("name", ["firenet", "firenet+", "e2vid", "e2vid+"])
+def test_a_published_file_is_read_as_that_network_and_gives_its_images(
+    folder: Path, tmp_path: Path, name: str
+) -> None:
+    config = config_of(folder)
+    task = ReconstructionTask(replace(config, network=replace(config.network, name=name)))
+    network = task.make_network()
+    torch.save(task.published(network), tmp_path / "weights.pt")
+    reconstructor = load_reconstructor(name, tmp_path / "weights.pt", device="cpu")
+    published = RECONSTRUCTORS.load(name)
+    windows = task._validation.read(0)
+    grids = np.stack([voxel_e2vid(e, normalise=published.is_normalised) for e in windows.events])
+    with torch.inference_mode():
+        images = network(torch.from_numpy(grids)[None])[0, :, 0].numpy()
+    found = [reconstructor.reconstruct(events) for events in windows.events]
+    if not published.is_stretched:
+        np.testing.assert_allclose(found, np.clip(images, 0, 1), rtol=0, atol=1e-5)
+    again = task.make_network()
+    with torch.no_grad():
+        for tensor in again.tensors.values():
+            tensor.zero_()
+    content = torch.load(tmp_path / "weights.pt", weights_only=True)
+    task.read(again, content, tmp_path / "weights.pt")
+    assert all(torch.equal(one, again.tensors[key]) for key, one in network.tensors.items())
+
+
+def test_scores_are_those_of_the_reconstructor(folder: Path, tmp_path: Path) -> None:
+    path = folder / "training.toml"
+    state = train_from_file(ReconstructionConfig, path, tmp_path / "run", CPU)
+    found = evaluate_from_file(
+        ReconstructionConfig, path, tmp_path / "run" / "weights.pt", CPU
+    ).scores
+    assert found["ssim"] == state.rows[state.best_epoch - 1]["ssim"]
+    clips = ReconstructionTask(config_of(folder))._validation
+    reconstructor = load_reconstructor("firenet", tmp_path / "run" / "weights.pt", device="cpu")
+    values = []
+    for number in range(len(clips)):
+        reconstructor.reset()
+        windows = clips.read(number)
+        for events, frame in zip(windows.events, windows.targets["frame"], strict=True):
+            image = reconstructor.reconstruct(events).astype(np.float64)
+            values.append(structural_similarity(image, frame.astype(np.float64) / 255))
+    assert found["ssim"] == pytest.approx(np.mean(values), rel=1e-9)
+
+
+def test_some_windows_are_scored_and_all_are_seen(folder: Path) -> None:
+    every, third = (ReconstructionTask(config_of(folder, score_every=number)) for number in (1, 3))
+    clips, network = every._validation, every.make_network()
+    reconstructor = Reconstructor(FIRENET, Checkpoint(network.tensors, {}, ""))
+    values = []
+    for number in range(len(clips)):
+        reconstructor.reset()
+        windows = clips.read(number)
+        images = [reconstructor.reconstruct(events) for events in windows.events]
+        for place in (2, 5):
+            true = windows.targets["frame"][place].astype(np.float64) / 255
+            values.append(mean_squared_error(images[place].astype(np.float64), true))
+    with torch.inference_mode():
+        assert third.validate(network, DEVICE, workers=0)["mse"] == pytest.approx(np.mean(values))
+        assert every.validate(network, DEVICE, workers=0)["mse"] != np.mean(values)
+
+
+def test_trained_weights_reconstruct_on_the_command_line(folder: Path, tmp_path: Path) -> None:
+    train_from_file(ReconstructionConfig, folder / "training.toml", tmp_path / "run", CPU)
+    events = tmp_path / "events.h5"
+    words = ["generate", "a red ball flies left", "--duration", "0.2", "--sensor", "32x24"]
+    assert main([*words, "-o", str(events), "-q"]) == 0
+    words = ["reconstruct", str(events), "-o", str(tmp_path / "frames"), "--fps", "25"]
+    words += ["--network", "firenet", "--weights", str(tmp_path / "run" / "weights.pt")]
+    assert main([*words, "-q"]) == 0
+    assert len(list((tmp_path / "frames").glob("*.png"))) >= 4
+
+
+def test_lpips_is_trained_with_where_its_weights_are(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    pulled = tmp_path / "texvent-cache" / "weights"
+    pulled.mkdir(parents=True)
+    write_specification(folder, TEXT.replace("32x24", "40x32"))
+    text = TRAINING.replace("lpips = 0.0", "lpips = 1.0").replace("crop = 16", "crop = 32")
+    path = write(folder, text, "lpips.toml")
+    words = ["train", "reconstruction", str(path), "-o", str(tmp_path / "run"), "-q"]
+    assert main(words) == 2
+    assert "LPIPS's weights are not here" in capsys.readouterr().err
+    write_lpips_weights(narrow_weights(layout=ALEX), pulled / weights_file_name("alex"))
+    try:
+        state = train_from_file(ReconstructionConfig, path, tmp_path / "run", CPU)
+    finally:
+        write_specification(folder)
+    assert {"ssim", "mse", "lpips"} <= state.rows[0].keys()
+
+
+def test_videos_train_without_flow(tmp_path: Path) -> None:
+    frames = np.full((12, 20, 20), 200, np.uint8)
+    for number in range(12):
+        frames[number, 4:14, number : number + 6] = 20
+    np.save(tmp_path / "a.npy", frames)
+    np.save(tmp_path / "b.npy", frames[::-1])
+    write_specification(
+        tmp_path,
+        f'name = "v"\noptions = {{fps = 50}}\nsplits = {{train = 0.5, validation = 0.5}}\n'
+        f'[[sources]]\nvideos = ["{tmp_path}/a.npy", "{tmp_path}/b.npy"]\n',
+    )
+    path = write(tmp_path, TRAINING.replace('variant = "esim"\n', ""))
+    config = read_training(path, ReconstructionConfig())
+    batches = ReconstructionTask(config).batches(workers=0)
+    assert "flow" not in next(batches.epoch(0))
+    state = train_from_file(ReconstructionConfig, path, tmp_path / "run", CPU)
+    assert np.isfinite(state.rows[-1]["training loss"])
+
+
+def test_a_crop_that_the_encoders_cannot_halve_is_refused(
+    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    text = TRAINING.replace('"firenet"', '"e2vid"').replace("crop = 16", "crop = 20")
+    path = write(folder, text, "wrong.toml")
+    assert main(["train", "reconstruction", str(path), "-o", str(tmp_path / "run"), "-q"]) == 2
+    assert "20x20 px; give a crop of at least 11 px that 8 divides" in capsys.readouterr().err

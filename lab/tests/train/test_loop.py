@@ -1,0 +1,132 @@
+"""The training loop: scores, files, refusals; `test_resuming.py` has what follows a kill."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import pytest
+
+from texvent.cli.app import main
+
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from tests.dataset.loading.written_set import write_shard  # noqa: E402
+
+from texvent.errors import TexventError  # noqa: E402
+from texvent_lab.train.classification.config import ClassificationConfig  # noqa: E402
+from texvent_lab.train.classification.task import ClassificationTask  # noqa: E402
+from texvent_lab.train.run import train_from_file  # noqa: E402
+from texvent_lab.train.schedule import Hardware, Schedule  # noqa: E402
+
+from .written_samples import LABELS, bar, write_bars  # noqa: E402
+
+pytestmark = pytest.mark.torch
+CPU = Hardware(device="cpu")
+
+
+@pytest.fixture
+def specification(tmp_path: Path) -> Path:
+    write_bars(tmp_path / "bars")
+    path = tmp_path / "bars.toml"
+    path.write_text(
+        'data = {folder = "bars"}\n[schedule]\nepochs = 4\nbatch_size = 5\nlearning_rate = 0.01\n'
+    )
+    return path
+
+
+def weights(folder: Path) -> dict[str, torch.Tensor]:
+    return torch.load(folder / "weights.pt", weights_only=True)["state_dict"]
+
+
+def test_a_small_network_learns_and_its_files_say_how(specification: Path, tmp_path: Path) -> None:
+    state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
+    assert state.rows[-1]["accuracy"] == 1.0
+    assert state.rows[-1]["training loss"] < state.rows[0]["training loss"]
+    told = json.loads((tmp_path / "run" / "history.json").read_text())
+    assert [row["epoch"] for row in told["epochs"]] == [1, 2, 3, 4]
+    assert told["best_epoch"] == state.best_epoch
+    assert told["training"]["schedule"]["epochs"] == 4
+    assert (tmp_path / "run" / "curves.png").read_bytes().startswith(b"\x89PNG")
+    for name, tensor in weights(tmp_path / "run").items():
+        torch.testing.assert_close(tensor, state.best[name.replace(".", "/")], rtol=0, atol=0)
+
+
+def test_equal_trainings_give_equal_weights_and_another_seed_others(
+    specification: Path, tmp_path: Path
+) -> None:
+    for name in ("one", "two"):
+        train_from_file(ClassificationConfig, specification, tmp_path / name, CPU)
+    specification.write_text("seed = 1\n" + specification.read_text())
+    train_from_file(ClassificationConfig, specification, tmp_path / "three", CPU)
+    one, two, three = (weights(tmp_path / name) for name in ("one", "two", "three"))
+    assert all(torch.equal(one[name], two[name]) for name in one)
+    assert not torch.equal(one["conv0.weight"], three["conv0.weight"])
+
+
+def test_workers_change_nothing(specification: Path, tmp_path: Path) -> None:
+    train_from_file(ClassificationConfig, specification, tmp_path / "one", CPU)
+    train_from_file(
+        ClassificationConfig, specification, tmp_path / "two", Hardware(device="cpu", workers=1)
+    )
+    one, two = weights(tmp_path / "one"), weights(tmp_path / "two")
+    assert all(torch.equal(one[name], two[name]) for name in one)
+
+
+def test_the_rate_falls_and_training_stops_where_nothing_improves(
+    specification: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    specification.write_text(
+        'data = {folder = "bars"}\n[schedule]\nepochs = 30\npatience = 1\nreduction = 0.5\n'
+        "stop_after = 5\nlearning_rate = 1e-9\n"
+    )
+    scores = iter([math.nan, 0.5, 0.9, 0.9, math.nan, *[0.8] * 25])
+    monkeypatch.setattr(ClassificationTask, "validate", lambda *_, **__: {"accuracy": next(scores)})
+    state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
+    assert (state.best_epoch, state.epochs) == (3, 8)
+    rate = state.optimizer["param_groups"][0]["lr"]
+    # Reduced after two epochs without a better score, and again after two more.
+    assert rate == pytest.approx(0.25e-9)
+
+
+def test_options_of_the_schedule_reach_the_optimiser(specification: Path, tmp_path: Path) -> None:
+    optimizer = Schedule(
+        optimizer="adamw", learning_rate=0.1, weight_decay=0.2, amsgrad=True
+    ).make_optimizer(torch.nn.Linear(1, 1))
+    assert isinstance(optimizer, torch.optim.AdamW)
+    expected = {"lr": 0.1, "weight_decay": 0.2, "amsgrad": True}
+    assert optimizer.param_groups[0].items() >= expected.items()
+    specification.write_text(specification.read_text() + "clip_gradient = 1e-6\n")
+    state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
+    moments = [one["exp_avg_sq"].sum() for one in state.optimizer["state"].values()]
+    assert 0 < sum(moments) < 1e-12
+
+
+def test_a_loss_that_is_no_number_ends_it_with_the_place(
+    specification: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    cross_entropy = ClassificationTask.loss
+    monkeypatch.setattr(
+        ClassificationTask, "loss", lambda *words: (cross_entropy(*words) - 1e9).log()
+    )
+    with pytest.raises(TexventError, match=r"the loss is nan in epoch 1, batch 1; give a smaller"):
+        train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
+
+
+def test_another_training_is_not_continued(
+    specification: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    words = ["train", "classification", str(specification), "-o", str(tmp_path / "run"), "-q"]
+    assert main(words) == 0
+    specification.write_text(specification.read_text().replace("0.01", "0.02"))
+    assert main(words) == 2
+    assert "learning_rate was 0.01, is 0.02" in capsys.readouterr().err
+    specification.write_text(specification.read_text().replace("0.02", "0.01"))
+    write_shard(tmp_path / "bars", "paper", "train", 1, {"one more": bar(0, 24)}, labels=LABELS)
+    assert main(words) == 2
+    assert "samples was 24 (" in capsys.readouterr().err
+    path = tmp_path / "run" / "checkpoint.pt"
+    torch.save({**torch.load(path, weights_only=True), "version": "0.0.9"}, path)
+    assert main(words) == 2
+    assert "was begun by texvent 0.0.9" in capsys.readouterr().err

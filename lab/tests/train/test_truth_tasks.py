@@ -1,0 +1,176 @@
+"""Depth and flow, trained end to end: they learn, are scored and refused."""
+
+from __future__ import annotations
+
+import json
+import math
+import sys
+from pathlib import Path
+from types import ModuleType
+
+import numpy as np
+import pytest
+
+from texvent.cli.app import main
+
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
+from texvent_lab.registries import TASKS  # noqa: E402
+from texvent_lab.train.depth.config import DepthConfig  # noqa: E402
+from texvent_lab.train.depth.e2depth import make_e2depth, settings_of  # noqa: E402
+from texvent_lab.train.depth.log_depth import encode_depth  # noqa: E402
+from texvent_lab.train.flow.e_raft import make_e_raft  # noqa: E402
+from texvent_lab.train.reading import read_training  # noqa: E402
+from texvent_lab.train.run import train_from_file  # noqa: E402
+from texvent_lab.train.schedule import Hardware  # noqa: E402
+
+from .sequences.windowed_specification import TEXT, write_specification  # noqa: E402
+
+pytestmark = pytest.mark.torch
+TASK_NAMES = ("depth", "flow")
+SCORES = {"depth": "abs_rel", "flow": "EPE"}
+CPU = Hardware(device="cpu")
+
+
+def write_training(folder: Path, *, network: str = "width = 2", epochs: int = 3) -> Path:
+    write_specification(folder)
+    path = folder / "training.toml"
+    path.write_text(
+        'data = {specification = "tiny.toml", variant = "paper", slice_us = 20_000, length = 3, '
+        'cache = "cache"}\n'
+        f"network = {{{network}}}\n"
+        f"schedule = {{epochs = {epochs}, batch_size = 2, learning_rate = 0.003}}\n"
+    )
+    return path
+
+
+@pytest.mark.parametrize("task", TASK_NAMES)
+def test_a_training_learns_and_its_weights_score_as_they_did(task: str, tmp_path: Path) -> None:
+    words = ["train", task, str(write_training(tmp_path, epochs=4)), "--device", "cpu", "-q"]
+    folder = tmp_path / "run"
+    assert main([*words, "-o", str(folder)]) == 0
+    rows = json.loads((folder / "history.json").read_text())["epochs"]
+    assert rows[-1]["training loss"] < rows[0]["training loss"]
+
+    out = tmp_path / "scores.json"
+    words = [str(tmp_path / "training.toml"), str(folder / "weights.pt"), "--device", "cpu"]
+    assert main(["evaluate", task, *words, "-o", str(out)]) == 0
+    best = min(rows, key=lambda row: row[SCORES[task]])
+    scores = json.loads(out.read_text())["scores"]
+    assert np.isfinite(scores[SCORES[task]])
+    for name, value in scores.items():
+        assert value == pytest.approx(best[name], rel=1e-4, nan_ok=True)
+
+
+@pytest.mark.parametrize("sky", ["true", "false"])
+def test_the_sky_is_learned_as_80_m_or_not_at_all(sky: str, tmp_path: Path) -> None:
+    path = write_training(tmp_path)
+    path.write_text(path.read_text() + f"loss = {{shift_weight = 0, sky = {sky}}}\n")
+    task = read_training(path, DepthConfig()).make_task()
+    depth = torch.full((1, 1, 1, 16, 16), 20.0)
+    depth[..., :4, :] = torch.tensor([math.inf, 90.0, 80.0, 500.0]).repeat(4)
+    right = encode_depth(depth)
+    wrong = right.clone()
+    wrong[..., :4, :] = 0
+    batch = {"grids": depth, "depth": depth}
+    of_right, of_wrong = (float(task.loss(lambda _, x=x: x, batch, "cpu")) for x in (right, wrong))
+    assert of_right == 0
+    if sky == "true":
+        assert of_wrong > 0.25
+    else:
+        assert of_wrong == 0
+
+
+def test_depth_has_the_published_layout(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    path = write_training(tmp_path, epochs=1)
+    train_from_file(TASKS.load("depth"), path, tmp_path / "run", CPU)
+    content = torch.load(tmp_path / "run" / "weights.pt", weights_only=True)
+    assert content["arch"] == "E2VIDRecurrent"
+    assert content["config"]["model"] == {
+        "num_bins": 5,
+        "skip_type": "sum",
+        "recurrent_block_type": "convlstm",
+        "num_encoders": 3,
+        "base_num_channels": 2,
+        "num_residual_blocks": 2,
+        "use_upsample_conv": True,
+        "norm": "none",
+    }
+    names = set(content["state_dict"])
+    assert {name.split(".")[0] for name in names} == {"unetrecurrent"}
+    assert "unetrecurrent.encoders.2.recurrent_block.Gates.weight" in names
+    wider = write_training(tmp_path, network="width = 4")
+    assert main(["evaluate", "depth", str(wider), str(tmp_path / "run" / "weights.pt")]) == 2
+    error = capsys.readouterr().err
+    assert "network.width must be that of the file" in error
+    assert len(error.strip().splitlines()) == 1
+
+
+def test_a_checkpoint_as_the_program_of_e2depth_leaves_it_is_scored(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    # Its training stores an object of its own beside the weights.
+    module = ModuleType("logger.logger")
+    module.Logger = type("Logger", (), {"__module__": "logger.logger"})
+    monkeypatch.setitem(sys.modules, "logger", ModuleType("logger"))
+    monkeypatch.setitem(sys.modules, "logger.logger", module)
+    content = {
+        "arch": "E2VIDRecurrent",
+        "epoch": 300,
+        "logger": module.Logger(),
+        "state_dict": make_e2depth(2, seed=1).tensors,
+        "optimizer": {"state": {}},
+        "monitor_best": 0.01,
+        "config": {"model": settings_of(2)},
+    }
+    torch.save(content, tmp_path / "E2DEPTH_si_grad_loss_mixed.pth.tar")
+    monkeypatch.undo()
+    words = [str(write_training(tmp_path)), str(tmp_path / "E2DEPTH_si_grad_loss_mixed.pth.tar")]
+    assert main(["evaluate", "depth", *words, "--device", "cpu"]) == 0
+    assert "abs_rel at events" in capsys.readouterr().out
+
+
+def test_e_raft_is_scored_from_its_published_layout_and_not_trained(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = str(write_training(tmp_path, network='name = "e-raft", bins = 15'))
+    state = {f"module.{name}": one for name, one in make_e_raft(15, seed=1).tensors.items()}
+    state["module.cnet.norm1.num_batches_tracked"] = torch.tensor(7)
+    torch.save({"model": state}, tmp_path / "dsec.tar")
+    assert main(["evaluate", "flow", path, str(tmp_path / "dsec.tar"), "--device", "cpu"]) == 0
+    assert "EPE at events" in capsys.readouterr().out
+    assert main(["train", "flow", path, "-o", str(tmp_path / "run"), "-q"]) == 2
+    assert "e-raft is not trained here" in capsys.readouterr().err
+    assert not (tmp_path / "run").exists()
+
+
+@pytest.mark.parametrize("task", TASK_NAMES)
+def test_videos_have_no_truth(
+    task: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write_training(tmp_path)
+    np.save(tmp_path / "video.npy", np.zeros((4, 24, 32), np.uint8))
+    (tmp_path / "tiny.toml").write_text(
+        'name = "videos"\nsplits = {validation = 1.0}\nfilters = {min_events = 0}\n'
+        '[options]\nfps = 24\n[[sources]]\nvideos = ["video.npy"]\n[variants.paper]\n'
+    )
+    assert main(["train", task, str(path), "-o", str(tmp_path / "run"), "-q"]) == 2
+    error = capsys.readouterr().err
+    assert f"tiny.toml simulates videos, whose {task} is not known; give prompts" in error
+    assert len(error.strip().splitlines()) == 1
+
+
+@pytest.mark.parametrize("split", ["train", "validation"])
+@pytest.mark.parametrize("task", TASK_NAMES)
+def test_an_empty_split_is_refused(
+    task: str, split: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    path = write_training(tmp_path)
+    shares = {"train": 1.0, "validation": 1.0, split: 0.0}
+    table = ", ".join(f"{name} = {share}" for name, share in shares.items())
+    write_specification(tmp_path, TEXT.replace("train = 0.5, validation = 0.5", table))
+    assert main(["train", task, str(path), "-o", str(tmp_path / "run"), "-q"]) == 2
+    error = capsys.readouterr().err
+    assert f"split {split} of {tmp_path / 'tiny.toml'} has no clips; give it a larger" in error
+    assert len(error.strip().splitlines()) == 1
+    assert not (tmp_path / "run").exists()

@@ -1,1 +1,0 @@
-"""Commands that train networks and score them."""

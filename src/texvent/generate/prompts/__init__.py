@@ -1,1 +1,0 @@
-"""Prompts: files of them, captions of images, detailed versions."""

@@ -1,0 +1,150 @@
+"""Flat images under a moved camera: means over pixels at sub-pixel positions, and the scale."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.capture.camera_path.motion import CameraPose2D, Pose
+from texvent.capture.camera_path.planes import Planes
+from texvent.capture.camera_path.view import View, fitted_view
+from texvent.errors import InputError
+from texvent.sensor import SensorSize
+
+IMAGE = np.random.default_rng(0).integers(0, 256, (14, 18)).astype(np.float32)
+
+
+def sample(view, place, image=IMAGE):
+    return Planes(view, image).render(place)[0]
+
+
+def view_of(width=18, height=14, scale=1.0, image=IMAGE, **options):
+    size = SensorSize(image.shape[1], image.shape[0])
+    return View(size, SensorSize(width, height), scale, **options)
+
+
+def mirrored(image, margin=40):
+    return np.pad(image, margin, mode="symmetric"), margin
+
+
+def slow_sample(view, place, fineness=40, image=IMAGE):
+    """Means of many points in each pixel's true area."""
+    padded, margin = mirrored(image, 40)
+    width, height = view.sensor
+    matrix = view.matrix(place)
+    steps = (np.arange(fineness) + 0.5) / fineness
+    out = np.empty((height, width))
+    for y in range(height):
+        for x in range(width):
+            px, py = np.meshgrid(x + steps, y + steps)
+            u, v, w = matrix @ np.stack([px.ravel(), py.ravel(), np.ones(px.size)])
+            columns = np.floor(u / w).astype(int) + margin
+            rows = np.floor(v / w).astype(int) + margin
+            out[y, x] = padded[rows, columns].mean()
+    return out
+
+
+@given(st.integers(-14, 14), st.integers(-14, 14))
+def test_a_shift_by_whole_pixels_gives_the_pixels_exactly(x, y):
+    padded, margin = mirrored(IMAGE)
+    expected = padded[margin + y : margin + y + 14, margin + x : margin + x + 18]
+    np.testing.assert_array_equal(sample(view_of(), CameraPose2D(x, y)), expected)
+
+
+def test_a_half_pixel_is_the_mean_of_two():
+    image = np.array([[10, 30, 50, 90]], np.float32)
+    view = view_of(4, 1, image=image)
+    assert sample(view, CameraPose2D(0.5), image).tolist() == [[20, 40, 70, 90]]
+    assert sample(view, CameraPose2D(-0.25), image).tolist() == [[10, 25, 45, 80]]
+
+
+def test_a_smaller_sensor_averages_over_the_area_of_its_pixels():
+    view = view_of(9, 7, scale=2.0)
+    blocks = IMAGE.reshape(7, 2, 9, 2).mean(axis=(1, 3))
+    np.testing.assert_array_equal(sample(view, CameraPose2D()), blocks)
+
+
+@pytest.mark.parametrize(
+    ("scale", "place"),
+    [
+        (1.0, CameraPose2D(0.37, -2.81)),
+        (1.7, CameraPose2D(1.21, 0.4)),
+        (2.6, CameraPose2D(-0.77, 0.9)),
+        (1.5, CameraPose2D(0.3, 0.2, zoom=1.3)),
+    ],
+)
+def test_fractional_shifts_scales_and_zooms_are_means_over_the_area(scale, place):
+    view = view_of(7, 5, scale=scale)
+    # 40 points along a pixel know an edge to 1/80 of it, of at most 255 levels, at four borders.
+    np.testing.assert_allclose(sample(view, place), slow_sample(view, place), atol=255 * 4 / 80)
+
+
+@given(st.floats(-3, 3), st.floats(-3, 3))
+def test_shifts_keep_flat_images_and_ramps(x, y):
+    rows, columns = np.mgrid[:40, :40].astype(np.float32)
+    ramp = 3 * columns + rows
+    view = view_of(8, 8, image=ramp)
+    expected = 3 * (16 + np.arange(8) + x)[None] + (16 + np.arange(8) + y)[:, None]
+    np.testing.assert_allclose(sample(view, CameraPose2D(x, y), ramp), expected, rtol=1e-6)
+    flat = np.full((40, 40), 77, np.float32)
+    np.testing.assert_allclose(sample(view, CameraPose2D(x, y, 0.3, 1.2), flat), 77, rtol=1e-6)
+
+
+def test_a_quarter_turn_clockwise_turns_the_image_counterclockwise():
+    image = IMAGE[:, :14]
+    view = view_of(14, 14, image=image)
+    turned = sample(view, CameraPose2D(roll=math.pi / 2), image)
+    np.testing.assert_allclose(turned, np.rot90(image), atol=1e-3)
+
+
+def test_small_turns_are_near_the_means_over_the_true_areas():
+    smooth = np.kron(IMAGE[:4, :4], np.ones((8, 8), np.float32))
+    view = view_of(20, 20, image=smooth)
+    place = CameraPose2D(0.3, -0.4, math.radians(3))
+    error = sample(view, place, smooth) - slow_sample(view, place, image=smooth)
+    assert np.sqrt((error**2).mean()) < 1.0
+
+
+def turn(axis, angle):
+    one, other = [(1, 2), (2, 0), (0, 1)][axis]
+    matrix = np.eye(3)
+    cos, sin = math.cos(angle), math.sin(angle)
+    matrix[[one, other, one, other], [one, other, other, one]] = cos, cos, -sin, sin
+    return matrix
+
+
+def test_a_pose_that_turns_to_the_right_sees_what_is_to_the_right():
+    view = view_of(9, 7, focal_px=20.0)
+    pose = Pose(turn(1, math.atan(1 / 20)), np.zeros(3))
+    u, v, w = view.matrix(pose) @ np.array([4.5, 3.5, 1.0])
+    assert (u / w, v / w) == pytest.approx((10.0, 7.0))
+
+
+def test_the_scale_keeps_the_path_inside_an_image_that_is_large_enough():
+    image, sensor = SensorSize(400, 300), SensorSize(40, 30)
+    places = [CameraPose2D(-5.0), CameraPose2D(5.0, 2.0)]
+    view = fitted_view(View(image, sensor), places, (1.0,), is_pixelwise=False)
+    assert view.scale == pytest.approx(400 / 50)
+    assert view.reach(places) == pytest.approx(1.0)
+    still = fitted_view(View(image, sensor), [CameraPose2D()], (1.0,), is_pixelwise=False)
+    assert still.scale == 10.0
+
+
+def test_an_image_is_not_enlarged_for_its_path():
+    image, places = SensorSize(44, 34), [CameraPose2D(-5.0), CameraPose2D(5.0)]
+    view = fitted_view(View(image, SensorSize(40, 30)), places, (1.0,), is_pixelwise=False)
+    assert view.scale == 1.0
+    small = fitted_view(View(image, SensorSize(88, 68)), places, (1.0,), is_pixelwise=False)
+    assert small.scale == 0.5
+
+
+def test_a_path_that_leads_far_away_is_refused():
+    with pytest.raises(
+        InputError, match=r"leads 3\.0 times its size away from the image \(18x14\)"
+    ):
+        fitted_view(view_of(), [CameraPose2D(45.0)], (1.0,), is_pixelwise=True)
+    backward = Pose(turn(1, math.pi), np.zeros(3))
+    with pytest.raises(InputError, match="to its side or behind it"):
+        fitted_view(view_of(focal_px=20.0), [backward], (1.0,), is_pixelwise=True)

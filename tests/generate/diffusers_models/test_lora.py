@@ -1,0 +1,241 @@
+"""LoRA on pipelines of the real classes, against matrices merged by hand."""
+
+import json
+import os
+import shutil
+import sys
+
+import numpy as np
+import pytest
+
+pytestmark = [pytest.mark.torch, pytest.mark.usefixtures("model_cache")]
+os.environ["HF_HUB_OFFLINE"] = "1"
+torch = pytest.importorskip("torch")
+torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
+diffusers = pytest.importorskip("diffusers")
+peft = pytest.importorskip("peft")
+
+from safetensors.torch import load_file, save_file  # noqa: E402
+
+from texvent.errors import (  # noqa: E402
+    ConfigError,
+    FileFormatError,
+    InputError,
+    MissingDependencyError,
+    TexventError,
+)
+from texvent.generate.video_config import DiffusersConfig  # noqa: E402
+from texvent.generate.video_models.lora import Lora, parse_lora  # noqa: E402
+
+from ..tiny_models import PROMPT, build, pixels  # noqa: E402
+
+RANK, ALPHA = 2, 6.0
+ATTENTION = {"q": "to_q", "k": "to_k", "v": "to_v", "o": "to_out.0"}
+"""Wan's own names of the matrices of attention → those of diffusers."""
+MATRICES = {
+    **{f"self_attn.{own}": f"attn1.{name}" for own, name in ATTENTION.items()},
+    **{f"cross_attn.{own}": f"attn2.{name}" for own, name in ATTENTION.items()},
+    "ffn.0": "ffn.net.0.proj",
+    "ffn.2": "ffn.net.2",
+}
+LAYERS = {
+    f"blocks.{b}.{own}": f"blocks.{b}.{name}" for b in (0, 1) for own, name in MATRICES.items()
+}
+NAMINGS = ("diffusers", "diffusers-scaled", "wan", "musubi")
+
+
+class Quiet:
+    """Fails when a model is loaded."""
+
+    def announce(self, line):
+        raise AssertionError(line)
+
+
+def factors(weights, seed=1):
+    """diffusers' name → (A, B) with values large enough to change pixels."""
+    generator = torch.Generator().manual_seed(seed)
+    found = {}
+    for name in LAYERS.values():
+        rows, columns = weights[f"{name}.weight"].shape
+        found[name] = (
+            torch.randn(RANK, columns, generator=generator) * 0.5,
+            torch.randn(rows, RANK, generator=generator) * 0.5,
+        )
+    return found
+
+
+def save_adapter(folder, pairs, naming):
+    """Save the pairs as a program of that kind does; return the path and the scale it means."""
+    folder.mkdir()
+    path, scale = folder / "adapter.safetensors", ALPHA / RANK
+    by_name = {}
+    for own, name in LAYERS.items():
+        first, second = pairs[name]
+        if naming.startswith("diffusers"):
+            keys = f"transformer.{name}.lora_A.weight", f"transformer.{name}.lora_B.weight"
+        elif naming == "wan":
+            keys = (f"diffusion_model.{own}.lora_{one}.weight" for one in ("down", "up"))
+            by_name[f"diffusion_model.{own}.alpha"] = torch.tensor(ALPHA)
+        else:
+            flat = own.replace(".", "_")
+            keys = (f"lora_unet_{flat}.lora_{one}.weight" for one in ("down", "up"))
+            by_name[f"lora_unet_{flat}.alpha"] = torch.tensor(ALPHA)
+        by_name.update(zip(keys, (first, second), strict=True))
+    metadata = {"format": "pt"}
+    if naming == "diffusers":
+        scale = 1.0  # without a note of alpha
+    if naming == "diffusers-scaled":
+        facts = {"r": RANK, "lora_alpha": ALPHA, "target_modules": sorted(LAYERS.values())}
+        config = {f"transformer.{name}": value for name, value in facts.items()}
+        metadata["lora_adapter_metadata"] = json.dumps(config)
+    save_file({name: tensor.contiguous() for name, tensor in by_name.items()}, path, metadata)
+    return path, scale
+
+
+def merge(model, folder, pairs, weight, part="transformer"):
+    """A copy of a saved pipeline whose matrices are W + weight · B·A."""
+    shutil.copytree(model, folder)
+    file = next((folder / part).glob("*.safetensors"))
+    weights = load_file(file)
+    for name, (first, second) in pairs.items():
+        weights[f"{name}.weight"] += weight * second @ first
+    save_file(weights, file, {"format": "pt"})
+    return folder
+
+
+def weights_of(model, part="transformer"):
+    return load_file(next((model / part).glob("*.safetensors")))
+
+
+def video(model, **options):
+    return pixels(build(model, **options).generate(PROMPT)).astype(int)
+
+
+@pytest.mark.parametrize("naming", NAMINGS)
+def test_a_lora_is_the_product_of_its_matrices_added(naming, models, tmp_path):
+    pairs = factors(weights_of(models("wan")))
+    path, scale = save_adapter(tmp_path / naming, pairs, naming)
+    merged = merge(models("wan"), tmp_path / "merged", pairs, 0.5 * scale)
+    expected = video(merged)
+    assert np.abs(expected - video(models("wan"))).max() > 1000
+    assert np.abs(video(models("wan"), lora=(f"{path}:0.5",)) - expected).max() <= 20
+
+
+def test_weight_0_is_without_and_weight_1_is_not(models, tmp_path):
+    pairs = factors(weights_of(models("wan")))
+    path, _ = save_adapter(tmp_path / "one", pairs, "diffusers")
+    usual = video(models("wan"))
+    assert np.array_equal(video(models("wan"), lora=(f"{path}:0",)), usual)
+    assert not np.array_equal(video(models("wan"), lora=(str(path),)), usual)
+
+
+def test_several_add_up(models, tmp_path):
+    weights = weights_of(models("wan"))
+    both = [factors(weights, seed) for seed in (1, 2)]
+    paths = [save_adapter(tmp_path / f"{n}", one, "diffusers")[0] for n, one in enumerate(both)]
+    merged = merge(models("wan"), tmp_path / "first", both[0], 1.0)
+    merged = merge(merged, tmp_path / "both", both[1], -0.5)
+    made = video(models("wan"), lora=(str(paths[0]), f"{paths[1]}:-0.5"))
+    assert np.abs(made - video(merged)).max() <= 20
+
+
+def test_two_transformers_take_one_each(models, tmp_path):
+    names = {"high": "transformer", "low": "transformer_2"}
+    merged, given = models("wan22"), []
+    for seed, (noise, part) in enumerate(names.items()):
+        pairs = factors(weights_of(models("wan22"), part), seed)
+        path, _ = save_adapter(tmp_path / noise, pairs, "wan")
+        given.append(path)
+        merged = merge(merged, tmp_path / f"merged-{noise}", pairs, ALPHA / RANK, part)
+    both = (f"{given[0]}:high", f"{given[1]}:1:low")
+    made = video(models("wan22"), lora=both, steps=4)
+    assert np.abs(made - video(merged, steps=4)).max() <= 40
+    turned = (f"{given[0]}:low", f"{given[1]}:high")
+    assert not np.array_equal(video(models("wan22"), lora=turned, steps=4), made)
+
+
+def test_which_transformer_must_be_said_where_there_are_two_and_only_there(models, tmp_path):
+    path, _ = save_adapter(tmp_path / "a", factors(weights_of(models("wan"))), "diffusers")
+    with pytest.raises(ConfigError, match=r"two video transformers, .* add :high or :low"):
+        build(models("wan22"), lora=(str(path),)).generate(PROMPT, progress=Quiet())
+    with pytest.raises(ConfigError, match="one video transformer; leave :low out"):
+        build(models("wan"), lora=(f"{path}:low",)).plan(PROMPT)
+
+
+def test_the_file_is_part_of_the_key_of_a_video_and_of_its_facts(models, tmp_path):
+    path, _ = save_adapter(tmp_path / "a", factors(weights_of(models("wan"))), "diffusers")
+    made = build(models("wan"), lora=(f"{path}:0.5",)).generate(PROMPT)
+    assert made.metadata["options"]["lora"] == [f"{path}:0.5"]
+    assert [one["file"] for one in made.metadata["files"]] == [str(path)]
+    assert build(models("wan"), lora=(f"{path}:0.5",)).plan(PROMPT) is None
+    assert build(models("wan"), lora=(f"{path}:0.6",)).plan(PROMPT) is not None
+    assert build(models("wan")).plan(PROMPT) is not None
+    moved = shutil.copy(path, tmp_path / "moved.safetensors")
+    found = build(models("wan"), lora=(f"{moved}:0.5",)).generate(PROMPT)
+    assert found.path == made.path
+    assert found.metadata["files"][0]["file"] == str(moved)
+    save_adapter(tmp_path / "b", factors(weights_of(models("wan")), seed=9), "diffusers")
+    shutil.copy(tmp_path / "b" / path.name, path)
+    assert build(models("wan"), lora=(f"{path}:0.5",)).plan(PROMPT) is not None
+
+
+def test_a_file_that_fits_nothing_is_an_error(models, tmp_path):
+    pairs = factors(weights_of(models("wan")))
+    path, _ = save_adapter(tmp_path / "a", pairs, "diffusers")
+    tensors = load_file(path)
+    save_file({f"transformer.other.{n}.lora_A.weight": torch.zeros(2, 2) for n in "ab"}, path)
+    with pytest.raises(FileFormatError, match=r"adapter\.safetensors (holds no|cannot be loaded)"):
+        build(models("wan"), lora=(str(path),)).generate(PROMPT)
+    bent = {
+        name: one[:, :-1].clone() if "to_q.lora_A" in name else one for name, one in tensors.items()
+    }
+    save_file(bent, path)
+    with pytest.raises(FileFormatError, match=r"adapter\.safetensors cannot be loaded as a LoRA"):
+        build(models("wan"), lora=(str(path),)).generate(PROMPT)
+
+
+def test_missing_and_damaged_files_are_refused_before_the_model_is_loaded(models, tmp_path):
+    path = tmp_path / "bad.safetensors"
+    with pytest.raises(InputError, match="there is no LoRA"):
+        build(models("wan"), lora=(str(path),)).generate(PROMPT, progress=Quiet())
+    path.write_bytes(b"version https://git-lfs.github.com/spec/v1\noid sha256:0\n")
+    with pytest.raises(FileFormatError, match="is a git-lfs pointer"):
+        build(models("wan"), lora=(str(path),)).generate(PROMPT, progress=Quiet())
+
+
+def test_a_repository_that_is_not_here_is_named_offline(models):
+    with pytest.raises(TexventError, match="hub:org/name cannot be loaded as a LoRA"):
+        build(models("wan"), lora=("hub:org/name",)).generate(PROMPT)
+
+
+def test_pipelines_without_lora_and_a_missing_package_say_so(models, tmp_path, monkeypatch):
+    path, _ = save_adapter(tmp_path / "a", factors(weights_of(models("wan"))), "diffusers")
+    with pytest.raises(ConfigError, match="CosmosTextToWorldPipeline takes none"):
+        build(models("cosmos"), lora=(str(path),)).generate(PROMPT, progress=Quiet())
+    monkeypatch.setitem(sys.modules, "peft", None)
+    with pytest.raises(MissingDependencyError, match=r"texvent\[generate\]"):
+        build(models("wan"), lora=(str(path),)).generate(PROMPT, progress=Quiet())
+
+
+@pytest.mark.parametrize(
+    ("text", "source", "weight", "noise"),
+    [
+        ("fast.safetensors", "fast.safetensors", 1.0, None),
+        ("./a b/fast.safetensors:0.8", "./a b/fast.safetensors", 0.8, None),
+        ("fast.safetensors:-1e-1", "fast.safetensors", -0.1, None),
+        ("fast.safetensors:0:low", "fast.safetensors", 0.0, "low"),
+        ("fast.safetensors:HIGH:0.5", "fast.safetensors", 0.5, "high"),
+        ("hub:org/name@v1.0/a/b.safetensors:2", "hub:org/name@v1.0/a/b.safetensors", 2.0, None),
+        ("C:model.safetensors", "C:model.safetensors", 1.0, None),
+    ],
+)
+def test_source_weight_and_transformer_are_told_apart(text, source, weight, noise):
+    assert parse_lora(text) == Lora(source, weight, noise)
+
+
+@pytest.mark.parametrize(
+    "text", ["", ":0.5", "a.safetensors:nan", "a.safetensors:1.2.3", "hub:name", "hub:a/b/c.bin"]
+)
+def test_other_forms_are_refused_as_an_option(text):
+    with pytest.raises(ConfigError, match=r"lora is .*write FILE"):
+        DiffusersConfig(lora=(text,))
