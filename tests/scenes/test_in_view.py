@@ -17,7 +17,6 @@ CAR = SceneObject("car")
 
 
 def unseen_from(*objects, relations=(), position=None, target=(0.0, 0.0, 1.0)):
-    """What is unseen from the framing's place, or from another one."""
     scene = stage(*objects, relations=relations, place="plain")
     if position is not None:
         scene = replace(scene, camera_path=CameraPath(pose(position, target), (), DURATION_S))
@@ -46,13 +45,13 @@ def test_pixels_of_small_things_are_counted_one_by_one():
         assert count == pytest.approx(int(np.sum(truth == instance)), rel=0.5, abs=20)
 
 
-CUBE, BALL = SceneObject("cube"), SceneObject("sphere", scale=0.5)
+BALL = SceneObject("sphere", scale=0.5)
 HELD = {
     "on": (SceneObject("cup"), SceneObject("table")),
     "under": (SceneObject("cat"), SceneObject("table")),
     "above": (SceneObject("drone"), SceneObject("house")),
-    "left of": (BALL, CUBE),
-    "right of": (BALL, CUBE),
+    "left of": (BALL, SceneObject("cube")),
+    "right of": (BALL, SceneObject("cube")),
     "behind": (SceneObject("man"), CAR),
     "front": (SceneObject("dog"), SceneObject("house")),
     "between": (BALL, SceneObject("cube", 2)),

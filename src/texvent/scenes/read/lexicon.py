@@ -152,6 +152,7 @@ def _list_activities() -> Iterator[tuple[str, VerbSense]]:
     for who, table in _PERFORMERS:
         for name, activity in table.items():
             yield from ((phrase, VerbSense(who, name)) for phrase in activity.words)
+            yield from ((phrase, VerbSense(who, name, is_near=True)) for phrase in activity.near)
             for phrase in activity.named:  # "a hand shows a thumbs up"
                 yield from ((f"{verb} {phrase}", VerbSense(who, name)) for verb in _SHOWING)
     for name, verbs in ANIMAL_ACTS.items():

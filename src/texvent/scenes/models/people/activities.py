@@ -19,6 +19,8 @@ class Activity:
 
     words: tuple[str, ...] = ()
     """Verb phrases in their base form."""
+    near: tuple[str, ...] = ()
+    """Phrases of what it shows only nearly, which is reported: "play football" of a kick."""
     named: tuple[str, ...] = ()
     """Phrases that name it and do not begin with a verb: "peace sign"."""
     travels: bool = False
