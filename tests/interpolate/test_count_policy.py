@@ -10,7 +10,7 @@ from texvent.config import InterpolateConfig
 from texvent.interpolate.blend import BlendInterpolator
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.densify import densify
-from texvent.interpolate.dis_flow.pair_flow import PairFlow
+from texvent.interpolate.flow import PairFlow
 from texvent.simulate.build import gains_from_frames
 from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent.video import Frame, Motion, Video

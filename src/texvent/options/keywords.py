@@ -45,19 +45,12 @@ class InterpolateOptions(TypedDict, total=False):
     count: Literal["brightness", "fixed"] | None
     fixed_count: int | None
     max_intermediate: int | None
-    count_percentile: float | None
-    count_threshold: float | None
-    count_balance: float | None
     frames_per_pixel: float | None
     max_frames_per_second: float | None
     deflicker: bool | None
     detect_cuts: bool | None
     interpolator_weights: str | Path | None
     interpolator_device: Literal["auto", "cpu", "cuda"] | None
-    interpolator_precision: Literal["float32", "float16", "bfloat16"] | None
-    interpolator_compile: bool | None
-    interpolator_tile: int | None
-    rife_flow: Literal["shared", "each"] | None
 
 
 class SimulatorOptions(TypedDict, total=False):

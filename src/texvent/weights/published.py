@@ -29,7 +29,7 @@ class PublishedWeights:
     file_name: str
     """Name of the converted file in the weights folder."""
     layout: str
-    """Layout that the file must have; see `interpolate.rife.layouts`, `metrics.lpips.layout`."""
+    """Layout that the file must have; see `interpolate.rife.network`, `metrics.lpips.layout`."""
 
     @property
     def name(self) -> str:

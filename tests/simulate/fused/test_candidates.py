@@ -7,12 +7,12 @@ import math
 
 import numpy as np
 import pytest
+from tests.pairs.reference import sample_along, warp_between
+from tests.simulate.references import candidates as candidates_reference
 
-from texvent.pairs.sampling_reference import sample_along
 from texvent.pairs.warp_cpu import prepare_pair
-from texvent.pairs.warp_reference import warp_between
 from texvent.runtime.read_only import read_only
-from texvent.simulate.fused import candidates_cpu, candidates_reference
+from texvent.simulate.fused import candidates_cpu
 from texvent.simulate.fused.bounds_cpu import find_bounds, list_active
 from texvent.simulate.fused.definitions import (
     FOLLOWS,

@@ -181,9 +181,9 @@ def interpolators(rife: Sequence[Path]) -> dict[str, Interpolator | None]:
     }
     for path in rife:
         name = read_rife_weights(path).layout.name
-        for flow in ("each", "shared"):
-            config = InterpolateConfig(interpolator_weights=path, rife_flow=flow)
-            found[f"RIFE {name}, {flow}"] = RifeInterpolator(config, stream)
+        found[f"RIFE {name}"] = RifeInterpolator(
+            InterpolateConfig(interpolator_weights=path), stream
+        )
     for interpolator in found.values():
         flat = np.zeros((64, 64), np.uint8)
         between(interpolator, flat, flat, 2)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
+from tests.pairs.reference import warp_between
 
-from texvent.pairs.warp_reference import warp_between
 from texvent.simulate.crossing.trigger_levels import MARGIN
 from texvent.simulate.fused.definitions import (
     FOLLOWS,

@@ -1,29 +1,11 @@
-"""Dense inverse search compiled by Numba: `flow_reference`, bit for bit."""
+"""Levels of an image pyramid, and flow carried from a level to the next finer one; compiled."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from texvent.interpolate.dis_flow.confirmation_cpu import unconfirmed
 from texvent.interpolate.dis_flow.definitions import MARGIN, Floats
-from texvent.interpolate.dis_flow.refine_cpu import change_along, refine
-from texvent.interpolate.dis_flow.repeats_cpu import take_nearest
-from texvent.interpolate.dis_flow.search_cpu import join, search
-from texvent.interpolate.dis_flow.shifts_cpu import try_vectors
 from texvent.runtime.jit import jit
-
-__all__ = [
-    "change_along",
-    "double",
-    "halve",
-    "join",
-    "make_level",
-    "refine",
-    "search",
-    "take_nearest",
-    "try_vectors",
-    "unconfirmed",
-]
 
 # As float32: Numba computes with float64 where a constant is one.
 _2 = np.float32(2.0)

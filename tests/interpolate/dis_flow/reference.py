@@ -1,53 +1,36 @@
-"""Dense inverse search as it is defined (NumPy, float32)."""
+"""Dense inverse search as it is defined (NumPy, float32), function by function of the kernels."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from texvent.interpolate.dis_flow.definitions import (
-    AGAINST,
-    ALIKE,
-    BETWEEN,
     CHANGED,
+    DATA,
+    LEAST2,
     LEAST_DETERMINANT,
     LEAST_DIFFERENCE,
-    LEAST_FLOW2,
-    LEAST_SPREAD,
+    LEAST_SLOPE2,
     MARGIN,
     MOST_DRIFT,
     MOST_STEPS,
     NOISE_COST,
     PATCH,
-    REPEATED,
+    RELAXATION,
     SAME_FLOW,
-    SAME_FLOW2,
     SAME_PX2,
     SAME_RELATIVE,
     SEARCH_COST,
     SEARCH_RADIUS,
-    SHORTER2,
     SMALL_STEP2,
-    SPARSE,
+    SMOOTHNESS,
     STEP,
+    SWEEPS,
     UNEXPLAINED,
     Floats,
     Mask,
     size_of,
 )
-from texvent.interpolate.dis_flow.refine_reference import change_along, refine
-
-__all__ = [
-    "change_along",
-    "double",
-    "halve",
-    "join",
-    "make_level",
-    "refine",
-    "search",
-    "take_nearest",
-    "try_vectors",
-    "unconfirmed",
-]
 
 AREA = np.float32(PATCH * PATCH)
 
@@ -235,98 +218,6 @@ def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -
     return found
 
 
-def take_nearest(start: Floats, stop: Floats, patches: Floats) -> Floats:
-    """The patches; where texture repeats, each with the shortest flow that fits alike."""
-    found, is_reached = patches.copy(), np.zeros(patches.shape[:2], np.bool_)
-    half = SPARSE // 2
-    for i, j in np.ndindex(found[half::SPARSE, half::SPARSE].shape[:2]):
-        patch = half + SPARSE * i, half + SPARSE * j
-        here, own = (patch[0] * STEP, patch[1] * STEP), patches[patch]
-        spread = _spread(start, here)
-        if is_reached[patch] or own[0] * own[0] + own[1] * own[1] < np.float32(LEAST_FLOW2):
-            continue
-        if spread < np.float32(LEAST_SPREAD) or own[2] > np.float32(REPEATED) * spread:
-            continue
-        short = _descended(start, stop, patches, patch, _search_integer(start, stop, here))
-        if _fits_alike(start, stop, here, own, short):
-            found[patch], is_reached[patch] = short, True
-            _spread_out(start, stop, patches, found, is_reached, patch)
-    return found
-
-
-def _spread_out(
-    start: Floats,
-    stop: Floats,
-    patches: Floats,
-    found: Floats,
-    is_reached: Mask,
-    first: tuple[int, int],
-) -> None:
-    """Give the flow of a patch to those around it that it fits too, unless others deny it."""
-    reached, against, support = [first], 0, 0
-    for one in reached:
-        flow = found[one][:2].copy()
-        rows, columns = (slice(max(0, at - 1), at + 2) for at in one)
-        for i, j in np.ndindex(found[rows, columns].shape[:2]):
-            patch = rows.start + i, columns.start + j
-            here, own = (patch[0] * STEP, patch[1] * STEP), patches[patch]
-            if is_reached[patch]:
-                continue
-            is_found = own[2] <= np.float32(REPEATED) * _spread(start, here)
-            if is_found and _distance2(own, flow) < np.float32(SAME_FLOW2):
-                support += 1
-            else:
-                short = _descended(start, stop, patches, patch, flow)
-                if not _fits_alike(start, stop, here, own, short):
-                    is_seen = _is_inside(start, here, own) and _is_inside(start, here, short)
-                    says_other = is_found and bool(_distance2(own, patches[one]) < 1)
-                    against += is_seen and says_other
-                    continue
-                found[patch] = short
-            is_reached[patch] = True
-            reached.append(patch)
-    if against > support + AGAINST * len(reached):
-        for one in reached:
-            found[one] = patches[one]
-
-
-def _descended(
-    start: Floats, stop: Floats, patches: Floats, patch: tuple[int, int], begin: Floats
-) -> Floats:
-    """Flow and cost of a patch after Gauss-Newton steps from a beginning."""
-    tried, here = patches.copy(), (patch[0] * STEP, patch[1] * STEP)
-    tried[patch] = *begin, _cost(_compare(start, stop, here, begin)[0])
-    _gauss_newton(start, stop, tried, patch, begin)
-    return np.asarray(tried[patch])
-
-
-def _fits_alike(
-    start: Floats, stop: Floats, here: tuple[int, int], own: Floats, short: Floats
-) -> bool:
-    """Whether a patch fits a shorter flow as well as its own, but nothing between both."""
-    spread, way = _spread(start, here), own[:2] - short[:2]
-    if spread < np.float32(LEAST_SPREAD) or short[2] > np.float32(REPEATED) * spread:
-        return False
-    length2 = short[0] * short[0] + short[1] * short[1]
-    if length2 >= np.float32(SHORTER2) * (own[0] * own[0] + own[1] * own[1]):
-        return False
-    places = (short[:2] + np.float32(share) * way for share in (0.5, 0.25))
-    between = max(_cost(_compare(start, stop, here, place)[0]) for place in places)
-    most = own[2] + np.float32(NOISE_COST) + np.float32(ALIKE) * between
-    return bool(between > np.float32(BETWEEN) * spread and short[2] < most)
-
-
-def _is_inside(level: Floats, here: tuple[int, int], flow: Floats) -> bool:
-    """Whether the place of a patch lies within the image."""
-    (height, width), x, y = size_of(level), here[1] + flow[0], here[0] + flow[1]
-    return bool(0 <= x <= width - PATCH and 0 <= y <= height - PATCH)
-
-
-def _distance2(one: Floats, other: Floats) -> np.float32:
-    x, y = one[:2] - other[:2]
-    return np.float32(x * x + y * y)
-
-
 def _spread(level: Floats, here: tuple[int, int]) -> np.float32:
     """Mean-free squares of a patch, summed."""
     patch = _patch(level[0], here)
@@ -365,3 +256,76 @@ def unconfirmed(start: Floats, stop: Floats, flow: Floats, back: Floats) -> Mask
     is_changed = np.abs(change_along(start, stop, flow)) > np.float32(CHANGED)
     found: Mask = ~is_inside | contradicts | is_changed
     return found
+
+
+def refine(start: Floats, stop: Floats, flow: Floats) -> Floats:
+    """The flow after a few sweeps towards constant brightness and smoothness.
+
+    In each pixel flow w minimises Σ ψ_d (g·(w − w₀) + c)² + Σ ψ_s |w − w_n|² over its neighbours n,
+    where w₀ is the flow before, g the slope of brightness and c its change along w₀. The weights ψ
+    fall with the error of w₀.
+    """
+    _, height, width = flow.shape
+    (xx, xy, yy), sides = _data_term(start, stop, flow)
+    right, below = _smoothness_weights(flow)
+    left, above = np.zeros_like(right), np.zeros_like(below)
+    left[:, 1:], above[1:] = right[:, :-1], below[:-1]
+    coupling = (left + right) + (above + below)
+    a, b, c = xx + coupling, xy, yy + coupling
+    determinant = a * c - b * b
+    a, b, c = c / determinant, -b / determinant, a / determinant
+    y, x = np.mgrid[:height, :width]
+    now = np.pad(flow, ((0, 0), (1, 1), (1, 1)))
+    for turn in range(2 * SWEEPS):
+        aside = left * now[:, 1:-1, :-2] + right * now[:, 1:-1, 2:]
+        p, q = sides + (aside + (above * now[:, :-2, 1:-1] + below * now[:, 2:, 1:-1]))
+        wanted = np.stack([a * p + b * q, b * p + c * q])
+        change = np.float32(RELAXATION) * (wanted - now[:, 1:-1, 1:-1])
+        now[:, 1:-1, 1:-1] += np.where((x + y) % 2 == turn % 2, change, np.float32(0))
+    return now[:, 1:-1, 1:-1]
+
+
+def _data_term(start: Floats, stop: Floats, flow: Floats) -> tuple[Floats, Floats]:
+    """Matrix (xx, xy, yy) and right side (x, y) of each pixel, [3, H, W] and [2, H, W]."""
+    here, there = start[0, MARGIN:-MARGIN, MARGIN:-MARGIN], _sample_along(stop, flow)
+    middle, change = np.float32(0.5) * (here + there), there - here
+    padded = np.pad(middle, 1, mode="edge")
+    slope_x = np.float32(0.5) * (padded[1:-1, 2:] - padded[1:-1, :-2])
+    slope_y = np.float32(0.5) * (padded[2:, 1:-1] - padded[:-2, 1:-1])
+    length2 = slope_x * slope_x + slope_y * slope_y + np.float32(LEAST_SLOPE2)
+    error = np.sqrt(change * change / length2 + np.float32(LEAST2))
+    weight = np.float32(DATA) / (error * length2)
+    wanted = weight * (slope_x * flow[0] + slope_y * flow[1] - change)
+    matrix = weight * slope_x * slope_x, weight * slope_x * slope_y, weight * slope_y * slope_y
+    return np.stack(matrix), np.stack([slope_x * wanted, slope_y * wanted])
+
+
+def change_along(start: Floats, stop: Floats, flow: Floats) -> Floats:
+    """What brightness changes by along a flow, [H, W], levels."""
+    return _sample_along(stop, flow) - start[0, MARGIN:-MARGIN, MARGIN:-MARGIN]
+
+
+def _sample_along(stop: Floats, flow: Floats) -> Floats:
+    """A level at the places of the moved pixels, [H, W], bilinear."""
+    height, width = size_of(stop)
+    row, column = np.mgrid[:height, :width].astype(np.float32)
+    x = np.clip(column + flow[0], np.float32(-PATCH), np.float32(width))
+    y = np.clip(row + flow[1], np.float32(-PATCH), np.float32(height))
+    left, top = np.floor(x), np.floor(y)
+    u, v = x - left, y - top
+    i, j = top.astype(np.intp) + MARGIN, left.astype(np.intp) + MARGIN
+    upper = stop[0, i, j] + (stop[0, i, j + 1] - stop[0, i, j]) * u
+    lower = stop[0, i + 1, j] + (stop[0, i + 1, j + 1] - stop[0, i + 1, j]) * u
+    seen: Floats = upper + (lower - upper) * v
+    return seen
+
+
+def _smoothness_weights(flow: Floats) -> tuple[Floats, Floats]:
+    """Smoothness weights of each pixel and its right and lower neighbours, [H, W] each."""
+    beside = np.diff(flow, axis=2, append=flow[:, :, -1:])
+    down = np.diff(flow, axis=1, append=flow[:, -1:])
+    slope2 = beside[0] * beside[0] + down[0] * down[0] + beside[1] * beside[1] + down[1] * down[1]
+    coupling = np.float32(SMOOTHNESS) / np.sqrt(slope2 + np.float32(LEAST2))
+    right, below = coupling.copy(), coupling.copy()
+    right[:, -1] = below[-1] = 0.0
+    return right, below
