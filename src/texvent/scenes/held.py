@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.description import SceneDescription
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Camera, Float64Array, Primitives, Shape
 from texvent.scenes.wording import RELATIONS
 
@@ -97,8 +98,9 @@ def find_unheld(
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
-        rule = _RULES.get(one.kind)
-        if rule is None or one.subject in one.targets:
+        rule, target = _RULES.get(one.kind), description.objects[one.targets[0]].noun
+        is_seat = one.kind == "on" and target in nouns_with("sat on")  # within its frame
+        if rule is None or one.subject in one.targets or is_seat:
             continue
         if not own or not others:
             yield Unheld("relation", one.kind, "")
@@ -161,7 +163,7 @@ def _columns(one: Body, other: Body) -> _Flags:
 
 def _is_on(one: Body, other: Body) -> _Flags:
     """Whether it is over its upper half and not above it, or right on a part of it."""
-    room = 0.1 * one.size[:, 2] + 0.05
+    room = 0.5 * one.size[:, 2] + 0.05 + np.ptp(one.middle[:, 2])  # it may bounce
     is_over = (_clears(one, other, 0.5) <= room) & (one.middle[:, 2] >= other.middle[:, 2])
     foot = (one.middle - 0.5 * one.size)[:, 2:]
     is_top = np.asarray(np.abs(other.parts[:, 1, 2] - foot) <= room[:, None])
