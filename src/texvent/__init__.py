@@ -44,7 +44,7 @@ if TYPE_CHECKING:
     )
     from texvent.run.truth import TruthFolder
     from texvent.sensor import SENSORS, Sensor, SensorSize
-    from texvent.simulate.check_simulator import check_simulator
+    from texvent.simulate.build import check_simulator
     from texvent.transform.augmentation.augment import Augment
     from texvent.truth.loading import load_truth
     from texvent.truth.saving import save_truth
@@ -74,7 +74,7 @@ _HOMES = {
         "simulators",
     ),
     "run.truth": ("TruthFolder",),
-    "simulate.check_simulator": ("check_simulator",),
+    "simulate.build": ("check_simulator",),
     "transform.augmentation.augment": ("Augment",),
     "truth.loading": ("load_truth",),
     "truth.saving": ("save_truth",),

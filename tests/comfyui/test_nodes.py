@@ -223,12 +223,7 @@ def test_options_that_do_not_fit_together_stop_the_model_s_own_node(simulator, i
         comfy.run(graph, ALL)
 
 
-def test_several_values_of_an_option_are_words_of_one_text():
-    cls = CLASSES["TexventModelPhysical"]
-    assert "readout_filters" not in cls.options()
-    chosen = cls.options(readout_filters="anti-flicker event-trail:threshold_us=500")
-    assert chosen["readout_filters"] == ("anti-flicker", "event-trail:threshold_us=500")
-    assert cls.options(readout_filters="", preset="evk4")["preset"] == "evk4"
+
 
 
 def test_an_option_that_was_changed_overrides_the_preset():
