@@ -26,7 +26,7 @@ from texvent.scenes.spec.scene import Scene
 from texvent.sensor import SizeLike
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.signal_tally import SignalTally
-from texvent.truth.parts import check_generator
+from texvent.truth.layout import check_generator
 from texvent.video import FrameStream
 
 if TYPE_CHECKING:

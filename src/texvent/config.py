@@ -103,10 +103,9 @@ class RunConfig:
     seed: int = 0
     """Seed of everything random. The same seed and options give the same events, on any machine
     and with any number of threads."""
-    backend: Literal["auto", "cpu", "reference", "gpu"] = "auto"
-    """Which kernels simulate: compiled ones on the CPU (cpu), readable ones (reference), or those
-    on a GPU (gpu: for texvent and esim, with texvent[gpu]); auto is cpu where it can be. The events
-    are the same."""
+    backend: Literal["cpu", "gpu"] = "cpu"
+    """Where the pixels are simulated: on the CPU, or on a GPU (for texvent and esim, with
+    texvent[gpu]). The events are the same."""
     keep_events: Literal["all", "signal", "noise"] = "all"
     """Which events to keep: all, only those that a brightness change fired, or only noise."""
     label_noise: bool = False

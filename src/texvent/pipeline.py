@@ -27,9 +27,9 @@ from texvent.pairs.frame_pair import FramePair, OnSceneChange, notify_scene_chan
 from texvent.runtime.progress import Progress
 from texvent.settings.provenance import describe_run
 from texvent.settings.resolution import Settings
-from texvent.simulate.build import build_simulator, gains_from_frames
+from texvent.simulate.build import benefits_from_denser_frames, build_simulator
+from texvent.simulate.model_options import draw_training_config
 from texvent.simulate.protocol import Simulator
-from texvent.simulate.randomized_options import draw_training_config
 from texvent.simulate.signal_tally import SignalTally
 from texvent.video import Frame, FrameStream
 
@@ -130,7 +130,7 @@ class Simulation:
             threads,
             balance=simulator.balance,
             contrast_threshold=simulator.contrast_threshold,
-            counts_motion=gains_from_frames(simulator),
+            counts_motion=benefits_from_denser_frames(simulator),
         )
         return simulator, pairs
 

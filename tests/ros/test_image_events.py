@@ -13,7 +13,7 @@ from texvent_ros.node import fill_packet
 import texvent
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.io.prophesee.evt3 import Evt3Codec
+from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.ros.messages import open_event_packet, pack_event_packet
 from texvent.sensor import SensorSize
 

@@ -15,9 +15,8 @@ import pytest
 from texvent.cli.app import main
 from texvent.data.catalogue import Archive, DataFile
 from texvent.errors import ConfigError, FileFormatError
-from texvent.metrics.lpips import layout as lpips_layout
-from texvent.metrics.lpips.distance import lpips_distance
-from texvent.metrics.lpips.weights import read_lpips_weights
+from texvent.metrics import lpips
+from texvent.metrics.lpips import Lpips, lpips_distance, read_lpips_weights
 from texvent.runtime.cache_folder import cache_folder
 from texvent.weights import fetch
 from texvent.weights.fetch import pull_weights
@@ -173,8 +172,7 @@ def test_weights_without_torch_are_fetched_by_the_base_install(folders, monkeypa
 def published_alex():
     """AlexNet's file with every number a quarter."""
     arrays = {
-        name: np.full(shape, 0.25, np.float32)
-        for name, shape in lpips_layout.ALEX.array_shapes().items()
+        name: np.full(shape, 0.25, np.float32) for name, shape in lpips.ALEX.array_shapes().items()
     }
     convolutions = {
         f"Conv_{n}": {"kernel": arrays[f"kernel{n}"], "bias": arrays[f"bias{n}"]} for n in range(5)
@@ -238,8 +236,8 @@ def test_every_entry_is_complete(name):
     entry = WEIGHTS[name]
     assert entry.name == name
     assert len(entry.source.archive.sha256) == len(entry.source.files[0].sha256) == 64
-    lpips = [layout.name for layout in lpips_layout.LAYOUTS]
-    assert entry.layout in {"rife": RIFE_LAYOUTS, "lpips": lpips}[entry.kind]
+    lpips_layouts = [layout.name for layout in lpips.LAYOUTS]
+    assert entry.layout in {"rife": RIFE_LAYOUTS, "lpips": lpips_layouts}[entry.kind]
     assert entry.source.caveat
 
 
@@ -264,11 +262,12 @@ def test_the_published_weights_can_be_fetched(folders, monkeypatch):
 
 
 @pytest.mark.network
+@pytest.mark.torch
 def test_the_published_lpips_weights_can_be_fetched(folders, monkeypatch):
     monkeypatch.undo()
     monkeypatch.setenv("TEXVENT_CACHE", str(folders / "cache"))
     monkeypatch.setenv("TEXVENT_DATA", str(folders / "data"))
-    weights = read_lpips_weights(pull_weights("lpips"))
+    weights = Lpips(read_lpips_weights(pull_weights("lpips")))
     y, x = np.mgrid[:90, :120]
     waves = np.stack([(1 + np.sin(x / (7 + c) + y / 11)) / 2 for c in range(3)], axis=-1)
     bars = np.stack([(x // (9 + c) + y // 13) % 2 * 0.8 for c in range(3)], axis=-1)

@@ -10,7 +10,7 @@ from typing import Any
 from texvent._registry import SIMULATORS
 from texvent.cli.options import parse_given, take_options, with_given
 from texvent.cli.outputs import OutputOptions
-from texvent.io.protected_inputs import protect_inputs
+from texvent.io.atomic import protect_inputs
 from texvent.options.fields import option_names
 from texvent.settings.config_files import Command
 from texvent.settings.presets import preset_help

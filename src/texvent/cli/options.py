@@ -14,7 +14,7 @@ from texvent.cli.help import ALL, asked_help, first_sentence, render_help
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED, SCALARS, without_none
 from texvent.errors import ConfigError, shown
-from texvent.io.protected_inputs import protect_inputs
+from texvent.io.atomic import protect_inputs
 from texvent.options.fields import option_help, option_names
 
 LONGEST_HELP = 120

@@ -11,7 +11,7 @@ from pathlib import Path
 SHARE = 0.8
 """Of the machine's memory, or of its control group's, that a run uses at most by default."""
 UNKNOWN_BYTES = 8 * 2**30
-"""Taken for the machine's memory where the system does not tell it, as on Windows."""
+"""Taken for the machine's memory where the system does not report it, as on Windows."""
 _CONTROL_GROUPS = (
     Path("/sys/fs/cgroup/memory.max"),
     Path("/sys/fs/cgroup/memory/memory.limit_in_bytes"),
@@ -29,7 +29,7 @@ def usable_bytes() -> int:
 
 
 def machine_bytes() -> int | None:
-    """How much memory the machine has, bytes; None where the system does not tell it."""
+    """Memory of the machine, bytes; None where the system does not report it."""
     try:
         return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (AttributeError, ValueError):  # Windows has no sysconf
@@ -48,7 +48,7 @@ def peak_bytes() -> int | None:
 
 
 def _process_limits() -> list[int]:
-    """What the process may map, bytes, where that is limited."""
+    """Memory that the process may map, bytes, where that is limited."""
     try:
         import resource
     except ImportError:

@@ -14,7 +14,7 @@ from texvent.errors import InputError
 from texvent.interpolate.count import count_intermediate
 from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.pairs.instants import intermediate_times_us
-from texvent.simulate.gpu.frame_pairs import GpuPairs
+from texvent.simulate.gpu.frames import GpuPairs
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Frame, Video
 
@@ -73,7 +73,7 @@ def test_the_events_are_those_of_the_frames_taken_over_the_host(rife, device, co
 
 def dense_packets(rife, clip, count):
     """The same by way of frames on the host and the CPU's pixel model."""
-    reference = TexventSimulator(TexventConfig(noise="none"), seed=4, backend="reference")
+    reference = TexventSimulator(TexventConfig(noise="none"), seed=4)
     frames = [Frame(picture, t_us) for picture, t_us in zip(clip, TIMES_US, strict=True)]
     yield reference.step(frames[0])
     for first, second in itertools.pairwise(frames):

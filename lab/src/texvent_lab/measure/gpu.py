@@ -32,8 +32,8 @@ from texvent.interpolate.rife.weights import write_rife_weights
 from texvent.sensor import SensorSize
 from texvent.simulate import gpu
 from texvent.simulate.esim.simulator import EsimConfig
-from texvent.simulate.gpu.device import EXTRA, default_device
-from texvent.simulate.gpu.frame_pairs import GpuPairs
+from texvent.simulate.gpu.frames import GpuPairs
+from texvent.simulate.gpu.launch import EXTRA, default_device
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Video
 from texvent_lab.measure.speed.timing import Quartiles, rounded

@@ -33,7 +33,7 @@ from texvent.interpolate.flow import FlowInterpolator
 from texvent.interpolate.protocol import Interpolator
 from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.interpolate.rife.weights import read_rife_weights
-from texvent.metrics.structural_similarity import structural_similarity
+from texvent.metrics.image_measures import structural_similarity
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.video import Frame, Video
 from texvent_lab.measure.interpolation_scenes import SPEEDS, TEXTURES, embedded_scene, moving_scene

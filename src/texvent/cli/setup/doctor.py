@@ -47,7 +47,6 @@ EXTRAS = {
     "v2ce": ("torch", "the V2CE simulator"),
     "plot": ("matplotlib", "events.plot()"),
     "gpu": ("triton", "texvent and esim on a GPU: --backend gpu"),
-    "rerun": ("rerun", "rerun files (.rrd)"),
     "assets": ("trimesh", "OBJ and PLY models in --assets folders"),
     "exr": ("OpenEXR", "OpenEXR frames and passes of a renderer"),
     "bags": ("rosbags", "ROS bags and mcap"),

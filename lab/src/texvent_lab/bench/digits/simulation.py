@@ -14,7 +14,7 @@ from texvent.run.prepare import prepare_video
 from texvent.run.rate_search import UNREACHED, find_threshold
 from texvent.runtime.cache_folder import make_folder
 from texvent.settings.resolution import Settings
-from texvent.simulate.thresholds import contrast_threshold_of
+from texvent.simulate.model_options import contrast_threshold_of
 from texvent_lab.bench.digits.arms import Cell, find_arm
 from texvent_lab.bench.digits.data.idx import Mnist, read_mnist
 from texvent_lab.bench.digits.data.inputs import InputSet, join_inputs, represent_all
