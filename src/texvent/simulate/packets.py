@@ -114,8 +114,8 @@ def check_event_number(number: float) -> None:
     if not number <= most:
         raise InputError(
             f"about {number:.2g} events come between two frames, and memory holds {most:.2g}; give "
-            "frames closer together in time, lower the rates of noise and leak, or raise the contrast "
-            "threshold"
+            "frames closer together in time, lower the rates of noise and leak, or raise the "
+            "contrast threshold"
         )
 
 
