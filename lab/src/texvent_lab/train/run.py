@@ -15,8 +15,8 @@ from texvent.extending import full_version, require
 from texvent.io.atomic import atomic_file
 from texvent.networks.weight_files import describe_file, read_mapping
 from texvent.options.values import plain, with_options
-from texvent.run.settings import read_document
 from texvent.runtime.progress import NO_PROGRESS, Progress
+from texvent.settings.config_files import read_document
 from texvent_lab.reconstruct.checkpoint import LEFT_BY_TRAINING
 from texvent_lab.train.loop import TrainingState, train
 from texvent_lab.train.schedule import EXTRA, Hardware

@@ -235,7 +235,7 @@ def test_tables_mark_the_best_simulated_source_and_those_like_it():
     assert "(≈)" in ends["like it"]
     assert "(?)" in ends["drifting"]
     assert lines["elsewhere"].endswith("| 0.0100 |")  # of other frames, so not compared
-    assert "(≈): cannot be told apart" in report.markdown()
+    assert "(≈): no significant difference" in report.markdown()
     behind = {row["source"]: row["behind_best"] for row in reconstruction_document(report)["rows"]}
     assert behind["best"]["mse"] is None
     assert (behind["behind"]["mse"]["best"], behind["behind"]["mse"]["is_significant"]) == (

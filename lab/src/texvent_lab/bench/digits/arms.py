@@ -14,8 +14,8 @@ from typing import Any, Literal, TypeAlias, get_args
 from texvent import __version__
 from texvent.errors import ConfigError, shown
 from texvent.extending import full_version, suggest
-from texvent.run.settings import Settings, resolve
 from texvent.runtime.cache_folder import make_folder
+from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.model_options import with_contrast_threshold
 from texvent_lab.bench.document import read_document, write_document
 

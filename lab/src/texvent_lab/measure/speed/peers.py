@@ -22,7 +22,7 @@ from typing import Any
 
 from texvent.extending import SIMULATORS
 from texvent.pipeline import video_to_events
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.simulate.model_options import with_contrast_threshold
 from texvent.video import Video
 from texvent_lab.measure.speed.scenes import EXCERPT, dense_video, heavy_clip, source_frames
