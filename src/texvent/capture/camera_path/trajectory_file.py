@@ -166,7 +166,7 @@ def _read_table(path: Path) -> Float64Array:
     try:
         text = usable_path(path).read_text(encoding="utf-8-sig").replace(",", " ")
     except FileNotFoundError:
-        raise InputError(f"no such camera path: {path}; check --camera") from None
+        raise InputError(f"no such camera path: {path}; check `camera`") from None
     except (OSError, UnicodeDecodeError) as error:
         raise FileFormatError(
             f"camera path {path} cannot be read ({one_line(error)}); it must be a text of rows of "
