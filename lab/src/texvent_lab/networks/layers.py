@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from types import ModuleType
 
-from texvent._require import require
+from texvent.extending import require
 from texvent.networks.weight_files import Tensor
 
 EXTRA = "torch"

@@ -188,10 +188,10 @@ class _Samples:
         if along is None:
             seen = other[self.rows, self.columns]
         else:
-            x, y = self.columns + along[:, 0], self.rows + along[:, 1]
-            places = (np.ascontiguousarray(one, np.float32)[:, None] for one in (x, y))
-            border = cv2.BORDER_REPLICATE
-            seen = cv2.remap(other, *places, cv2.INTER_LINEAR, borderMode=border)[:, 0]
+            x = (self.columns + along[:, 0]).astype(np.float32)[:, None]
+            y = (self.rows + along[:, 1]).astype(np.float32)[:, None]
+            edge = cv2.BORDER_REPLICATE
+            seen = np.asarray(cv2.remap(other, x, y, cv2.INTER_LINEAR, borderMode=edge))[:, 0]
         return np.asarray(np.abs(here[self.rows, self.columns] - seen), np.float32)
 
 

@@ -121,7 +121,7 @@ UNKNOWN = -1
 
 _ENTRY = np.dtype(
     {
-        "names": ["vtable", "position", "stream", "bytes", "count", "first", "last"],
+        "names": ["vtable", "position", "stream", "bytes", "events", "first", "last"],
         "formats": ["<i4", "<i8", "<i4", "<i4", "<i8", "<i8", "<i8"],
         "offsets": [0, 4, 12, 16, 20, 28, 36],
         "itemsize": 48,
@@ -137,7 +137,7 @@ class PacketEntry(NamedTuple):
     """First byte after the packet's head, in the file."""
     bytes: int
     """Length of the packet without its head."""
-    count: int
+    events: int
     """Number of events."""
     first: int
     """Time of the first event, µs; `last`: of the last."""
