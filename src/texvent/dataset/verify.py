@@ -1,4 +1,4 @@
-"""Every file of a data set checked: there, unchanged, of it, each sample sound and there once."""
+"""Verification of a data set: files complete, unchanged and its own; samples sound and unique."""
 
 from __future__ import annotations
 
@@ -12,39 +12,40 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from texvent.dataset.contents.made_set import SHARD_FILE, MadeSet, MadeShard
-from texvent.dataset.contents.statistics import in_several_splits
-from texvent.dataset.contents.stored_events import read_events, read_sample_facts
 from texvent.dataset.generation.recipe import ITEMS_FILE, SPECIFICATION_FILE, VIDEOS
-from texvent.dataset.generation.records import (
+from texvent.dataset.generation.sample import COLUMNS
+from texvent.dataset.generation.shards import (
+    EXTENSION,
     FAILED,
     FILTERED,
+    MADE,
     SampleRecord,
+    read_members,
     read_record,
-    record_path,
 )
-from texvent.dataset.generation.sample import COLUMNS
-from texvent.dataset.generation.shard_log import LOGS
-from texvent.dataset.generation.tar_shard import EXTENSION, read_members
+from texvent.dataset.generation.status import LOGS
 from texvent.dataset.publishing.card import CARD_FILE
 from texvent.dataset.publishing.croissant import CROISSANT_FILE
 from texvent.dataset.publishing.index import INDEX_FILE
+from texvent.dataset.reading.stored_dataset import SHARD_FILE, StoredDataset, StoredShard
+from texvent.dataset.reading.stored_events import read_events, read_sample_facts
+from texvent.dataset.statistics import in_several_splits
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.hidden_parts import is_hidden_part
 
 OWN = (SPECIFICATION_FILE, ITEMS_FILE, CARD_FILE, CROISSANT_FILE, INDEX_FILE, LOGS, "samples.png",
-       "samples.html", "stats.html", ".git", ".gitattributes", ".cache")  # fmt: skip
-"""What may lie in the folder of a data set besides its shards."""
+       "samples.html", ".git", ".gitattributes", ".cache")  # fmt: skip
+"""Files of a data set besides its shards."""
 
 
 @dataclass
 class Findings:
-    """What is wrong, and what is worth knowing."""
+    """Problems and notes."""
 
     missing: list[str] = field(default_factory=list)
     """Shards that belong to the set and are not complete."""
     changed: list[str] = field(default_factory=list)
-    """Shards that are not what their record says, and what says so."""
+    """Shards that differ from their records, and the difference."""
     foreign: list[str] = field(default_factory=list)
     """Files among the shards that are not of this data set; loaders would read them."""
     twice: list[str] = field(default_factory=list)
@@ -52,7 +53,7 @@ class Findings:
     unsound: list[str] = field(default_factory=list)
     """Samples that cannot be used, and why."""
     notes: list[str] = field(default_factory=list)
-    """What does no harm."""
+    """Harmless findings."""
     shards: int = 0
     samples: int = 0
     events: int = 0
@@ -65,19 +66,25 @@ class Findings:
         return not any(problems for _, problems in self.problems())
 
     def problems(self) -> Iterator[tuple[str, list[str]]]:
-        """Kind → what is wrong."""
+        """Kind → problems of that kind."""
         for kind in ("missing", "changed", "foreign", "twice", "unsound"):
             yield kind, getattr(self, kind)
 
+    def count(self, shard: StoredShard, keys: Counter[str]) -> None:
+        """Add the counts of a shard, and the keys of its samples to `keys`."""
+        record = shard.record
+        self.shards += 1
+        # A sample may have the key of its video.
+        prefix = f"{VIDEOS}/" if record.variant == VIDEOS else ""
+        keys.update(prefix + sample.key for sample in record.samples)
+        if not prefix:
+            self.samples += record.count(MADE)
+            self.events += record.events
+            self.filtered += record.count(FILTERED)
+            self.failed += record.count(FAILED)
 
-@dataclass(frozen=True)
-class _ShardFindings:
-    shard: MadeShard
-    changed: str | None
-    unsound: tuple[str, ...]
 
-
-def verify(made: MadeSet, *, workers: int = 1, contents: bool = True) -> Findings:
+def verify(made: StoredDataset, *, workers: int = 1, contents: bool = True) -> Findings:
     """Check a data set, as it was made or as a copy of it was published.
 
     Args:
@@ -96,28 +103,23 @@ def verify(made: MadeSet, *, workers: int = 1, contents: bool = True) -> Finding
         return findings
     findings.missing = made.missing(*kinds)
     keys: Counter[str] = Counter()
-    for found in _checked(made.shards(*kinds), workers, contents=contents):
-        record = found.shard.record
-        if found.changed:
-            findings.changed.append(f"{found.shard.place}: {found.changed}")
-        findings.unsound += [f"{found.shard.place}: {one}" for one in found.unsound]
-        findings.shards += 1
-        # A sample may have the key of its video.
-        prefix = f"{VIDEOS}/" if record.variant == VIDEOS else ""
-        keys.update(prefix + sample.key for sample in record.samples)
-        if not prefix:
-            findings.samples += sum(1 for _ in found.shard.samples)
-            findings.events += record.events
-            findings.filtered += record.count(FILTERED)
-            findings.failed += record.count(FAILED)
+    shards = made.shards(*kinds)
+    with ThreadPoolExecutor(workers) as pool:
+        # Some shards at once: the records of millions of samples would not fit into memory.
+        while some := list(itertools.islice(shards, 4 * workers)):
+            problems = pool.map(partial(_check_shard, contents=contents), some)
+            for shard, (changed, unsound) in zip(some, problems, strict=True):
+                findings.changed += [f"{shard.place}: {one}" for one in changed]
+                findings.unsound += [f"{shard.place}: {one}" for one in unsound]
+                findings.count(shard, keys)
     findings.twice = sorted(key for key, count in keys.items() if count > 1)
-    findings.foreign = _foreign_shards(made, kinds, set(findings.missing))
+    findings.foreign = _foreign_files(made, kinds, set(findings.missing))
     findings.notes = [*_other_files(made), *_notes(made)]
     findings.changed += _differing_description(made)
     return findings
 
 
-def _damaged_records(made: MadeSet, kinds: Iterable[str]) -> Iterator[str]:
+def _damaged_records(made: StoredDataset, kinds: Iterable[str]) -> Iterator[str]:
     for kind in kinds:
         for path in made.shard_files(kind):
             try:
@@ -126,30 +128,20 @@ def _damaged_records(made: MadeSet, kinds: Iterable[str]) -> Iterator[str]:
                 yield str(error)
 
 
-def _checked(
-    shards: Iterator[MadeShard], workers: int, *, contents: bool
-) -> Iterator[_ShardFindings]:
-    """Some shards at once: the records of millions of samples would not fit into memory."""
-    check = partial(_check_shard, contents=contents)
-    with ThreadPoolExecutor(workers) as pool:
-        while some := list(itertools.islice(shards, 4 * workers)):
-            yield from pool.map(check, some)
-
-
-def _check_shard(shard: MadeShard, *, contents: bool) -> _ShardFindings:
-    changed = None
+def _check_shard(shard: StoredShard, *, contents: bool) -> tuple[list[str], list[str]]:
+    """Problems of the file, and of its samples."""
+    changed = []
     try:
         with shard.path.open("rb") as file:
             if hashlib.file_digest(file, "sha256").hexdigest() != shard.record.sha256:
-                changed = "its sha256 is not that of its record"
+                changed.append("its sha256 is not that of its record")
     except OSError as error:
-        changed = f"cannot be read ({one_line(error)})"
+        changed.append(f"cannot be read ({one_line(error)})")
     is_video = shard.record.variant == VIDEOS
-    found = _unsound(shard) if contents and not is_video else ()
-    return _ShardFindings(shard, changed, tuple(found))
+    return changed, list(_unsound(shard)) if contents and not is_video else []
 
 
-def _unsound(shard: MadeShard) -> Iterator[str]:
+def _unsound(shard: StoredShard) -> Iterator[str]:
     for sample in shard.samples:
         try:
             _check_sample(shard.path, sample)
@@ -183,35 +175,23 @@ def _check_sample(path: Path, sample: SampleRecord) -> None:
         raise FileFormatError(f"sample {sample.key}: its caption is not that of its record")
 
 
-def _foreign_shards(made: MadeSet, kinds: Iterable[str], missing: set[str]) -> list[str]:
-    """Tars and records among the shards that are not complete shards of this data set."""
-    own, expected = {shard.path for shard in made.shards(*kinds)}, made.expected()
+def _foreign_files(made: StoredDataset, kinds: Iterable[str], missing: set[str]) -> list[str]:
+    """Files among the shards that are not of complete shards of this data set."""
+    own, expected = {shard.place for shard in made.shards(*kinds)}, made.expected()
     if expected is not None:
-        own = {path for path in own if f"{path.parent.name}/{path.name}" in expected}
+        own &= expected
     found = []
     for kind in kinds:
         folder = made.folder / kind
         for path in sorted(folder.iterdir()) if folder.is_dir() else ():
-            place = f"{kind}/{path.name}"
-            tar = path.with_suffix(EXTENSION)
-            if tar in own and path in (tar, record_path(tar)):
-                continue
-            if SHARD_FILE.fullmatch(path.name) and f"{kind}/{tar.name}" in missing:
-                continue  # said already: it is not complete
-            if not is_hidden_part(path):
-                found.append(f"{place}: {_why_foreign(made, tar)}")
+            is_shard = SHARD_FILE.fullmatch(path.name) is not None
+            place = f"{kind}/{path.with_suffix(EXTENSION).name}"
+            if not (is_shard and place in own | missing) and not is_hidden_part(path):
+                found.append(f"{kind}/{path.name}")
     return found
 
 
-def _why_foreign(made: MadeSet, tar: Path) -> str:
-    record = read_record(tar) if SHARD_FILE.fullmatch(tar.name) else None
-    if record is None:
-        return "no shard of this data set"
-    is_own = made.is_own(record, tar)
-    return "more than the specification asks for" if is_own else "another shard, or of another set"
-
-
-def _other_files(made: MadeSet) -> Iterator[str]:
+def _other_files(made: StoredDataset) -> Iterator[str]:
     for path in sorted(made.folder.iterdir()):
         if path.name in OWN or path.name in made.variants or path.name == VIDEOS:
             continue
@@ -221,7 +201,7 @@ def _other_files(made: MadeSet) -> Iterator[str]:
             yield f"{path.name} is not of texvent"
 
 
-def _notes(made: MadeSet) -> Iterator[str]:
+def _notes(made: StoredDataset) -> Iterator[str]:
     shared = in_several_splits(made.shards())
     if shared:
         yield (
@@ -229,7 +209,7 @@ def _notes(made: MadeSet) -> Iterator[str]:
             f"{shown(min(shared))}: tests would see what was trained on"
         )
     expected = made.expected()
-    if expected is not None and not made.has_videos and any(map(_is_video, expected)):
+    if not made.has_videos and any(one.startswith(f"{VIDEOS}/") for one in expected or ()):
         yield "its videos are not here; no loader needs them"
     if expected is None and not (made.folder / CROISSANT_FILE).is_file():
         yield (
@@ -238,12 +218,8 @@ def _notes(made: MadeSet) -> Iterator[str]:
         )
 
 
-def _is_video(place: str) -> bool:
-    return place.startswith(f"{VIDEOS}/")
-
-
-def _differing_description(made: MadeSet) -> Iterator[str]:
-    """Whether the description that was published is of these shards."""
+def _differing_description(made: StoredDataset) -> Iterator[str]:
+    """Shards that the published description does not fit."""
     path = made.folder / CROISSANT_FILE
     if not path.is_file():
         return

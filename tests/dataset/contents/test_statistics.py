@@ -10,18 +10,18 @@ from pathlib import Path
 import pytest
 
 from texvent.cli.app import main
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.statistics import SetStatistics, quantiles
-from texvent.dataset.contents.stored_events import read_events
-from texvent.dataset.generation.records import FAILED, read_record, write_record
+from texvent.dataset.generation.shards import FAILED, read_record, write_record
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.reading.stored_events import read_events
+from texvent.dataset.statistics import DatasetStatistics, quantiles
 
 
 def test_counts_are_those_of_the_samples(cars: Path) -> None:
-    statistics = SetStatistics.of(MadeSet.open(cars))
+    statistics = DatasetStatistics.of(StoredDataset.open(cars))
     total = statistics.total
     events = [
         len(read_events(shard.path, sample))
-        for shard in MadeSet.open(cars).shards()
+        for shard in StoredDataset.open(cars).shards()
         for sample in shard.samples
     ]
     assert total.events == events
@@ -50,7 +50,7 @@ def test_reasons_of_failures_count_together(copied: Path) -> None:
         for n, sample in enumerate(record.samples)
     ]
     write_record(shard, replace(record, samples=tuple(failed)))
-    total = SetStatistics.of(MadeSet.open(copied)).total
+    total = DatasetStatistics.of(StoredDataset.open(copied)).total
     assert total.failed == len(failed)
     assert dict(total.reasons) == {"failed: frame N of N is damaged": len(failed)}
 
@@ -75,4 +75,4 @@ def test_a_shard_of_another_set_is_not_counted(copied: Path) -> None:
     for suffix in (".tar", ".json"):
         own = copied / "esim" / f"train-000000{suffix}"
         shutil.copy(own, own.with_stem("train-000007"))
-    assert SetStatistics.of(MadeSet.open(copied)).total.samples == 9
+    assert DatasetStatistics.of(StoredDataset.open(copied)).total.samples == 9

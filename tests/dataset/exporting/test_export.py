@@ -13,11 +13,10 @@ from tests.dataset.conftest import make_set
 
 import texvent
 from texvent.cli.app import main
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.stored_events import read_events
-from texvent.dataset.exporting.export import export
-from texvent.dataset.exporting.layouts import LAYOUTS, folder_name
-from texvent.dataset.generation.tar_shard import read_members
+from texvent.dataset.export import LAYOUTS, export, folder_name
+from texvent.dataset.generation.shards import read_members
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.reading.stored_events import read_events
 from texvent.errors import ConfigError, InputError, OutputError
 from texvent.events import EventStream
 
@@ -26,7 +25,7 @@ def samples_of(folder: Path, variant: str = "paper") -> dict[str, tuple[str, str
     """Key → split, class, events."""
     return {
         sample.key: (shard.record.split, sample.label or "", read_events(shard.path, sample))
-        for shard in MadeSet.open(folder).shards(variant)
+        for shard in StoredDataset.open(folder).shards(variant)
         for sample in shard.samples
     }
 
@@ -37,7 +36,7 @@ def assert_same(columns: Any, events: EventStream) -> None:
 
 
 def test_n_imagenet_as_its_loader_opens_it(cars: Path, tmp_path: Path) -> None:
-    done = export(MadeSet.open(cars), "n-imagenet", tmp_path / "N", variant="paper")
+    done = export(StoredDataset.open(cars), "n-imagenet", tmp_path / "N", variant="paper")
     expected = samples_of(cars)
     seen = set()
     for name, split in (("train_list.txt", "train"), ("val_list.txt", "test")):
@@ -56,7 +55,7 @@ def test_n_imagenet_as_its_loader_opens_it(cars: Path, tmp_path: Path) -> None:
 
 
 def test_dsec_as_h5py_reads_it(cars: Path, tmp_path: Path) -> None:
-    export(MadeSet.open(cars), "dsec", tmp_path / "D", variant="paper")
+    export(StoredDataset.open(cars), "dsec", tmp_path / "D", variant="paper")
     for key, (split, _, events) in samples_of(cars).items():
         left = tmp_path / "D" / split / key / "events" / "left"
         with h5py.File(left / "events.h5") as file:
@@ -96,7 +95,7 @@ def test_hdf5_holds_everything_and_is_made_again_from_itself(
 
 
 def test_n_caltech101_as_its_bytes(cars: Path, tmp_path: Path) -> None:
-    export(MadeSet.open(cars), "n-caltech101", tmp_path / "C", variant="paper")
+    export(StoredDataset.open(cars), "n-caltech101", tmp_path / "C", variant="paper")
     lists = {
         line: split
         for split in ("train", "test")
@@ -116,7 +115,7 @@ def test_n_caltech101_as_its_bytes(cars: Path, tmp_path: Path) -> None:
 
 
 def test_a_second_run_goes_on_and_another_export_is_refused(cars: Path, tmp_path: Path) -> None:
-    made, out = MadeSet.open(cars), tmp_path / "out"
+    made, out = StoredDataset.open(cars), tmp_path / "out"
     export(made, "hdf5", out, variant="paper")
     gone = next((out / "train").iterdir())
     kept = next((out / "test").iterdir())
@@ -144,11 +143,11 @@ def test_a_sample_of_a_stored_video_is_made_again_from_it(
         variants={"esim": {"simulator": "esim", "seeds": 2}},
         store_videos=True,
     )
-    (videos,) = MadeSet.open(stored).shards("videos")
+    (videos,) = StoredDataset.open(stored).shards("videos")
     (video,) = videos.samples
     clip = tmp_path / "clip.avi"
     clip.write_bytes(read_members(videos.path, video.members)["avi"])
-    export(MadeSet.open(stored), "hdf5", tmp_path / "h")
+    export(StoredDataset.open(stored), "hdf5", tmp_path / "h")
     for key, (split, _, events) in samples_of(stored, "esim").items():
         again, path = tmp_path / f"{key}.h5", tmp_path / "h" / split / f"{key}.h5"
         assert main(["replay", str(path), "--source", str(clip), "-o", str(again)]) == 0
@@ -165,7 +164,7 @@ def test_a_layout_of_classes_needs_classes(tmp_path: Path) -> None:
         variants={"esim": {"simulator": "esim"}},
     )
     with pytest.raises(InputError, match="has no classes"):
-        export(MadeSet.open(plain), "n-imagenet", tmp_path / "out")
+        export(StoredDataset.open(plain), "n-imagenet", tmp_path / "out")
 
 
 def test_noise_labels_go_where_they_can_be_held(tmp_path: Path) -> None:
@@ -176,7 +175,7 @@ def test_noise_labels_go_where_they_can_be_held(tmp_path: Path) -> None:
         options={"duration": 0.1, "sensor": "32x24", "label_noise": True},
         variants={"paper": {}},
     )
-    made = MadeSet.open(noisy)
+    made = StoredDataset.open(noisy)
     export(made, "hdf5", tmp_path / "h")
     assert texvent.load(next((tmp_path / "h" / "train").iterdir())).label is not None
     done = export(made, "n-imagenet", tmp_path / "n")
@@ -189,7 +188,7 @@ def test_splits_that_become_one_are_said(tmp_path: Path) -> None:
         splits={"train": 0.34, "val": 0.33, "test": 0.33},
         variants={"esim": {"simulator": "esim"}},
     )
-    done = export(MadeSet.open(three), "n-imagenet", tmp_path / "n")
+    done = export(StoredDataset.open(three), "n-imagenet", tmp_path / "n")
     assert "splits val and test are written as one" in done.doubts
     assert len((tmp_path / "n" / "val_list.txt").read_text().splitlines()) == 2
 

@@ -12,9 +12,8 @@ import pytest
 from tests.dataset.conftest import CARS
 
 from texvent.cli.app import main
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.looking.charts import bars, histogram
-from texvent.dataset.looking.chosen_samples import Choice, choose_samples
+from texvent.dataset.preview import SampleSelection, choose_samples
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import InputError
 
 
@@ -58,10 +57,10 @@ def test_the_page_shows_every_sample_with_its_caption(
 
 
 def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> None:
-    made = MadeSet.open(cars)
+    made = StoredDataset.open(cars)
 
     def keys(**choice: object) -> list[str]:
-        return [one.record.key for one in choose_samples(made, Choice(**choice))]  # type: ignore[arg-type]
+        return [one.record.key for one in choose_samples(made, SampleSelection(**choice))]  # type: ignore[arg-type]
 
     assert keys(count=4) == keys(count=4)
     assert len({tuple(keys(count=4, seed=seed)) for seed in range(8)}) > 3
@@ -74,30 +73,3 @@ def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> Non
     assert len(keys(label="bus", variant="paper")) == 2
     with pytest.raises(InputError, match="holds no samples with split 'val'"):
         keys(split="val")
-
-
-def test_the_page_of_counts_opens_without_a_script(
-    cars: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    page = tmp_path / "stats.html"
-    assert main(["dataset", "stats", str(cars), "-o", str(page)]) == 0
-    capsys.readouterr()
-    text = page.read_text("utf-8")
-    tags = Tags(text).names
-    assert "script" not in tags
-    assert tags.count("svg") == 3
-    assert "9 samples of 3 videos" in text
-    assert text.count("<tr>") == 1 + 4
-
-
-def test_every_sample_is_in_one_bar() -> None:
-    values = [1.0, 2.0, 2.0, 1000.0, 0.0]
-    figure = histogram("n", values, unit="events", is_log=True)
-    assert "at most 2 per bar" in figure
-    assert 'height="140.0"' in figure
-    assert "No values" in histogram("n", [], unit="s", is_log=False)
-    assert histogram("n", [5, 5, 5], unit="s", is_log=True).count("<rect") == 1
-    many = bars({f"class <{n}>": n for n in range(100)})
-    assert "70 between" in many
-    assert "&lt;99&gt;" in many
-    assert "<99>" not in many

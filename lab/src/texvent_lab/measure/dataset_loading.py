@@ -37,9 +37,14 @@ import h5py
 import numpy as np
 
 import texvent.dataset
-from texvent.dataset.generation.records import MADE, SampleRecord, ShardRecord, write_record
-from texvent.dataset.generation.sample import MadeEvents, sample_members
-from texvent.dataset.generation.tar_shard import TarShardWriter
+from texvent.dataset.generation.sample import SimulatedClip, sample_members
+from texvent.dataset.generation.shards import (
+    MADE,
+    SampleRecord,
+    ShardRecord,
+    TarShardWriter,
+    write_record,
+)
 from texvent.events import EventStream
 from texvent.extending import require
 from texvent.represent.named import represent_window
@@ -112,7 +117,7 @@ def write_shard(folder: Path, number: int, made: Mapping[str, EventStream]) -> N
         writer = TarShardWriter(file)
         for key, events in made.items():
             facts = {"prompt": "a red car drives left", "key": key, "settings": {"fps": 30}}
-            sample = MadeEvents(events, 0, DURATION_US, len(events))
+            sample = SimulatedClip(events, 0, DURATION_US, len(events))
             members = sample_members(sample, facts, class_number=0, preview=False)
             records.append(
                 SampleRecord(
@@ -189,8 +194,7 @@ def make_loaders(
     written: Written, *, workers: int, batch_size: int, is_represented: bool
 ) -> dict[str, Any]:
     """Name → an object that gives the batches of a pass each time it is iterated."""
-    from texvent.dataset.loading.collate import collate
-    from texvent.dataset.loading.torch_loader import StoredStream
+    from texvent.dataset.loading.torch_loader import StoredStream, collate
 
     data = require("torch.utils.data", extra="torch")
     wds: Any = require("webdataset", extra="loaders")

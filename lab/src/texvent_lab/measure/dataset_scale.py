@@ -33,10 +33,9 @@ from typing import Any
 
 import numpy as np
 
-from texvent.dataset.generation.engines.processes import ProcessEngine
-from texvent.dataset.generation.engines.protocol import Engine
-from texvent.dataset.generation.engines.ray_cluster import RayEngine
+from texvent.dataset.generation.engines import Engine, ProcessEngine
 from texvent.dataset.generation.make import Work, find_work, make_shards
+from texvent.dataset.generation.ray_cluster import RayEngine
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.generation.status import read_status
 from texvent.dataset.specification.reading import specification_from

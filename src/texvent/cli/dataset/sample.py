@@ -11,8 +11,8 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.looking.chosen_samples import Choice, choose_samples
+from texvent.dataset.preview import SampleSelection, choose_samples
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import ConfigError
 
 DESCRIPTION = """Look at some samples, drawn by chance: a contact sheet (PNG) and a page (HTML) with
@@ -60,24 +60,24 @@ def run(arguments: Sequence[str]) -> int:
         prog="texvent dataset sample",
         description=DESCRIPTION,
     )
-    from texvent.dataset.looking.sample_page import write_contact_sheet, write_sample_page
+    from texvent.dataset.preview import write_contact_sheet, write_sample_page
     from texvent.io.atomic import check_outputs
 
     out = options.folder / "samples.html" if options.out is None else options.out
     if out.suffix.lower() not in (".html", ".htm", ".png"):
         raise ConfigError(f"out is {out}; name a page, .html, or an image, .png")
     sheet = out.with_suffix(".png")
-    made = MadeSet.open(options.folder)
+    made = StoredDataset.open(options.folder)
     outputs = list(dict.fromkeys([out, sheet]))
     check_outputs(outputs, overwrite=options.overwrite)
-    choice = Choice(
+    selection = SampleSelection(
         count=options.count,
         variant=options.variant,
         split=options.split,
         label=options.label,
         seed=options.seed,
     )
-    samples = choose_samples(made, choice)
+    samples = choose_samples(made, selection)
     write_contact_sheet(samples, sheet, overwrite=options.overwrite)
     if out != sheet:
         write_sample_page(made, samples, out, overwrite=options.overwrite)

@@ -1,18 +1,23 @@
-"""A data set made: every shard that is not complete, in two stages where videos are stored."""
+"""A data set made: every incomplete shard, in two stages where videos are stored."""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable
+from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from texvent.dataset.generation.engines.protocol import Engine, Outcome, Task
+from texvent.dataset.generation.dry_run import refuse_prompts
+from texvent.dataset.generation.engines import Engine, Outcome, ProcessEngine, Task, in_this_process
 from texvent.dataset.generation.make_shard import is_complete
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.records import FAILED, ShardSummary
+from texvent.dataset.generation.shards import FAILED, ShardSummary
+from texvent.dataset.specification.reading import read_specification
+from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError
 from texvent.io.hidden_parts import sweep
+from texvent.runtime.progress import ProgressOption, open_progress
 
 OnOutcome = Callable[[Outcome], None]
 
@@ -112,3 +117,42 @@ def _by_video(tasks: Iterable[Task]) -> dict[Shard, list[Task]]:
     for task in tasks:
         waiting.setdefault(_video_of(task.shard), []).append(task)
     return waiting
+
+
+def make(
+    specification: Specification | str | Path,
+    folder: str | Path,
+    *,
+    workers: int = 1,
+    retry_failed: bool = False,
+    progress: ProgressOption = None,
+) -> Work:
+    """Make a data set, or what is missing of it; see docs/datasets.md.
+
+    Args:
+        specification: an object, or a TOML or YAML file.
+        folder: of the data set.
+        workers: processes; 1: this one. A program that uses more needs the usual
+            `if __name__ == "__main__":`, because they import its main module.
+        retry_failed: make samples that failed again.
+        progress: told of every shard.
+
+    Returns:
+        The counts of all complete shards, and why others could not be made.
+
+    Raises:
+        InputError, ConfigError, OutputError: before any work, what all samples would meet.
+    """
+    if not isinstance(specification, Specification):
+        specification = read_specification(specification)
+    recipe, folder = Recipe.of(specification), Path(folder).absolute()
+    refuse_prompts(recipe, folder)
+    recipe.begin(folder)
+    work = find_work(recipe, folder, retry_failed=retry_failed)
+    total = len(work.complete) + len(work.todo) + len(work.videos_todo)
+    engine: Engine = in_this_process() if workers == 1 else ProcessEngine(workers)
+    with open_progress(progress) as shown, closing(engine):
+        make_shards(
+            work, engine, lambda outcome: shown.advance("shards", len(work.complete), total)
+        )
+    return work

@@ -16,23 +16,27 @@ import numpy as np
 from texvent._version import full_version
 from texvent.batch.identity import digest
 from texvent.batch.runner import ENDING_ALL
-from texvent.dataset.generation.clip_simulation import prepare_clip, with_seed
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.records import (
+from texvent.dataset.generation.sample import (
+    prepare_clip,
+    sample_members,
+    simulate_sample,
+    with_seed,
+)
+from texvent.dataset.generation.shards import (
     FAILED,
     FILTERED,
     MADE,
     SampleRecord,
     ShardRecord,
+    TarShardWriter,
+    read_members,
     read_record,
     record_path,
     write_record,
 )
-from texvent.dataset.generation.sample import sample_members, simulate_sample
-from texvent.dataset.generation.tar_shard import TarShardWriter, read_members
-from texvent.dataset.specification.clips import Clip
+from texvent.dataset.specification.clips import Clip, clip_settings, simulation_seed, video_settings
 from texvent.dataset.specification.items import KEY_DIGITS
-from texvent.dataset.specification.resolve import clip_settings, simulation_seed, video_settings
 from texvent.dataset.specification.specification import Variant
 from texvent.errors import InputError, TexventError, warnings_to
 from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream

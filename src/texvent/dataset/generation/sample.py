@@ -1,4 +1,4 @@
-"""One sample: a video simulated, filtered, and put into the columns of its files."""
+"""One sample: a clip simulated, filtered, and stored as the members of a shard."""
 
 from __future__ import annotations
 
@@ -11,19 +11,42 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.dataset.generation.recipe import Recipe
+from texvent.dataset.specification.clips import Clip
 from texvent.dataset.specification.specification import Filters
 from texvent.events import SIGNAL, EventStream
-from texvent.pipeline import Simulation, select_events
+from texvent.pipeline import Simulation, select_events, text_to_video
 from texvent.represent.event_frame import count_events
+from texvent.run.prepare import prepare_source, prepare_video
+from texvent.run.settings import Settings
 from texvent.video_check.measurer import VideoMeasurer
 from texvent.video_check.report import judge_measures
+
+
+def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings) -> Simulation:
+    """A clip made ready; its video has the clip's seed, its simulation that of the settings.
+
+    Raises:
+        TexventError: the video cannot be read or made.
+    """
+    prompt = clip.item.prompt
+    if recipe.items.are_videos:
+        return prepare_source(clip.item.video, settings, prompt=prompt, video_seed=clip.seed)
+    video = text_to_video(clip.item.subject, with_seed(settings, clip.seed))
+    return prepare_video(video, settings, prompt=prompt)
+
+
+def with_seed(settings: Settings, seed: int) -> Settings:
+    """The same settings with another seed."""
+    return replace(settings, run=replace(settings.run, seed=seed))
+
 
 COLUMNS = ("x", "y", "t", "p")
 PREVIEW_US, PREVIEW_WIDTH = 50_000, 256
 
 
 @dataclass(frozen=True)
-class MadeEvents:
+class SimulatedClip:
     """The events of a sample, and what is known of its video."""
 
     events: EventStream
@@ -37,7 +60,7 @@ class MadeEvents:
     """Why the filters leave it out; equal reasons are equal words. None: it is kept."""
 
 
-def simulate_sample(simulation: Simulation, filters: Filters) -> MadeEvents:
+def simulate_sample(simulation: Simulation, filters: Filters) -> SimulatedClip:
     """Run a simulation and apply the filters; one with too many events is stopped there.
 
     Raises:
@@ -63,7 +86,7 @@ def simulate_sample(simulation: Simulation, filters: Filters) -> MadeEvents:
         left_out = _too_weak(signal, filters) or _looks_failed(measurer)
     events = EventStream.concat(packets) if packets else EventStream.empty(simulation.video.size)
     start = times[0] if times else 0
-    return MadeEvents(events, start, times[-1] - start if times else 0, signal, left_out)
+    return SimulatedClip(events, start, times[-1] - start if times else 0, signal, left_out)
 
 
 def _count_signal(packet: EventStream) -> int:
@@ -97,7 +120,7 @@ def event_columns(events: EventStream) -> dict[str, NDArray[Any]]:
 
 
 def sample_members(
-    made: MadeEvents, facts: Mapping[str, Any], *, class_number: int | None, preview: bool
+    made: SimulatedClip, facts: Mapping[str, Any], *, class_number: int | None, preview: bool
 ) -> dict[str, bytes]:
     """The files of a sample: extension → content.
 

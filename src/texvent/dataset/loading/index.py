@@ -1,4 +1,4 @@
-"""Which samples a data set has and where their members lie, as columns: small for millions."""
+"""Index of a data set: which samples it has and where their members are, as columns."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._registry import suggest
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.generation.records import MADE, ShardRecord, read_record
+from texvent.dataset.generation.shards import MADE, ShardRecord, read_record
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
 
 MEMBERS = ("x.npy", "y.npy", "t.npy", "p.npy", "label.npy", "json", "txt", "cls", "png")
@@ -92,7 +92,7 @@ def read_index(folder: Path, *, variant: Choice = None, split: Choice = None) ->
             another data set.
         ConfigError: no such variant or split.
     """
-    made = MadeSet.open(folder)
+    made = StoredDataset.open(folder)
     variants = choose("variant", variant, tuple(made.variants))
     splits = choose("split", split, made.splits)
     rows = _Rows(folder)
@@ -108,7 +108,7 @@ def read_index(folder: Path, *, variant: Choice = None, split: Choice = None) ->
     return rows.index()
 
 
-def _check_shard(made: MadeSet, path: Path, record: ShardRecord) -> None:
+def _check_shard(made: StoredDataset, path: Path, record: ShardRecord) -> None:
     """Refuse a shard that is not as it was made.
 
     Raises:

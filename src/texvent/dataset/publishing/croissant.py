@@ -11,10 +11,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.statistics import SetStatistics
+from texvent.dataset.publishing.card import PublicationInfo
 from texvent.dataset.publishing.index import FIELDS
-from texvent.dataset.publishing.notice import Notice
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.statistics import DatasetStatistics
 
 CROISSANT_FILE = "croissant.json"
 CONFORMS_TO = ("http://mlcommons.org/croissant/1.1", "http://mlcommons.org/croissant/RAI/1.0")
@@ -43,65 +43,56 @@ CONTEXT: dict[str, Any] = {
 """What every Croissant 1.1 file begins with."""
 
 
-def croissant_text(made: MadeSet, statistics: SetStatistics, notice: Notice, index: Path) -> str:
+def croissant_text(
+    dataset: StoredDataset, statistics: DatasetStatistics, info: PublicationInfo, index: Path
+) -> str:
     """The description, checked by `mlcroissant validate` in the tests.
 
     Args:
-        made: the data set.
+        dataset: the data set.
         statistics: of it.
-        notice: what its author says.
+        info: author, licence, address.
         index: the Parquet index that was written.
     """
     total = statistics.total
     given = {
-        "url": notice.url,
-        "datePublished": notice.date,
-        "creator": notice.creator and {"@type": "sc:Organization", "name": notice.creator},
-        "license": notice.license_of(made) or None,
+        "url": info.url,
+        "datePublished": info.date,
+        "creator": info.creator and {"@type": "sc:Organization", "name": info.creator},
+        "license": info.license_of(dataset) or None,
     }
     document = {
         "@context": CONTEXT,
         "@type": "sc:Dataset",
         "conformsTo": [*CONFORMS_TO],
-        "name": made.name,
-        "description": _description(made, total.samples, len(total.clips)),
+        "name": dataset.name,
+        "description": _description(dataset, total.samples, len(total.clips)),
         **{name: value for name, value in given.items() if value},
-        "version": _version(made),
+        "version": f"1.0.0+{dataset.identity[:12]}",
         "isLiveDataset": False,
         "keywords": ["event camera", "neuromorphic vision", "synthetic data", "texvent"],
-        **_responsible_ai(made),
-        "distribution": [_index_file(index), *_shard_files(made), *_file_sets(made)],
+        **_responsible_ai(dataset),
+        "distribution": [_index_file(index), *_shard_files(dataset), *_file_sets(dataset)],
         "recordSet": [_record_set(index.name)],
     }
     return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
 
 
-def _description(made: MadeSet, samples: int, clips: int) -> str:
-    given = str(made.specification.get("description") or "").strip()
+def _description(dataset: StoredDataset, samples: int, clips: int) -> str:
+    given = str(dataset.specification.get("description") or "").strip()
     facts = f"{samples:,} simulated event-camera samples of {clips:,} videos with captions."
     return f"{given} {facts}".strip()
 
 
-def _version(made: MadeSet) -> str:
-    """One that changes when the samples do: 1.0.0 with the identity as a build number."""
-    return f"1.0.0+{made.identity[:12]}"
-
-
-def _responsible_ai(made: MadeSet) -> dict[str, Any]:
+def _responsible_ai(dataset: StoredDataset) -> dict[str, Any]:
     words = {
         "dataCollection": "Simulated from videos by models of event cameras; nothing was recorded "
         "by an event camera. The .json of each sample names every setting.",
         "dataCollectionType": "Software Collection",
-        "dataBiases": "The content follows the prompts or videos that were chosen, and the look "
-        "that of their generator. Classes and words are as frequent as the specification has them.",
+        "dataBiases": "The content follows the chosen prompts or videos and their generator.",
         "dataLimitations": "Simulated events lack what the model of the sensor leaves out. "
-        "Captions are prompts: they say what was asked for, not what can be seen.",
-        "dataUseCases": "Training and pre-training of event-based vision; not evidence of how a "
-        "method performs on recordings.",
-        "machineAnnotationTools": [f"texvent {made.facts.get('texvent_version', '')}".strip()],
-        "annotationsPerItem": "1",
-        "personalSensitiveInformation": "None that texvent adds; videos given by the author may "
-        "show people.",
+        "Captions are prompts; a video may show less.",
+        "machineAnnotationTools": [f"texvent {dataset.facts.get('texvent_version', '')}".strip()],
     }
     return {f"rai:{name}": value for name, value in words.items()}
 
@@ -124,17 +115,17 @@ def _file(place: str, kind: str, size: int, sha256: str) -> dict[str, Any]:
     }
 
 
-def _shard_files(made: MadeSet) -> Iterator[dict[str, Any]]:
-    for shard in made.shards():
+def _shard_files(dataset: StoredDataset) -> Iterator[dict[str, Any]]:
+    for shard in dataset.shards():
         record = shard.record
         yield _file(shard.place, "application/x-tar", record.bytes, record.sha256)
 
 
-def _file_sets(made: MadeSet) -> Iterator[dict[str, Any]]:
+def _file_sets(dataset: StoredDataset) -> Iterator[dict[str, Any]]:
     """What lies in the tars of each variant."""
     kinds = {"json": "application/json", "txt": "text/plain", "npy": "application/x-npy"}
-    for variant in made.variants:
-        places = [{"@id": shard.place} for shard in made.shards(variant)]
+    for variant in dataset.variants:
+        places = [{"@id": shard.place} for shard in dataset.shards(variant)]
         for extension, kind in kinds.items():
             if places:
                 yield {

@@ -1,4 +1,4 @@
-"""One Parquet table of all samples: where each lies, what it shows, how it was made.
+"""One Parquet table of all samples: where each lies, what it shows, how it was dataset.
 
 A sample can be read with it alone: open the shard, seek `x_offset`, read `x_bytes` bytes: a .npy.
 """
@@ -10,9 +10,9 @@ from pathlib import Path
 from typing import Any
 
 from texvent._require import require
-from texvent.dataset.contents.made_set import MadeSet, MadeShard
-from texvent.dataset.contents.stored_events import read_sample_facts
 from texvent.dataset.generation.sample import COLUMNS
+from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
+from texvent.dataset.reading.stored_events import read_sample_facts
 from texvent.io.atomic import atomic_file
 
 INDEX_FILE = "index.parquet"
@@ -33,7 +33,7 @@ FIELDS = {
     "height": ("int32", "Height of the sensor, pixels"),
     "events": ("int64", "Number of events"),
     "duration_us": ("int64", "From the first frame of the video to the last, microseconds"),
-    "warnings": ("strings", "What was doubtful when it was made, such as words not understood"),
+    "warnings": ("strings", "What was doubtful when it was dataset, such as words not understood"),
     **{
         f"{name}_{what}": ("int64", f"{text} of the array {name} in the shard, a .npy file")
         for name in COLUMNS
@@ -44,7 +44,7 @@ FIELDS = {
 """Column → its type and what it holds."""
 
 
-def write_index(made: MadeSet) -> Path:
+def write_index(dataset: StoredDataset) -> Path:
     """Write the index of all complete shards; equal shards give equal bytes.
 
     Raises:
@@ -54,13 +54,13 @@ def write_index(made: MadeSet) -> Path:
     """
     arrow, parquet = (require(name, extra="dataset") for name in ("pyarrow", "pyarrow.parquet"))
     schema = _schema(arrow)
-    path = made.folder / INDEX_FILE
+    path = dataset.folder / INDEX_FILE
     with (
         atomic_file(path, overwrite=True) as part,
         parquet.ParquetWriter(part, schema, compression="zstd") as writer,
     ):
         rows: list[dict[str, Any]] = []
-        for row in index_rows(made):
+        for row in index_rows(dataset):
             rows.append(row)
             if len(rows) == ROWS:
                 writer.write_table(arrow.Table.from_pylist(rows, schema))
@@ -76,17 +76,17 @@ def _schema(arrow: Any) -> Any:
     return arrow.schema([(name, types[kind]) for name, (kind, _) in FIELDS.items()])
 
 
-def index_rows(made: MadeSet) -> Iterator[dict[str, Any]]:
+def index_rows(dataset: StoredDataset) -> Iterator[dict[str, Any]]:
     """A row for each sample, in the order of variants, splits and shards."""
-    numbers = {label: number for number, label in enumerate(made.labels)}
-    for variant in made.variants:
-        simulator = made.simulator_of(variant)
-        for shard in made.shards(variant):
+    numbers = {label: number for number, label in enumerate(dataset.labels)}
+    for variant in dataset.variants:
+        simulator = dataset.simulator_of(variant)
+        for shard in dataset.shards(variant):
             yield from _rows_of(shard, simulator, numbers)
 
 
 def _rows_of(
-    shard: MadeShard, simulator: str | None, numbers: dict[str, int]
+    shard: StoredShard, simulator: str | None, numbers: dict[str, int]
 ) -> Iterator[dict[str, Any]]:
     for sample in shard.samples:
         places = {

@@ -13,7 +13,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.loading.order import epoch_order
+from texvent.dataset.loading.epoch_sampler import epoch_order
 from texvent.extending import require
 from texvent_lab.bench.digits.data.idx import CLASSES
 from texvent_lab.train.classification.networks import small_cnn

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from texvent.dataset.generation.sample import simulate_sample
-from texvent.dataset.loading.open_samples import open
+from texvent.dataset.loading.stored_samples import open
 from texvent.dataset.simulated_clips import SimulatedClips
 from texvent.dataset.specification.specification import Filters
 from texvent.events import EventStream

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
+from texvent.dataset.samples import Target, record_clip
 from texvent.dataset.simulated_clips import SimulatedClips
-from texvent.dataset.targets import Target, record_clip
 from texvent.errors import InputError
 from texvent.runtime.cache_folder import cache_folder, make_folder
 from texvent.sensor import SensorSize

@@ -1,4 +1,4 @@
-"""Samples as a contact sheet and as an HTML page: their liveliest 40 ms, captions, facts."""
+"""Preview of a data set: some samples as a contact sheet (PNG) and a page (HTML)."""
 
 from __future__ import annotations
 
@@ -6,13 +6,17 @@ import base64
 import html
 import json
 import math
+import random
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.looking.chosen_samples import ChosenSample
+from texvent.dataset.generation.shards import SampleRecord
+from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
+from texvent.dataset.reading.stored_events import read_events
+from texvent.errors import InputError, shown
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
 from texvent.represent.event_frame import count_events
@@ -25,6 +29,59 @@ from texvent.view.drawing.panels import SURROUND, PanelLayout
 from texvent.view.page.comparison import WINDOW_US, busiest_start
 from texvent.view.page.html_parts import count_text
 from texvent.view.page.template import fill_template
+
+
+@dataclass(frozen=True, kw_only=True)
+class SampleSelection:
+    """Which samples to look at."""
+
+    count: int = 24
+    variant: str | None = None
+    split: str | None = None
+    label: str | None = None
+    seed: int = 0
+
+
+@dataclass(frozen=True)
+class ChosenSample:
+    """A sample to look at."""
+
+    shard: StoredShard
+    record: SampleRecord
+
+    def events(self) -> EventStream:
+        """Its events."""
+        return read_events(self.shard.path, self.record)
+
+
+def choose_samples(made: StoredDataset, selection: SampleSelection) -> list[ChosenSample]:
+    """Samples in the order of the data set.
+
+    Raises:
+        InputError: there are none such.
+    """
+    variants = [] if selection.variant is None else [made.check_variant(selection.variant)]
+    chance = random.Random(selection.seed)
+    chosen: list[tuple[int, ChosenSample]] = []
+    seen = 0
+    for shard in made.shards(*variants):
+        if selection.split not in (None, shard.record.split):
+            continue
+        for record in shard.samples:
+            if selection.label not in (None, record.label):
+                continue
+            # Each sample has the same chance, and no more than those chosen are held.
+            place = seen if seen < selection.count else chance.randrange(seen + 1)
+            if place < selection.count:
+                chosen[place : place + 1] = [(seen, ChosenSample(shard, record))]
+            seen += 1
+    if not chosen:
+        asked = {"split": selection.split, "label": selection.label}
+        asked_for = [f"{name} {shown(value)}" for name, value in asked.items() if value]
+        which = f" with {' and '.join(asked_for)}" if asked_for else ""
+        raise InputError(f"{made.folder} holds no samples{which}")
+    return [sample for _, sample in sorted(chosen, key=lambda pair: pair[0])]
+
 
 SHEET_WIDTH, NARROWEST_PANEL, GAP = 1600.0, 300.0, 4
 IMAGE_WIDTH = 480
@@ -48,7 +105,7 @@ def write_contact_sheet(samples: Sequence[ChosenSample], path: Path, *, overwrit
 
 
 def write_sample_page(
-    made: MadeSet, samples: Sequence[ChosenSample], path: Path, *, overwrite: bool
+    made: StoredDataset, samples: Sequence[ChosenSample], path: Path, *, overwrite: bool
 ) -> Path:
     """An HTML file that opens offline and holds no script.
 

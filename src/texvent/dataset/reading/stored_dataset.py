@@ -1,4 +1,4 @@
-"""The folder of a data set as its shards and their records tell it, made here or by others."""
+"""Stored data set: its folder, shards and records, made here or by others."""
 
 from __future__ import annotations
 
@@ -11,8 +11,13 @@ from typing import Any, TypeGuard
 
 from texvent._registry import SIMULATORS, suggest
 from texvent.dataset.generation.recipe import ITEMS_FILE, VIDEOS, read_facts, read_recipe
-from texvent.dataset.generation.records import MADE, SampleRecord, ShardRecord, read_record
-from texvent.dataset.generation.tar_shard import EXTENSION
+from texvent.dataset.generation.shards import (
+    EXTENSION,
+    MADE,
+    SampleRecord,
+    ShardRecord,
+    read_record,
+)
 from texvent.errors import FileFormatError, InputError, shown
 
 SHARD_FILE = re.compile(r"(?P<split>[A-Za-z0-9][A-Za-z0-9_-]*)-(?P<number>\d{6,})\.(tar|json)")
@@ -21,7 +26,7 @@ SHARDS = "shards"
 
 
 @dataclass(frozen=True)
-class MadeShard:
+class StoredShard:
     """A complete shard."""
 
     path: Path
@@ -40,7 +45,7 @@ class MadeShard:
 
 
 @dataclass(frozen=True)
-class MadeSet:
+class StoredDataset:
     """A data set, whole or in part; records are read when they are asked for."""
 
     folder: Path
@@ -48,7 +53,7 @@ class MadeSet:
     """What its specification.json holds."""
 
     @classmethod
-    def open(cls, folder: Path) -> MadeSet:
+    def open(cls, folder: Path) -> StoredDataset:
         """The data set in a folder.
 
         Raises:
@@ -114,7 +119,7 @@ class MadeSet:
         )
         return name if isinstance(name, str) else None
 
-    def shards(self, *variants: str) -> Iterator[MadeShard]:
+    def shards(self, *variants: str) -> Iterator[StoredShard]:
         """The complete shards of some variants (default: all but the videos), in order.
 
         Raises:
@@ -128,7 +133,7 @@ class MadeSet:
                     and path.is_file()
                     and path.stat().st_size == record.bytes
                 ):
-                    yield MadeShard(path, record)
+                    yield StoredShard(path, record)
 
     def is_own(self, record: ShardRecord | None, path: Path) -> TypeGuard[ShardRecord]:
         """True if a record is there, of this data set, and of the shard at `path`."""

@@ -18,9 +18,9 @@ from typing import Any
 from texvent._require import require
 from texvent._version import full_version
 from texvent.batch.runner import ENDING_ALL
-from texvent.dataset.generation.engines.protocol import Outcome, Task, outcome_of, run_task
+from texvent.dataset.generation.engines import Outcome, Task, outcome_of, run_task
 from texvent.dataset.generation.recipe import VIDEOS, Shard, load_recipe_once
-from texvent.dataset.generation.records import ShardRecord
+from texvent.dataset.generation.shards import ShardRecord
 from texvent.errors import ConfigError, MissingDependencyError, TexventError, one_line, shown
 from texvent.runtime.threads import THREADS_VARIABLE
 

@@ -1,4 +1,4 @@
-"""What a data set holds, counted from its records: samples, events, rates, classes, failures."""
+"""Statistics of a data set, counted from its records: samples, events, rates, classes, failures."""
 
 from __future__ import annotations
 
@@ -10,15 +10,16 @@ from typing import Any
 
 import numpy as np
 
-from texvent.dataset.contents.made_set import MadeSet, MadeShard
-from texvent.dataset.generation.records import (
+from texvent.dataset.generation.shards import (
     FAILED,
     FILTERED,
     MADE,
     SampleRecord,
     ShardRecord,
 )
-from texvent.scenes.report import PromptReport, ReportTally
+from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
+from texvent.errors import shown
+from texvent.scenes.report import PromptReport, ReportTally, ranked
 
 QUANTILES = (0.05, 0.5, 0.95)
 MOST_REASONS = 10
@@ -161,7 +162,7 @@ class Statistics:
 
 
 @dataclass(frozen=True)
-class SetStatistics:
+class DatasetStatistics:
     """Of a data set, counted in one pass."""
 
     total: Statistics
@@ -169,7 +170,7 @@ class SetStatistics:
     """(variant, split) → its own, in the order of the shards."""
 
     @classmethod
-    def of(cls, made: MadeSet) -> SetStatistics:
+    def of(cls, made: StoredDataset) -> DatasetStatistics:
         """Read all records.
 
         Raises:
@@ -191,7 +192,7 @@ class SetStatistics:
         return {"total": self.total.tables, "variants": variants}
 
 
-def counts_rows(statistics: SetStatistics) -> list[list[str]]:
+def counts_rows(statistics: DatasetStatistics) -> list[list[str]]:
     """Cells for `COUNTS`: a row for each split of each variant."""
     rows = []
     for (variant, split), part in statistics.parts.items():
@@ -242,7 +243,7 @@ def without_numbers(text: str) -> str:
     return re.sub(r"\b\d[\d,.]*\b", "N", text)
 
 
-def in_several_splits(shards: Iterable[MadeShard]) -> set[str]:
+def in_several_splits(shards: Iterable[StoredShard]) -> set[str]:
     """Prompts, or videos, of which samples lie in several splits: tested is what was trained on."""
     split_of: dict[str, str] = {}
     found = set()
@@ -252,3 +253,37 @@ def in_several_splits(shards: Iterable[MadeShard]) -> set[str]:
             if split_of.setdefault(shows, shard.record.split) != shard.record.split:
                 found.add(shows)
     return found
+
+
+MOST_NAMED = 10
+"""Samples that the summary names of those left out for one reason."""
+
+
+def summary_lines(statistics: Statistics) -> list[str]:
+    """The counts of a data set, of a part of it, or of the trial of a plan, for people.
+
+    Example:
+        >>> summary_lines(Statistics())
+        ['samples  0 made, 0 left out, 0 failed']
+    """
+    left_out = sorted(statistics.left_out)
+    lines = [
+        f"samples  {statistics.samples:,} made, {len(left_out):,} left out, "
+        f"{statistics.failed:,} failed"
+    ]
+    for reason, count in ranked(statistics.reasons)[:MOST_REASONS]:
+        kind, _, why = reason.partition(": ")
+        lines.append(f"{kind:8} {count:,}: {why}")
+        named = [one for one in left_out if reason == f"left out: {one.reason}"]
+        lines += [
+            f"         {one.variant}/{one.key} {shown(one.shows)}: {one.signal_events:,}"
+            for one in named[:MOST_NAMED]
+        ]
+        if len(named) > MOST_NAMED:
+            lines.append(
+                f"         and {len(named) - MOST_NAMED:,} more: texvent dataset stats --json "
+                "names all"
+            )
+    if statistics.prompts is not None:
+        lines.append(f"prompts  {statistics.prompts.line('clips')}")
+    return lines

@@ -1,22 +1,148 @@
-"""A variant of a data set written in another layout, one event file per sample."""
+"""Export: a variant in another layout, one event file per sample."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
+import re
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
 
-from texvent.dataset.contents.made_set import MadeSet, MadeShard
-from texvent.dataset.contents.stored_events import read_events
-from texvent.dataset.exporting.layouts import EVALUATION, Exported, Layout, find_layout, folder_name
-from texvent.dataset.generation.records import SampleRecord
-from texvent.errors import InputError, OutputError, one_line
+from texvent._registry import suggest
+from texvent.dataset.generation.shards import SampleRecord
+from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
+from texvent.dataset.reading.stored_events import read_events
+from texvent.errors import ConfigError, InputError, OutputError, one_line, shown
 from texvent.io.atomic import atomic_file
 from texvent.io.files import save
 from texvent.sensor import SensorSize
+
+Files = Mapping[str, str]
+"""Path in the exported folder → content."""
+EVALUATION = ("val", "valid", "validation", "test", "testing")
+"""Names of splits that N-ImageNet and DSEC know under one name only."""
+
+
+@dataclass(frozen=True)
+class Exported:
+    """A sample that was written."""
+
+    path: Path
+    """In the exported folder."""
+    split: str
+    label: str | None
+
+
+@dataclass(frozen=True, kw_only=True)
+class Layout:
+    """One way to lay out a data set."""
+
+    format: str
+    """Name of the codec of event files."""
+    place: Callable[[str, str | None, str], Path]
+    """Split, class and key of a sample → its path in the exported folder."""
+    lists: Callable[[Path, list[Exported]], Files] = lambda folder, exported: {}
+    """Exported folder and what is in it → further files."""
+    needs_classes: bool = False
+    has_two_splits: bool = False
+    """Whether all splits of `EVALUATION` become one."""
+    size: tuple[int, int] | None = None
+    """Width and height that its readers take for granted, pixels."""
+    lost: str = ""
+    """What it cannot hold."""
+
+
+def folder_name(label: str) -> str:
+    """A class as the name of a folder.
+
+    Raises:
+        InputError: nothing of it can be one.
+
+    Example:
+        >>> folder_name("fire truck/red")
+        'fire_truck_red'
+    """
+    name = re.sub(r"[^\w.-]+", "_", label).strip("._")
+    if not name:
+        raise InputError(f"class {shown(label)} cannot name a folder; give it another name")
+    return name
+
+
+def find_layout(name: str) -> Layout:
+    """The layout of that name.
+
+    Raises:
+        ConfigError: there is none.
+    """
+    if name not in LAYOUTS:
+        raise ConfigError(f"unknown format {shown(name)}; {suggest(name, tuple(LAYOUTS))}")
+    return LAYOUTS[name]
+
+
+def _train_or(name: str, split: str) -> str:
+    """The two splits of others; further ones keep their names."""
+    if split == "train":
+        return "train"
+    return name if split in EVALUATION else split
+
+
+def _n_imagenet(split: str, label: str | None, key: str) -> Path:
+    folder = f"extracted_{_train_or('val', split)}"
+    return Path(folder) / folder_name(label or "") / f"{key}.npz"
+
+
+def _n_imagenet_lists(folder: Path, exported: list[Exported]) -> Files:
+    """Absolute paths, as its own lists have them: its loader opens them from anywhere."""
+    lines: dict[str, list[str]] = {"train": [], "val": []}
+    for one in exported:
+        lines.setdefault(_train_or("val", one.split), []).append(str(folder / one.path))
+    return {f"{name}_list.txt": "".join(f"{line}\n" for line in lines[name]) for name in lines}
+
+
+def _n_caltech101(split: str, label: str | None, key: str) -> Path:
+    return Path("Caltech101") / folder_name(label or "") / f"{key}.bin"
+
+
+def _split_lists(folder: Path, exported: list[Exported]) -> Files:
+    """The layout has no splits, so lists beside it say them."""
+    lines: dict[str, list[str]] = {}
+    for one in exported:
+        lines.setdefault(one.split, []).append(str(one.path))
+    return {f"{split}.txt": "".join(f"{line}\n" for line in lines[split]) for split in lines}
+
+
+LAYOUTS: Mapping[str, Layout] = {
+    "hdf5": Layout(format="hdf5", place=lambda split, label, key: Path(split) / f"{key}.h5"),
+    "n-imagenet": Layout(
+        format="n-imagenet",
+        place=_n_imagenet,
+        has_two_splits=True,
+        lists=_n_imagenet_lists,
+        needs_classes=True,
+        size=(640, 480),
+        lost="captions (its readers have classes alone)",
+    ),
+    "dsec": Layout(
+        format="dsec",
+        has_two_splits=True,
+        place=lambda split, label, key: (
+            Path(_train_or("test", split)) / key / "events" / "left" / "events.h5"
+        ),
+        size=(640, 480),
+        lost="captions and classes; there is one camera, and no images, disparity or flow",
+    ),
+    "n-caltech101": Layout(
+        format="atis",
+        place=_n_caltech101,
+        lists=_split_lists,
+        needs_classes=True,
+        lost="captions, splits (lists beside it say them), sensors over 256x240, times from "
+        "8.39 s on",
+    ),
+}
+
 
 NOTE_FILE = "texvent-export.json"
 
@@ -33,7 +159,7 @@ class Exports:
 
 
 def export(
-    made: MadeSet,
+    made: StoredDataset,
     format: str,
     folder: Path,
     *,
@@ -74,7 +200,7 @@ def export(
     return Exports(len(exported), kept, _doubts(made, layout, variant, labelled=labelled))
 
 
-def _check(made: MadeSet, layout: Layout, format: str, variant: str) -> None:
+def _check(made: StoredDataset, layout: Layout, format: str, variant: str) -> None:
     missing = made.missing(variant)
     if missing:
         raise InputError(
@@ -96,7 +222,7 @@ def _check(made: MadeSet, layout: Layout, format: str, variant: str) -> None:
             )
 
 
-def _begin(made: MadeSet, format: str, folder: Path, variant: str) -> None:
+def _begin(made: StoredDataset, format: str, folder: Path, variant: str) -> None:
     """Note what the folder is, or see that it is the same export.
 
     Raises:
@@ -116,7 +242,7 @@ def _begin(made: MadeSet, format: str, folder: Path, variant: str) -> None:
         part.write_text(json.dumps(note, indent=1) + "\n", encoding="utf-8")
 
 
-def _write(shard: MadeShard, sample: SampleRecord, layout: Layout, path: Path) -> None:
+def _write(shard: StoredShard, sample: SampleRecord, layout: Layout, path: Path) -> None:
     events = read_events(shard.path, sample)
     if layout.format not in KEEP_NOISE:
         events = replace(events, label=None)
@@ -146,7 +272,9 @@ def _write_identity_map(path: Path, size: SensorSize) -> None:
         file.create_dataset("rectify_map", data=np.stack([columns, rows], axis=-1))
 
 
-def _doubts(made: MadeSet, layout: Layout, variant: str, *, labelled: bool) -> tuple[str, ...]:
+def _doubts(
+    made: StoredDataset, layout: Layout, variant: str, *, labelled: bool
+) -> tuple[str, ...]:
     doubts = [f"it does not hold {layout.lost}"] if layout.lost else []
     if labelled and layout.format not in KEEP_NOISE:
         doubts.append("it does not hold which events are noise")

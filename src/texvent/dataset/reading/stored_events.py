@@ -1,15 +1,18 @@
-"""Events from the columns of a sample, as they lie one after another in a shard."""
+"""Events and facts of a stored sample."""
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, one_line
+from texvent.dataset.generation.shards import SampleRecord, read_members
+from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
@@ -69,3 +72,43 @@ def _are_events(columns: Mapping[str, NDArray[Any]], size: SensorSize) -> bool:
     return not len(x) or bool(
         x.max() < size.width and y.max() < size.height and p.max() <= 1 and (t[1:] >= t[:-1]).all()
     )
+
+
+def read_events(shard: Path, sample: SampleRecord) -> EventStream:
+    """The events of a sample, checked, with all that is known of them as metadata.
+
+    Args:
+        shard: the tar.
+        sample: its record.
+
+    Raises:
+        FileFormatError: the shard is cut off or changed, or the events are not sound.
+    """
+    members = read_members(shard, sample.members, COLUMN_MEMBERS)
+    try:
+        columns = {
+            name.removesuffix(".npy"): npy_column(memoryview(content))
+            for name, content in members.items()
+        }
+        events = events_of(columns, SensorSize(sample.width, sample.height))
+    except InputError as error:
+        raise FileFormatError(f"{shard}: sample {sample.key} is damaged ({error})") from error
+    return events.with_metadata(read_sample_facts(shard, sample))
+
+
+def read_sample_facts(shard: Path, sample: SampleRecord) -> dict[str, Any]:
+    """All that is known of a sample: its .json.
+
+    Raises:
+        FileFormatError: the shard is cut off or changed.
+    """
+    content = read_members(shard, sample.members, ("json",)).get("json", b"")
+    try:
+        facts = json.loads(content)
+    except ValueError as error:
+        raise FileFormatError(
+            f"{shard}: sample {sample.key} is damaged ({one_line(error)})"
+        ) from error
+    if not isinstance(facts, dict):
+        raise FileFormatError(f"{shard}: the facts of sample {sample.key} are no table")
+    return facts

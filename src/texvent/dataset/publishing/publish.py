@@ -1,16 +1,15 @@
-"""What stands in a published data set besides its shards: the same whenever it is published."""
+"""Publication: index, card and description of a data set."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.statistics import SetStatistics
-from texvent.dataset.publishing.card import CARD_FILE, card_text
+from texvent.dataset.publishing.card import CARD_FILE, PublicationInfo, card_text
 from texvent.dataset.publishing.croissant import CROISSANT_FILE, croissant_text
 from texvent.dataset.publishing.index import write_index
-from texvent.dataset.publishing.notice import Notice
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.statistics import DatasetStatistics
 from texvent.errors import InputError, OutputError, warn
 from texvent.io.atomic import atomic_file
 
@@ -22,17 +21,17 @@ class Published:
     """What was written."""
 
     files: tuple[Path, ...]
-    statistics: SetStatistics
+    statistics: DatasetStatistics
     missing: int
     """Shards that are not there."""
 
 
-def publish(made: MadeSet, notice: Notice, *, partial: bool = False) -> Published:
+def publish(dataset: StoredDataset, info: PublicationInfo, *, partial: bool = False) -> Published:
     """Write the index, the card and the Croissant description; equal shards give equal bytes.
 
     Args:
-        made: the data set.
-        notice: what its author says of it.
+        dataset: the data set.
+        info: author, licence, notes.
         partial: whether shards may be missing.
 
     Raises:
@@ -40,27 +39,27 @@ def publish(made: MadeSet, notice: Notice, *, partial: bool = False) -> Publishe
         OutputError: a file cannot be written, or the card is another's.
         MissingDependencyError: pyarrow is not installed.
     """
-    missing = made.missing()
-    statistics = SetStatistics.of(made)
+    missing = dataset.missing()
+    statistics = DatasetStatistics.of(dataset)
     if missing and not partial:
         raise InputError(
             f"{len(missing)} shards are missing, such as {', '.join(missing[:MOST_NAMED])}; make "
             "them (texvent dataset make), or publish what there is with --partial"
         )
     if not statistics.total.samples:
-        raise InputError(f"{made.folder} holds no samples to publish")
-    card = made.folder / CARD_FILE
-    if card.exists() and notice.MARK not in card.read_text("utf-8", errors="replace"):
+        raise InputError(f"{dataset.folder} holds no samples to publish")
+    card = dataset.folder / CARD_FILE
+    if card.exists() and info.MARK not in card.read_text("utf-8", errors="replace"):
         raise OutputError(
             f"{card} was not written by texvent; move it away, or put its text into a file and "
             "give that with --notes"
         )
-    if not notice.license_of(made):
+    if not info.license_of(dataset):
         warn("no licence is stated, so others may not use the data set; state one with --license")
-    index = write_index(made)
+    index = write_index(dataset)
     text = {
-        card: card_text(made, statistics, notice, missing=len(missing)),
-        made.folder / CROISSANT_FILE: croissant_text(made, statistics, notice, index),
+        card: card_text(dataset, statistics, info, missing=len(missing)),
+        dataset.folder / CROISSANT_FILE: croissant_text(dataset, statistics, info, index),
     }
     for path, content in text.items():
         with atomic_file(path, overwrite=True) as part:
