@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from texvent.calibrate.distance import NOTHING, measure_distance
+from texvent.calibrate.search import NOTHING, measure_distance
 from texvent.events import EventStream
 
 

@@ -15,11 +15,15 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.calibrate.bootstrap import bootstrap
-from texvent.calibrate.estimates import Estimate, Kept, with_estimates
-from texvent.calibrate.events_only.dead_time import find_dead_time
+from texvent.calibrate.estimates import Estimate, UnidentifiedOption, with_estimates
 from texvent.calibrate.events_only.leak import leak_rate, leak_spread
-from texvent.calibrate.events_only.pixel_trains import BoolArray, Float64Array, PixelTrains
-from texvent.calibrate.events_only.rest import find_rest, mains_flicker
+from texvent.calibrate.events_only.pixel_trains import (
+    BoolArray,
+    Float64Array,
+    PixelTrains,
+    find_dead_time,
+)
+from texvent.calibrate.events_only.stationary_blocks import find_rest, mains_flicker
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
@@ -50,7 +54,7 @@ class StaticScene(NamedTuple):
 
     config: PhysicalConfig
     found: tuple[Estimate, ...]
-    kept: tuple[Kept, ...]
+    kept: tuple[UnidentifiedOption, ...]
     remarks: tuple[str, ...]
     is_hot: BoolArray
     """[H, W]."""
@@ -124,11 +128,11 @@ def measure_static_scene(events: EventStream, start: PhysicalConfig) -> StaticSc
     spread = leak_spread(calm, values.leak_hz, GROUPS) or "too few leak events per pixel"
     for name, one in (("leak_rate_decades", spread), ("refractory_period_us", dead)):
         if isinstance(one, str):
-            kept.append(Kept(name, getattr(start, name), one))
+            kept.append(UnidentifiedOption(name, getattr(start, name), one))
         else:
             found.append(one)
     reason = "a scene at rest does not tell it"
-    kept += [Kept(name, getattr(start, name), reason) for name in NOT_TOLD]
+    kept += [UnidentifiedOption(name, getattr(start, name), reason) for name in NOT_TOLD]
     return StaticScene(
         _with(start, found, values.noise_hz),
         tuple(found),
@@ -244,7 +248,7 @@ def _judge(
     ends: Float64Array,
     start: PhysicalConfig,
     exposure_s: float,
-) -> tuple[list[Estimate], list[Kept]]:
+) -> tuple[list[Estimate], list[UnidentifiedOption]]:
     """Which estimates stand on enough events."""
     off, early = counts.sums[..., 1].sum(), counts.sums[..., 2:].sum()
     least_hz = 3.0 / exposure_s
@@ -268,7 +272,7 @@ def _judge(
             unit = "1/(px s)" if name.endswith("_hz") else ""
             found.append(Estimate(name, values[place], ends[0, place], high[place], unit))
         else:
-            kept.append(Kept(name, getattr(start, name), reason))
+            kept.append(UnidentifiedOption(name, getattr(start, name), reason))
     return found, kept
 
 

@@ -1,4 +1,4 @@
-"""What a fitted model makes of the scenes that are known without frames."""
+"""Known scenes, at rest or flickering, simulated by a fitted model."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ SWITCH_US = 10
 """Time in which the light switches, µs."""
 
 
-def replay_static(
+def simulate_static(
     config: PhysicalConfig, size: SensorSize, seconds: float, *, seed: int = 0
 ) -> EventStream:
     """Events of a scene at rest, by a sensor that has run before: pixels have any phase.
@@ -38,7 +38,7 @@ def replay_static(
     return _simulate(config, [(t_us, level) for t_us in times], seed)
 
 
-def replay_flicker(
+def simulate_flicker(
     config: PhysicalConfig,
     size: SensorSize,
     hz: float,

@@ -84,7 +84,7 @@ class Pairs(NamedTuple):
         return self.take(self.pixel % every == 0) if every > 1 else self
 
 
-class BurstFit(NamedTuple):
+class StepResponseFit(NamedTuple):
     """Bandwidth and refractory period, and the pairs that agree."""
 
     omega: float
@@ -137,7 +137,7 @@ def disagreements(pairs: Pairs, omega: float, dead_s: float) -> Float64Array:
     return np.asarray((theta - mean[pairs.pixel]) / math.sqrt(max(float((mean**2).mean()), 1e-300)))
 
 
-def fit_bursts(pairs: Sequence[Pairs]) -> BurstFit:
+def fit_step_response(pairs: Sequence[Pairs]) -> StepResponseFit:
     """Bandwidth and refractory period with which the pairs of every pixel agree best.
 
     Args:
@@ -151,7 +151,7 @@ def fit_bursts(pairs: Sequence[Pairs]) -> BurstFit:
         known = omega
         kept = [one.take(~_outliers(one, omega, dead_s)) for one in fitted]
     calm = tuple(one.take(~_outliers(one, omega, dead_s)) for one in pairs)
-    return BurstFit(omega, dead_s, calm)
+    return StepResponseFit(omega, dead_s, calm)
 
 
 def find_slowness(dark: Pairs, bright: Pairs) -> float:
@@ -161,7 +161,7 @@ def find_slowness(dark: Pairs, bright: Pairs) -> float:
         dark: pairs of OFF events.
         bright: pairs of ON events, which tell bandwidth and refractory period of their half.
     """
-    fit = fit_bursts([bright])
+    fit = fit_step_response([bright])
     kept = dark = dark.thinned(FITTED_PAIRS)
     slowness = 1.0
     for _ in range(ROUNDS):
@@ -235,7 +235,7 @@ def golden(
     return (left, at_left) if at_left < at_right else (right, at_right)
 
 
-class Influence(NamedTuple):
+class InfluenceFunction(NamedTuple):
     """How the fit moves if parts of the data count more or less, to first order."""
 
     gradient: Float64Array
@@ -245,7 +245,7 @@ class Influence(NamedTuple):
     scale_s: float
 
     def parameters(
-        self, fit: BurstFit, windows: Float64Array, groups: Float64Array
+        self, fit: StepResponseFit, windows: Float64Array, groups: Float64Array
     ) -> tuple[float, float]:
         """ω and r of a resample."""
         gradient = np.einsum("w,g,wgk->k", windows, groups, self.gradient)
@@ -258,7 +258,9 @@ class Influence(NamedTuple):
         return omega, max(fit.dead_s + self.scale_s * float(step[1]), 0.0)
 
 
-def find_influence(fit: BurstFit, windows: int, groups: int, cycles: int) -> Influence:
+def find_influence(
+    fit: StepResponseFit, windows: int, groups: int, cycles: int
+) -> InfluenceFunction:
     """The influence of windows of time and groups of pixels on a fit."""
     scale_s = float(np.median(np.concatenate([one.wait_s for one in fit.pairs])))
     gradient = np.zeros((windows * groups, 2))
@@ -278,4 +280,4 @@ def find_influence(fit: BurstFit, windows: int, groups: int, cycles: int) -> Inf
                 product = np.bincount(cell, slope * other, size) / len(here)
                 curvature[:, row, column] += product
     shape = windows, groups
-    return Influence(gradient.reshape(*shape, 2), curvature.reshape(*shape, 2, 2), scale_s)
+    return InfluenceFunction(gradient.reshape(*shape, 2), curvature.reshape(*shape, 2, 2), scale_s)

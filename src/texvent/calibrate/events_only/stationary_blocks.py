@@ -1,4 +1,4 @@
-"""Which part of a recording is at rest: where events come as rarely at one time as at another."""
+"""Stationary blocks: the part of a recording whose event rate does not change."""
 
 from __future__ import annotations
 
