@@ -2,9 +2,9 @@
 
 `step_response_fit.py` gives bandwidth, refractory period and the thresholds of pixels up to a
 factor per polarity, because the instant of the step is not known. The factors follow from the first
-event of each burst. At the step, the output of a pixel lies somewhere between its last reset and the next
-opposite threshold, on average half of that away; so the first ON event comes when the output has
-changed by θ_on + θ_off / 2, and the first OFF event likewise.
+event of each burst. At the step, the output of a pixel lies somewhere between its last reset and
+the next opposite threshold, on average half of that away; so the first ON event comes when the
+output has changed by θ_on + θ_off / 2, and the first OFF event likewise.
 """
 
 from __future__ import annotations

@@ -113,29 +113,6 @@ def facts_html(facts: Mapping[str, Any]) -> str:
     return "\n".join(rows)
 
 
-def table_html(
-    titles: Sequence[str], rows: Iterable[Sequence[str]], *, kind: str = "numbers"
-) -> str:
-    """A table with a heading in every row; cells are escaped, names may break after "_".
-
-    Args:
-        titles: of the columns.
-        rows: cells, the first of each its heading.
-        kind: class of the page's style that says how cells are laid out.
-    """
-    head = "".join(f'<th scope="col">{html.escape(title)}</th>' for title in titles)
-    lines = [
-        f'<tr><th scope="row">{html.escape(first).replace("_", "_<wbr>")}</th>'
-        + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells)
-        + "</tr>"
-        for first, *cells in rows
-    ]
-    return (
-        f'<div class="wide"><table class="facts {kind}">'
-        f"<thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table></div>"
-    )
-
-
 def details_html(metadata: Mapping[str, Any]) -> str:
     """All settings of the run, folded."""
     if not metadata:
