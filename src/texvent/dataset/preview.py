@@ -1,11 +1,10 @@
-"""Preview of a data set: some samples as a contact sheet (PNG) and a page (HTML)."""
+"""Preview of a data set: some samples on a page, with their liveliest 40 ms, captions and facts."""
 
 from __future__ import annotations
 
 import base64
 import html
 import json
-import math
 import random
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -20,12 +19,10 @@ from texvent.errors import InputError, shown
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
 from texvent.represent.event_frame import count_events
-from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS
-from texvent.view.drawing.canvas import Image, blank, png_bytes, shrink, tile
+from texvent.view.drawing.canvas import Image, png_bytes, shrink
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
-from texvent.view.drawing.panels import SURROUND, PanelLayout
 from texvent.view.page.comparison import WINDOW_US, busiest_start
 from texvent.view.page.html_parts import count_text
 from texvent.view.page.template import fill_template
@@ -42,16 +39,7 @@ class SampleSelection:
     seed: int = 0
 
 
-@dataclass(frozen=True)
-class ChosenSample:
-    """A sample to look at."""
-
-    shard: StoredShard
-    record: SampleRecord
-
-    def events(self) -> EventStream:
-        """Its events."""
-        return read_events(self.shard.path, self.record)
+ChosenSample = tuple[StoredShard, SampleRecord]
 
 
 def choose_samples(made: StoredDataset, selection: SampleSelection) -> list[ChosenSample]:
@@ -73,7 +61,7 @@ def choose_samples(made: StoredDataset, selection: SampleSelection) -> list[Chos
             # Each sample has the same chance, and no more than those chosen are held.
             place = seen if seen < selection.count else chance.randrange(seen + 1)
             if place < selection.count:
-                chosen[place : place + 1] = [(seen, ChosenSample(shard, record))]
+                chosen[place : place + 1] = [(seen, (shard, record))]
             seen += 1
     if not chosen:
         asked = {"split": selection.split, "label": selection.label}
@@ -83,25 +71,7 @@ def choose_samples(made: StoredDataset, selection: SampleSelection) -> list[Chos
     return [sample for _, sample in sorted(chosen, key=lambda pair: pair[0])]
 
 
-SHEET_WIDTH, NARROWEST_PANEL, GAP = 1600.0, 300.0, 4
 IMAGE_WIDTH = 480
-
-
-def write_contact_sheet(samples: Sequence[ChosenSample], path: Path, *, overwrite: bool) -> Path:
-    """One PNG of all samples under their captions.
-
-    Raises:
-        OutputError: the file exists already or cannot be written.
-        FileFormatError: a sample is damaged.
-    """
-    columns = max(1, min(len(samples), round(math.sqrt(len(samples) * 1.5))))
-    width = max(NARROWEST_PANEL, SHEET_WIDTH / columns)
-    panels = [_panel(sample, width) for sample in samples]
-    tallest, widest = (max(panel.shape[axis] for panel in panels) for axis in (0, 1))
-    sheet = tile([_padded(one, widest, tallest) for one in panels], columns, SURROUND, gap=GAP)
-    with atomic_file(path, overwrite=overwrite) as part:
-        part.write_bytes(png_bytes(sheet))
-    return path
 
 
 def write_sample_page(
@@ -136,32 +106,15 @@ def _liveliest(events: EventStream, palette: Palette) -> Image:
     return draw_events(count_events(events.cut(start, start + WINDOW_US)), palette)
 
 
-def _panel(sample: ChosenSample, width: float) -> Image:
-    record = sample.record
-    size = SensorSize(record.width, record.height)
-    layout = PanelLayout(size, get_palette(DEFAULT_PALETTE), side_by_side=False, target_width=width)
-    image = _liveliest(sample.events(), layout.palette)
-    title = record.prompt or record.label or record.key
-    return shrink(
-        layout.compose(None, image, title=title, facts=sample.shard.record.variant), int(width)
-    )
-
-
-def _padded(panel: Image, width: int, height: int) -> Image:
-    """The panel on a ground of one size for all."""
-    ground = blank(width, height, SURROUND)
-    ground[: panel.shape[0], : panel.shape[1]] = panel
-    return ground
-
-
 def _card(sample: ChosenSample, palette: Palette) -> str:
-    record, events = sample.record, sample.events()
+    shard, record = sample
+    events = read_events(shard.path, record)
     light, dark = (_data(_liveliest(events, one)) for one in (palette, palette.dark))
     seconds = record.duration_us / MICROSECONDS
     on_share = float(np.mean(events.p)) if len(events) else 0.0
     facts = [
-        sample.shard.record.variant,
-        sample.shard.record.split,
+        shard.record.variant,
+        shard.record.split,
         *([record.label] if record.label else []),
         f"{count_text(record.events)} events, {on_share:.0%} ON",
         f"{seconds:.3g} s",

@@ -33,8 +33,8 @@ from texvent.dataset.statistics import in_several_splits
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.hidden_parts import is_hidden_part
 
-OWN = (SPECIFICATION_FILE, ITEMS_FILE, CARD_FILE, CROISSANT_FILE, INDEX_FILE, LOGS, "samples.png",
-       "samples.html", ".git", ".gitattributes", ".cache")  # fmt: skip
+OWN = (SPECIFICATION_FILE, ITEMS_FILE, CARD_FILE, CROISSANT_FILE, INDEX_FILE, LOGS, "samples.html",
+       "samples.png", ".git", ".gitattributes", ".cache")  # fmt: skip
 """Files of a data set besides its shards."""
 
 

@@ -194,7 +194,7 @@ def make_loaders(
     written: Written, *, workers: int, batch_size: int, is_represented: bool
 ) -> dict[str, Any]:
     """Name → an object that gives the batches of a pass each time it is iterated."""
-    from texvent.dataset.loading.torch_loader import StoredStream, collate
+    from texvent.dataset.loading.torch_loader import collate
 
     data = require("torch.utils.data", extra="torch")
     wds: Any = require("webdataset", extra="loaders")
@@ -205,16 +205,18 @@ def make_loaders(
     samples = texvent.dataset.open(written.folder / "set")
     if is_represented:
         samples = samples.represented(REPRESENTATION)
-    stream = StoredStream(samples, batch_size=batch_size, shuffle=True, shuffle_buffer=100)
     tars = wds.WebDataset(
         written.shards, shardshuffle=False, select_files=is_needed, empty_check=False
     ).decode()
     tars = tars.map(functools.partial(columns_of_tar, is_represented=is_represented))
     return {
-        "texvent, map-style": samples.loader(
+        "texvent, Loader": samples.loader(
             batch_size=batch_size, shuffle=True, workers=workers, start_method="fork"
         ),
-        "texvent, iterable": data.DataLoader(stream, **sized),
+        "texvent, shards in sequence": samples.loader(
+            batch_size=batch_size, shuffle=True, shuffle_buffer=100, workers=workers,
+            start_method="fork",
+        ),
         BASE: data.DataLoader(tars.batched(batch_size, collation_fn=collate), **{
             **{name: one for name, one in options.items() if name != "collate_fn"},
             "batch_size": None,

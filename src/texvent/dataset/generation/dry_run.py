@@ -10,21 +10,24 @@ import math
 import random
 import statistics
 import tempfile
+import time
+from collections import deque
 from collections.abc import Iterable, Iterator, Sequence
-from concurrent.futures import Executor
-from concurrent.futures.process import BrokenProcessPool
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent.batch.processes import interruptible
-from texvent.batch.processes import processes as start_processes
-from texvent.dataset.generation.make_shard import make_shard
+from texvent.dataset.generation.engines import (
+    Engine,
+    Outcome,
+    ProcessEngine,
+    Task,
+    in_this_process,
+)
 from texvent.dataset.generation.recipe import (
     SPECIFICATION_FILE,
     VIDEOS,
     Recipe,
     Shard,
-    load_recipe_once,
 )
 from texvent.dataset.generation.shards import FAILED, MADE, ShardRecord, size_in_tar
 from texvent.dataset.specification.items import Item
@@ -107,12 +110,12 @@ def _settings(recipe: Recipe) -> Settings:
 
 
 LIMIT_S = 30.0
-"""Each of the two rounds of a stage takes no longer than this, but for the sample at hand."""
+"""From then on, a round of a stage begins no further sample."""
 
 
 @dataclass(frozen=True)
 class StageEstimate:
-    """The videos, or a variant, as far as a trial can tell."""
+    """Cost of the videos, or of a variant, estimated by a trial."""
 
     name: str
     samples: int
@@ -151,7 +154,7 @@ def try_samples(
     Args:
         recipe: of the data set.
         clips: how many of them, at least one per process.
-        progress: told of every process that has ended.
+        progress: receives the number of finished samples.
         workers: processes, at most one per core.
 
     Raises:
@@ -163,58 +166,42 @@ def try_samples(
     places = _draw_places(single, max(clips, processes))
     stages = [*([VIDEOS] if recipe.stores_videos else []), *recipe.variants]
     results: list[StageEstimate] = []
-    with tempfile.TemporaryDirectory() as name, contextlib.ExitStack() as ending:
-        folder = Path(name) / "set"
+    engine: Engine = in_this_process() if processes == 1 else ProcessEngine(processes)
+    with tempfile.TemporaryDirectory() as name, contextlib.closing(engine):
+        folder = Path(name).absolute() / "set"
         single.begin(folder)
-        pool = ending.enter_context(start_processes(processes)) if processes > 1 else None
-        for stage in stages:
-            # A learned model is loaded once, as in the whole run.
-            count = 1 if stage == VIDEOS else processes
-            shards = [Shard(stage, *place) for place in places]
-            records: list[ShardRecord] = []
-            for part in _try_parts(
-                pool, folder, [shards[number::count] for number in range(count)]
-            ):
-                records += part
-                done = len(results) * len(places) + len(records)
-                progress.advance("trial", done, len(stages) * len(places))
+        for number, stage in enumerate(stages):
+            tasks = [Task(folder, Shard(stage, *place)) for place in places]
+            tasks = [outcome.task for outcome in _make(tasks, engine)]
+            records = [outcome.record for outcome in _make(tasks, engine) if outcome.record]
             if stage == VIDEOS:
-                places = places[: len(records)]
+                places = [(task.shard.split, task.shard.number) for task in tasks]
             seeds = 1 if stage == VIDEOS else recipe.variants[stage].seeds
             results.append(_estimate(recipe, stage, seeds, records))
+            progress.advance("trial", number + 1, len(stages))
     return results
 
 
-def _try_parts(
-    pool: Executor | None, folder: Path, parts: Sequence[Sequence[Shard]]
-) -> Iterator[list[ShardRecord]]:
-    if pool is None:
-        yield from map(_try_shards, itertools.repeat(folder), parts)
-        return
-    try:
-        yield from pool.map(_try_in_process, itertools.repeat(folder), parts)
-    except BrokenProcessPool as error:
-        raise TexventError(
-            "a process of the trial died, perhaps for want of memory; plan with fewer --workers"
-        ) from error
+def _make(tasks: Sequence[Task], engine: Engine) -> list[Outcome]:
+    """Make shards until `LIMIT_S`; those begun are finished.
 
-
-def _try_in_process(folder: Path, shards: Sequence[Shard]) -> list[ShardRecord]:
-    with interruptible():
-        return _try_shards(folder, shards)
-
-
-def _try_shards(folder: Path, shards: Sequence[Shard]) -> list[ShardRecord]:
-    """Make shards twice, in this process; the records of the second time."""
-    recipe = load_recipe_once(folder)
-    records: list[ShardRecord] = []
-    for _ in range(2):
-        shards, records = shards[: len(records) or None], []
-        for shard in shards:
-            records.append(make_shard(recipe, folder, shard))
-            if sum(record.seconds for record in records) > LIMIT_S:
-                break
-    return records
+    Raises:
+        TexventError: one could not be made.
+    """
+    is_video = tasks[0].shard.variant == VIDEOS
+    waiting, running, outcomes = deque(tasks), 0, list[Outcome]()
+    stop = time.monotonic() + LIMIT_S
+    while waiting or running:
+        while waiting and running < engine.capacity(videos=is_video):
+            engine.submit(waiting.popleft())
+            running += 1
+        outcomes.append(engine.next())
+        running -= 1
+        if outcomes[-1].failure is not None:
+            raise TexventError(f"the trial failed: {outcomes[-1].failure}")
+        if time.monotonic() > stop:
+            waiting.clear()
+    return outcomes
 
 
 def _draw_places(recipe: Recipe, clips: int) -> list[tuple[str, int]]:

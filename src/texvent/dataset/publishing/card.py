@@ -143,7 +143,6 @@ def card_text(
     first = next(one for one in dataset.shards(variant) if one.record.split == split)
     notes = [
         f"{missing} shards are missing: this is a part of the data set." if missing else "",
-        "![Samples](samples.png)" if (dataset.folder / "samples.png").is_file() else "",
         info.notes.strip(),
     ]
     body = BODY.format(

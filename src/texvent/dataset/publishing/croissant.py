@@ -1,4 +1,4 @@
-"""A Croissant 1.1 description: what files there are, and the columns of the index, as JSON-LD.
+"""Croissant 1.1 description: files and columns of the index, as JSON-LD.
 
 Source: the Croissant format specification 1.1 and its RAI vocabulary 1.0, MLCommons.
 """
@@ -40,7 +40,7 @@ CONTEXT: dict[str, Any] = {
     "name": {"@container": "@language"},
     "sc": "https://schema.org/",
 }
-"""What every Croissant 1.1 file begins with."""
+"""Context of every Croissant 1.1 file."""
 
 
 def croissant_text(
@@ -55,52 +55,44 @@ def croissant_text(
         index: the Parquet index that was written.
     """
     total = statistics.total
+    described = str(dataset.specification.get("description") or "").strip()
+    counts = f"{total.samples:,} simulated event-camera samples of {len(total.clips):,} videos."
     given = {
         "url": info.url,
         "datePublished": info.date,
         "creator": info.creator and {"@type": "sc:Organization", "name": info.creator},
         "license": info.license_of(dataset) or None,
     }
+    with index.open("rb") as file:
+        sha256 = hashlib.file_digest(file, "sha256").hexdigest()
     document = {
         "@context": CONTEXT,
         "@type": "sc:Dataset",
         "conformsTo": [*CONFORMS_TO],
         "name": dataset.name,
-        "description": _description(dataset, total.samples, len(total.clips)),
+        "description": f"{described} {counts}".strip(),
         **{name: value for name, value in given.items() if value},
+        # Another version for other samples: the identity as a build number.
         "version": f"1.0.0+{dataset.identity[:12]}",
         "isLiveDataset": False,
         "keywords": ["event camera", "neuromorphic vision", "synthetic data", "texvent"],
-        **_responsible_ai(dataset),
-        "distribution": [_index_file(index), *_shard_files(dataset), *_file_sets(dataset)],
+        "rai:dataCollection": "Simulated from videos by models of event cameras; nothing was "
+        "recorded by an event camera. The .json of each sample names every setting.",
+        "rai:dataCollectionType": "Software Collection",
+        "rai:dataBiases": "The content follows the chosen prompts or videos and their generator.",
+        "rai:dataLimitations": "Simulated events lack what the model of the sensor leaves out. "
+        "Captions are prompts; a video may show less.",
+        "distribution": [
+            _file(index.name, "application/x-parquet", index.stat().st_size, sha256),
+            *(
+                _file(shard.place, "application/x-tar", shard.record.bytes, shard.record.sha256)
+                for shard in dataset.shards()
+            ),
+            *_file_sets(dataset),
+        ],
         "recordSet": [_record_set(index.name)],
     }
     return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
-
-
-def _description(dataset: StoredDataset, samples: int, clips: int) -> str:
-    given = str(dataset.specification.get("description") or "").strip()
-    facts = f"{samples:,} simulated event-camera samples of {clips:,} videos with captions."
-    return f"{given} {facts}".strip()
-
-
-def _responsible_ai(dataset: StoredDataset) -> dict[str, Any]:
-    words = {
-        "dataCollection": "Simulated from videos by models of event cameras; nothing was recorded "
-        "by an event camera. The .json of each sample names every setting.",
-        "dataCollectionType": "Software Collection",
-        "dataBiases": "The content follows the chosen prompts or videos and their generator.",
-        "dataLimitations": "Simulated events lack what the model of the sensor leaves out. "
-        "Captions are prompts; a video may show less.",
-        "machineAnnotationTools": [f"texvent {dataset.facts.get('texvent_version', '')}".strip()],
-    }
-    return {f"rai:{name}": value for name, value in words.items()}
-
-
-def _index_file(index: Path) -> dict[str, Any]:
-    with index.open("rb") as file:
-        sha256 = hashlib.file_digest(file, "sha256").hexdigest()
-    return _file(index.name, "application/x-parquet", index.stat().st_size, sha256)
 
 
 def _file(place: str, kind: str, size: int, sha256: str) -> dict[str, Any]:
@@ -115,27 +107,20 @@ def _file(place: str, kind: str, size: int, sha256: str) -> dict[str, Any]:
     }
 
 
-def _shard_files(dataset: StoredDataset) -> Iterator[dict[str, Any]]:
-    for shard in dataset.shards():
-        record = shard.record
-        yield _file(shard.place, "application/x-tar", record.bytes, record.sha256)
-
-
 def _file_sets(dataset: StoredDataset) -> Iterator[dict[str, Any]]:
-    """What lies in the tars of each variant."""
+    """Members of the tars of each variant."""
     kinds = {"json": "application/json", "txt": "text/plain", "npy": "application/x-npy"}
     for variant in dataset.variants:
         places = [{"@id": shard.place} for shard in dataset.shards(variant)]
-        for extension, kind in kinds.items():
-            if places:
-                yield {
-                    "@type": "cr:FileSet",
-                    "@id": f"{variant}-{extension}",
-                    "name": f"{variant}-{extension}",
-                    "containedIn": places,
-                    "encodingFormat": kind,
-                    "includes": f"*.{extension}",
-                }
+        for extension, kind in kinds.items() if places else ():
+            yield {
+                "@type": "cr:FileSet",
+                "@id": f"{variant}-{extension}",
+                "name": f"{variant}-{extension}",
+                "containedIn": places,
+                "encodingFormat": kind,
+                "includes": f"*.{extension}",
+            }
 
 
 def _record_set(index: str) -> dict[str, Any]:

@@ -191,7 +191,7 @@ def _placeholders(template: str) -> list[str]:
         parts = [name for _, name, _, _ in string.Formatter().parse(template) if name is not None]
     except ValueError as error:
         raise ConfigError(
-            f"template {shown(template)}: {error}; words to fill in stand in {{}}"
+            f"template {shown(template)}: {error}; names to fill in stand in {{}}"
         ) from error
     return list(dict.fromkeys(parts))
 
@@ -221,13 +221,13 @@ def read_scenes(source: SampleSource, seed: int) -> Iterator[tuple[Scene, str | 
             if entry.scene is None:
                 raise InputError(f"{entry.where} is no scene file; scene names .toml or .json")
             try:
-                for scene in _variants(entry.scene, str(entry.name), source, seed):
-                    yield scene, _filled(source.label, scene, str(entry.name))
+                for scene in _varied_scenes(entry.scene, str(entry.name), source, seed):
+                    yield scene, _with_scene_fields(source.label, scene, str(entry.name))
             except ConfigError as error:
                 raise ConfigError(f"{entry.where}: {error}") from error
 
 
-def _variants(scene: Scene, name: str, source: SampleSource, seed: int) -> Iterator[Scene]:
+def _varied_scenes(scene: Scene, name: str, source: SampleSource, seed: int) -> Iterator[Scene]:
     """A scene with the values of its varied fields; its sentence with the fields that it names."""
     if not source.vary:
         yield scene
@@ -237,7 +237,7 @@ def _variants(scene: Scene, name: str, source: SampleSource, seed: int) -> Itera
     ranges = {path: values for path, values in source.vary.items() if is_range(values)}
     for number, chosen in enumerate(_combinations(name, source, bool(ranges), seed)):
         varied = with_fields(scene, chosen | draw_options(ranges, seed, name, number))
-        yield replace(varied, prompt=_filled(varied.prompt, varied, name) or "")
+        yield replace(varied, prompt=_with_scene_fields(varied.prompt, varied, name) or "")
 
 
 def _combinations(
@@ -263,15 +263,11 @@ def _combinations(
     yield from itertools.islice(drawn, source.count)
 
 
-def _filled(text: str | None, scene: Scene, name: str) -> str | None:
+def _with_scene_fields(text: str | None, scene: Scene, name: str) -> str | None:
     """A label or sentence with the fields of a scene in place of their paths in braces."""
     if text is None or "{" not in text:
         return text
-    try:
-        paths = [path for _, path, _, _ in string.Formatter().parse(text) if path is not None]
-    except ValueError as error:
-        raise ConfigError(f"{shown(text)}: {error}; fields to fill in stand in {{}}") from error
-    for path in paths:
+    for path in _placeholders(text):
         value: Any = name if path == "name" else get_field(scene, path)
         if value is None or isinstance(value, (Mapping, tuple)):
             raise ConfigError(f"{shown(text)} names {path}, which has no value to write")

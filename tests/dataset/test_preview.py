@@ -6,8 +6,6 @@ import html
 from html.parser import HTMLParser
 from pathlib import Path
 
-import cv2
-import numpy as np
 import pytest
 from tests.dataset.conftest import CARS
 
@@ -42,25 +40,17 @@ def test_the_page_shows_every_sample_with_its_caption(
     assert not {"script", "i", "link", "iframe"} & set(tags)
     for prompt in CARS["sources"][0]["prompts"]:
         assert html.escape(prompt) in page
-    sheet = cv2.imread(str(tmp_path / "look.png"))
-    assert sheet is not None
-    assert len(np.unique(sheet)) > 10
     assert main(["dataset", "sample", str(cars), "-o", str(out)]) == 3
     assert main(["dataset", "sample", str(cars), "-o", str(tmp_path / "look.jpg")]) == 2
-    assert "name a page, .html, or an image, .png" in capsys.readouterr().err
-    assert main(["dataset", "sample", str(cars), "-o", str(tmp_path / "sheet.png")]) == 0
-    assert [path.name for path in sorted(tmp_path.iterdir())] == [
-        "look.html",
-        "look.png",
-        "sheet.png",
-    ]
+    assert "name a page, .html" in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["look.html"]
 
 
 def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> None:
     made = StoredDataset.open(cars)
 
     def keys(**choice: object) -> list[str]:
-        return [one.record.key for one in choose_samples(made, SampleSelection(**choice))]  # type: ignore[arg-type]
+        return [record.key for _, record in choose_samples(made, SampleSelection(**choice))]  # type: ignore[arg-type]
 
     assert keys(count=4) == keys(count=4)
     assert len({tuple(keys(count=4, seed=seed)) for seed in range(8)}) > 3
