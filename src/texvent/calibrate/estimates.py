@@ -48,7 +48,7 @@ class UnidentifiedOption(NamedTuple):
 
     name: str
     value: object
-    """That of the start preset."""
+    """Value of the start preset."""
     reason: str
 
     def __str__(self) -> str:

@@ -2,7 +2,7 @@
 
 The noise curve is measured directly. For any balance and cutoff, the two thresholds follow from
 the counts of ON and OFF events; balance and cutoff are those with the least distance, searched
-one at a time with steps that shrink. What the recording does not tell stays as it was.
+one at a time with steps that shrink. Options that the recording cannot identify stay.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
 
 MOST_ON = 0.95
-"""Share of ON among noise above which OFF events no longer tell how much there is."""
+"""Share of ON among noise above which OFF events no longer measure it."""
 LEAST_EVENTS = 100
 """Fewer recorded events than this of either polarity fit no threshold."""
 NOT_FITTED = (
@@ -31,7 +31,7 @@ NOT_FITTED = (
     "noise_on_fraction",
     "leak_rate_decades",
 )
-"""Options that frames and events of a moving scene do not tell."""
+"""Options that frames and events of a moving scene cannot identify."""
 
 
 class Fit(NamedTuple):
@@ -40,7 +40,7 @@ class Fit(NamedTuple):
     config: PhysicalConfig
     """The fitted model."""
     offset_us: int
-    """What was added to the frame times, µs; it belongs to the recording, not to the sensor."""
+    """Offset added to the frame times, µs; it belongs to the recording, not to the sensor."""
     noise: MeasuredNoise | None
     """Noise and leak of still pixels; None if they are those the fit started with."""
     span: TimeSpan
@@ -52,7 +52,7 @@ class Fit(NamedTuple):
     found: tuple[Estimate, ...]
     """Measured constants with their intervals."""
     kept: tuple[UnidentifiedOption, ...]
-    """Constants that the recording does not tell."""
+    """Constants that the recording cannot identify."""
     compared: tuple[EventStream, EventStream]
     """Recorded and simulated events of the held-out part."""
 
@@ -71,8 +71,8 @@ def fit_sensor(
         recording: frames and events.
         start: where the search starts; options that are not searched keep their value.
         seconds: how much of each half is simulated.
-        keep: of `COORDINATES`, those that another recording told better.
-        report: told of every step in one line.
+        keep: of `COORDINATES`, those that another recording measured better.
+        report: receives one line per step.
 
     Raises:
         InputError: the recording is too short.

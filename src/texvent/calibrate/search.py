@@ -166,7 +166,7 @@ class Search:
         return measure_distance(self.simulate(config), self._truth)
 
     def simulate(self, config: PhysicalConfig) -> EventStream:
-        """What a model makes of the frames."""
+        """Events of a model for the frames."""
         return simulate_span(self._frames, self._span, config, offset_us=self.offset_us)
 
 

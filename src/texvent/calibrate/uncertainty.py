@@ -1,8 +1,8 @@
-"""How well a recording of frames and events determines what was fitted to it.
+"""Uncertainty of options fitted to frames and events.
 
 The fitted part is cut into 20 blocks, fewer of 10 ms if it is short, and the bootstrap draws
 blocks. Thresholds follow from counts: an interval of the count ratio is one of the threshold, by
-the power with which the count falls. For balance and cutoff, the least distance lies at the vertex
+the power with which the count falls. For balance and cutoff, the least distance is at the vertex
 of a parabola through the distances at half, once and twice the value. Thresholds change with both:
 how far they would, from end to end of those intervals, adds to their own in quadrature.
 """
@@ -38,16 +38,16 @@ LEAST_POWER = 0.3
 
 
 class FitSummary(NamedTuple):
-    """What is known of the fitted options."""
+    """Fitted options with their intervals, and those that stay."""
 
     config: PhysicalConfig
-    """The model; options that the recording does not tell have the value they started with."""
+    """The model; options that the recording cannot identify keep their start value."""
     found: tuple[Estimate, ...]
     kept: tuple[UnidentifiedOption, ...]
 
 
 class Interval(NamedTuple):
-    """How well the distance determines an option, in the logarithm."""
+    """Interval of an option, in the logarithm, and its effect on the thresholds."""
 
     low: float
     """Lower end of the 95 % interval from the value, 0 or less; −∞ where the distance does not
@@ -78,7 +78,7 @@ def judge_fit(
         truth: the recorded events of the span.
         span: the part that was fitted.
         best: the fitted model.
-        start: where options come from that the recording does not tell.
+        start: source of options that the recording cannot identify.
     """
     blocks = cut_blocks(span)
     found: list[Estimate] = []
@@ -149,7 +149,7 @@ def _judge_option(
 
 
 def vertex(distances: Float64Array) -> float:
-    """Where a parabola through distances at −ln 2, 0 and ln 2 is least.
+    """Vertex of a parabola through distances at −ln 2, 0 and ln 2.
 
     Args:
         distances: [3].

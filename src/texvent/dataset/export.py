@@ -37,7 +37,7 @@ class Exported:
 
 @dataclass(frozen=True, kw_only=True)
 class Layout:
-    """One way to lay out a data set."""
+    """Layout of an exported data set."""
 
     format: str
     """Name of the codec of event files."""
@@ -51,7 +51,7 @@ class Layout:
     size: tuple[int, int] | None = None
     """Width and height that its readers take for granted, pixels."""
     lost: str = ""
-    """What it cannot hold."""
+    """Content that the layout cannot hold."""
 
 
 def folder_name(label: str) -> str:
@@ -149,17 +149,17 @@ NOTE_FILE = "texvent-export.json"
 
 @dataclass(frozen=True)
 class Exports:
-    """What was written."""
+    """Counts of an export."""
 
     samples: int
     kept: int
-    """Of these, how many were there from an earlier run."""
+    """Samples of an earlier run among these."""
     doubts: tuple[str, ...]
-    """What the layout does not hold, and what its readers will not expect."""
+    """Content that the layout does not hold, and surprises for its readers."""
 
 
 def export(
-    made: StoredDataset,
+    dataset: StoredDataset,
     format: str,
     folder: Path,
     *,
@@ -169,22 +169,22 @@ def export(
     """Write all samples of a variant; a second run goes on where the first was stopped.
 
     Args:
-        made: the data set.
+        dataset: the data set.
         format: name of a layout; `LAYOUTS` has them.
         folder: to write to; new, or of the same export.
         variant: which; None: the only one.
-        on_sample: told of every sample.
+        on_sample: called for every sample.
 
     Raises:
         ConfigError: an unknown format.
         InputError: shards are missing, the layout needs classes, or cannot hold a sample.
         OutputError: the folder is of something else, or cannot be written.
     """
-    layout, variant = find_layout(format), made.check_variant(variant)
-    _check(made, layout, format, variant)
-    _begin(made, format, folder, variant)
+    layout, variant = find_layout(format), dataset.check_variant(variant)
+    _check(dataset, layout, format, variant)
+    _begin(dataset, format, folder, variant)
     exported, kept, labelled = [], 0, False
-    for shard in made.shards(variant):
+    for shard in dataset.shards(variant):
         for sample in shard.samples:
             path = layout.place(shard.record.split, sample.label, sample.key)
             labelled = labelled or "label.npy" in sample.members
@@ -197,23 +197,23 @@ def export(
     for name, text in layout.lists(folder.absolute(), exported).items():
         with atomic_file(folder / name, overwrite=True) as part:
             part.write_text(text, encoding="utf-8")
-    return Exports(len(exported), kept, _doubts(made, layout, variant, labelled=labelled))
+    return Exports(len(exported), kept, _doubts(dataset, layout, variant, labelled=labelled))
 
 
-def _check(made: StoredDataset, layout: Layout, format: str, variant: str) -> None:
-    missing = made.missing(variant)
+def _check(dataset: StoredDataset, layout: Layout, format: str, variant: str) -> None:
+    missing = dataset.missing(variant)
     if missing:
         raise InputError(
             f"{len(missing)} shards are missing, such as {missing[0]}; make them first (texvent "
             "dataset make)"
         )
-    if layout.needs_classes and not made.labels:
+    if layout.needs_classes and not dataset.labels:
         raise InputError(
-            f"{format} has a folder for each class, and {made.name} has no classes; give its "
+            f"{format} has a folder for each class, and {dataset.name} has no classes; give its "
             "sources a label, or export to hdf5"
         )
     names: dict[str, str] = {}
-    for label in made.labels if layout.needs_classes else ():
+    for label in dataset.labels if layout.needs_classes else ():
         other = names.setdefault(folder_name(label), label)
         if other != label:
             raise InputError(
@@ -222,13 +222,18 @@ def _check(made: StoredDataset, layout: Layout, format: str, variant: str) -> No
             )
 
 
-def _begin(made: StoredDataset, format: str, folder: Path, variant: str) -> None:
+def _begin(dataset: StoredDataset, format: str, folder: Path, variant: str) -> None:
     """Note what the folder is, or see that it is the same export.
 
     Raises:
         OutputError: it is of something else.
     """
-    note = {"format": format, "data_set": made.name, "variant": variant, "identity": made.identity}
+    note = {
+        "format": format,
+        "data_set": dataset.name,
+        "variant": variant,
+        "identity": dataset.identity,
+    }
     path = folder / NOTE_FILE
     try:
         if path.is_file() and json.loads(path.read_text("utf-8")) == note:
@@ -273,16 +278,18 @@ def _write_identity_map(path: Path, size: SensorSize) -> None:
 
 
 def _doubts(
-    made: StoredDataset, layout: Layout, variant: str, *, labelled: bool
+    dataset: StoredDataset, layout: Layout, variant: str, *, labelled: bool
 ) -> tuple[str, ...]:
     doubts = [f"it does not hold {layout.lost}"] if layout.lost else []
     if labelled and layout.format not in KEEP_NOISE:
         doubts.append("it does not hold which events are noise")
-    evaluation = [split for split in made.splits if split in EVALUATION]
+    evaluation = [split for split in dataset.splits if split in EVALUATION]
     if len(evaluation) > 1 and layout.has_two_splits:
         doubts.append(f"splits {' and '.join(evaluation)} are written as one")
     if layout.size is not None:
-        sizes = {(one.width, one.height) for shard in made.shards(variant) for one in shard.samples}
+        sizes = {
+            (one.width, one.height) for shard in dataset.shards(variant) for one in shard.samples
+        }
         width, height = layout.size
         if sizes - {layout.size}:
             doubts.append(

@@ -30,7 +30,7 @@ from texvent.view.page.template import fill_template
 
 @dataclass(frozen=True, kw_only=True)
 class SampleSelection:
-    """Which samples to look at."""
+    """Samples to show."""
 
     count: int = 24
     variant: str | None = None
@@ -42,17 +42,17 @@ class SampleSelection:
 ChosenSample = tuple[StoredShard, SampleRecord]
 
 
-def choose_samples(made: StoredDataset, selection: SampleSelection) -> list[ChosenSample]:
+def choose_samples(dataset: StoredDataset, selection: SampleSelection) -> list[ChosenSample]:
     """Samples in the order of the data set.
 
     Raises:
         InputError: there are none such.
     """
-    variants = [] if selection.variant is None else [made.check_variant(selection.variant)]
+    variants = [] if selection.variant is None else [dataset.check_variant(selection.variant)]
     chance = random.Random(selection.seed)
     chosen: list[tuple[int, ChosenSample]] = []
     seen = 0
-    for shard in made.shards(*variants):
+    for shard in dataset.shards(*variants):
         if selection.split not in (None, shard.record.split):
             continue
         for record in shard.samples:
@@ -67,7 +67,7 @@ def choose_samples(made: StoredDataset, selection: SampleSelection) -> list[Chos
         asked = {"split": selection.split, "label": selection.label}
         asked_for = [f"{name} {shown(value)}" for name, value in asked.items() if value]
         which = f" with {' and '.join(asked_for)}" if asked_for else ""
-        raise InputError(f"{made.folder} holds no samples{which}")
+        raise InputError(f"{dataset.folder} holds no samples{which}")
     return [sample for _, sample in sorted(chosen, key=lambda pair: pair[0])]
 
 
@@ -75,7 +75,7 @@ IMAGE_WIDTH = 480
 
 
 def write_sample_page(
-    made: StoredDataset, samples: Sequence[ChosenSample], path: Path, *, overwrite: bool
+    dataset: StoredDataset, samples: Sequence[ChosenSample], path: Path, *, overwrite: bool
 ) -> Path:
     """An HTML file that opens offline and holds no script.
 
@@ -88,7 +88,7 @@ def write_sample_page(
     page = fill_template(
         "document.html",
         {
-            "title": html.escape(made.name),
+            "title": html.escape(dataset.name),
             "summary": f"{len(samples)} samples, drawn by chance",
             "body": f'<div class="cards">{cards}</div>'
             f'<p class="note">Each image shows the {WINDOW_US // 1000} ms with the most events. '

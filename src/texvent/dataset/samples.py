@@ -86,7 +86,7 @@ def _drawn(frame: Frame) -> Frame:
 
 
 def target_of(clip: SlicedClip, target: Target, window: Window) -> NDArray[Any]:
-    """What is true in a window; `SimulatedSamples.make` describes each target.
+    """Ground truth of a window; `SimulatedSamples.make` describes each target.
 
     Raises:
         ConfigError: the video does not know it.
@@ -134,9 +134,9 @@ class SimulatedSamples:
     """
 
     prompts: Sequence[str] = ()
-    """What to show; see `texvent.generate`."""
+    """Prompts; see `texvent.generate`."""
     videos: Sequence[Source] = ()
-    """What to read instead; see `texvent.simulate`."""
+    """Videos instead of prompts; see `texvent.simulate`."""
     representation: str = "voxel-e2vid"
     """Name of the representation; `texvent._registry.REPRESENTATIONS` lists them."""
     representation_options: Mapping[str, Any] = field(default_factory=dict)
@@ -146,7 +146,7 @@ class SimulatedSamples:
     """Length of a slice, µs. A clip gives as many whole slices as it has, stacked along a first
     axis of time. None: the whole clip is one slice, without that axis."""
     targets: Sequence[Target] = ()
-    """What else each slice comes with; see `make`."""
+    """Further arrays of each slice; see `make`."""
     simulation: Mapping[str, Any] = field(default_factory=dict)
     """Options of `texvent.generate` or `texvent.simulate`, such as `{"sensor": "davis240c",
     "duration": 1.0, "randomize": "stoffregen"}`."""
@@ -190,7 +190,7 @@ class SimulatedSamples:
             * `flow`: displacement (x, y) in pixels over the slice of what each pixel shows at its
               start, [2, H, W] float32; NaN where it ends behind the camera.
             * `depth`: metres at the end of the slice, [H, W] float32; inf for the sky.
-            * `instance`: id of the thing seen at the end of the slice, [H, W] int32.
+            * `instance`: id of the object seen at the end of the slice, [H, W] int32.
             * `stop_us`: end of the slice, µs, int64.
             * `source`: index of the prompt or video.
             * `number`, `seed`: of the sample.

@@ -33,7 +33,7 @@ class LeftOut:
     """A sample that the filters leave out."""
 
     signal_events: int
-    """That its video fired, noise apart."""
+    """Events of its video without noise."""
     key: str
     shows: str
     """Its prompt, or the key of its video."""
@@ -43,7 +43,7 @@ class LeftOut:
 
 @dataclass
 class Statistics:
-    """Of all shards, of a variant, of a split of one, or of the trial of a plan."""
+    """Counts of all shards, of a variant, of a split of one, or of a trial."""
 
     shards: int = 0
     bytes: int = 0
@@ -59,10 +59,10 @@ class Statistics:
     classes: Counter[str] = field(default_factory=Counter)
     sensors: Counter[str] = field(default_factory=Counter)
     reasons: Counter[str] = field(default_factory=Counter)
-    """Why samples are not there, numbers left out."""
+    """Reasons of filtering and failure, numbers left out."""
     warnings: Counter[str] = field(default_factory=Counter)
     reports: ReportTally = field(default_factory=ReportTally)
-    """What became of the words of prompts; each clip counts once, in whatever variants it is."""
+    """Understood and other words of prompts; each clip counts once over all variants."""
     reported: set[str] = field(default_factory=set)
     """Clips with a report."""
     unreported: set[str] = field(default_factory=set)
@@ -116,12 +116,12 @@ class Statistics:
 
     @property
     def samples(self) -> int:
-        """How many there are."""
+        """Number of samples."""
         return len(self.events)
 
     @property
     def prompts(self) -> ReportTally | None:
-        """How many clips show what their prompts say; a clip that could not be made is refused.
+        """Counts of clips that show what their prompts say; one that could not be made is refused.
 
         None for videos, for learned generators, and where every clip failed.
         """
@@ -163,21 +163,21 @@ class Statistics:
 
 @dataclass(frozen=True)
 class DatasetStatistics:
-    """Of a data set, counted in one pass."""
+    """Statistics of a data set, counted in one pass."""
 
     total: Statistics
     parts: dict[tuple[str, str], Statistics]
     """(variant, split) → its own, in the order of the shards."""
 
     @classmethod
-    def of(cls, made: StoredDataset) -> DatasetStatistics:
+    def of(cls, dataset: StoredDataset) -> DatasetStatistics:
         """Read all records.
 
         Raises:
             FileFormatError: one is damaged.
         """
         total, parts = Statistics(), dict[tuple[str, str], Statistics]()
-        for shard in made.shards():
+        for shard in dataset.shards():
             total.add(shard.record)
             place = shard.record.variant, shard.record.split
             parts.setdefault(place, Statistics()).add(shard.record)

@@ -84,11 +84,11 @@ class Findings:
             self.failed += record.count(FAILED)
 
 
-def verify(made: StoredDataset, *, workers: int = 1, contents: bool = True) -> Findings:
+def verify(dataset: StoredDataset, *, workers: int = 1, contents: bool = True) -> Findings:
     """Check a data set, as it was made or as a copy of it was published.
 
     Args:
-        made: the data set.
+        dataset: the data set.
         workers: threads that read.
         contents: whether the samples are read, beside the digests of their shards.
 
@@ -96,14 +96,14 @@ def verify(made: StoredDataset, *, workers: int = 1, contents: bool = True) -> F
         FileFormatError: the specification is damaged.
     """
     findings = Findings()
-    kinds = [*made.variants, *([VIDEOS] if made.has_videos else [])]
-    findings.changed = list(_damaged_records(made, kinds))
+    kinds = [*dataset.variants, *([VIDEOS] if dataset.has_videos else [])]
+    findings.changed = list(_damaged_records(dataset, kinds))
     if findings.changed:
         findings.notes.append("nothing else was checked, because records are damaged")
         return findings
-    findings.missing = made.missing(*kinds)
+    findings.missing = dataset.missing(*kinds)
     keys: Counter[str] = Counter()
-    shards = made.shards(*kinds)
+    shards = dataset.shards(*kinds)
     with ThreadPoolExecutor(workers) as pool:
         # Some shards at once: the records of millions of samples would not fit into memory.
         while some := list(itertools.islice(shards, 4 * workers)):
@@ -113,15 +113,15 @@ def verify(made: StoredDataset, *, workers: int = 1, contents: bool = True) -> F
                 findings.unsound += [f"{shard.place}: {one}" for one in unsound]
                 findings.count(shard, keys)
     findings.twice = sorted(key for key, count in keys.items() if count > 1)
-    findings.foreign = _foreign_files(made, kinds, set(findings.missing))
-    findings.notes = [*_other_files(made), *_notes(made)]
-    findings.changed += _differing_description(made)
+    findings.foreign = _foreign_files(dataset, kinds, set(findings.missing))
+    findings.notes = [*_other_files(dataset), *_notes(dataset)]
+    findings.changed += _differing_description(dataset)
     return findings
 
 
-def _damaged_records(made: StoredDataset, kinds: Iterable[str]) -> Iterator[str]:
+def _damaged_records(dataset: StoredDataset, kinds: Iterable[str]) -> Iterator[str]:
     for kind in kinds:
-        for path in made.shard_files(kind):
+        for path in dataset.shard_files(kind):
             try:
                 read_record(path)
             except FileFormatError as error:
@@ -175,14 +175,14 @@ def _check_sample(path: Path, sample: SampleRecord) -> None:
         raise FileFormatError(f"sample {sample.key}: its caption is not that of its record")
 
 
-def _foreign_files(made: StoredDataset, kinds: Iterable[str], missing: set[str]) -> list[str]:
+def _foreign_files(dataset: StoredDataset, kinds: Iterable[str], missing: set[str]) -> list[str]:
     """Files among the shards that are not of complete shards of this data set."""
-    own, expected = {shard.place for shard in made.shards(*kinds)}, made.expected()
+    own, expected = {shard.place for shard in dataset.shards(*kinds)}, dataset.expected()
     if expected is not None:
         own &= expected
     found = []
     for kind in kinds:
-        folder = made.folder / kind
+        folder = dataset.folder / kind
         for path in sorted(folder.iterdir()) if folder.is_dir() else ():
             is_shard = SHARD_FILE.fullmatch(path.name) is not None
             place = f"{kind}/{path.with_suffix(EXTENSION).name}"
@@ -191,9 +191,9 @@ def _foreign_files(made: StoredDataset, kinds: Iterable[str], missing: set[str])
     return found
 
 
-def _other_files(made: StoredDataset) -> Iterator[str]:
-    for path in sorted(made.folder.iterdir()):
-        if path.name in OWN or path.name in made.variants or path.name == VIDEOS:
+def _other_files(dataset: StoredDataset) -> Iterator[str]:
+    for path in sorted(dataset.folder.iterdir()):
+        if path.name in OWN or path.name in dataset.variants or path.name == VIDEOS:
             continue
         if is_hidden_part(path):
             yield f"{path.name} is what a killed process left; it may be deleted"
@@ -201,26 +201,26 @@ def _other_files(made: StoredDataset) -> Iterator[str]:
             yield f"{path.name} is not of texvent"
 
 
-def _notes(made: StoredDataset) -> Iterator[str]:
-    shared = in_several_splits(made.shards())
+def _notes(dataset: StoredDataset) -> Iterator[str]:
+    shared = in_several_splits(dataset.shards())
     if shared:
         yield (
             f"{len(shared)} prompts or videos are in several splits, such as "
             f"{shown(min(shared))}: tests would see what was trained on"
         )
-    expected = made.expected()
-    if not made.has_videos and any(one.startswith(f"{VIDEOS}/") for one in expected or ()):
+    expected = dataset.expected()
+    if not dataset.has_videos and any(one.startswith(f"{VIDEOS}/") for one in expected or ()):
         yield "its videos are not here; no loader needs them"
-    if expected is None and not (made.folder / CROISSANT_FILE).is_file():
+    if expected is None and not (dataset.folder / CROISSANT_FILE).is_file():
         yield (
             "there is neither items.jsonl nor croissant.json, so shards missing at the end of a "
             "split are not noticed"
         )
 
 
-def _differing_description(made: StoredDataset) -> Iterator[str]:
+def _differing_description(dataset: StoredDataset) -> Iterator[str]:
     """Shards that the published description does not fit."""
-    path = made.folder / CROISSANT_FILE
+    path = dataset.folder / CROISSANT_FILE
     if not path.is_file():
         return
     try:
@@ -229,7 +229,7 @@ def _differing_description(made: StoredDataset) -> Iterator[str]:
     except (ValueError, KeyError, TypeError, OSError, AttributeError):
         yield f"{path.name}: no description that texvent dataset publish wrote"
         return
-    found = {shard.place: shard.record.sha256 for shard in made.shards()}
+    found = {shard.place: shard.record.sha256 for shard in dataset.shards()}
     differing = sorted(place for place in said | found if said.get(place) != found.get(place))
     if differing:
         yield (

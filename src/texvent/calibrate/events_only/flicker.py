@@ -2,7 +2,7 @@
 
 `step_response_fit.py` gives bandwidth, refractory period and the thresholds of pixels up to a
 factor per polarity, because the instant of the step is not known. The factors follow from the first
-event of each burst. At the step, the output of a pixel lies somewhere between its last reset and
+event of each burst. At the step, the output of a pixel is somewhere between its last reset and
 the next opposite threshold, on average half of that away; so the first ON event comes when the
 output has changed by θ_on + θ_off / 2, and the first OFF event likewise.
 """
@@ -51,7 +51,7 @@ WIDEST = 3.0
 """Upper over lower end of an interval from which on the old value stays."""
 MUCH_BETTER = 0.5
 """Squared disagreement over that with the model's bandwidth in the dark half, below which the one
-that the bursts tell is taken."""
+of the bursts is taken."""
 NAMES = (
     "contrast_threshold",
     "on_off_ratio",
@@ -70,7 +70,7 @@ EXCESS_ERROR = 0.05
 
 
 class Flicker(NamedTuple):
-    """What a flickering field tells."""
+    """Measurement of a flickering field."""
 
     config: PhysicalConfig
     found: tuple[Estimate, ...]
@@ -78,7 +78,7 @@ class Flicker(NamedTuple):
     remarks: tuple[str, ...]
     cycles: Cycles
     thresholds: ThresholdMap
-    """Of every pixel, over the mean of all."""
+    """Thresholds of every pixel, over the mean of all."""
 
 
 class _Polarity(NamedTuple):
@@ -94,12 +94,12 @@ class _Polarity(NamedTuple):
 def measure_flicker(
     events: EventStream, start: PhysicalConfig, *, hz: float, ratio: float | None
 ) -> Flicker:
-    """Measure what a recording of a flickering field tells.
+    """Measure thresholds, bandwidth and refractory period in a flickering field.
 
     Args:
         events: of a sensor whose whole field switches between two brightnesses, bright and dark for
             half of each cycle.
-        start: where what the recording does not tell comes from; its balance is taken for true.
+        start: source of options that the recording cannot identify; its balance is taken for true.
         hz: frequency of the light, within 2 %.
         ratio: bright over dark; without it thresholds are known only relative to one another.
 
@@ -159,7 +159,7 @@ def _check(off: Pairs, on: Pairs) -> None:
 def _fit(off: Pairs, on: Pairs, ratio: float | None, balance: float) -> StepResponseFit:
     """The fit with the bandwidth of the dark half that the model has for that ratio.
 
-    Where the one that bursts tell fits much better, that is taken.
+    Where the bandwidth of the bursts fits much better, it is taken.
     """
     free = fit_step_response([off._replace(slowness=find_slowness(off, on)), on])
     if ratio is None:
@@ -225,7 +225,7 @@ def _estimate(
 def _judge(
     values: Float64Array, ends: Float64Array, start: PhysicalConfig, ratio: float | None
 ) -> tuple[list[Estimate], list[UnidentifiedOption]]:
-    """Which constants the bursts tell."""
+    """Constants that the bursts identify, and the other options."""
     found, kept = [], []
     for place, (name, unit) in enumerate(zip(NAMES, UNITS, strict=True)):
         low, high = ends[:, place]
@@ -238,7 +238,7 @@ def _judge(
             kept.append(UnidentifiedOption(name, getattr(start, name), reason))
         else:
             found.append(Estimate(name, float(values[place]), low, high, unit))
-    reason = "a flickering field does not tell it"
+    reason = "a flickering field cannot identify it"
     kept += [
         UnidentifiedOption(name, getattr(start, name), reason)
         for name in ("noise_curve", "leak_rate_hz", "hot_pixel_fraction")
@@ -268,7 +268,7 @@ def _with_limit(found: list[Estimate], excess: float) -> list[Estimate]:
 def _lost(
     fit: StepResponseFit, start: PhysicalConfig, kept: list[UnidentifiedOption]
 ) -> list[UnidentifiedOption]:
-    """Nothing is told where most of the change falls into refractory periods."""
+    """Options unidentified because most of the change falls into refractory periods."""
     reason = (
         f"the refractory period lasts {fit.omega * fit.dead_s:.1f} time constants of the "
         f"photoreceptor, at most {MOST_LOST:g} is measured; use less light"

@@ -1,4 +1,4 @@
-"""What the time course of bursts after a step of light tells.
+"""Step response: bandwidth and refractory period from bursts after a step of light.
 
 After a step of brightness by C, the output of a first-order photoreceptor lacks `C exp(−ω s)` at
 the time s. A pixel that fires at s and next at s + d was held in reset for the refractory period r,
@@ -45,7 +45,7 @@ ROUNDED_US = 0.5
 time."""
 GOLDEN = (math.sqrt(5) - 1) / 2
 STEP = 1e-3
-"""Of numerical derivatives, in the logarithm of both parameters."""
+"""Step of numerical derivatives, in the logarithm of both parameters."""
 
 
 class Pairs(NamedTuple):
@@ -159,7 +159,7 @@ def find_slowness(dark: Pairs, bright: Pairs) -> float:
 
     Args:
         dark: pairs of OFF events.
-        bright: pairs of ON events, which tell bandwidth and refractory period of their half.
+        bright: pairs of ON events, which give bandwidth and refractory period of their half.
     """
     fit = fit_step_response([bright])
     kept = dark = dark.thinned(FITTED_PAIRS)
@@ -191,7 +191,7 @@ def _search(pairs: Sequence[Pairs], longest_s: float, known: float | None) -> tu
     Args:
         pairs: of both polarities.
         longest_s: the longest refractory period, s.
-        known: ω near which the best one lies, 1/s; by default anywhere.
+        known: ω near the best one, 1/s; by default anywhere.
     """
 
     def loss(omega: float, dead_s: float) -> float:
@@ -236,7 +236,7 @@ def golden(
 
 
 class InfluenceFunction(NamedTuple):
-    """How the fit moves if parts of the data count more or less, to first order."""
+    """First-order change of the fit with the weights of parts of the data."""
 
     gradient: Float64Array
     """[windows, groups, 2] of half the squared disagreement, by (ln ω, r in units of its scale)."""

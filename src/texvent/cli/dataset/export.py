@@ -48,8 +48,8 @@ def run(arguments: Sequence[str]) -> int:
     )
     if options.out is None:
         raise ConfigError("export needs the folder to write; name it with -o")
-    made = StoredDataset.open(options.folder)
-    done = export(made, options.format, options.out, variant=options.variant)
+    dataset = StoredDataset.open(options.folder)
+    done = export(dataset, options.format, options.out, variant=options.variant)
     kept = f" ({done.kept:,} were there)" if done.kept else ""
     write_out(f"{options.out}: {done.samples:,} samples as {options.format}{kept}\n")
     for doubt in done.doubts:

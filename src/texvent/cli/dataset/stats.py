@@ -53,16 +53,16 @@ def run(arguments: Sequence[str]) -> int:
         prog="texvent dataset stats",
         description=DESCRIPTION,
     )
-    made = StoredDataset.open(options.folder)
-    statistics = DatasetStatistics.of(made)
+    dataset = StoredDataset.open(options.folder)
+    statistics = DatasetStatistics.of(dataset)
     if options.json:
         write_out(json.dumps(statistics.tables, indent=1, ensure_ascii=False) + "\n")
     else:
-        _print(made, statistics)
+        _print(dataset, statistics)
     return 0
 
 
-def _print(made: StoredDataset, statistics: DatasetStatistics) -> None:
+def _print(dataset: StoredDataset, statistics: DatasetStatistics) -> None:
     console = Console(file=sys.stdout, highlight=False, soft_wrap=True, width=WIDTH)
     table = Table(box=None, pad_edge=False)
     for number, title in enumerate(COUNTS):
@@ -77,7 +77,7 @@ def _print(made: StoredDataset, statistics: DatasetStatistics) -> None:
     for line in summary_lines(total):
         console.print(escape(line))
     console.print(
-        f"{escape(made.name)}: {total.samples:,} samples of {len(total.clips):,} videos, "
+        f"{escape(dataset.name)}: {total.samples:,} samples of {len(total.clips):,} videos, "
         f"{sum(total.events):,} events in {sum(total.durations_us) / MICROSECONDS:,.1f} s, "
         f"{total.bytes / 1e6:,.1f} MB in {total.shards:,} shards, made in "
         f"{total.seconds / 3600:,.2f} hours of one process"

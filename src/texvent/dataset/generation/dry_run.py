@@ -44,7 +44,7 @@ MOST_READ = 2_000
 
 
 def tally_prompts(recipe: Recipe) -> ReportTally | None:
-    """How many prompts are understood, of at most `MOST_READ`: read, without their scenes.
+    """Counts of understood prompts, of at most `MOST_READ`, read without their scenes.
 
     Returns:
         The counts; None for videos, and for learned generators, which give no report.
@@ -65,8 +65,8 @@ def tally_prompts(recipe: Recipe) -> ReportTally | None:
 def refuse_prompts(recipe: Recipe, folder: Path) -> None:
     """Refuse a data set with wrong scenes, or with prompts that `strict` refuses, before any work.
 
-    All prompts are read, about a millisecond for each. What only the built scene can tell fails
-    its sample later.
+    All prompts are read, about a millisecond for each. Errors that only the built scene shows
+    fail its sample later.
 
     Args:
         recipe: of the data set.
@@ -122,7 +122,7 @@ class StageEstimate:
     """In all, before filters."""
     shards: int
     records: tuple[ShardRecord, ...]
-    """Of the trial."""
+    """Records of the trial."""
     events: float = 0.0
     """Mean events of a sample that was made."""
     bytes: float = 0.0

@@ -29,19 +29,19 @@ class Task:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a task."""
+    """Result of a task: a record or a failure."""
 
     task: Task
     record: ShardRecord | None = None
     failure: str | None = None
-    """Why the whole shard could not be made."""
+    """Reason why the whole shard could not be made."""
 
 
 class Engine(Protocol):
     """Makes several shards at once."""
 
     def capacity(self, *, videos: bool) -> int:
-        """How many shards of videos, or of events, to have at work or waiting."""
+        """Number of shards of videos, or of events, to submit at once."""
         ...
 
     def submit(self, task: Task) -> None:
@@ -116,7 +116,7 @@ def outcome_of(task: Task, run: Callable[[Task], ShardRecord]) -> Outcome:
 
 
 ATTEMPTS = 3
-"""How often a shard may take its process down, as by want of memory, before it is given up."""
+"""Attempts at a shard whose process dies, as by want of memory."""
 
 
 class ProcessEngine:

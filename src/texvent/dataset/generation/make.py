@@ -24,11 +24,11 @@ OnOutcome = Callable[[Outcome], None]
 
 @dataclass
 class Work:
-    """What is to do and what is done."""
+    """Shards to make, complete shards and failures."""
 
     complete: dict[Shard, ShardSummary] = field(default_factory=dict)
     todo: list[Task] = field(default_factory=list)
-    """Of events, in order."""
+    """Shards of events, in order."""
     videos_todo: list[Task] = field(default_factory=list)
     failures: dict[Shard, str] = field(default_factory=dict)
     """Shards that could not be made."""
@@ -37,7 +37,7 @@ class Work:
 def find_work(
     recipe: Recipe, folder: Path, *, part: tuple[int, int] = (1, 1), retry_failed: bool = False
 ) -> Work:
-    """Which shards are complete and which are to make.
+    """Complete shards and those to make.
 
     Args:
         recipe: of the data set.
@@ -74,7 +74,7 @@ def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
     Args:
         work: what is to do; what is done is noted there.
         engine: what makes it.
-        on_outcome: told of every shard.
+        on_outcome: called for every shard.
 
     Raises:
         ConfigError, OutputError, MissingDependencyError: what all shards would meet.
@@ -135,7 +135,7 @@ def make(
         workers: processes; 1: this one. A program that uses more needs the usual
             `if __name__ == "__main__":`, because they import its main module.
         retry_failed: make samples that failed again.
-        progress: told of every shard.
+        progress: receives every shard.
 
     Returns:
         The counts of all complete shards, and why others could not be made.

@@ -56,7 +56,7 @@ class _Job:
     """A sample to make."""
 
     record: SampleRecord
-    """What is known before; its status is not."""
+    """All but its status."""
     make: Callable[[], tuple[Members, dict[str, Any]]]
     """Its members, none of one that is left out, and further facts for its record."""
 
@@ -214,19 +214,19 @@ def _events_job(
 
     def make() -> tuple[Members, dict[str, Any]]:
         simulation = source(clip, with_seed(settings, seed))
-        made = simulate_sample(simulation, recipe.specification.filters)
-        told = {
-            "signal_events": made.signal_events,
+        simulated = simulate_sample(simulation, recipe.specification.filters)
+        facts_of_run = {
+            "signal_events": simulated.signal_events,
             REPORT_KEY: simulation.provenance.get(REPORT_KEY),
         }
-        if made.left_out is not None:
-            return {}, {"status": FILTERED, "reason": made.left_out, **told}
+        if simulated.left_out is not None:
+            return {}, {"status": FILTERED, "reason": simulated.left_out, **facts_of_run}
         width, height = simulation.video.size
         known = {
-            **told,
-            "events": len(made.events),
-            "start_us": made.start_us,
-            "duration_us": made.duration_us,
+            **facts_of_run,
+            "events": len(simulated.events),
+            "start_us": simulated.start_us,
+            "duration_us": simulated.duration_us,
             "width": width,
             "height": height,
         }
@@ -240,7 +240,7 @@ def _events_job(
             "label": clip.item.label,
         }
         members = sample_members(
-            made,
+            simulated,
             facts,
             class_number=None if clip.item.label is None else labels[clip.item.label],
             preview=recipe.specification.previews,
@@ -264,7 +264,7 @@ def _record(key: str, clip: Clip, seed: int) -> SampleRecord:
 
 
 def _source(recipe: Recipe, folder: Path, shard: Shard, scratch: Path) -> Source:
-    """Where the clips of a shard come from: recorded, stored, or made now."""
+    """Source of the clips of a shard: recorded, stored, or made now."""
     if recipe.stores_videos:
         stored = _StoredVideos(folder, replace(shard, variant=VIDEOS), scratch)
         return lambda clip, settings: prepare_video(

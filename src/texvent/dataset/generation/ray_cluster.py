@@ -25,15 +25,15 @@ from texvent.errors import ConfigError, MissingDependencyError, TexventError, on
 from texvent.runtime.threads import THREADS_VARIABLE
 
 ATTEMPTS = 5
-"""How often a shard is made whose process or node dies, before it is given up."""
+"""Attempts at a shard whose process or node dies."""
 MEMORY_RETRIES = 8
-"""How often a shard is made again that Ray ended for want of memory; the pauses double from 1 s."""
+"""Attempts at a shard that Ray ended for want of memory; the pauses double from 1 s."""
 AHEAD = 2
 """Shards at work or waiting, per CPU or per actor: none of them waits for the driver."""
 RESOURCES_S = 5.0
-"""How long the size of the cluster is believed."""
+"""Seconds for which the size of the cluster is cached."""
 PATIENCE_S = 10.0
-"""How long shards at work may take to clean up when the run is stopped."""
+"""Seconds that running shards get to clean up when the run is stopped."""
 GIGABYTE = 10**9
 DECIDING = ("numpy", "numba", "opencv-python-headless")
 """Packages that may change events, beside texvent."""
@@ -162,7 +162,7 @@ class RayEngine:
         self._ray.shutdown()
 
     def _count(self, resource: str) -> int:
-        """How much of a resource all nodes together have."""
+        """Amount of a resource on all nodes together."""
         read_at, known = self._resources
         if time.monotonic() - read_at > RESOURCES_S:
             known = self._ray.cluster_resources()
@@ -263,7 +263,7 @@ def _has_token() -> bool:
 
 
 def package_versions() -> dict[str, str]:
-    """Of texvent and of the packages that may change events, where they are installed."""
+    """Versions of texvent and of installed packages that may change events."""
     versions = {"texvent": full_version()}
     for name in DECIDING:
         with contextlib.suppress(metadata.PackageNotFoundError):

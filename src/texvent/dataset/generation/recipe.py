@@ -229,7 +229,7 @@ def load_recipe_once(folder: Path) -> Recipe:
 
 
 def read_facts(folder: Path) -> Mapping[str, Any]:
-    """What `Recipe.begin` noted in a folder.
+    """Facts that `Recipe.begin` noted in a folder.
 
     Raises:
         InputError: the folder holds no data set.

@@ -55,9 +55,9 @@ class SimulatedClip:
     duration_us: int
     """From the first frame to the last, µs."""
     signal_events: int
-    """Events that the video fired, noise apart; all of them where a simulator does not tell."""
+    """Events that the video fired, without noise; all where a simulator labels none."""
     left_out: str | None = None
-    """Why the filters leave it out; equal reasons are equal words. None: it is kept."""
+    """Reason why the filters leave it out; None: it is kept."""
 
 
 def simulate_sample(simulation: Simulation, filters: Filters) -> SimulatedClip:
@@ -120,23 +120,23 @@ def event_columns(events: EventStream) -> dict[str, NDArray[Any]]:
 
 
 def sample_members(
-    made: SimulatedClip, facts: Mapping[str, Any], *, class_number: int | None, preview: bool
+    clip: SimulatedClip, facts: Mapping[str, Any], *, class_number: int | None, preview: bool
 ) -> dict[str, bytes]:
     """The files of a sample: extension → content.
 
     Args:
-        made: its events.
+        clip: its events.
         facts: all that is known of it, for its `.json`; `prompt` becomes the `.txt`.
         class_number: of its label, or None.
         preview: whether there is an image.
     """
-    members = {f"{name}.npy": npy_bytes(one) for name, one in event_columns(made.events).items()}
+    members = {f"{name}.npy": npy_bytes(one) for name, one in event_columns(clip.events).items()}
     members["json"] = json.dumps(facts, sort_keys=True, ensure_ascii=False).encode()
     members["txt"] = (facts.get("prompt") or "").encode()
     if class_number is not None:
         members["cls"] = str(class_number).encode()
     if preview:
-        members["png"] = preview_png(made.events)
+        members["png"] = preview_png(clip.events)
     return members
 
 

@@ -19,7 +19,7 @@ LAYOUT = 1
 
 @dataclass(frozen=True, kw_only=True)
 class SampleRecord:
-    """What became of one sample."""
+    """Result of one sample."""
 
     key: str
     clip: str
@@ -27,21 +27,21 @@ class SampleRecord:
     status: str
     """made, filtered (left out by the filters) or failed."""
     seed: int
-    """Of its simulation; of its video in a shard of videos."""
+    """Seed of its simulation; of its video in a shard of videos."""
     prompt: str | None = None
     label: str | None = None
     is_scene: bool = False
     """Whether it shows a scene file, of which others may have the same prompt."""
     reason: str | None = None
-    """Why it is not there."""
+    """Reason for filtering or failure."""
     warnings: tuple[str, ...] = ()
-    """What is hardly meant, such as words that are not understood."""
+    """Warnings, such as words that are not understood."""
     prompt_report: Mapping[str, Any] | None = None
-    """What became of the prompt's words, a `PromptReport` as JSON; None where it is not known."""
+    """A `PromptReport` as JSON; None where it is not known."""
     events: int = 0
-    """That are stored."""
+    """Number of stored events."""
     signal_events: int = 0
-    """That the video fired, noise apart; also known of a sample that the filters leave out."""
+    """Events of the video without noise; also known of a sample that the filters leave out."""
     duration_us: int = 0
     start_us: int = 0
     """Time of the first frame: 0, but for clips cut from a longer video."""
@@ -78,18 +78,18 @@ class ShardRecord:
     variant: str
     """"videos" for shards of videos."""
     identity: str
-    """Of the data set that it belongs to; see `Recipe.identity`."""
+    """Identity of its data set; see `Recipe.identity`."""
     sha256: str
     bytes: int
     samples: tuple[SampleRecord, ...]
     seconds: float
-    """How long it took."""
+    """Working time, s."""
     versions: Mapping[str, str] = field(default_factory=dict)
     """Package → version, of the process that made it."""
     layout: int = LAYOUT
 
     def count(self, status: str) -> int:
-        """How many of its samples have a status."""
+        """Number of its samples with a status."""
         return sum(sample.status == status for sample in self.samples)
 
     @property
@@ -111,7 +111,7 @@ class ShardRecord:
 
 
 def record_path(shard: Path) -> Path:
-    """Where the record of a shard lies."""
+    """Path of the record of a shard."""
     return shard.with_suffix(".json")
 
 

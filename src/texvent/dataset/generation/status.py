@@ -18,7 +18,7 @@ LOGS = "logs"
 
 @dataclass(frozen=True)
 class LogState:
-    """How far a shard at work is."""
+    """Progress of a running shard."""
 
     samples: int
     events: int
@@ -28,7 +28,7 @@ class LogState:
 
 
 def log_path(folder: Path, shard: Shard) -> Path:
-    """Where the log of a shard lies."""
+    """Path of the log of a shard."""
     return folder / LOGS / shard.variant / f"{shard.name}.log"
 
 
@@ -52,7 +52,7 @@ def shard_log(folder: Path, shard: Shard) -> Iterator[Callable[[SampleRecord], N
 
 
 def read_log(folder: Path, shard: Shard) -> LogState | None:
-    """How far a shard is, or None if it has not begun."""
+    """Progress of a shard, or None if it has not begun."""
     path = log_path(folder, shard)
     try:
         text, changed = path.read_text(encoding="utf-8"), path.stat().st_mtime

@@ -29,7 +29,7 @@ class EpochSampler:
     shuffle: bool = False
     """Whether each epoch has an order of its own."""
     seed: int = 0
-    """Of the orders."""
+    """Seed of the orders."""
     shuffle_buffer: int | None = None
     """Shuffle as a buffer of this size does, and read shards in sequence, as slow discs and
     networks like it; None: every order is as likely."""
@@ -38,7 +38,7 @@ class EpochSampler:
     it, and up to batch_size · world_size − 1 samples at the end of the order are left out. False:
     every sample comes once, and the processes' numbers of samples differ by at most one."""
     rank: int = 0
-    """Of this training process."""
+    """Rank of this training process."""
     world_size: int = 1
     """Number of training processes."""
 

@@ -62,7 +62,7 @@ class Index:
 
     @property
     def identity(self) -> str:
-        """How many samples, and a digest of which, in which order."""
+        """Number of samples, and a digest of them in their order."""
         found = hashlib.sha256(f"{self.shards} {self.key.dtype}".encode())
         for column in (self.shard, self.key):
             found.update(np.ascontiguousarray(column).data)
@@ -92,30 +92,30 @@ def read_index(folder: Path, *, variant: Choice = None, split: Choice = None) ->
             another data set.
         ConfigError: no such variant or split.
     """
-    made = StoredDataset.open(folder)
-    variants = choose("variant", variant, tuple(made.variants))
-    splits = choose("split", split, made.splits)
+    dataset = StoredDataset.open(folder)
+    variants = choose("variant", variant, tuple(dataset.variants))
+    splits = choose("split", split, dataset.splits)
     rows = _Rows(folder)
     for name in variants:
-        for path in made.shard_files(name):
+        for path in dataset.shard_files(name):
             record = read_record(path)
             if record is None or record.split not in splits:
                 continue  # still being made, or not asked for
-            _check_shard(made, path, record)
+            _check_shard(dataset, path, record)
             rows.add(path, record)
     if not rows.keys:
         raise InputError(f"{folder} holds no such sample yet; see texvent dataset status")
     return rows.index()
 
 
-def _check_shard(made: StoredDataset, path: Path, record: ShardRecord) -> None:
+def _check_shard(dataset: StoredDataset, path: Path, record: ShardRecord) -> None:
     """Refuse a shard that is not as it was made.
 
     Raises:
         FileFormatError: see above.
     """
     remedy = "run texvent dataset verify"
-    if not made.is_own(record, path):
+    if not dataset.is_own(record, path):
         raise FileFormatError(f"{path} belongs to another data set; {remedy}")
     try:
         size = path.stat().st_size

@@ -100,7 +100,7 @@ class StoredSample:
     variant: str
     split: str
     facts: Mapping[str, Any] = field(repr=False)
-    """How it was made: prompt, settings, seed, versions."""
+    """Provenance: prompt, settings, seed, versions."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -116,9 +116,9 @@ class StoredSamples:
     """
 
     folder: Path
-    """Of the data set."""
+    """Folder of the data set."""
     index: Index
-    """What is known of each sample without reading it: `index.events`, `index.duration_us` and
+    """Facts of each sample, known without reading it: `index.events`, `index.duration_us` and
     others."""
     labels: tuple[str, ...]
     """All classes of the data set; a sample's class number is its place here."""
@@ -193,7 +193,7 @@ class StoredSamples:
         number = self._checked(number)
         shard, places = int(self.index.shard[number]), self.index.members[number, :_COLUMNS]
         there = [place for place in places.tolist() if place != list(ABSENT)]
-        # The columns stand one after another: one read for all.
+        # The columns are adjacent: one read for all.
         begin = min((first for first, _ in there), default=0)
         end = max((first + size for first, size in there), default=0)
         content = memoryview(self.files.read(shard, begin, end - begin))
@@ -231,7 +231,7 @@ class StoredSamples:
         }
 
     def make(self, number: int, *, epoch: int = 0) -> dict[str, Any]:
-        """What a network is trained with, by name, as `SimulatedSamples.make`.
+        """Arrays by name for training, as `SimulatedSamples.make`.
 
         Args:
             number: of the sample.

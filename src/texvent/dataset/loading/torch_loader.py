@@ -49,9 +49,9 @@ class EventBatch:
     p: Tensor
     """Polarity, [n] int8: 1 = ON, 0 = OFF."""
     ends: tuple[int, ...]
-    """Where the events of each sample end."""
+    """End of the events of each sample."""
     sizes: tuple[SensorSize, ...]
-    """Of the sensor of each sample."""
+    """Sensor size of each sample."""
 
     @classmethod
     def of(cls, streams: Sequence[EventStream]) -> EventBatch:
@@ -77,7 +77,7 @@ class EventBatch:
 
     @property
     def sample(self) -> Tensor:
-        """Which sample each event belongs to, [n] int64, on the device of the events."""
+        """Number of the sample of each event, [n] int64, on the device of the events."""
         ends = _torch.tensor(self.ends, device=self.t.device)
         counts = _torch.diff(ends, prepend=ends.new_zeros(1))
         return _torch.repeat_interleave(counts)
@@ -237,8 +237,8 @@ class Loader:
             workers: processes that read and make arrays; 0: this one. They run until the loader
                 is deleted.
             prefetch: batches that each worker makes ahead.
-            pin_memory: whether batches lie in memory that a GPU can read while it computes; None:
-                where there is one.
+            pin_memory: whether batches are in page-locked memory, which a GPU copies while it
+                computes; None: where there is one.
             start_method: "spawn", which needs `if __name__ == "__main__":` in a script, or "fork":
                 starts at once, and can hang after Numba or a GPU has been used.
             rank: of this training process; None: as torch.distributed says.
@@ -295,7 +295,7 @@ class Loader:
         self._position = 0
 
     def state_dict(self) -> dict[str, Any]:
-        """Where the loader stands: epoch, and samples given out in it. Also while it runs."""
+        """State of the loader: epoch, and samples given out in it; also while it runs."""
         return {"epoch": self.epoch, "position": self._position, "key": self._key}
 
     def load_state_dict(self, state: Mapping[str, Any]) -> None:

@@ -19,7 +19,7 @@ TAGS = ("event-camera", "neuromorphic", "synthetic", "webdataset", "croissant", 
 SIZES = (("n<1K", 10**3), ("1K<n<10K", 10**4), ("10K<n<100K", 10**5), ("100K<n<1M", 10**6),
          ("1M<n<10M", 10**7), ("10M<n<100M", 10**8))  # fmt: skip
 NUMBER = "??????"
-"""Of a shard, as a pattern. A star would also find those of "train-hard" for "train"."""
+"""Pattern of shard numbers. A star would also find those of "train-hard" for "train"."""
 TYPES: dict[str, dict[str, Any]] = {
     "x.npy": {"list": "uint16"},
     "y.npy": {"list": "uint16"},

@@ -1,4 +1,4 @@
-"""One Parquet table of all samples: where each lies, what it shows, how it was dataset.
+"""Parquet index of all samples: place in the shards, caption, settings.
 
 A sample can be read with it alone: open the shard, seek `x_offset`, read `x_bytes` bytes: a .npy.
 """
@@ -17,7 +17,7 @@ from texvent.io.atomic import atomic_file
 
 INDEX_FILE = "index.parquet"
 ROWS = 20_000
-"""Of a row group."""
+"""Rows of a row group."""
 FIELDS = {
     "key": ("string", "Name of the sample; its members in the shard begin with it"),
     "clip": ("string", "Name of the video; the samples of all variants of it share this"),
@@ -33,7 +33,7 @@ FIELDS = {
     "height": ("int32", "Height of the sensor, pixels"),
     "events": ("int64", "Number of events"),
     "duration_us": ("int64", "From the first frame of the video to the last, microseconds"),
-    "warnings": ("strings", "What was doubtful when it was dataset, such as words not understood"),
+    "warnings": ("strings", "What was doubtful when it was made, such as words not understood"),
     **{
         f"{name}_{what}": ("int64", f"{text} of the array {name} in the shard, a .npy file")
         for name in COLUMNS

@@ -18,7 +18,7 @@ MOST_NAMED = 3
 
 @dataclass(frozen=True)
 class Published:
-    """What was written."""
+    """Files and counts of a publication."""
 
     files: tuple[Path, ...]
     statistics: DatasetStatistics

@@ -22,7 +22,7 @@ from texvent.errors import FileFormatError, InputError, shown
 
 SHARD_FILE = re.compile(r"(?P<split>[A-Za-z0-9][A-Za-z0-9_-]*)-(?P<number>\d{6,})\.(tar|json)")
 SHARDS = "shards"
-"""Where the facts of a merged set count its shards."""
+"""Key of the shard counts in the facts of a merged set."""
 
 
 @dataclass(frozen=True)
@@ -40,7 +40,7 @@ class StoredShard:
 
     @property
     def samples(self) -> Iterator[SampleRecord]:
-        """Those that are in it."""
+        """Samples that are in it."""
         return (sample for sample in self.record.samples if sample.status == MADE)
 
 
@@ -50,7 +50,7 @@ class StoredDataset:
 
     folder: Path
     facts: Mapping[str, Any]
-    """What its specification.json holds."""
+    """Content of its specification.json."""
 
     @classmethod
     def open(cls, folder: Path) -> StoredDataset:
@@ -60,12 +60,12 @@ class StoredDataset:
             InputError: there is none.
             FileFormatError: its specification is damaged.
         """
-        made = cls(folder, read_facts(folder))
+        dataset = cls(folder, read_facts(folder))
         try:
-            made.name, made.variants, made.splits, made.identity  # noqa: B018
+            dataset.name, dataset.variants, dataset.splits, dataset.identity  # noqa: B018
         except (KeyError, TypeError, AttributeError) as error:
             raise FileFormatError(f"{folder / 'specification.json'} is damaged") from error
-        return made
+        return dataset
 
     @property
     def specification(self) -> Mapping[str, Any]:
@@ -75,12 +75,12 @@ class StoredDataset:
 
     @property
     def name(self) -> str:
-        """Of the data set."""
+        """Name of the data set."""
         return str(self.specification["name"])
 
     @property
     def identity(self) -> str:
-        """What its records name as theirs."""
+        """Identity that its records name."""
         return str(self.facts["identity"])
 
     @property
@@ -155,7 +155,7 @@ class StoredDataset:
         return [found[place] for place in sorted(found)]
 
     def expected(self) -> set[str] | None:
-        """Places of all shards that belong to it, or None where the folder does not tell."""
+        """Places of all shards that belong to it, or None where the folder does not state them."""
         if self.is_merged:
             counts = self.facts[SHARDS]
             return {
@@ -173,7 +173,7 @@ class StoredDataset:
     def missing(self, *variants: str) -> list[str]:
         """Places of shards of some variants (default: all but the videos) that are not complete.
 
-        A copy without items.jsonl tells by the numbers alone: the last shards are not missed.
+        A copy without items.jsonl is judged by the numbers alone: the last shards are not missed.
         """
         variants = variants or tuple(self.variants)
         there = {shard.place for shard in self.shards(*variants)}

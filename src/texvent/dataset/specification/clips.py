@@ -24,7 +24,7 @@ class Clip:
     """One video of a data set, of which every variant makes samples."""
 
     key: str
-    """What makes it this clip: a digest of its item and its seed."""
+    """Identity of the clip: a digest of its item and its seed."""
     item: Item
     split: str
     number: int

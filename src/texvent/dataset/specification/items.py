@@ -30,7 +30,7 @@ class Item:
     """A prompt, a scene or a video, of which `repeats` videos and all variants are made."""
 
     key: str
-    """What makes it this item, wherever it stands: a digest of what it shows and its label."""
+    """Identity of the item: a digest of its content and label."""
     prompt: str | None = None
     video: str | None = None
     """Path of the video; None: it is generated."""
@@ -44,7 +44,7 @@ class Item:
 
     @property
     def subject(self) -> str | Scene:
-        """What is shown: its scene, or else its prompt."""
+        """Its scene, or else its prompt."""
         return (self.prompt or "") if self.scene is None else scene_from_data(self.scene)
 
     @property
@@ -60,7 +60,7 @@ class Items:
 
     all: tuple[Item, ...]
     duplicates: int = 0
-    """How many were left out because an equal one comes before."""
+    """Number of items left out because an equal one comes before."""
 
     @property
     def are_videos(self) -> bool:
@@ -74,7 +74,7 @@ class Items:
 
 
 def read_items(specification: Specification) -> Items:
-    """What the sources give, in their order; equal prompts once.
+    """Items of the sources, in their order; equal ones once.
 
     Raises:
         InputError: a source does not exist, or holds nothing.
@@ -191,7 +191,7 @@ def _placeholders(template: str) -> list[str]:
         parts = [name for _, name, _, _ in string.Formatter().parse(template) if name is not None]
     except ValueError as error:
         raise ConfigError(
-            f"template {shown(template)}: {error}; names to fill in stand in {{}}"
+            f"template {shown(template)}: {error}; write names to fill in as {{name}}"
         ) from error
     return list(dict.fromkeys(parts))
 
