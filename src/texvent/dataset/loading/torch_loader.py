@@ -345,10 +345,6 @@ class _Batches:
         return -(-count // self.sampler.batch_size)
 
 
-_data: Any = require("torch.utils.data", extra="torch")
-_IterableDataset: Any = _data.IterableDataset
-
-
 def _sampler(rank: int | None, world_size: int | None, order: Mapping[str, Any]) -> EpochSampler:
     """A sampler, with the rank and world size of torch.distributed where they are not given."""
     if (rank is None) != (world_size is None):
