@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         TexventError,
         TexventWarning,
     )
+    from texvent.event_camera import EventCamera
     from texvent.event_packets import EventPackets
     from texvent.events import EventStream
     from texvent.generate.scene_input import read
@@ -44,10 +45,10 @@ if TYPE_CHECKING:
     )
     from texvent.run.truth import TruthFolder
     from texvent.sensor import SENSORS, Sensor, SensorSize
-    from texvent.simulate.check_simulator import check_simulator
-    from texvent.transform.augmentation.augment import Augment
+    from texvent.simulate.build import check_simulator
+    from texvent.transform.augment import Augment
     from texvent.truth.loading import load_truth
-    from texvent.truth.saving import save_truth
+    from texvent.truth.writer import save_truth
     from texvent.video import Frame, FrameStream, Video
 
 _HOMES = {
@@ -61,6 +62,7 @@ _HOMES = {
         "TexventError",
         "TexventWarning",
     ),
+    "event_camera": ("EventCamera",),
     "event_packets": ("EventPackets",),
     "events": ("EventStream",),
     "generate.scene_input": ("read",),
@@ -74,10 +76,10 @@ _HOMES = {
         "simulators",
     ),
     "run.truth": ("TruthFolder",),
-    "simulate.check_simulator": ("check_simulator",),
-    "transform.augmentation.augment": ("Augment",),
+    "simulate.build": ("check_simulator",),
+    "transform.augment": ("Augment",),
     "truth.loading": ("load_truth",),
-    "truth.saving": ("save_truth",),
+    "truth.writer": ("save_truth",),
     "sensor": ("SENSORS", "Sensor", "SensorSize"),
     "video": ("Frame", "FrameStream", "Video"),
 }
@@ -87,6 +89,7 @@ __all__ = [
     "SENSORS",
     "Augment",
     "ConfigError",
+    "EventCamera",
     "EventPackets",
     "EventStream",
     "FileFormatError",

@@ -9,9 +9,9 @@ from texvent.calibrate.search import measure_distance
 from texvent.config import InterpolateConfig
 from texvent.errors import OutputError
 from texvent.events import EventStream
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
-from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.settings.resolution import resolve
+from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.simulator import PhysicalSimulator
 
 from .conftest import TRUTH, moving_blobs

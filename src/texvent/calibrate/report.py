@@ -21,7 +21,7 @@ from texvent.io.atomic import atomic_file
 from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS
-from texvent.view.rates import rate_counts
+from texvent.view.page.sample import rate_counts
 
 FORMATS = (".png", ".svg", ".pdf")
 RATE_BINS, VALUE_BINS = 120, 40

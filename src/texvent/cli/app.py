@@ -14,10 +14,8 @@ from importlib import metadata
 from texvent._registry import suggest
 from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say, write_out
-from texvent.cli.wording import flags_in_messages
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError, shown
-from texvent.io.hidden_parts import remove_own_parts
-from texvent.io.protected_inputs import protected_inputs
+from texvent.io.atomic import protected_inputs, remove_own_parts
 from texvent.runtime.interrupts import raise_interrupted
 
 COMMANDS = {
@@ -35,18 +33,10 @@ COMMANDS = {
         "texvent.cli.simulation.rig",
         "Several cameras with lenses, frames and an IMU, from a prompt.",
     ),
-    "ros": (
-        "texvent.cli.simulation.ros",
-        "A ROS 2 node: images of a topic in, event packets out.",
-    ),
     "render": ("texvent.cli.event_files.render", "A video, image or page of an event file."),
     "view": (
         "texvent.cli.event_files.view",
         "Open an event file in the browser: point cloud, playback, rate.",
-    ),
-    "rerun": (
-        "texvent.cli.event_files.rerun",
-        "Open an event file in the rerun viewer.",
     ),
     "app": (
         "texvent.cli.simulation.web",
@@ -63,10 +53,6 @@ COMMANDS = {
     "convert": (
         "texvent.cli.event_files.convert",
         "Another event format, a region, a time range, files merged.",
-    ),
-    "replay": (
-        "texvent.cli.event_files.replay",
-        "Make an event file again from what is stored in it, and compare.",
     ),
     "validate": (
         "texvent.cli.event_files.validate",
@@ -125,7 +111,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return _run(list(arguments))
 
 
-@flags_in_messages()
 def _run(words: list[str], *, is_process: bool = False) -> int:
     """Exit code of a command; every error becomes one line."""
     try:

@@ -23,9 +23,8 @@ from texvent.video import MICROSECONDS
 from texvent.view.drawing.canvas import Image, png_bytes, shrink
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
-from texvent.view.page.comparison import WINDOW_US, busiest_start
-from texvent.view.page.html_parts import count_text
-from texvent.view.page.template import fill_template
+from texvent.view.page.html_parts import count_text, fill_template
+from texvent.view.stills import busiest_start
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -74,6 +73,9 @@ def choose_samples(dataset: StoredDataset, selection: SampleSelection) -> list[C
 IMAGE_WIDTH = 480
 
 
+WINDOW_US = 40_000
+
+
 def write_sample_page(
     dataset: StoredDataset, samples: Sequence[ChosenSample], path: Path, *, overwrite: bool
 ) -> Path:
@@ -102,7 +104,7 @@ def write_sample_page(
 
 
 def _liveliest(events: EventStream, palette: Palette) -> Image:
-    start = busiest_start(events)
+    start = busiest_start(events, WINDOW_US)
     return draw_events(count_events(events.cut(start, start + WINDOW_US)), palette)
 
 

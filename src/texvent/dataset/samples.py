@@ -18,7 +18,7 @@ from texvent.events import EventStream
 from texvent.pipeline import Simulation
 from texvent.represent.named import represent_window
 from texvent.run.prepare import prepare_prompt, prepare_source
-from texvent.run.settings import Settings, resolve
+from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.random.draws import frame_key
 from texvent.video import Frame, FrameStream, RenderableStream
 

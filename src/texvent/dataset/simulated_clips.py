@@ -16,7 +16,7 @@ from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, shown
 from texvent.pipeline import Simulation
-from texvent.run.settings import Settings
+from texvent.settings.resolution import Settings
 
 
 class SimulatedClips:

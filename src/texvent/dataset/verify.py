@@ -31,7 +31,7 @@ from texvent.dataset.reading.stored_dataset import SHARD_FILE, StoredDataset, St
 from texvent.dataset.reading.stored_events import read_events, read_sample_facts
 from texvent.dataset.statistics import in_several_splits
 from texvent.errors import FileFormatError, one_line, shown
-from texvent.io.hidden_parts import is_hidden_part
+from texvent.io.atomic import is_hidden_part
 
 OWN = (SPECIFICATION_FILE, ITEMS_FILE, CARD_FILE, CROISSANT_FILE, INDEX_FILE, LOGS, "samples.html",
        "samples.png", ".git", ".gitattributes", ".cache")  # fmt: skip

@@ -7,14 +7,12 @@ import hashlib
 import importlib.util
 import re
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar, overload
 
 import numba
 from numba import types
-from numba.core import event
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -57,23 +55,11 @@ def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **o
     return decorate if function is None else decorate(function)
 
 
-@contextmanager
-def timed_compilation() -> Iterator[Callable[[], float]]:
-    """Time what compiles, or loads from disk, inside the block, in any thread.
-
-    Yields:
-        A function that gives the seconds until now, of what is complete.
-    """
-    listener = event.TimingListener()  # type: ignore[no-untyped-call]
-    with event.install_listener("numba:compiler_lock", listener):
-        yield lambda: listener.duration if listener.done else 0.0
-
-
 _type_of: Any = types.unliteral
 
 
 def _template_of(kernel: Any, arguments: Any, keywords: Any) -> Any:
-    """How another kernel calls this one: compiled for types, not once for each constant passed."""
+    """Call from another kernel: compiled for types, not once for each constant passed."""
     arguments = tuple(_type_of(one) for one in arguments)
     keywords = {name: _type_of(one) for name, one in keywords.items()}
     return type(kernel).get_call_template(kernel, arguments, keywords)

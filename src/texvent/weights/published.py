@@ -12,8 +12,7 @@ from typing import Literal, TypeAlias
 from texvent._registry import suggest
 from texvent.data.catalogue import Archive, DataFile, DataSet
 from texvent.errors import ConfigError, shown
-from texvent.metrics.lpips.layout import LpipsNet
-from texvent.metrics.lpips.weights import weights_file_name
+from texvent.metrics.lpips import LpipsNet, weights_file_name
 
 NetworkKind: TypeAlias = Literal["rife", "lpips"]
 """Networks that are read alike; see `texvent.weights.fetch`."""
@@ -29,7 +28,7 @@ class PublishedWeights:
     file_name: str
     """Name of the converted file in the weights folder."""
     layout: str
-    """Layout that the file must have; see `interpolate.rife.layouts`, `metrics.lpips.layout`."""
+    """Layout that the file must have; see `interpolate.rife.network`, `metrics.lpips`."""
 
     @property
     def name(self) -> str:
@@ -85,7 +84,7 @@ RIFE = _rife(
         "b234ad8d0acfcb6d9eaf2791eb7ddebdaab58bd862b229c703f8073e56d99c29",
     ),
     (
-        "RIFE 4.0, frame interpolation at any instant; what --interpolate rife uses.",
+        "RIFE 4.0, frame interpolation at any instant; what interpolate='rife' uses.",
         "The package and Practical-RIFE, where the weights come from, are MIT.",
     ),
 )
@@ -105,7 +104,7 @@ RIFE_4_6 = _rife(
         "a222360fa1b3e794d2d5236a3b8513f4c9c09960b0742733546888930f383e56",
     ),
     (
-        "RIFE in the layout of 4.6: smaller and faster; pass its path with --interpolator-weights.",
+        "RIFE in the layout of 4.6: smaller and faster; pass its path with `interpolator_weights`.",
         "The package is MIT; which release the weights are is not stated.",
     ),
 )

@@ -11,10 +11,8 @@ import pytest
 from tests.metrics.lpips.lpips_files import narrow_weights
 
 from texvent.cli.app import main
-from texvent.metrics.image_measures import mean_squared_error
-from texvent.metrics.lpips.layout import ALEX
-from texvent.metrics.lpips.weights import weights_file_name, write_lpips_weights
-from texvent.metrics.structural_similarity import structural_similarity
+from texvent.metrics.image_measures import mean_squared_error, structural_similarity
+from texvent.metrics.lpips import ALEX, weights_file_name, write_lpips_weights
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.registries import RECONSTRUCTORS
 
@@ -25,13 +23,16 @@ torch = pytest.importorskip("torch", reason="make test-torch runs the tests that
 from texvent_lab.reconstruct.checkpoint import Checkpoint  # noqa: E402
 from texvent_lab.reconstruct.networks import FIRENET  # noqa: E402
 from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor  # noqa: E402
-from texvent_lab.train.reading import read_training  # noqa: E402
 from texvent_lab.train.reconstruction.config import (  # noqa: E402
     ReconstructionAugmentation,
     ReconstructionConfig,
 )
 from texvent_lab.train.reconstruction.task import ReconstructionTask  # noqa: E402
-from texvent_lab.train.run import evaluate_from_file, train_from_file  # noqa: E402
+from texvent_lab.train.run import (  # noqa: E402
+    evaluate_from_file,
+    read_training,
+    train_from_file,
+)
 from texvent_lab.train.schedule import Hardware  # noqa: E402
 
 pytestmark = pytest.mark.torch

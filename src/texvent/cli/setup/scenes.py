@@ -42,7 +42,7 @@ class ListOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class ShowOptions:
-    """What to draw."""
+    """Noun and its image."""
 
     positional: ClassVar[tuple[str, ...]] = ("noun",)
     short_flags: ClassVar[Mapping[str, str]] = {"output": "-o"}
@@ -164,7 +164,7 @@ def _draw(noun: Noun, nouns: Mapping[str, Noun], options: ShowOptions) -> bytes:
         Surroundings,
     )
     from texvent.scenes.staging.compose import compose_scene
-    from texvent.view.stills.scene_stills import draw_stills
+    from texvent.view.stills import draw_stills
 
     motion = ObjectMotion("spin" if options.views > 1 else "stand")
     description = SceneDescription(

@@ -16,7 +16,7 @@ from texvent.dataset.generation.shards import FAILED, ShardSummary
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError
-from texvent.io.hidden_parts import sweep
+from texvent.io.atomic import sweep
 from texvent.runtime.progress import ProgressOption, open_progress
 
 OnOutcome = Callable[[Outcome], None]

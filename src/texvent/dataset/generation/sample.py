@@ -18,9 +18,9 @@ from texvent.events import SIGNAL, EventStream
 from texvent.pipeline import Simulation, select_events, text_to_video
 from texvent.represent.event_frame import count_events
 from texvent.run.prepare import prepare_source, prepare_video
-from texvent.run.settings import Settings
-from texvent.video_check.measurer import VideoMeasurer
-from texvent.video_check.report import judge_measures
+from texvent.settings.resolution import Settings
+from texvent.video_check.checks import evaluate
+from texvent.video_check.measurements import VideoMeasurer
 
 
 def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings) -> Simulation:
@@ -67,7 +67,7 @@ def simulate_sample(simulation: Simulation, filters: Filters) -> SimulatedClip:
         TexventError: the video cannot be read or made.
     """
     run = simulation.settings.run
-    told_apart = replace(run, events="all", label_noise=True)
+    told_apart = replace(run, keep_events="all", label_noise=True)
     labelled = replace(simulation, settings=replace(simulation.settings, run=told_apart))
     measurer = VideoMeasurer() if filters.failed_videos else None
     packets, count, signal, times = [], 0, 0, []
@@ -101,7 +101,7 @@ def _too_weak(signal: int, filters: Filters) -> str | None:
 def _looks_failed(measurer: VideoMeasurer | None) -> str | None:
     if measurer is None:
         return None
-    report = judge_measures(measurer.measures())
+    report = evaluate(measurer.measurements())
     return None if report.is_fine else f"the video looks failed: {report.summary}"
 
 
