@@ -10,7 +10,7 @@ import pytest
 from tests.dataset.conftest import CARS
 
 from texvent.cli.app import main
-from texvent.dataset.preview import SampleSelection, choose_samples
+from texvent.dataset.preview import choose_samples
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import InputError
 
@@ -50,7 +50,7 @@ def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> Non
     made = StoredDataset.open(cars)
 
     def keys(**choice: object) -> list[str]:
-        return [record.key for _, record in choose_samples(made, SampleSelection(**choice))]  # type: ignore[arg-type]
+        return [record.key for _, record in choose_samples(made, **choice)]  # type: ignore[arg-type]
 
     assert keys(count=4) == keys(count=4)
     assert len({tuple(keys(count=4, seed=seed)) for seed in range(8)}) > 3

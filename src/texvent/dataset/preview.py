@@ -7,7 +7,6 @@ import html
 import json
 import random
 from collections.abc import Sequence
-from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
@@ -26,54 +25,45 @@ from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.page.html_parts import count_text, fill_template
 from texvent.view.stills import busiest_start
 
-
-@dataclass(frozen=True, kw_only=True)
-class SampleSelection:
-    """Samples to show."""
-
-    count: int = 24
-    variant: str | None = None
-    split: str | None = None
-    label: str | None = None
-    seed: int = 0
-
-
+IMAGE_WIDTH, WINDOW_US = 480, 40_000
 ChosenSample = tuple[StoredShard, SampleRecord]
 
 
-def choose_samples(dataset: StoredDataset, selection: SampleSelection) -> list[ChosenSample]:
-    """Samples in the order of the data set.
+def choose_samples(
+    dataset: StoredDataset,
+    count: int = 24,
+    *,
+    variant: str | None = None,
+    split: str | None = None,
+    label: str | None = None,
+    seed: int = 0,
+) -> list[ChosenSample]:
+    """Samples drawn by chance, the same every time, in the order of the data set.
 
     Raises:
         InputError: there are none such.
     """
-    variants = [] if selection.variant is None else [dataset.check_variant(selection.variant)]
-    chance = random.Random(selection.seed)
+    variants = [] if variant is None else [dataset.check_variant(variant)]
+    chance = random.Random(seed)
     chosen: list[tuple[int, ChosenSample]] = []
     seen = 0
     for shard in dataset.shards(*variants):
-        if selection.split not in (None, shard.record.split):
+        if split not in (None, shard.record.split):
             continue
         for record in shard.samples:
-            if selection.label not in (None, record.label):
+            if label not in (None, record.label):
                 continue
             # Each sample has the same chance, and no more than those chosen are held.
-            place = seen if seen < selection.count else chance.randrange(seen + 1)
-            if place < selection.count:
+            place = seen if seen < count else chance.randrange(seen + 1)
+            if place < count:
                 chosen[place : place + 1] = [(seen, (shard, record))]
             seen += 1
     if not chosen:
-        asked = {"split": selection.split, "label": selection.label}
+        asked = {"split": split, "label": label}
         asked_for = [f"{name} {shown(value)}" for name, value in asked.items() if value]
         which = f" with {' and '.join(asked_for)}" if asked_for else ""
         raise InputError(f"{dataset.folder} holds no samples{which}")
     return [sample for _, sample in sorted(chosen, key=lambda pair: pair[0])]
-
-
-IMAGE_WIDTH = 480
-
-
-WINDOW_US = 40_000
 
 
 def write_sample_page(

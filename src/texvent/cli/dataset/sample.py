@@ -11,7 +11,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.dataset.preview import SampleSelection, choose_samples, write_sample_page
+from texvent.dataset.preview import choose_samples, write_sample_page
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import ConfigError
 
@@ -63,14 +63,14 @@ def run(arguments: Sequence[str]) -> int:
     if out.suffix.lower() not in (".html", ".htm"):
         raise ConfigError(f"out is {out}; name a page, .html")
     dataset = StoredDataset.open(options.folder)
-    selection = SampleSelection(
-        count=options.count,
+    samples = choose_samples(
+        dataset,
+        options.count,
         variant=options.variant,
         split=options.split,
         label=options.label,
         seed=options.seed,
     )
-    samples = choose_samples(dataset, selection)
     write_sample_page(dataset, samples, out, overwrite=options.overwrite)
     write_out(f"{len(samples)} samples of {dataset.name}: {out}\n")
     return 0
