@@ -5,8 +5,8 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
-from dataclasses import asdict, dataclass, field, replace
-from typing import Any
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -23,13 +23,14 @@ from texvent.scenes.report import PromptReport, ReportTally, ranked
 
 QUANTILES = (0.05, 0.5, 0.95)
 MOST_REASONS = 10
+MOST_NAMED = 10
+"""Samples that the summary names of those left out for one reason."""
 MICROSECONDS = 1_000_000
 COUNTS = ("variant", "split", "samples", "left out", "failed", "events", "median events",
           "median s", "median events/s", "MB")  # fmt: skip
 
 
-@dataclass(frozen=True, order=True)
-class LeftOut:
+class LeftOut(NamedTuple):
     """A sample that the filters leave out."""
 
     signal_events: int
@@ -52,9 +53,9 @@ class Statistics:
     left_out: list[LeftOut] = field(default_factory=list)
     failed: int = 0
     events: list[int] = field(default_factory=list)
-    """Of each sample."""
+    """Number of events of each sample."""
     durations_us: list[int] = field(default_factory=list)
-    """Of each sample."""
+    """Duration of each sample, µs."""
     clips: set[str] = field(default_factory=set)
     classes: Counter[str] = field(default_factory=Counter)
     sensors: Counter[str] = field(default_factory=Counter)
@@ -141,7 +142,7 @@ class Statistics:
         """Plain values, ready for JSON."""
         return {
             "samples": self.samples,
-            "left_out": [asdict(one) for one in sorted(self.left_out)],
+            "left_out": [one._asdict() for one in sorted(self.left_out)],
             "failed": self.failed,
             "clips": len(self.clips),
             "shards": self.shards,
@@ -244,7 +245,7 @@ def without_numbers(text: str) -> str:
 
 
 def in_several_splits(shards: Iterable[StoredShard]) -> set[str]:
-    """Prompts, or videos, of which samples lie in several splits: tested is what was trained on."""
+    """Prompts, or videos, with samples in several splits, so that tests see training data."""
     split_of: dict[str, str] = {}
     found = set()
     for shard in shards:
@@ -253,10 +254,6 @@ def in_several_splits(shards: Iterable[StoredShard]) -> set[str]:
             if split_of.setdefault(shows, shard.record.split) != shard.record.split:
                 found.add(shows)
     return found
-
-
-MOST_NAMED = 10
-"""Samples that the summary names of those left out for one reason."""
 
 
 def summary_lines(statistics: Statistics) -> list[str]:
