@@ -238,7 +238,7 @@ def test_events_of_noise_save_no_sample_from_the_filter(tmp_path: Path, kept: st
     recipe = recipe_of(
         tmp_path,
         sources=[{"videos": "*.npy", "label": "{name}"}],
-        options={"fps": 30, "simulator": "v2e", "shot_noise_rate_hz": 20.0, "events": kept},
+        options={"fps": 30, "simulator": "v2e", "shot_noise_rate_hz": 20.0, "keep_events": kept},
         splits={"train": 1.0},
         filters={},
         variants={"v2e": {}},
