@@ -70,7 +70,8 @@ def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
     # Before other options are parsed: generators of videos have some of the same name.
     deciding, _ = take_options(arguments, ("generator", "config"), "texvent rig")
-    check_generator(base_settings("generate", **deciding).generator)
+    named: dict[str, Any] = {**deciding}
+    check_generator(base_settings("generate", **named).generator)
     settings, own, output = resolve_command(
         "generate",
         arguments,
