@@ -31,7 +31,7 @@ WAVELENGTH = 10_000.0
 class EncoderLayer(_Module):
     """Self-attention and feed-forward, both after a normalisation and added to the input."""
 
-    norms = ("norm1", "norm2")
+    norms: tuple[str, ...] = ("norm1", "norm2")
 
     def __init__(self, features: int) -> None:
         super().__init__()
@@ -60,11 +60,12 @@ class DecoderLayer(EncoderLayer):
         super().__init__(features)
         self.cross_attn = _nn.MultiheadAttention(features, HEADS)
 
-    def forward(self, tokens: Tensor, memory: Tensor) -> Tensor:
-        """Tokens [n, features]; those attended to, [m, features]."""
+    def forward(self, tokens: Tensor, memory: Tensor | None = None) -> Tensor:
+        """Tokens [n, features]; those attended to, [m, features], or themselves."""
         normal = self.norm1(tokens)
         tokens = tokens + _attend(self.self_attn, normal, normal)
-        tokens = tokens + _attend(self.cross_attn, self.norm21(tokens), self.norm22(memory))
+        memory = self.norm22(tokens if memory is None else memory)
+        tokens = tokens + _attend(self.cross_attn, self.norm21(tokens), memory)
         return tokens + self._feed_forward(self.norm3(tokens))
 
 
