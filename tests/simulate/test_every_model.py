@@ -155,13 +155,3 @@ def test_the_command_line_stores_labels_only_if_asked(model, tmp_path):
     assert labelled.label is not None
     assert plain.label is None
     assert labelled.without_label().equals(plain)
-
-
-@pytest.mark.parametrize("model", [name for name in CLEAN if name != "texvent"])
-def test_events_lie_on_the_sensor_inside_the_clip(model):
-    events = texture(simulator=model, seed=5, **NOISY.get(model, {}))
-    assert events.size == (40, 30)
-    assert events.x.max() < 40
-    assert events.y.max() < 30
-    assert 0 <= events.t.min() <= events.t.max() < round(5e6 / 24)
-    assert (np.diff(events.t) >= 0).all()

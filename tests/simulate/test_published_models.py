@@ -8,9 +8,7 @@ import numpy as np
 import pytest
 from tests.simulate.references import in_both_forms
 
-from texvent._registry import SIMULATORS
 from texvent.errors import InputError
-from texvent.events import EventStream
 from texvent.options.fields import option_help, option_names
 from texvent.simulate.esim.simulator import EsimSimulator
 from texvent.simulate.physical.simulator import PhysicalSimulator
@@ -19,7 +17,7 @@ from texvent.simulate.v2e.simulator import V2eSimulator
 from texvent.simulate.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
 from texvent.video import Frame
 
-from .pixel_frames import moving_texture, run, static
+from .pixel_frames import moving_texture, run
 
 MODELS = {
     "physical": PhysicalSimulator,
@@ -35,11 +33,6 @@ EVERY_PRESET = [(name, preset) for name, model in MODELS.items() for preset in m
 def model(request):
     name, preset = request.param
     return lambda **options: MODELS[name](MODELS[name].presets[preset], **options)
-
-
-@pytest.mark.parametrize("name", MODELS)
-def test_the_registry_names_the_model(name):
-    assert SIMULATORS.load(name) is MODELS[name]
 
 
 @pytest.mark.parametrize("name", MODELS)
@@ -184,8 +177,3 @@ def test_the_seed_decides_everything_random(name, seed):
     events = run(MODELS[name](config, seed=seed), frames)
     assert run(MODELS[name](config, seed=seed), frames).equals(events)
     assert not run(MODELS[name](config, seed=seed + 1), frames).equals(events)
-
-
-@pytest.mark.parametrize("name", MODELS)
-def test_one_frame_gives_an_empty_stream(name):
-    assert len(EventStream.concat([MODELS[name]().step(static(9.0, fps=1, seconds=0)[0])])) == 0

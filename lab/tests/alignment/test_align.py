@@ -183,26 +183,9 @@ def test_reconstructed_images_are_scored_beside_drawn_events(
     assert len(found["weights_sha256"]) == 64
 
 
-def test_long_texts_are_counted(clip: Path) -> None:
-    model = ClipModel(clip)
-    assert model.count_tokens("a cat " * 30) > model.most_tokens
-
-
 def test_a_table_gives_the_control_below_each_score(clip: Path, data: Path) -> None:
     rows = align(list_samples(data / "events"), {"drawn": DrawnEvents()}, ClipModel(clip))
     lines = alignment_table(rows).splitlines()
     assert len(lines) == 4
     assert lines[0].split()[:3] == ["events", "seen", "as"]
     assert lines[3].split()[:4] == ["chance", "0.333", "1.000", "1.000"]
-
-
-def test_mistakes_are_named(
-    clip: Path, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def said(*words: str) -> str:
-        assert main(["align", *words]) == 2
-        return capsys.readouterr().err
-
-    assert "nothing to score" in said("--clip", str(clip))
-    assert "need their texts" in said("--n-imagenet", str(data / "N"), "--clip", str(clip))
-    assert "there is no CLIP model in" in said(str(data / "events"), "--clip", str(tmp_path))

@@ -28,11 +28,3 @@ def test_every_case_is_measured_and_stored(
         assert exact["step_ms"]["n"] == train_gpu.TINY.repeats
     assert document["environment"]["packages"]["torch"]
     assert capsys.readouterr().out.count("e2vid+") == 2
-
-
-def test_without_a_gpu_it_says_so_in_one_line(
-    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    monkeypatch.setattr(torch.cuda, "is_available", lambda: False)
-    assert train_gpu.main([]) == 2
-    assert capsys.readouterr().err.count("\n") == 1

@@ -128,16 +128,3 @@ def test_the_captions_become_events_that_stand_beside_their_streams(
         assert int(pair["events"]) == sample.events
         assert sample.label == pair["label"]
     assert {pair["id"] for pair in pairs} == {stream_id(number) for number in CAPTIONS}
-
-
-def test_events_of_other_prompts_are_refused(
-    built: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    other = tmp_path / "other.toml"
-    other.write_text(
-        'name = "other"\noptions = {duration = 0.1, sensor = "32x24"}\n'
-        '[[sources]]\nprompts = ["a dog runs"]\n'
-    )
-    assert main(["dataset", "make", str(other), "-o", str(tmp_path / "o"), "-q"]) == 0
-    assert main(["nt-imagenet", "-o", str(built), "--events", str(tmp_path / "o")]) == 2
-    assert "was not made from these captions" in capsys.readouterr().err

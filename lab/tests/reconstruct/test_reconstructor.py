@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
@@ -138,13 +138,3 @@ def test_output_that_is_not_finite_is_refused(tmp_path):
     reconstructor = load_reconstructor("firenet", tmp_path / "huge.pth", device="cpu")
     with pytest.raises(FileFormatError, match="NaN or infinite"):
         reconstructor.reconstruct(noise())
-
-
-def test_cuda_is_refused_where_there_is_none(folder, monkeypatch):
-    monkeypatch.setattr(torch.cuda, "is_available", lambda: False)
-    with pytest.raises(ConfigError, match="torch finds no GPU"):
-        load_reconstructor("firenet", folder / "firenet.pth", device="cuda")
-
-
-def test_an_unknown_file_is_not_called_the_published_one(folder):
-    assert not load(folder, "firenet").is_published

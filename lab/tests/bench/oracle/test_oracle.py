@@ -3,7 +3,6 @@
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
 from texvent_lab.bench.oracle.camera import camera_level, radiance_of
@@ -133,11 +132,6 @@ def test_true_frames_are_the_film_before_rounding_at_any_instant():
         assert np.abs(exact.pixels - rounded.pixels).max() <= 0.501
     np.testing.assert_array_equal(true.at(41_667).pixels, list(true)[1].pixels)
     assert not true.at(41_667).is_source
-
-
-def test_an_unknown_scene_is_refused():
-    with pytest.raises(ConfigError, match="did you mean 'mixed'"):
-        build_scene("mixd", 0, SIZE)
 
 
 def test_a_prompt_is_a_scene_that_the_camera_films_as_the_generator_drew_it():

@@ -11,7 +11,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.metrics.compare import compare
 from texvent.metrics.event_frames import EventFrameLpips
 from texvent_lab.bench.paper import simulator_tables
-from texvent_lab.bench.paper.ablation_tables import ablation_figures, leave_out_other_tables
+from texvent_lab.bench.paper.ablation_tables import ablation_figures
 from texvent_lab.bench.paper.config_entry import read_ablations
 from texvent_lab.bench.paper.network_tables import accuracy_figures
 from texvent_lab.bench.paper.published_tables import (
@@ -147,36 +147,6 @@ def test_weights_that_are_missing_are_refused_before_anything_is_timed(tmp_path)
     with pytest.raises(InputError, match="no weights file"):
         measure_table(2, PaperInputs(rvt_weights=tmp_path / "none.ckpt"), steps.append)
     assert steps == []
-
-
-def test_missing_weights_are_told_before_the_event_frames(monkeypatch, tmp_path, pan_folder):
-    keep_few(monkeypatch)
-    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
-    steps = []
-    found = measure_table(1, PaperInputs(recordings=(str(pan_folder),)), steps.append)
-    assert "images; " in steps[0]
-    assert "event frames: MSE ↓" in found.figures
-    assert found.needs[-1].startswith("images; ")
-
-
-def test_one_table_runs_its_own_rows_alone(tmp_path):
-    for name in ("E7", "E9", "Texvent", "mine"):
-        (tmp_path / f"{name}.toml").write_text('interpolate = "none"\n')
-    entries = read_ablations(tmp_path)
-    names = [{one.name for one in leave_out_other_tables(table, entries)} for table in (4, 5)]
-    assert names == [{"E7", "Texvent", "mine"}, {"E9", "Texvent", "mine"}]
-
-
-def test_a_baseline_that_does_not_run_is_refused_at_once(capsys, pan_folder, tmp_path):
-    (tmp_path / "E1.toml").write_text('interpolate = "none"\n')
-    words = ["--configs", str(tmp_path), "--no-oracle", "--recordings", str(pan_folder)]
-    assert main(["bench", "paper", *words, "--baseline", "E7"]) != 0
-    assert "baseline 'E7' does not run; allowed: E1" in capsys.readouterr().err
-
-
-def test_a_table_that_the_paper_lacks_is_refused(capsys):
-    assert main(["bench", "paper", "--table", "3"]) != 0
-    assert "the tables are 1, 2, 4, 5, 7, 8, 9" in capsys.readouterr().err
 
 
 @pytest.mark.torch

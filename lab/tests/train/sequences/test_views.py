@@ -37,11 +37,6 @@ def test_every_square_is_drawn() -> None:
     assert drawn == {0, 1, 2, 4, 5, 6}
 
 
-def test_without_a_side_nothing_is_cut() -> None:
-    whole = maps(3, 4)
-    assert crop_randomly(whole, None, np.random.default_rng(0)) == whole
-
-
 def test_mirrored_flow_points_to_the_mirrored_pixel() -> None:
     chance = np.random.default_rng(0)
     image = chance.random((1, 4, 6)).astype(np.float32)
