@@ -20,10 +20,7 @@ from texvent.runtime.memory import allow_memory, allowed_bytes, parse_memory
 from texvent.sensor import SensorSize
 
 ROOT = Path(__file__).parents[2]
-IS_FULL = os.environ.get("TEXVENT_ATTACK") == "full"
-"""All interpolators with all inputs: some minutes."""
 SIMULATORS = ("texvent", "esim", "v2e", "senpi", "voltmeter", "physical")
-OTHER = dict(zip(SIMULATORS, ("flow", "flow", "blend", "blend", "blend", "flow"), strict=True))
 
 
 def run_attack(simulator: str, interpolators: str, groups: str) -> list[str]:
@@ -45,18 +42,10 @@ def run_attack(simulator: str, interpolators: str, groups: str) -> list[str]:
     return wrong
 
 
+@pytest.mark.nightly
 @pytest.mark.parametrize("simulator", SIMULATORS)
 def test_every_model_survives_extreme_inputs_and_options(simulator):
-    if IS_FULL:
-        assert run_attack(simulator, "none,blend,flow", "intensities,times,sizes,options") == []
-        return
-    assert run_attack(simulator, "none", "intensities,times,sizes,options") == []
-
-
-@pytest.mark.skipif(IS_FULL, reason="the full attack above has them")
-@pytest.mark.parametrize("simulator", ["texvent", "physical"])
-def test_interpolated_frames_survive_extreme_inputs(simulator):
-    assert run_attack(simulator, OTHER[simulator], "intensities,times") == []
+    assert run_attack(simulator, "none,blend,flow", "intensities,times,sizes,options") == []
 
 
 def test_the_range_of_intensities_is_said_and_its_ends_are_allowed():
@@ -123,6 +112,7 @@ print(peak() - before)
 """
 
 
+@pytest.mark.nightly
 @pytest.mark.skipif(not Path("/proc/self/status").exists(), reason="needs Linux's /proc")
 @pytest.mark.parametrize(
     ("simulator", "interpolator"),

@@ -31,6 +31,7 @@ def no_posix(monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setitem(sys.modules, name, None)
 
 
+@pytest.mark.nightly
 def test_every_module_is_imported_and_the_main_commands_run(tmp_path: Path) -> None:
     done = subprocess.run(
         [sys.executable, windows_like.__file__],
