@@ -9,7 +9,7 @@ from texvent.view.drawing.palettes import PALETTES, get_palette
 from texvent.view.drawing.panels import SURROUND, PanelLayout, draw_legend
 
 SIZES = [
-    *(sensor.size for sensor in SENSORS.values()),
+    SENSORS["davis346"].size,
     SensorSize(1, 1),
     SensorSize(33, 17),
     SensorSize(3, 500),
