@@ -9,7 +9,7 @@ from texvent._registry import GENERATORS
 from texvent.errors import ConfigError, TexventWarning
 from texvent.generate.video_models import known_models
 from texvent.generate.video_models.known_models import MODELS
-from texvent.run.settings import default_settings, resolve
+from texvent.settings.resolution import default_settings, resolve
 
 
 def test_few_frames_per_second_are_warned_about_and_24_are_not():

@@ -15,7 +15,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.options.fields import option_help, option_names
 from texvent.pipeline import video_to_events
-from texvent.run.settings import default_settings, resolve
+from texvent.settings.resolution import default_settings, resolve
 from texvent.simulate.packets import FrameInterval, make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati
