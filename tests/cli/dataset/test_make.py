@@ -140,15 +140,6 @@ def test_a_strict_data_set_is_refused_before_any_work(folder, capsys):
     assert not (folder / "wugs").exists()
 
 
-def test_a_plan_of_a_learned_model_costs_gpu_hours(folder, capsys):
-    words = SPECIFICATION.replace("[options]", "store_videos = true\n[options]")
-    (folder / "films.toml").write_text(words)
-    assert run("plan", "films.toml", "--seconds-per-video", 900) == 0
-    said = capsys.readouterr().out
-    assert "4 videos of 900 s: 1.0 GPU-hours" in said
-    assert "no trial" in said
-
-
 def test_a_plan_measures_as_many_bytes_and_events_as_are_made(folder, capsys):
     assert run("plan", "cars.toml", "--trial", 4, "--workers", 1) == 0
     rows = [line.split() for line in capsys.readouterr().out.splitlines()]
