@@ -7,16 +7,24 @@ import jsonschema
 import pytest
 
 from texvent.sensor import SensorSize
-from texvent_lab.bench.machine import describe_environment
+from texvent_lab.bench.document import describe_environment
 from texvent_lab.measure.speed import kernels, scenes
-from texvent_lab.measure.speed.duel import match_count, measure_duel, ratio_to_fastest
-from texvent_lab.measure.speed.floor import Bandwidth
 from texvent_lab.measure.speed.kernels import Plan, measure_kernels
-from texvent_lab.measure.speed.peers import Contender
+from texvent_lab.measure.speed.peers import (
+    Contender,
+    match_count,
+    measure_duel,
+)
 from texvent_lab.measure.speed.stages import measure_pipeline
-from texvent_lab.measure.speed.tables import BEGIN, END, as_markdown, put_into_page
-from texvent_lab.measure.speed.targets import TARGETS, check_targets
-from texvent_lab.measure.speed.timing import Quartiles, rounded
+from texvent_lab.measure.speed.tables import (
+    BEGIN,
+    END,
+    TARGETS,
+    as_markdown,
+    check_targets,
+    put_into_page,
+)
+from texvent_lab.measure.speed.timing import Bandwidth
 
 ROOT = Path(__file__).parents[3]
 SCHEMA = json.loads((ROOT / "docs/results/speed.schema.json").read_text(encoding="utf-8"))
@@ -28,20 +36,6 @@ BANDWIDTHS = {1: Bandwidth(dram=40e9, cache=100e9), 2: Bandwidth(dram=80e9, cach
 def contender(name, events_of, *, needs=()):
     """A simulator that makes `events_of(threshold)` events."""
     return Contender(name, name, needs, lambda: lambda clip, threshold: events_of(threshold))
-
-
-def test_quartiles_by_hand():
-    assert Quartiles.of([4.0, 1.0, 3.0, 2.0, 5.0]) == Quartiles(3.0, 2.0, 4.0, 5)
-    assert Quartiles.of([0.001], scale=1e3).as_json() == {"median": 1, "q1": 1, "q3": 1, "n": 1}
-    assert rounded(123456.0) == 123500.0
-
-
-@pytest.mark.parametrize(
-    ("ours", "peers", "expected"),
-    [(2.0, [11.0, 5.0], 2.5), (4.0, [1.0], 0.25), (3.0, [], None)],
-)
-def test_the_ratio_is_the_fastest_peer_over_ours(ours, peers, expected):
-    assert ratio_to_fastest(ours, peers) == expected
 
 
 def test_a_threshold_is_found_that_gives_the_count():
