@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import http.client
 import json
 import os
@@ -35,7 +36,8 @@ def ask(page, path="/", method="GET", body=None, **headers):
     """Status, headers and body of an answer."""
     connection = http.client.HTTPConnection(urlsplit(page.address).netloc, timeout=60)
     named = {name.replace("_", "-"): value for name, value in headers.items()}
-    connection.request(method, path, body=body, headers=named)
+    with contextlib.suppress(BrokenPipeError):  # refused before all of the body was sent
+        connection.request(method, path, body=body, headers=named)
     answer = connection.getresponse()
     result = answer.status, dict(answer.getheaders()), answer.read()
     connection.close()
