@@ -12,7 +12,6 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError, InputError, shown
 from texvent.run.prepare import estimate_bytes
 from texvent.runtime.memory import usable_bytes
@@ -159,8 +158,3 @@ def test_messages_show_at_most_80_characters_of_a_value(value):
     text = shown(value)
     assert 0 < len(text) <= 80
     assert text.isprintable()
-
-
-def test_a_limit_that_is_infinite_is_refused():
-    with pytest.raises(ConfigError, match="max_frames_per_second is inf"):
-        InterpolateConfig(max_frames_per_second=float("inf"))

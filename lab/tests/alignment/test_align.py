@@ -23,7 +23,7 @@ from texvent.cli.app import main  # noqa: E402
 from texvent.events import EventStream  # noqa: E402
 from texvent.generate.videos.clip_model import ClipModel, _prepare  # noqa: E402
 from texvent.sensor import SensorSize  # noqa: E402
-from texvent_lab.alignment.align import align, alignment_table  # noqa: E402
+from texvent_lab.alignment.align import align  # noqa: E402
 from texvent_lab.alignment.recordings import (  # noqa: E402
     DrawnEvents,
     Recording,
@@ -181,11 +181,3 @@ def test_reconstructed_images_are_scored_beside_drawn_events(
     assert drawn != made
     assert found["network"] == "firenet"
     assert len(found["weights_sha256"]) == 64
-
-
-def test_a_table_gives_the_control_below_each_score(clip: Path, data: Path) -> None:
-    rows = align(list_samples(data / "events"), {"drawn": DrawnEvents()}, ClipModel(clip))
-    lines = alignment_table(rows).splitlines()
-    assert len(lines) == 4
-    assert lines[0].split()[:3] == ["events", "seen", "as"]
-    assert lines[3].split()[:4] == ["chance", "0.333", "1.000", "1.000"]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from typing import Any
 
@@ -83,16 +82,6 @@ def test_exchanged_texts_come_out_at_chance_and_the_p_value_tells_pairs_from_non
 
 @given(matrices())
 @settings(max_examples=60)
-def test_perfect_pairs_give_one(matrix: NDArray[np.float64]) -> None:
-    report = score(matrix + 3.0 * np.eye(len(matrix)))
-    assert set(report.measured.recall.values()) == {1.0}
-    assert report.measured.median_rank == 1.0
-    assert close(report.measured, dataclasses.replace(
-        report.low, mean_similarity=report.measured.mean_similarity))  # fmt: skip
-
-
-@given(matrices())
-@settings(max_examples=60)
 def test_all_cyclic_exchanges_together_are_exactly_chance(matrix: NDArray[np.float64]) -> None:
     side = len(matrix)
     chance = score(matrix).chance
@@ -115,14 +104,6 @@ def test_the_order_of_pairs_and_the_scale_do_not_matter(
     scaled = score(2 * matrix + 1).measured
     assert scaled.recall == before.recall
     assert scaled.median_rank == before.median_rank
-
-
-@given(st.integers(1, 30))
-def test_a_model_that_sees_no_difference_is_at_chance(side: int) -> None:
-    report = score(np.full((side, side), 0.25))
-    assert close(report.measured, report.chance)
-    assert close(report.shuffled, report.chance)
-    assert report.p_value == 1.0
 
 
 def test_exchanges_within_classes_leave_what_the_classes_give() -> None:

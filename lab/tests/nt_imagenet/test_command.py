@@ -81,13 +81,6 @@ def test_the_report_counts_problems_and_leaves_nothing_out(built: Path) -> None:
     assert "may not be redistributed" in " ".join(text.split())
 
 
-def test_captions_are_left_out_only_on_request(data: Path, tmp_path: Path) -> None:
-    assert nt(data, tmp_path / "nt", "--leave-out", "duplicate,class") == 1
-    captioned = read_captioned(tmp_path / "nt" / "captions.jsonl")
-    assert [one.id for one in captioned] == [stream_id(2)]
-    assert len(report(tmp_path / "nt")["left_out"]) == 3
-
-
 def test_the_same_command_twice_gives_the_same_files_and_keeps_the_specification(
     data: Path, tmp_path: Path
 ) -> None:

@@ -68,15 +68,6 @@ def test_arguments_of_the_network_itself_are_found_too(tmp_path):
     assert dict(read("firenet+", path).settings) == {"num_bins": 5}
 
 
-def test_counters_of_training_are_left_out(tmp_path):
-    shapes = small_shapes("e2vid", "unetrecurrent.encoders.0.conv.norm_layer.weight")
-    arrays = random_tensors(shapes)
-    state = {name: torch.from_numpy(array) for name, array in arrays.items()}
-    counter = "unetrecurrent.encoders.0.conv.norm_layer.num_batches_tracked"
-    torch.save({"state_dict": {**state, counter: torch.tensor(7)}}, tmp_path / "model.pth")
-    assert read("e2vid", tmp_path / "model.pth").tensors.keys() == shapes.keys()
-
-
 def test_no_code_of_a_file_runs(tmp_path):
     class Trap:
         def __reduce__(self):

@@ -7,7 +7,7 @@ from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
-from texvent_lab.reconstruct.reconstructor import load_reconstructor, stretch
+from texvent_lab.reconstruct.reconstructor import load_reconstructor
 from texvent_lab.registries import RECONSTRUCTORS
 
 from .network_files import HEADS, random_tensors, save_published, small_shapes
@@ -75,11 +75,6 @@ def test_only_e2vid_stretches_its_images(folder):
     image = load(folder, "e2vid").reconstruct(noise())
     assert (image == 0).mean() == pytest.approx(0.01, abs=0.01)
     assert (image == 1).mean() == pytest.approx(0.01, abs=0.01)
-
-
-def test_a_constant_image_is_not_stretched():
-    flat = np.full((4, 4), 0.3, np.float32)
-    np.testing.assert_array_equal(stretch(flat), flat)
 
 
 def test_a_reset_network_begins_anew(folder):

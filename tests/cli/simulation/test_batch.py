@@ -191,8 +191,7 @@ def whole(tmp_path_factory):
     return folder / "whole"
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
-@pytest.mark.parametrize("jobs", [1, 2])
+@pytest.mark.parametrize(("number", "jobs"), [(signal.SIGTERM, 1), (signal.SIGKILL, 2)])
 def test_a_killed_batch_goes_on_without_loss(folder, whole, spawn, number, jobs):
     (folder / "p.txt").write_text(TREES)
     words = [sys.executable, "-m", "texvent.cli.app", "batch", "p.txt", "--jobs", str(jobs)]

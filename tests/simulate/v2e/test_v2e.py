@@ -5,7 +5,6 @@ import numpy as np
 import pytest
 from tests.simulate.references.v2e import lin_log
 
-from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.v2e.pixels import photoreceptor_noise_rms, relative_intensity
 from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
@@ -183,8 +182,3 @@ def test_eq4_counts_as_steeply_as_the_model_at_black():
 def test_bandwidth_and_shot_noise_scale_with_the_published_intensity():
     levels = np.array([[0, 255]], np.uint8)
     assert relative_intensity(levels).tolist() == [[20 / 275, 1.0]]
-
-
-def test_photoreceptor_noise_without_bandwidth_fails():
-    with pytest.raises(ConfigError, match="photoreceptor_noise needs"):
-        with_only(photoreceptor_noise=True, shot_noise_rate_hz=5.0)

@@ -6,7 +6,7 @@ import pytest
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
 from texvent_lab.bench.oracle.pixel import IDEAL, NOISY, PixelArray, PixelModel
-from texvent_lab.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, record, render_video
+from texvent_lab.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, render_video
 from texvent_lab.bench.oracle.scenes import (
     PROMPTS,
     SCENES,
@@ -81,10 +81,6 @@ def test_two_recordings_share_the_sensor_but_not_the_noise():
     first, again, second = (array.events() for array in arrays)
     assert first.equals(again)
     assert not first.equals(second)
-
-
-def test_a_static_scene_gives_an_ideal_sensor_no_event():
-    assert len(record(oracle_scene("static", 7), {"ideal": (IDEAL, 1)})["ideal"]) == 0
 
 
 @pytest.mark.parametrize("name", SCENES)
