@@ -104,7 +104,7 @@ def test_memory_that_the_system_does_not_tell_is_assumed(monkeypatch: pytest.Mon
     monkeypatch.setattr(memory, "_CONTROL_GROUPS", ())
     assert memory.machine_bytes() is None
     assert memory.peak_bytes() is None
-    assert memory._available.__wrapped__() == memory.UNKNOWN_BYTES
+    assert memory.usable_bytes.__wrapped__() == int(memory.SHARE * memory.UNKNOWN_BYTES)
 
 
 @pytest.mark.usefixtures("no_posix")

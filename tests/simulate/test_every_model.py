@@ -104,7 +104,7 @@ def test_impossible_options_fail_by_name(model):
                 dataclasses.replace(config, **{name: wrong})
 
 
-@pytest.mark.parametrize("model", CLEAN)
+@pytest.mark.parametrize("model", ["texvent", "esim", "senpi"])  # compiles kernels of its own
 def test_a_whole_number_may_be_an_int(model):
     kind = SIMULATORS.load(model)
     config = dataclasses.replace(kind.config_type(), **NOISY.get(model, {}))
@@ -122,12 +122,12 @@ def test_a_whole_number_may_be_an_int(model):
 def test_signal_and_noise_alone_are_the_parts_of_the_whole(model):
     options = {"simulator": model, **NOISY.get(model, {})}
     both = texture(**options)
-    signal = texture(events="signal", **options)
+    signal = texture(keep_events="signal", **options)
     says_none = contextlib.nullcontext()
     if model not in NOISY:
         says_none = pytest.warns(texvent.TexventWarning, match="those of noise alone")
     with says_none:
-        noise = texture(events="noise", **options)
+        noise = texture(keep_events="noise", **options)
     assert len(signal) > 0
     assert (len(noise) > 0) == (model in NOISY)
     assert both[both.label == SIGNAL].equals(signal)
