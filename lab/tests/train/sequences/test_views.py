@@ -1,10 +1,15 @@
 """Crops and mirror images of maps."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
 from texvent_lab.train.sequences.truth import crop_randomly, flip, flip_randomly
+
+pytestmark = pytest.mark.torch
 
 
 def maps(height: int, width: int) -> dict[str, np.ndarray]:
