@@ -11,8 +11,6 @@ from texvent_lab.bench.document import describe_environment
 from texvent_lab.measure.speed import kernels, scenes
 from texvent_lab.measure.speed.kernels import Plan, measure_kernels
 from texvent_lab.measure.speed.peers import (
-    OURS,
-    PEERS,
     Contender,
     match_count,
     measure_duel,
@@ -50,37 +48,6 @@ def test_the_floor_by_hand():
     # 1000 bytes at 1 GB/s, then 1000 of state and 13 for each of 100 events at 2 GB/s.
     floor = Bandwidth(dram=1e9, cache=2e9).floor_s(SensorSize(50, 20), 100)
     assert floor == pytest.approx(1e-6 + 2300 / 2e9)
-
-
-def test_the_embedded_heavy_clip_is_as_heavy_as_the_peers_clip():
-    clip = scenes.embedded_heavy_clip()
-    assert clip.pixels.shape == (9, 260, 346)
-    assert scenes.mean_log_change(clip.pixels) == pytest.approx(0.27, abs=0.02)
-
-
-def test_a_peer_is_measured_at_our_event_count_and_a_missing_one_is_named():
-    ours = contender("ours", lambda threshold: round(200 / threshold))
-    peers = (
-        contender("peer", lambda threshold: round(500 / threshold)),
-        contender("absent", lambda threshold: 0, needs=("no_such_module",)),
-    )
-    row = measure_duel(scenes.embedded_heavy_clip(count=3), "heavy", ours, peers, rounds=3)
-    found, absent = row["peers"]
-    assert row["ours"]["events_per_pair"] == 500
-    assert found["threshold"] == pytest.approx(0.5, rel=0.02)
-    assert abs(found["count_difference"]) <= 0.02
-    assert not absent["installed"]
-    assert "no_such_module is not installed" in absent["problem"]
-    expected = found["ms_per_pair"]["median"] / row["ours"]["ms_per_pair"]["median"]
-    assert row["ratio_to_fastest_peer"] == pytest.approx(expected, rel=0.01)
-
-
-@pytest.mark.parametrize("peer", [*PEERS, *OURS], ids=lambda one: one.name)
-def test_contenders_count_events_of_a_clip(peer):
-    if peer.missing() is not None:
-        pytest.skip(f"{peer.name}: {peer.missing()}")
-    simulate, clip = peer.prepare(), scenes.embedded_heavy_clip(SensorSize(64, 48), 3)
-    assert simulate(clip, 0.1) > simulate(clip, 0.4) > 0
 
 
 @pytest.fixture(scope="module")

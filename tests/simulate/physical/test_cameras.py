@@ -7,7 +7,6 @@ from pathlib import Path
 
 import pytest
 
-from texvent.sensor import SENSORS
 from texvent.simulate.physical.cameras import CAMERAS, NOT_OF_A_CAMERA, PRESETS, camera_table
 from texvent.simulate.physical.config import PhysicalConfig
 
@@ -30,11 +29,6 @@ def test_every_constant_of_a_camera_has_a_source_or_is_unmeasured(name: str) -> 
         one for one in fields if getattr(PRESETS[name], one) != getattr(PhysicalConfig(), one)
     }
     assert changed <= {one.option for one in CAMERAS[name].constants}
-
-
-def test_every_camera_is_a_sensor_of_that_name() -> None:
-    for name, camera in CAMERAS.items():
-        assert SENSORS[name].description.split()[0] in camera.description
 
 
 def test_the_tables_of_the_page_are_those_of_the_code() -> None:
