@@ -6,7 +6,6 @@ import pytest
 from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.networks.resnet34 import resnet_shapes
 from texvent.sensor import SensorSize
 from texvent_lab.bench.classification import (
     Sample,
@@ -15,6 +14,7 @@ from texvent_lab.bench.classification import (
     read_resnet_weights,
     take_slice,
 )
+from texvent_lab.networks.resnet34 import resnet_shapes
 
 from .torch_resnet import torch_resnet
 

@@ -8,7 +8,7 @@ import zipfile
 import numpy as np
 import pytest
 
-from texvent.capture.camera_path.saccades import DURATION_US, digit_corner
+from texvent.capture.camera_path.motion import DURATION_US, digit_corner
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.run.prepare import prepare_video

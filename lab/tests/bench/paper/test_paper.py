@@ -106,8 +106,8 @@ def test_tables_say_which_input_is_missing(monkeypatch, tmp_path):
 def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path):
     torch = pytest.importorskip("torch")
     from texvent.events import EventStream
-    from texvent.networks.resnet34 import resnet_shapes
     from texvent.sensor import SensorSize
+    from texvent_lab.networks.resnet34 import resnet_shapes
 
     for name in ("n01", "n02"):
         place = tmp_path / "streams" / "texvent" / name

@@ -13,9 +13,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from texvent.networks.layer_shapes import Shape, batch_norm, count_blocks, linear
-from texvent.networks.layers import Layers
+from texvent.networks.layer_shapes import Shape, linear
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layer_shapes import batch_norm, count_blocks
+from texvent_lab.networks.layers import Layers
 
 WIDTH, BLOCKS = 64, (3, 4, 6, 3)
 """Channels of the first stage, and residual blocks per stage, of ResNet-34."""
