@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -13,7 +13,7 @@ from texvent.scenes.models.people.figure import draw_arm, draw_head, draw_leg, d
 from texvent.scenes.models.people.outfit import ADULT, dress_person
 from texvent.scenes.models.people.posture import LOWER_ARM, UPPER_ARM
 from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.shapes import Point, rod
+from texvent.scenes.models.shapes import Point, point, rod
 
 _GEAR = 0.45
 """Turns of the pedals per turn of the wheels."""
@@ -71,10 +71,5 @@ def read_rider(table: Mapping[str, Any]) -> Rider:
     wanted = ("hips", "neck", "grip", "crank")
     if set(table) != {*wanted, "wheel"}:
         raise ValueError(f"a rider has {', '.join(wanted)} and wheel, not {', '.join(table)}")
-    hips, neck, grip, crank = (_point(table[name]) for name in wanted)
+    hips, neck, grip, crank = (point(table[name]) for name in wanted)
     return Rider(hips, neck, grip, crank, float(table["wheel"]))
-
-
-def _point(values: Sequence[float]) -> Point:
-    x, y, z = map(float, values)
-    return x, y, z

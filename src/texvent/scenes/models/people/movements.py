@@ -9,7 +9,7 @@ from typing import Any
 from texvent.scenes.models.people.activities import ACTIVITIES, motion_of
 from texvent.scenes.models.people.posture import DOWN, OUT, SIDES, Arm, Leg, Posture
 from texvent.scenes.models.people.track import Track, Values, read_track
-from texvent.scenes.models.shapes import Point
+from texvent.scenes.models.shapes import Point, point
 
 _ELBOWS: Mapping[str, Point] = {"down": DOWN, "out": OUT}
 
@@ -57,12 +57,12 @@ def _pose(values: Values) -> Posture:
     angles = {name: _number(values.get(name)) for name in
               ("lean", "tilt", "turn", "nod", "look", "heading")}  # fmt: skip
     return Posture(
-        hips=_point(values["hips"]) if "hips" in values else None,
+        hips=point(values["hips"]) if "hips" in values else None,
         left=_arm(values, "left", SIDES[0]),
         right=_arm(values, "right", SIDES[1]),
         left_leg=_leg(values, "left_leg"),
         right_leg=_leg(values, "right_leg"),
-        tool=_point(values["tool"]) if "tool" in values else Posture.tool,
+        tool=point(values["tool"]) if "tool" in values else Posture.tool,
         **angles,
     )
 
@@ -73,8 +73,8 @@ def _arm(values: Values, name: str, side: float) -> Arm | None:
         return None
     elbow = _of_limb(values, name, "arms", "elbow")
     is_fixed = _of_limb(values, name, "arms", "fixed") is not None
-    x, y, z = _point(hand)
-    return Arm((x, side * y if is_fixed else y, z), _point(elbow) if elbow else Arm.elbow, is_fixed)
+    x, y, z = point(hand)
+    return Arm((x, side * y if is_fixed else y, z), point(elbow) if elbow else Arm.elbow, is_fixed)
 
 
 def _leg(values: Values, name: str) -> Leg | None:
@@ -83,7 +83,7 @@ def _leg(values: Values, name: str) -> Leg | None:
         return None
     knee = _of_limb(values, name, "legs", "knee")
     pitch = _number(_of_limb(values, name, "legs", "pitch"))
-    return Leg(_point(foot), _point(knee) if knee else Leg.knee, pitch)
+    return Leg(point(foot), point(knee) if knee else Leg.knee, pitch)
 
 
 def _of_limb(values: Values, name: str, both: str, what: str) -> tuple[float, ...] | None:
@@ -93,8 +93,3 @@ def _of_limb(values: Values, name: str, both: str, what: str) -> tuple[float, ..
 
 def _number(numbers: Sequence[float] | None) -> float:
     return numbers[0] if numbers else 0.0
-
-
-def _point(numbers: Sequence[float]) -> Point:
-    x, y, z = numbers
-    return (x, y, z)
