@@ -96,7 +96,11 @@ def run(arguments: Sequence[str]) -> int:
     )
     if output.print_config:
         return print_settings(settings)
-    prompt = _written(own, settings) if own.reader == "llm" else read_subject(own.prompt)
+    prompt = (
+        _written(own, settings)
+        if own.reader == "llm"
+        else read_subject(own.prompt, getattr(settings.source, "assets", None))
+    )
     if own.write_scene is not None:
         return _write_scene(prompt, own, settings, output)
     if own.video_only:

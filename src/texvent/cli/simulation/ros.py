@@ -83,7 +83,11 @@ def run(arguments: Sequence[str]) -> int:
     with ConsoleProgress(is_quiet=config.quiet) as progress:
         simulation: Any
         if own.prompt is not None:
-            simulation = prepare_prompt(read_subject(own.prompt), settings, progress=progress)
+            simulation = prepare_prompt(
+                read_subject(own.prompt, getattr(settings.source, "assets", None)),
+                settings,
+                progress=progress,
+            )
         else:
             simulation = prepare_source(own.source, settings, progress=progress)
     return run_source_node(ros, simulation, config, ros_words)
