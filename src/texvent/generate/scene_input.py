@@ -102,7 +102,7 @@ def check_words(scene: Scene, assets: str | Path | None = None) -> Scene:
 def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
     """The words of scenes, by kind: nouns, motions and activities, places, effects."""
     from texvent.scenes.models.effects import EFFECTS
-    from texvent.scenes.models.motions import MOTIONS
+    from texvent.scenes.models.nouns import MOTIONS
     from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
     from texvent.scenes.models.places import PLACES
 

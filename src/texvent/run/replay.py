@@ -16,7 +16,7 @@ from texvent.generate.scene_input import SCENE_KEY, Subject, stored_subject
 from texvent.pipeline import Simulation, fit_to_sensor, text_to_video
 from texvent.run.prepare import prepare_prompt, prepare_source, prepare_video
 from texvent.run.settings import Settings, flatten_tables, resolve
-from texvent.scenes.assets.provenance import check_files
+from texvent.scenes.assets.nouns import check_files
 from texvent.video import FrameStream, RenderableStream
 
 

@@ -138,8 +138,10 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
     Warns:
         TexventWarning: there are such words, or the model added something.
     """
-    from texvent.scenes.llm.endpoint import Endpoint  # an extra that most runs do not need
-    from texvent.scenes.llm.writer import write_scene
+    from texvent.scenes.llm import (
+        Endpoint,  # an extra that most runs do not need
+        write_scene,
+    )
 
     if own.llm_url is None or is_scene_file(own.prompt):
         raise ConfigError("--reader llm takes a sentence, and --llm-url with the model's server")

@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 
 from texvent.scenes.lens import Lens, lens_reach
 from texvent.scenes.projection import Rays
-from texvent.scenes.raycast.meshes.packing import describe_surfaces
-from texvent.scenes.raycast.meshes.tree import tree_of
+from texvent.scenes.raycast.meshes.tree import describe_surfaces, tree_of
 from texvent.scenes.raycast.records import (
     GLOW_RECORD,
     INSTANT_RECORD,

@@ -271,7 +271,8 @@ def get_field(scene: Scene, path: str) -> Any:
                 raise ConfigError(f"{path} is not there: {done} has {count} items")
             value, done = value[step], f"{done}[{step}]"
             continue
-        names = tuple(field_types(type(value))) if dataclasses.is_dataclass(value) else ()
+        owner: Any = type(value)
+        names = tuple(field_types(owner)) if dataclasses.is_dataclass(value) else ()
         if step not in names:
             of = done or "scene"
             left = suggest(step, names) if names else f"{of} has no fields or is left out"

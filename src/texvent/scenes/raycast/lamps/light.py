@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 from texvent.runtime.jit import jit
+from texvent.scenes.raycast.acceleration import Bins, IntArray, bin_rectangles
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.vectors import Vector, along, dot
-from texvent.scenes.scene import Colour
+from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Primitives, Shape
 
 POSITION, LIGHT, REACH, BEAM, FULL, DARK, RADIUS, CASTS, GLOWS = 0, 3, 6, 7, 10, 11, 12, 13, 14
 """Columns of a lamp; see `scene.LAMP_COLUMNS`."""
@@ -85,3 +89,128 @@ def light_through(world: World, point: Vector) -> Colour:
         share, _ = falloff(lamp, towards_lamp(lamp, point))
         light = along(light, (lamp[3], lamp[4], lamp[5]), share)
     return light
+
+
+LONGITUDES, LATITUDES = 48, 24
+"""Cells of the grid of directions around a lamp: around the vertical, and by the sine of the
+height."""
+MOST_SHADOW_LAMPS = 4
+"""Lamps that can cast shadows at one instant."""
+_CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
+_LONGEST_PIECES = 8
+
+
+def order_lamps(lamps: Float64Array, *, shadows: bool) -> tuple[Float64Array, int]:
+    """The lamps that cast shadows first, and how many they are; `shadows` False: none does."""
+    rows = np.asarray(lamps, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
+    casts = np.flatnonzero(rows[:, CASTS] > 0.0)[: MOST_SHADOW_LAMPS if shadows else 0]
+    rest = np.setdiff1d(np.arange(len(rows)), casts)
+    return np.ascontiguousarray(rows[np.concatenate([casts, rest])]), len(casts)
+
+
+def list_casters(lamp: Float64Array, primitives: Primitives, inverse: Float64Array) -> Bins:
+    """The shapes that may stand in a lamp's light, by cells of directions from the lamp.
+
+    Each is followed by its distance from the lamp, mm, and nearer ones come first: what is
+    farther than a surface cannot stand in its light. Shapes that glow, that hold the lamp or that
+    its light does not reach are left out.
+
+    Args:
+        lamp: [15] as in `Environment.lamps`.
+        primitives: the shapes.
+        inverse: [n, 3, 4] world → unit-shape coordinates.
+    """
+    place = lamp[:3]
+    local = inverse[:, :, :3] @ place + inverse[:, :, 3]
+    is_round = primitives.shape == Shape.ELLIPSOID
+    extent = np.where(is_round, np.linalg.norm(local, axis=1), np.abs(local).max(axis=1))
+    chosen = np.flatnonzero((np.asarray(primitives.emission) <= 0.0) & (extent > 1.0))
+    numbers, centre, radius = _split_long(primitives, chosen)
+    offset = centre - place
+    distance = np.linalg.norm(offset, axis=1)
+    near = distance - radius < lamp[6]
+    if lamp[10] >= -1.0:
+        near &= in_beam(lamp, offset, distance, radius)
+    numbers, offset = numbers[near], offset[near]
+    start_mm = np.floor(1e3 * np.maximum(distance - radius, 0.0)[near]).astype(np.int64)
+    rectangles, owner = _rectangles(offset, distance[near], radius[near])
+    order = np.argsort(start_mm[owner], kind="stable")
+    rectangles, owner = rectangles[order], owner[order]
+    bins = bin_rectangles(rectangles, np.arange(len(owner)), LONGITUDES, LATITUDES)
+    shown = owner[bins.items]
+    items = np.stack([numbers[shown], start_mm[shown]], axis=1).ravel()
+    return Bins(2 * bins.start, items, LONGITUDES, LATITUDES)
+
+
+def _split_long(
+    primitives: Primitives, chosen: IntArray
+) -> tuple[IntArray, Float64Array, Float64Array]:
+    """Balls that together hold each shape: its number, their centres and radii, m."""
+    linear = np.asarray(primitives.to_world, dtype=np.float64)[chosen, :, :3]
+    middle = np.asarray(primitives.to_world, dtype=np.float64)[chosen, :, 3]
+    lengths = np.linalg.norm(linear, axis=1)
+    longest = lengths.argmax(axis=1)
+    rows = np.arange(len(chosen))
+    second = np.sort(lengths, axis=1)[:, 1]
+    pieces = np.ceil(lengths[rows, longest] / np.maximum(second, 1e-9)).astype(np.int64)
+    pieces = np.clip(pieces, 1, _LONGEST_PIECES)
+    owner = np.repeat(rows, pieces)
+    step = np.arange(len(owner)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    axis = linear[rows, :, longest]
+    place = (2.0 * step + 1.0) / pieces[owner] - 1.0
+    scaled = linear.copy()
+    scaled[rows, :, longest] = axis / pieces[:, None]
+    corners = np.einsum("nij,kj->nki", scaled, _CORNERS)
+    radius = np.linalg.norm(corners, axis=2).max(axis=1)
+    return chosen[owner], middle[owner] + place[:, None] * axis[owner], radius[owner]
+
+
+def in_beam(
+    lamp: Float64Array, offset: Float64Array, distance: Float64Array, radius: Float64Array
+) -> NDArray[np.bool_]:
+    """Which balls the beam touches."""
+    angle = np.arccos(np.clip(offset @ lamp[7:10] / np.maximum(distance, 1e-9), -1.0, 1.0))
+    width = np.arcsin(np.clip(radius / np.maximum(distance, 1e-9), 0.0, 1.0))
+    touches = angle - width <= np.arccos(np.clip(lamp[11], -1.0, 1.0))
+    return np.asarray(touches | (distance <= radius), dtype=np.bool_)
+
+
+def _rectangles(
+    offset: Float64Array, distance: Float64Array, radius: Float64Array
+) -> tuple[IntArray, IntArray]:
+    """Cells of the grid that balls cover: rectangles, and the ball that each belongs to."""
+    inside = distance <= radius * (1.0 + 1e-9)
+    safe = np.where(inside, 1.0, distance)
+    width = np.where(inside, np.pi, np.arcsin(np.clip(radius / np.maximum(safe, radius), 0, 1)))
+    latitude = np.arcsin(np.clip(offset[:, 2] / np.maximum(distance, 1e-12), -1.0, 1.0))
+    low = np.maximum(latitude - width, -0.5 * np.pi)
+    high = np.minimum(latitude + width, 0.5 * np.pi)
+    has_pole = inside | (np.abs(latitude) + width >= 0.5 * np.pi)
+    sine = np.sin(np.minimum(width, 0.5 * np.pi)) / np.maximum(np.cos(latitude), 1e-12)
+    turn = np.where(has_pole, np.pi, np.arcsin(np.clip(sine, 0.0, 1.0)))
+    longitude = np.arctan2(offset[:, 1], offset[:, 0])
+    count = np.arange(len(distance))
+    columns = LONGITUDES / 4.0
+    first = np.floor(_along_diamond(longitude - turn) * columns - 1e-6).astype(np.int64)
+    last = np.floor(_along_diamond(longitude + turn) * columns + 1e-6).astype(np.int64)
+    last = np.minimum(last, first + LONGITUDES - 1)
+    top = np.floor((0.5 + 0.5 * np.sin(low)) * LATITUDES - 1e-6).astype(np.int64)
+    bottom = np.floor((0.5 + 0.5 * np.sin(high)) * LATITUDES + 1e-6).astype(np.int64)
+    # A range of columns may go round past either edge of the grid.
+    pieces = [np.stack([first + turns, last + turns, top, bottom], axis=1)
+              for turns in (-LONGITUDES, 0, LONGITUDES)]  # fmt: skip
+    rectangles = np.concatenate(pieces)
+    owner = np.tile(count, len(pieces))
+    touches = (rectangles[:, 1] >= 0) & (rectangles[:, 0] < LONGITUDES)
+    return rectangles[touches], owner[touches]
+
+
+def _along_diamond(angle: Float64Array) -> Float64Array:
+    """Where a direction crosses the diamond |x| + |y| = 1: 0..4 for 0..2π, and so on.
+
+    It grows with the angle, and needs no trigonometry where the direction is known.
+    """
+    x, y = np.cos(angle), np.sin(angle)
+    corner = y / (np.abs(x) + np.abs(y))
+    corner = np.where(x < 0.0, 2.0 - corner, np.where(y < 0.0, 4.0 + corner, corner))
+    return np.asarray(corner + 4.0 * np.floor(angle / (2.0 * np.pi)))

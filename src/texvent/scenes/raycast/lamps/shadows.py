@@ -5,8 +5,13 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.lamps.bins import LATITUDES, LONGITUDES, MOST_SHADOW_LAMPS
-from texvent.scenes.raycast.lamps.light import falloff, towards_lamp
+from texvent.scenes.raycast.lamps.light import (
+    LATITUDES,
+    LONGITUDES,
+    MOST_SHADOW_LAMPS,
+    falloff,
+    towards_lamp,
+)
 from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.trace import (
     ROOM,
@@ -29,7 +34,7 @@ LIT_BITS = 1 + MOST_SHADOW_LAMPS
 def direction_cell(towards: Vector, distance: float) -> int:
     """The cell of a lamp's grid of directions that a surface is in; `towards` leads to the lamp.
 
-    Columns divide the outline of a diamond around the lamp, rows the height: see `lamps.bins`.
+    Columns divide the outline of a diamond around the lamp, rows the height: see `lamps.light`.
     """
     x, y = -towards[0], -towards[1]
     corner = y / (abs(x) + abs(y) + 1e-300)

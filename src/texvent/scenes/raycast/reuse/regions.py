@@ -9,8 +9,7 @@ from numpy.typing import NDArray
 
 from texvent.scenes.projection import Rays
 from texvent.scenes.raycast.acceleration import TILE, screen_bounds
-from texvent.scenes.raycast.lamps.bins import in_beam
-from texvent.scenes.raycast.lamps.light import FULL, POSITION, REACH
+from texvent.scenes.raycast.lamps.light import FULL, POSITION, REACH, in_beam
 from texvent.scenes.raycast.trace import MESH, SHADOW_BIAS_M
 from texvent.scenes.scene import Float64Array, Ground, Primitives, Shape
 from texvent.sensor import SensorSize
