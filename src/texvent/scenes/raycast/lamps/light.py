@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.acceleration import Bins, IntArray, bin_rectangles
+from texvent.scenes.raycast.acceleration import CUBE, Bins, IntArray, bin_rectangles
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.vectors import Vector, along, dot
 from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Primitives, Shape
@@ -96,7 +96,6 @@ LONGITUDES, LATITUDES = 48, 24
 height."""
 MOST_SHADOW_LAMPS = 4
 """Lamps that can cast shadows at one instant."""
-_CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 _LONGEST_PIECES = 8
 
 
@@ -160,7 +159,7 @@ def _split_long(
     place = (2.0 * step + 1.0) / pieces[owner] - 1.0
     scaled = linear.copy()
     scaled[rows, :, longest] = axis / pieces[:, None]
-    corners = np.einsum("nij,kj->nki", scaled, _CORNERS)
+    corners = np.einsum("nij,kj->nki", scaled, CUBE)
     radius = np.linalg.norm(corners, axis=2).max(axis=1)
     return chosen[owner], middle[owner] + place[:, None] * axis[owner], radius[owner]
 
