@@ -20,10 +20,10 @@ from texvent.scenes.raycast.vectors import (
     mapped,
     on_axis,
     plane_point,
-    scaled,
     times,
     triple,
     turned,
+    world_normal,
 )
 
 FACE_SIDE = 0
@@ -364,13 +364,7 @@ def surface_normal(world: World, number: int, face: int, point: Vector) -> Vecto
     if has_meshes(world) and world.shapes[number].kind == MESH:
         return mesh_normals(world, number, face, point)[0]
     m = world.shapes[number].inverse
-    x, y, z = local_normal(world.shapes[number].kind, face, mapped(m, point))
-    normal = (
-        m[0, 0] * x + m[1, 0] * y + m[2, 0] * z,
-        m[0, 1] * x + m[1, 1] * y + m[2, 1] * z,
-        m[0, 2] * x + m[1, 2] * y + m[2, 2] * z,
-    )
-    return scaled(normal, 1.0 / math.sqrt(dot(normal, normal) + 1e-300))
+    return world_normal(m, local_normal(world.shapes[number].kind, face, mapped(m, point)))
 
 
 @jit(error_model="numpy", inner=True)

@@ -13,8 +13,7 @@ import numpy as np
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import CLOTH_COLOURS, SKIN_TONES, Material, cloth, mix, skin
-from texvent.scenes.models.people.activities import HAND_GESTURES, motion_of
-from texvent.scenes.models.people.track import Track, read_track
+from texvent.scenes.models.people.activities import HAND_GESTURES, Track, motion_of, read_track
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Affine,

@@ -26,7 +26,7 @@ from texvent.scenes.models.materials import (
     striped,
 )
 from texvent.scenes.models.part_lines import Placed, read_parts
-from texvent.scenes.models.people.track import ease
+from texvent.scenes.models.people.activities import ease
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import ball, rod
 from texvent.scenes.models.surfaces import FIXED_HUES, PAINT, Painted

@@ -10,7 +10,16 @@ from typing import Any
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limbs import Gait, foot_path, step_amount
-from texvent.scenes.models.people.activities import ACTIVITIES, SEATED, SINGLE_ACTS, motion_of
+from texvent.scenes.models.people.activities import (
+    ACTIVITIES,
+    SEATED,
+    SINGLE_ACTS,
+    Track,
+    Values,
+    ease,
+    motion_of,
+    read_track,
+)
 from texvent.scenes.models.people.figure import draw_figure, locate_anchor
 from texvent.scenes.models.people.outfit import KINDS, PersonKind, dress_person, put_on
 from texvent.scenes.models.people.posture import (
@@ -28,7 +37,6 @@ from texvent.scenes.models.people.posture import (
     fill,
     solve,
 )
-from texvent.scenes.models.people.track import Track, Values, ease, read_track
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import Affine, Point, point
 from texvent.scenes.models.tables import read_table
