@@ -111,7 +111,7 @@ _BODIES: Mapping[str, Literal["puff", "drop", "chip"]] = MappingProxyType(
 def _effect(row: dict[str, Any], usual: Mapping[str, dict[str, Any]]) -> EffectWords:
     """An effect from its table; what its particles leave open is usual for their kind."""
     row["emitters"] = tuple(
-        EmitterStyle(**{"body": body, **usual[kind], **_fields(one)})
+        EmitterStyle(**{"body": body, **usual[kind], **one})
         for kind, body in _BODIES.items()
         for one in row.pop(kind, ())
     )
@@ -119,14 +119,10 @@ def _effect(row: dict[str, Any], usual: Mapping[str, dict[str, Any]]) -> EffectW
     return EffectWords(**row)
 
 
-def _fields(row: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: frozen(value) for name, value in row.items()}
-
-
-_TABLE = {name: _fields(row) for name, row in read_table("effects").items()}
+_TABLE = frozen(read_table("effects"))
 LIQUID_COLOURS: Mapping[str, Colour] = MappingProxyType(_TABLE.pop("liquid colours"))
 """Name of a liquid → its colour."""
-_USUAL = {kind: _fields(row) for kind, row in _TABLE.pop("usual particles").items()}
+_USUAL = _TABLE.pop("usual particles")
 EFFECTS: Mapping[str, EffectWords] = MappingProxyType(
     {kind: _effect(row, _USUAL) for kind, row in _TABLE.items()}
 )

@@ -87,27 +87,26 @@ class Place:
         return self.ground in SHORE_GROUNDS
 
 
-def _place_of(row: Mapping[str, Any]) -> Place:
-    fields = {name: frozen(value) for name, value in row.items()}
+def _place_of(fields: dict[str, Any]) -> Place:
     ground, walls = fields.pop("ground"), fields.pop("walls", None)
     if "surface" in ground:
         fields["surface"] = Texture[ground["surface"].upper()]
     if walls is not None:
         fields["walls"] = Texture[walls["surface"].upper()]
-        fields["wall_colour"] = frozen(walls["colour"])
-    fields["scenery"] = tuple(map(_scenery_of, row.get("scenery", ())))
+        fields["wall_colour"] = walls["colour"]
+    fields["scenery"] = tuple(map(_scenery_of, fields.get("scenery", ())))
     kind = Ground[ground["kind"].upper().replace(" ", "_")]
     fields.setdefault("light", "room" if kind is Ground.FLOOR else "")
-    return Place(ground=kind, colours=frozen(ground["colours"]), **fields)
+    return Place(ground=kind, colours=ground["colours"], **fields)
 
 
 def _scenery_of(row: Mapping[str, Any]) -> Scenery:
     scale = _SCALES.get(row.get("where", "around"), Scenery.scale)
-    return Scenery(**{"scale": scale, **{name: frozen(value) for name, value in row.items()}})
+    return Scenery(**{"scale": scale, **row})
 
 
 PLACES: Mapping[str, Place] = MappingProxyType(
-    {name: _place_of(row) for name, row in read_table("places").items()}
+    {name: _place_of(row) for name, row in frozen(read_table("places")).items()}
 )
 
 

@@ -9,6 +9,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import fields, is_dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -102,6 +104,17 @@ def part_way(start: Point, end: Point, share: float) -> Point:
     """`start` at share 0, `end` at share 1."""
     x, y, z = (a + share * (b - a) for a, b in zip(start, end, strict=True))
     return (x, y, z)
+
+
+def mixed(first: Any, second: Any, share: float) -> Any:
+    """Between numbers, tuples or dataclasses of them; flags are those of the second."""
+    if is_dataclass(first):
+        names = [one.name for one in fields(first)]
+        pairs = {one: (getattr(first, one), getattr(second, one)) for one in names}
+        return replace(second, **{one: mixed(*pair, share) for one, pair in pairs.items()})
+    if isinstance(first, tuple):
+        return tuple(mixed(a, b, share) for a, b in zip(first, second, strict=True))
+    return second if isinstance(first, bool) else first + share * (second - first)
 
 
 def moved(parts: Iterable[ModelPart], motion: Affine) -> list[ModelPart]:

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.models.limbs import bend
-from texvent.scenes.models.shapes import Affine, Point, part_way, point, rotation
+from texvent.scenes.models.shapes import Affine, Point, mixed, point, rotation
 
 THIGH, SHIN, ANKLE = 0.43, 0.43, 0.08
 HIP, HIP_SIDE = 0.95, 0.10
@@ -126,30 +126,12 @@ def blend(first: Posture, second: Posture, share: float) -> Posture:
         return first
     if share >= 1.0:
         return second
-    a, b = _absolute(first), _absolute(second)
+    a, b = (_absolute(fill(one, _REST)) for one in (first, second))
+    blended: Posture = mixed(a, b, share)
+    return blended
 
-    def arm(p: Arm | None, q: Arm | None) -> Arm:
-        p, q = p or Arm(), q or Arm()
-        return Arm(part_way(p.hand, q.hand, share), part_way(p.elbow, q.elbow, share), True)
 
-    def leg(p: Leg | None, q: Leg | None) -> Leg:
-        p, q = p or Leg(), q or Leg()
-        pitch = p.pitch + share * (q.pitch - p.pitch)
-        return Leg(part_way(p.foot, q.foot, share), part_way(p.knee, q.knee, share), pitch)
-
-    angles = {
-        name: getattr(a, name) + share * (getattr(b, name) - getattr(a, name))
-        for name in ("lean", "tilt", "turn", "nod", "look", "heading")
-    }
-    return Posture(
-        hips=part_way(a.hips or (0.0, 0.0, HIP), b.hips or (0.0, 0.0, HIP), share),
-        left=arm(a.left, b.left),
-        right=arm(a.right, b.right),
-        left_leg=leg(a.left_leg, b.left_leg),
-        right_leg=leg(a.right_leg, b.right_leg),
-        tool=part_way(a.tool, b.tool, share),
-        **angles,
-    )
+_REST = Posture((0.0, 0.0, HIP), left=Arm(), right=Arm(), left_leg=Leg(), right_leg=Leg())
 
 
 def solve(posture: Posture) -> Skeleton:
