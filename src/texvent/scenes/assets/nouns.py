@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import hashlib
-import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -265,8 +264,6 @@ class _Builder:
     is_centred: bool
 
     def __call__(self, *, colour: Colour | None, scale: float, seed: int) -> Model:
-        if not (math.isfinite(scale) and scale > 0.0):
-            raise InputError(f"scale must be a positive number but got {scale!r}")
         asset = choose(seed, "asset", self.assets)
         listed = _part_noun(asset)
         if listed is not None:
