@@ -34,7 +34,7 @@ Packages that texvent and its extras install, with the licences that they state,
 
 * `make licences` fails on a package whose licence is not in `tools/licences.toml`, such as GPL,
   AGPL, non-commercial or unknown ones. CI runs it over every environment that it makes.
-* `python -m tools.licences write .venv .venv-app ...` writes this page; name all environments.
+* `python -m tools.licences write .venv ...` writes this page; name all environments.
 * A wheel may hold libraries of others under licences that its metadata do not tell. The table says
   what we know of them. PyAV's wheels hold x264 and x265, under the GPL, and texvent writes .mp4
   files by x264. Who passes on PyAV's wheel passes them on too; texvent's wheel holds neither.

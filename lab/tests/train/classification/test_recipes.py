@@ -14,7 +14,7 @@ from texvent.dataset.specification.reading import read_specification
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from texvent_lab.train.classification.config import ClassificationConfig  # noqa: E402
-from texvent_lab.train.reading import read_training  # noqa: E402
+from texvent_lab.train.run import read_training  # noqa: E402
 
 pytestmark = pytest.mark.torch
 ROOT = Path(__file__).parents[4]

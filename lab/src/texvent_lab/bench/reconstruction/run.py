@@ -15,7 +15,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
-from texvent.calibrate.rate import match_rate
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.events import EventStream
@@ -23,13 +22,14 @@ from texvent.metrics.image_measures import Measures
 from texvent.options.fields import option_names
 from texvent.pipeline import Simulation, video_to_events
 from texvent.represent.slices import slice_between
+from texvent.run.rate_search import match_rate
 from texvent.simulate.model_options import contrast_threshold_of
 from texvent.video import MICROSECONDS
+from texvent_lab.bench.document import MarkdownReport
 from texvent_lab.bench.fidelity.entries import Entry
-from texvent_lab.bench.markdown import MarkdownReport
-from texvent_lab.bench.progress import Progress, no_progress
-from texvent_lab.bench.real.frame_recording import FrameRecording
-from texvent_lab.bench.reconstruction.image_scores import ImageScores, ScoreCollector, score_images
+from texvent_lab.bench.jobs import Progress, no_progress
+from texvent_lab.bench.real.recording import FrameRecording
+from texvent_lab.bench.reconstruction.scores import ImageScores, ScoreCollector, score_images
 from texvent_lab.reconstruct.reconstructor import Intensity, Reconstructor
 
 ImageCallback: TypeAlias = Callable[[str, str, int, Intensity], None]
