@@ -271,10 +271,6 @@ LEAST_PIXELS = 4
 """Of an object at the instant at which it is seen best."""
 
 
-def test_there_are_twenty():
-    assert len(FILES) >= 20
-
-
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_every_object_is_in_view(path):
     scene = load_scene(path)
