@@ -77,6 +77,7 @@ class SteeredPath:
     usual_speed_m_s: float = 1.0
     floor_m: float = 0.0
     """Height of its origin when it rests on the ground, m."""
+    restitution: float = 0.3
     side_m: float = 0.0
     """Half the width of what falls onto its side; 0 = it falls forwards."""
 
