@@ -50,7 +50,7 @@ help:
 	@echo "make test    the default test suite, of texvent and of lab/"
 	@echo "make fuzz    thousands of damaged inputs for every reader, and a table of what became of them"
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
-	@echo "make test-app     the tests of the web page and of rerun files, in $(APP_VENV)"
+	@echo "make test-app     the tests of the web page, in $(APP_VENV)"
 	@echo "make test-dataset the tests of Ray, of data sets in other libraries, of Parquet and blosc, in $(DATASET_VENV)"
 	@echo "make test-docs     the snippets of README.md and docs/, displays and progress bars in a kernel, in $(DOCS_VENV)"
 	@echo "make test-gpl     the tests with readers under the GPL, in $(GPL_VENV)"
@@ -194,8 +194,8 @@ $(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml lab/pyproject.toml
 	@touch $@
 
 $(APP_VENV)/.app: $(APP_VENV)/bin/python pyproject.toml constraints.txt
-	@echo "installing texvent, gradio and rerun into $(APP_VENV) (once; about 1 GB)"
-	$(APP_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,app,rerun]'
+	@echo "installing texvent and gradio into $(APP_VENV) (once; about 1 GB)"
+	$(APP_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,app]'
 	@touch $@
 
 $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.txt

@@ -15,7 +15,7 @@ from texvent.errors import ConfigError
         lambda: CaptureConfig(fps=Fraction(0)),
         lambda: CaptureConfig(start=2.0, stop=1.0),
         lambda: InterpolateConfig(max_intermediate=-1),
-        lambda: InterpolateConfig(count_percentile=float("nan")),
+        lambda: InterpolateConfig(frames_per_pixel=float("nan")),
     ],
 )
 def test_options_out_of_range_are_refused(bad):

@@ -12,7 +12,7 @@ from texvent.interpolate.densify import densify
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import select_events, video_to_events
 from texvent.run.settings import resolve
-from texvent.simulate.build import gains_from_frames
+from texvent.simulate.build import benefits_from_denser_frames
 from texvent.video import Video, frame_time_us
 
 
@@ -40,7 +40,7 @@ def serial_steps(video, settings):
         config,
         balance=simulator.balance,
         contrast_threshold=simulator.contrast_threshold,
-        counts_motion=gains_from_frames(simulator),
+        counts_motion=benefits_from_denser_frames(simulator),
     )
     return [(frame, select_events(simulator.step(frame), run)) for frame in dense]
 

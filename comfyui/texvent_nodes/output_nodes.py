@@ -10,13 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent._registry import CODECS
 from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
+from texvent.io.files import extension_of, writable_formats
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import PALETTES
-from texvent.view.windows.cut import cut_windows
+from texvent.view.windows import cut_windows
 
 from .event_nodes import EVENTS, RATE
 from .model_nodes import CATEGORY
@@ -92,14 +92,14 @@ class TexventSaveEvents:
             "required": {
                 "events": (EVENTS,),
                 "filename_prefix": ("STRING", prefix),
-                "format": (list(CODECS.builtin), {"default": "hdf5"}),
+                "format": (writable_formats(), {"default": "hdf5"}),
             }
         }
 
     def save(self, events: Any, filename_prefix: str, format: str) -> dict[str, Any]:
         """Write the file; the page shows its name."""
         events = _checked(events)
-        extension = next(iter(CODECS.load(format).extensions), "")
+        extension = extension_of(format)
         path = output_path(filename_prefix, extension)
         events.save(path, format=format)
         text = f"{path.name}: {len(events):,} events, {events.size}"

@@ -41,17 +41,13 @@ def widgets(config: Any, names: Iterable[str] = ()) -> dict[str, Widget]:
 def with_values(config: Any, values: Mapping[str, Any], *, where: str) -> Any:
     """A copy of `config` with the values of its inputs; an empty text is no value.
 
-    Several values of one option are words of one text.
-
     Raises:
         ConfigError: a value of the wrong type, or out of range.
     """
     hints = typing.get_type_hints(type(config))
     given = {}
     for name, value in values.items():
-        if typing.get_origin(hints[name]) is tuple:
-            value = tuple(str(value).split())
-        elif hints[name] != _plain_type(hints[name]):
+        if hints[name] != _plain_type(hints[name]):
             value = _optional(value, _plain_type(hints[name]), f"{where}: {name}")
         if value is not None:
             given[name] = value
@@ -65,8 +61,6 @@ def _widget(config: Any, name: str, hint: Any, help_text: str) -> Widget:
         return [str(one) for one in typing.get_args(kind)], facts
     if kind is bool:
         return "BOOLEAN", facts
-    if typing.get_origin(kind) is tuple:
-        return "STRING", {**facts, "default": " ".join(map(str, default))}
     if hint != kind or kind not in (int, float):
         return "STRING", {**facts, "default": "" if default is None else str(default)}
     low, high = accepted_range(config, name)

@@ -44,10 +44,10 @@ if TYPE_CHECKING:
     )
     from texvent.run.truth import TruthFolder
     from texvent.sensor import SENSORS, Sensor, SensorSize
-    from texvent.simulate.check_simulator import check_simulator
-    from texvent.transform.augmentation.augment import Augment
+    from texvent.simulate.build import check_simulator
+    from texvent.transform.augment import Augment
     from texvent.truth.loading import load_truth
-    from texvent.truth.saving import save_truth
+    from texvent.truth.writer import save_truth
     from texvent.video import Frame, FrameStream, Video
 
 _HOMES = {
@@ -74,10 +74,10 @@ _HOMES = {
         "simulators",
     ),
     "run.truth": ("TruthFolder",),
-    "simulate.check_simulator": ("check_simulator",),
-    "transform.augmentation.augment": ("Augment",),
+    "simulate.build": ("check_simulator",),
+    "transform.augment": ("Augment",),
     "truth.loading": ("load_truth",),
-    "truth.saving": ("save_truth",),
+    "truth.writer": ("save_truth",),
     "sensor": ("SENSORS", "Sensor", "SensorSize"),
     "video": ("Frame", "FrameStream", "Video"),
 }

@@ -26,7 +26,7 @@ from texvent.run.truth import TruthFolder, run_with_truth
 from texvent.runtime.progress import ProgressOption, open_progress
 from texvent.scenes.spec.scene import Scene
 from texvent.sensor import SizeLike
-from texvent.truth.parts import check_generator
+from texvent.truth.layout import check_generator
 from texvent.video import FrameStream
 
 if TYPE_CHECKING:

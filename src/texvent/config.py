@@ -104,10 +104,9 @@ class RunConfig:
     seed: int = 0
     """Seed of everything random. The same seed and options give the same events, on any machine
     and with any number of threads."""
-    backend: Literal["auto", "cpu", "reference", "gpu"] = "auto"
-    """Which kernels simulate: compiled ones on the CPU (cpu), readable ones (reference), or those
-    on a GPU (gpu: for texvent and esim, with texvent[gpu]); auto is cpu where it can be. The events
-    are the same."""
+    backend: Literal["cpu", "gpu"] = "cpu"
+    """Where the pixels are simulated: on the CPU, or on a GPU (for texvent and esim, with
+    texvent[gpu]). The events are the same."""
     events: Literal["all", "signal", "noise"] = "all"
     """Which events to keep: all, only those that a brightness change fired, or only noise."""
     label_noise: bool = False
@@ -214,13 +213,6 @@ class InterpolateConfig:
     """Intermediate frames per pair with --count fixed (10 is the paper's ablation E7)."""
     max_intermediate: int = 64
     """Upper limit of Eq. 4's count per pair."""
-    count_percentile: float = 100.0
-    """Percentile of the brightness change that Eq. 4 uses: 100 is the paper's maximum; 99.9 keeps
-    one hot pixel from deciding for all."""
-    count_threshold: float | None = None
-    """Contrast threshold in Eq. 4; without it, the simulator's own."""
-    count_balance: float | None = None
-    """Balance α in Eq. 4; without it, the simulator's own."""
     frames_per_pixel: float | None = None
     """Intermediate frames per pixel that the fastest part of a pair moves (DIS optical flow), at
     least: 1 keeps thin and faint things from jumping over pixels, 2 shows all that fine texture
@@ -239,17 +231,6 @@ class InterpolateConfig:
     """Weights of rife or super-slomo. Without it, rife uses what texvent weights pull fetched."""
     interpolator_device: Literal["auto", "cpu", "cuda"] = "auto"
     """Where rife and super-slomo run; auto is the GPU if torch finds one."""
-    interpolator_precision: Literal["float32", "float16", "bfloat16"] = "float32"
-    """Number type inside rife and super-slomo; frames are moved at float32 whatever it is. The
-    halves are for GPUs."""
-    interpolator_compile: bool = False
-    """Compile rife's network with torch.compile: slower to start, faster on long clips."""
-    interpolator_tile: int = 0
-    """Estimate rife's motion on tiles of this side, px, to save memory on large frames (0: on the
-    whole frame). Motion above 64 px per pair does not cross tiles well."""
-    rife_flow: Literal["shared", "each"] = "shared"
-    """Estimate rife's motion once per pair, at its middle, for all intermediate frames; or anew
-    at each of them, as the paper does: slower, and differences between the estimates flicker."""
 
     def __post_init__(self) -> None:
         check_range("max_frames_per_second", self.max_frames_per_second, 1e-3, 1e6)
@@ -258,10 +239,6 @@ class InterpolateConfig:
                 "deflicker corrects the frames of a video, and exact frames are rendered; "
                 "leave it out, or choose another interpolate"
             )
-        check_range("interpolator_tile", self.interpolator_tile, 0, 100_000)
         check_range("frames_per_pixel", self.frames_per_pixel, 0.0, 100.0)
         check_range("fixed_count", self.fixed_count, 0, 10_000)
         check_range("max_intermediate", self.max_intermediate, 0, 10_000)
-        check_range("count_percentile", self.count_percentile, 0.0, 100.0)
-        check_range("count_threshold", self.count_threshold, 1e-4, 10.0)
-        check_range("count_balance", self.count_balance, 0.0, 1e6)

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, Literal, NoReturn, Self
 
 if TYPE_CHECKING:
     from texvent.sensor import SizeLike
-    from texvent.transform.filters.protocol import EventFilter
-    from texvent.transform.orientation import Axes
+    from texvent.transform.edits import Axes
+    from texvent.transform.filters.apply import EventFilter
 
 
 def with_edit(metadata: Mapping[str, Any], edit: Mapping[str, Any]) -> dict[str, Any]:
@@ -40,7 +40,7 @@ class EventEdits:
         """Refused, as it could mean two things; the message names both."""
         raise TypeError(
             "events are not added: EventStream.concat([first, second]) joins streams that follow "
-            "each other, texvent.transform.merge.merge EventPackets of the same time"
+            "each other, texvent.transform.edits.merge EventPackets of the same time"
         )
 
     __radd__ = __add__  # sum([first, second])
@@ -52,19 +52,19 @@ class EventEdits:
             ConfigError: a number is not whole.
             InputError: the region is empty or reaches over the sensor's edge.
         """
-        from texvent.transform.region import Region, crop
+        from texvent.transform.edits import Region, crop
 
         whole: Any = self
         part: Self = crop(whole, Region(x, y, width, height))
         return part
 
     def resize(self, size: SizeLike) -> Self:
-        """All events on a sensor of another size; see `transform.region.resize`.
+        """All events on a sensor of another size; see `transform.edits.resize`.
 
         Raises:
             ConfigError: the size is impossible.
         """
-        from texvent.transform.region import resize
+        from texvent.transform.edits import resize
 
         whole: Any = self
         resized: Self = resize(whole, size)
@@ -92,7 +92,7 @@ class EventEdits:
         Raises:
             ConfigError: other axes.
         """
-        from texvent.transform.orientation import flip
+        from texvent.transform.edits import flip
 
         whole: Any = self
         mirrored: Self = flip(whole, axes)
@@ -104,7 +104,7 @@ class EventEdits:
         Raises:
             ConfigError: another angle.
         """
-        from texvent.transform.orientation import rotate
+        from texvent.transform.edits import rotate
 
         whole: Any = self
         turned: Self = rotate(whole, degrees)

@@ -181,7 +181,7 @@ class EventPackets(EventEdits):
     ) -> dict[str, str]:
         """What a notebook shows: what is known without going through the packets."""
         from texvent.view.notebook.bundle import mime_bundle
-        from texvent.view.notebook.events import packets_html
+        from texvent.view.notebook.displays import packets_html
 
         return mime_bundle(self, lambda: packets_html(self), include, exclude)
 
@@ -209,7 +209,7 @@ class EventPackets(EventEdits):
         Raises:
             ConfigError: unknown name or option, or both or none of `duration_us` and `count`.
         """
-        from texvent.represent.packet_slices import represent_slices
+        from texvent.represent.slices import represent_slices
 
         return represent_slices(
             name, self, duration_us=duration_us, count=count, device=device, **options

@@ -257,7 +257,7 @@ class EventStream(EventEdits):
 
     def to_structured(self) -> NDArray[Any]:
         """One record per event, [n]: x and y uint16, t int64 µs, p uint8, label uint8 if known."""
-        from texvent.represent.export import to_structured
+        from texvent.represent.named import to_structured
 
         return to_structured(self)
 
@@ -267,7 +267,7 @@ class EventStream(EventEdits):
         Raises:
             InputError: a side of the sensor is above 32768 pixels, so coordinates do not fit.
         """
-        from texvent.represent.export import to_tonic
+        from texvent.represent.named import to_tonic
 
         return to_tonic(self)
 
@@ -277,7 +277,7 @@ class EventStream(EventEdits):
         Raises:
             MissingDependencyError: pandas is not installed.
         """
-        from texvent.represent.export import to_dataframe
+        from texvent.represent.named import to_dataframe
 
         return to_dataframe(self)
 
@@ -325,7 +325,7 @@ class EventStream(EventEdits):
             ConfigError: unknown kind or option, or axes that do not fit it.
             MissingDependencyError: matplotlib is not installed.
         """
-        from texvent.view.plots.plot import plot
+        from texvent.view.plots import plot
 
         return plot(self, kind, ax=ax, **options)
 
@@ -334,7 +334,7 @@ class EventStream(EventEdits):
     ) -> dict[str, str]:
         """What a notebook shows: the busiest moment, a cloud to turn, the event rate, facts."""
         from texvent.view.notebook.bundle import mime_bundle
-        from texvent.view.notebook.events import stream_html
+        from texvent.view.notebook.displays import stream_html
 
         return mime_bundle(self, lambda: stream_html(self), include, exclude)
 

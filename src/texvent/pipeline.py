@@ -28,8 +28,8 @@ from texvent.run.provenance import describe_run
 from texvent.run.settings import Settings
 from texvent.run.silence import SignalTally
 from texvent.runtime.progress import Progress
-from texvent.simulate.build import build_simulator, gains_from_frames
-from texvent.simulate.randomized_options import draw_training_config
+from texvent.simulate.build import benefits_from_denser_frames, build_simulator
+from texvent.simulate.model_options import draw_training_config
 from texvent.video import Frame, FrameStream
 
 
@@ -112,7 +112,7 @@ class Simulation:
                 threads,
                 balance=simulator.balance,
                 contrast_threshold=simulator.contrast_threshold,
-                counts_motion=gains_from_frames(simulator),
+                counts_motion=benefits_from_denser_frames(simulator),
             )
             for pair in pairs:
                 notify_scene_change(pair, on_scene_change)

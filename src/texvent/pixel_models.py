@@ -15,20 +15,15 @@ from typing import TYPE_CHECKING, Any
 from texvent._registry import SIMULATORS
 
 if TYPE_CHECKING:
-    from texvent.simulate.esim.config import EsimConfig
-    from texvent.simulate.esim.simulator import EsimSimulator
+    from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator
     from texvent.simulate.physical.config import PhysicalConfig
     from texvent.simulate.physical.simulator import PhysicalSimulator
-    from texvent.simulate.senpi.config import SenpiConfig
-    from texvent.simulate.senpi.simulator import SenpiSimulator
+    from texvent.simulate.senpi.simulator import SenpiConfig, SenpiSimulator
     from texvent.simulate.texvent.config import TexventConfig
     from texvent.simulate.texvent.simulator import TexventSimulator
-    from texvent.simulate.v2ce.config import V2ceConfig
-    from texvent.simulate.v2ce.simulator import V2ceSimulator
-    from texvent.simulate.v2e.config import V2eConfig
-    from texvent.simulate.v2e.simulator import V2eSimulator
-    from texvent.simulate.voltmeter.config import VoltmeterConfig
-    from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
+    from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator
+    from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
+    from texvent.simulate.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
 
 __all__ = [
     "EsimConfig",

@@ -111,7 +111,7 @@ class Frame:
     ) -> dict[str, str]:
         """What a notebook shows: the image and its time."""
         from texvent.view.notebook.bundle import mime_bundle
-        from texvent.view.notebook.frames import frame_html
+        from texvent.view.notebook.displays import frame_html
 
         return mime_bundle(self, lambda: frame_html(self), include, exclude)
 
@@ -180,7 +180,7 @@ class NotebookFrames:
     ) -> dict[str, str]:
         """What a notebook shows: some frames and facts."""
         from texvent.view.notebook.bundle import mime_bundle
-        from texvent.view.notebook.frames import video_html
+        from texvent.view.notebook.displays import video_html
 
         stream = cast(FrameStream, self)
         return mime_bundle(self, lambda: video_html(stream), include, exclude)

@@ -11,7 +11,7 @@ PROGRAM = """
 import os, sys, time
 from pathlib import Path
 from texvent.batch.processes import interruptible, processes, start_pool, stop_pools
-from texvent.io.hidden_parts import hidden_file
+from texvent.io.atomic import hidden_file
 
 def work(folder):
     with interruptible(), hidden_file(folder, ".part"):

@@ -8,7 +8,7 @@ import pytest
 from texvent.calibrate.recording import Recording
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
-from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Video
 

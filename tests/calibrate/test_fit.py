@@ -12,7 +12,7 @@ from texvent.errors import OutputError
 from texvent.events import EventStream
 from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
-from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.simulator import PhysicalSimulator
 
 from .conftest import TRUTH, moving_blobs

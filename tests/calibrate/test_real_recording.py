@@ -12,7 +12,7 @@ from texvent.config import CaptureConfig, InterpolateConfig
 from texvent.data.pull import pull
 from texvent.io.files import load
 from texvent.sensor import SensorSize
-from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.cameras import PRESETS
 
 
 @pytest.mark.network

@@ -16,8 +16,7 @@ from texvent.config import CaptureConfig
 from texvent.data.pull import pull
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.io.aedat.aedat4_container import MAGIC
-from texvent.io.aedat.aedat4_packing import LZ4
+from texvent.io.aedat.aedat4_container import LZ4, MAGIC
 from texvent.io.aedat.aedat4_tables import make_header, make_info
 from texvent.io.files import load, save
 from texvent.sensor import SensorSize

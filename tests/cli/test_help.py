@@ -52,7 +52,7 @@ def test_help_shows_what_matters_two_examples_and_where_the_rest_is(show, comman
     said = show(command, "--help")
     assert all(f"{flag} " in said for flag in MATTER)
     assert said.count(f"\n  texvent {command} ") == 2
-    assert "--count-percentile" not in said
+    assert "--max-intermediate" not in said
     assert f"texvent {command} --help all" in said
     assert "interpolate or simulate" in said.splitlines()[-1]
 
@@ -62,13 +62,13 @@ def test_help_all_shows_every_option_in_its_section(show, command):
     said = show(command, "--help", "all")
     sections = ("input", "output", "run", "interpolate", "simulate")
     assert all(f"\n{section}: " in said for section in sections)
-    assert all(flag in said for flag in (*MATTER, "--count-percentile", "--no-detect-cuts"))
+    assert all(flag in said for flag in (*MATTER, "--max-intermediate", "--no-detect-cuts"))
     assert "(default: none)" in said
 
 
 def test_help_of_a_section_shows_that_section_alone(show):
     said = show("simulate", "--help", "interpolate")
-    assert "--count-percentile" in said
+    assert "--max-intermediate" in said
     assert "--palette" not in said
     assert show("simulate", "--help=output") == show("simulate", "--help", "output")
 

@@ -9,7 +9,7 @@ import pytest
 from texvent.cli.app import main
 from texvent.errors import OutputError
 from texvent.io import block_writer
-from texvent.io.hdf5.writer import Hdf5Writer
+from texvent.io.hdf5.storage import Hdf5Writer
 from texvent.view.preview import Preview
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"

@@ -7,8 +7,8 @@ from pathlib import Path
 
 from lab.tests.bench.synthetic_report import synthetic_report
 
-from texvent.metrics.lpips import weights as lpips_weights
-from texvent.metrics.lpips.weights import read_lpips_weights, write_lpips_weights
+from texvent.metrics import lpips
+from texvent.metrics.lpips import read_lpips_weights, write_lpips_weights
 from texvent_lab.bench.document import read_document, write_document
 from texvent_lab.bench.fidelity.page import page_files
 from texvent_lab.bench.fidelity.results import read_report
@@ -69,6 +69,6 @@ def _make_published(folder: Path) -> Path:
 
 def _read_weights(path: Path) -> str:
     # The published network has 10 MB; a narrow one of the same layers is read by the same code.
-    lpips_weights.LAYOUTS = (NARROW,)
+    lpips.LAYOUTS = (NARROW,)
     arrays = read_lpips_weights(path).arrays
     return digest(arrays[name] for name in sorted(arrays))

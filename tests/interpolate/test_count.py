@@ -51,20 +51,6 @@ def test_eq4_quotient_has_no_tolerance_at_exact_multiples():
     assert count(first, second) == int(change / 0.2)
 
 
-def test_percentile_keeps_one_hot_pixel_from_deciding():
-    first = np.full((40, 50), 100.0)
-    second = first.copy()
-    second[3, 4] = 255.0
-    assert count(first, second) == 3
-    assert count(first, second, percentile=99.9) == 0
-
-
-def test_percentile_50_is_the_median_change():
-    first = np.zeros((1, 3))
-    second = 30.0 * (np.exp(np.array([[0.1, 0.5, 2.0]])) - 1)
-    assert count(first, second, percentile=50.0) == 2
-
-
 def test_cap_limits_the_count():
     assert count(BLACK, WHITE, threshold=0.01) == 64
     assert count(BLACK, WHITE, threshold=0.01, cap=7) == 7
@@ -86,8 +72,6 @@ def test_bad_input_is_refused_with_the_value():
         count(BLACK, np.zeros((3, 2), np.uint8))
     with pytest.raises(ConfigError, match="contrast_threshold is 0"):
         count(BLACK, WHITE, threshold=0.0)
-    with pytest.raises(ConfigError, match="percentile is 101"):
-        count(BLACK, WHITE, percentile=101.0)
     with pytest.raises(ConfigError, match="cap is -1"):
         count(BLACK, WHITE, cap=-1)
     with pytest.raises(ConfigError, match="balance is 0"):

@@ -10,8 +10,8 @@ from texvent.config import InterpolateConfig
 from texvent.interpolate.blend import BlendInterpolator
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.densify import densify
-from texvent.interpolate.dis_flow.pair_flow import PairFlow
-from texvent.simulate.build import gains_from_frames
+from texvent.interpolate.flow import PairFlow
+from texvent.simulate.build import benefits_from_denser_frames
 from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent.video import Frame, Motion, Video
 
@@ -77,7 +77,7 @@ def test_models_whose_pixels_fire_once_per_frame_get_eq4_alone():
     models = {name: SIMULATORS.load(name) for name in SIMULATORS.builtin}
     made = {name: kind() for name, kind in models.items() if name != "v2ce"}  # needs weights
     made["paper"] = TexventSimulator(TexventSimulator.presets["paper"])
-    gaining = {name for name, simulator in made.items() if gains_from_frames(simulator)}
+    gaining = {name for name, simulator in made.items() if benefits_from_denser_frames(simulator)}
     assert gaining == {"physical", "esim", "v2e", "voltmeter", "texvent"}
 
 

@@ -28,8 +28,8 @@ class FormatCase:
     """Module that the format needs and the default environment may lack."""
     is_exact_size: bool = False
     """True if no other sensor size can be written."""
-    reads_by_content: bool = True
-    """True if the file is read without its format being named."""
+    is_written: bool = True
+    """False for formats that are only read."""
 
     @property
     def sensor(self) -> SensorSize:
@@ -41,17 +41,24 @@ DAVIS = SensorSize(346, 260)
 DVS = SensorSize(128, 128)
 ANY = SensorSize(65_535, 65_535)
 SHORT = SensorSize(32_768, 32_768)
-CASES = (
-    FormatCase("aedat2", "e.aedat", DAVIS, 2**31, is_exact_size=True),
-    FormatCase("aedat2-davis346", "e.aedat", DAVIS, 2**31, is_exact_size=True),
-    FormatCase("aedat2-jaer-dvs128", "e.aedat", DVS, 2**31, is_exact_size=True),
-    FormatCase("aedat2-dvs128", "e.aedat", DVS, 2**31, is_exact_size=True),
-    FormatCase("cifar10-dvs", "e.aedat", DVS, 2**31, is_exact_size=True),
-    FormatCase("aedat3", "e.aedat", SHORT),
+ALL_CASES = (
+    FormatCase("hdf5", "e.h5", ANY),
+    FormatCase("npz", "e.npz", ANY),
+    FormatCase("ecd", "e.txt", ANY),
+    FormatCase("evt3", "e.raw", SensorSize(2048, 2048), 2**42),
+    FormatCase("evt2", "e.raw", SensorSize(2048, 2048), 2**34),
+    FormatCase("evt21", "e.raw", SensorSize(2048, 2048), 2**34),
+    FormatCase("dat", "e.dat", SensorSize(16_384, 16_384), 2**32),
+    FormatCase("aedat2", "e.aedat", DAVIS, 2**31, is_exact_size=True, is_written=False),
+    FormatCase("aedat2-davis346", "e.aedat", DAVIS, 2**31, is_exact_size=True, is_written=False),
+    FormatCase("aedat2-jaer-dvs128", "e.aedat", DVS, 2**31, is_exact_size=True, is_written=False),
+    FormatCase("aedat2-dvs128", "e.aedat", DVS, 2**31, is_exact_size=True, is_written=False),
+    FormatCase("cifar10-dvs", "e.aedat", DVS, 2**31, is_exact_size=True, is_written=False),
+    FormatCase("aedat3", "e.aedat", SHORT, is_written=False),
     FormatCase("aedat4", "e.aedat4", SHORT),
     FormatCase("aedat4-none", "e.aedat4", SHORT),
     FormatCase("aedat4-zstd", "e.aedat4", SHORT),
-    FormatCase("es", "e.es", ANY, 2**36),
+    FormatCase("es", "e.es", ANY, 2**36, is_written=False),
     FormatCase("csv", "e.csv", ANY, 2**53),
     FormatCase("e2vid", "e.zip", ANY),
     FormatCase("n-imagenet", "e.npz", ANY),
@@ -61,11 +68,13 @@ CASES = (
     FormatCase("parquet", "e.parquet", ANY, extra="pyarrow"),
     FormatCase("rosbag1", "e.bag", ANY, 2**32 * 10**6),
     FormatCase("mcap", "e.mcap", SensorSize(2048, 2048), 2**42),
-    FormatCase("esim", "folder", ANY, 2**63 // 1000),
-    FormatCase("evreal", "folder", ANY, 2**51),
+    FormatCase("esim", "folder", ANY, 2**63 // 1000, is_written=False),
+    FormatCase("evreal", "folder", ANY, 2**51, is_written=False),
+    FormatCase("prophesee-hdf5", "e.hdf5", SensorSize(2048, 2048), is_written=False),
     FormatCase("atis", "e.bin", SensorSize(256, 240), 2**23),
 )
-CASE_OF = {case.name: case for case in CASES}
+CASES = tuple(case for case in ALL_CASES if case.is_written)
+CASE_OF = {case.name: case for case in ALL_CASES}
 
 
 def random_events(

@@ -14,7 +14,7 @@ from texvent.errors import MissingDependencyError
 from texvent.events import EventStream
 from texvent.io.files import load, save
 
-from .format_cases import CASES, FormatCase, random_events
+from .format_cases import ALL_CASES, CASES, FormatCase, random_events
 
 CORPUS = Path(__file__).with_name("corpus")
 
@@ -26,7 +26,7 @@ def expected(case: FormatCase) -> EventStream:
     return EventStream.concat([burst, late])
 
 
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
+@pytest.mark.parametrize("case", ALL_CASES, ids=lambda case: case.name)
 def test_a_committed_file_still_reads(case: FormatCase) -> None:
     if case.extra:
         pytest.importorskip(case.extra, reason=f"{case.name} needs {case.extra}")

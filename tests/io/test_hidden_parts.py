@@ -11,15 +11,20 @@ from subprocess import PIPE, Popen
 
 import pytest
 
-from texvent.io import hidden_parts
-from texvent.io.atomic import atomic_file, atomic_folder
-from texvent.io.hidden_parts import hidden_file, hidden_folder, remove_own_parts
+from texvent.io import atomic
+from texvent.io.atomic import (
+    atomic_file,
+    atomic_folder,
+    hidden_file,
+    hidden_folder,
+    remove_own_parts,
+)
 
 HOLD = """
 import sys
 from pathlib import Path
 from texvent.io.atomic import atomic_file, atomic_folder
-from texvent.io.hidden_parts import hidden_file, hidden_folder, remove_own_parts
+from texvent.io.atomic import hidden_file, hidden_folder, remove_own_parts
 
 target = Path(sys.argv[1])
 if target.suffix:
@@ -53,7 +58,7 @@ with atomic.atomic_folder(Path(sys.argv[1]), overwrite=True, is_own=lambda path:
 
 @pytest.fixture(autouse=True)
 def _forget_swept_folders(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(hidden_parts, "_swept", set())
+    monkeypatch.setattr(atomic, "_swept", set())
 
 
 @pytest.fixture(params=["out.h5", "folder"])
@@ -91,8 +96,8 @@ def test_the_own_open_parts_and_files_of_others_stay(tmp_path: Path) -> None:
     for other in others:
         other.write_text("mine")
     with atomic_file(tmp_path / "a.bin", overwrite=False) as part:
-        hidden_parts._swept.clear()
-        hidden_parts.sweep(tmp_path)
+        atomic._swept.clear()
+        atomic.sweep(tmp_path)
         assert part.exists()
         part.write_bytes(b"a")
     assert all(other.read_text() == "mine" for other in others)
@@ -114,7 +119,7 @@ def test_a_link_with_the_name_of_a_part_is_not_followed(tmp_path: Path) -> None:
     precious.mkdir()
     (precious / "file").write_text("kept")
     (tmp_path / ".texvent-0.part").symlink_to(precious)
-    hidden_parts.sweep(tmp_path)
+    atomic.sweep(tmp_path)
     assert (precious / "file").read_text() == "kept"
 
 
@@ -125,7 +130,7 @@ def test_a_folder_caught_between_two_renames_gets_its_name_back(tmp_path: Path) 
     command = [sys.executable, "-c", DIE_BETWEEN_RENAMES, str(target)]
     assert subprocess.run(command, check=False).returncode == 9
     assert not target.exists()
-    hidden_parts.sweep(tmp_path)
+    atomic.sweep(tmp_path)
     assert (target / "events").read_text() == "old"
     assert [path.name for path in tmp_path.iterdir()] == ["recording"]
 

@@ -6,7 +6,6 @@ installed the test is reported as skipped; CI installs them.
 
 from __future__ import annotations
 
-import json
 import zipfile
 from pathlib import Path
 from typing import Any
@@ -182,24 +181,6 @@ def test_plain_numpy_reads_n_imagenet_as_its_loader_does(
         data = archive["event_data"]
     rows = np.vstack([data["x"], data["y"], data["t"], data["p"].astype(np.uint8)]).T
     assert columns_equal(events, *rows.T)
-
-
-def test_plain_numpy_reads_esim_in_nanoseconds(tmp_path: Path, events: EventStream) -> None:
-    folder = save(tmp_path / "esim", events, format="esim")
-    assert sorted(path.name for path in folder.iterdir()) == ["0000000000.npz", "texvent.json"]
-    with np.load(folder / "0000000000.npz") as archive:
-        columns = {name: archive[name] for name in "xytp"}
-    assert set(np.unique(columns["p"]).tolist()) == {-1, 1}
-    assert columns_equal(events, columns["x"], columns["y"], columns["t"] // 1000, columns["p"] > 0)
-
-
-def test_plain_numpy_maps_evreal_as_its_loader_does(tmp_path: Path, events: EventStream) -> None:
-    folder = save(tmp_path / "evreal", events, format="evreal")
-    t = np.load(folder / "events_ts.npy", mmap_mode="r").squeeze()
-    xy = np.load(folder / "events_xy.npy", mmap_mode="r").squeeze()
-    p = np.load(folder / "events_p.npy", mmap_mode="r").squeeze()
-    assert columns_equal(events, xy[:, 0], xy[:, 1], np.rint(t * 1e6), p * 2.0 - 1.0 > 0)
-    assert json.loads((folder / "metadata.json").read_text())["sensor_resolution"] == [260, 346]
 
 
 def test_plain_zipfile_reads_e2vid(tmp_path: Path, events: EventStream) -> None:

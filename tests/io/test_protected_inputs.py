@@ -9,8 +9,7 @@ from pathlib import Path
 import pytest
 
 from texvent.errors import OutputError
-from texvent.io.atomic import check_output, check_output_folder
-from texvent.io.protected_inputs import protect_inputs, protected_inputs
+from texvent.io.atomic import check_output, check_output_folder, protect_inputs, protected_inputs
 
 
 @pytest.fixture

@@ -14,7 +14,7 @@ from texvent.data.pull import pull
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.files import load, save
-from texvent.transform.window import start_at_zero
+from texvent.transform.edits import start_at_zero
 
 from .format_cases import CASES, FormatCase
 

@@ -17,6 +17,7 @@ from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.files import open_events, save
 
 from .format_cases import CASE_OF, random_events
+from .read_only_formats import write_evreal
 
 SHORTER = "became shorter while it was read"
 
@@ -43,7 +44,7 @@ def test_the_images_of_an_evreal_folder(tmp_path: Path) -> None:
 
 def test_the_events_of_an_evreal_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(evreal_folder, "PACKET_EVENTS", 1000)
-    path = save(tmp_path / "e", random_events(20_000, CASE_OF["evreal"].sensor), format="evreal")
+    path = write_evreal(tmp_path / "e", random_events(20_000, CASE_OF["evreal"].sensor))
     packets = iter(open_events(path))
     next(packets)
     os.truncate(path / "events_xy.npy", 4000)

@@ -5,10 +5,11 @@ from __future__ import annotations
 import numba
 import numpy as np
 import pytest
+from tests.pairs import reference
 
-from texvent.pairs import sampling_reference, warp_cpu, warp_reference
+from texvent.pairs import warp_cpu
 
-KERNELS = [warp_reference.warp_between, warp_cpu.warp_between]
+KERNELS = [reference.warp_between, warp_cpu.warp_between]
 kernels = pytest.mark.parametrize("warp", KERNELS, ids=["reference", "cpu"])
 
 
@@ -63,7 +64,7 @@ def test_compiled_kernel_equals_the_definition(shape, position):
     backward = (-forward + rng.normal(0, 1, (*shape, 2))).astype(np.float32)
     arguments = (first, second, forward, backward, position)
     np.testing.assert_array_equal(
-        warp_cpu.warp_between(*arguments), warp_reference.warp_between(*arguments)
+        warp_cpu.warp_between(*arguments), reference.warp_between(*arguments)
     )
 
 
@@ -88,9 +89,9 @@ def test_float32_is_near_enough_to_float64():
     first, second = (128 + 100 * np.sin((x + shift) / 5 + y / 7) for shift in (0, 3))
     forward = np.stack([3 + 0.5 * np.sin(y / 9), 0.3 * np.cos(x / 11)], axis=-1)
     pair = first, second, forward, -forward
-    single = warp_reference.warp_between(*(one.astype(np.float32) for one in pair), 0.3)
+    single = reference.warp_between(*(one.astype(np.float32) for one in pair), 0.3)
     assert single.dtype == np.float32
-    assert np.abs(single - warp_reference.warp_between(*pair, 0.3)).max() < 2e-3
+    assert np.abs(single - reference.warp_between(*pair, 0.3)).max() < 2e-3
 
 
 def test_a_flow_that_is_no_number_does_no_harm():
@@ -105,11 +106,11 @@ def test_places_outside_are_looked_at_at_the_edge():
     flow = np.stack([image, -image], axis=-1)
     way = np.zeros((2, 2, 2))
     way[0, 0], way[0, 1], way[1, 0], way[1, 1] = (0.5, 0.4), (-0.75, 0.0), (-3.0, -0.5), (0.3, 9.0)
-    seen, vectors, is_inside = sampling_reference.sample_along(image, flow, way)
+    seen, vectors, is_inside = reference.sample_along(image, flow, way)
     np.testing.assert_allclose(seen, [[13.0, 2.5], [10.0, 30.0]])
     np.testing.assert_array_equal(vectors[..., 0], [[10.0, 0.0], [20.0, 30.0]])
     np.testing.assert_array_equal(is_inside, [[True, True], [False, False]])
-    assert sampling_reference.sample_along(image, flow, way + np.array([0.2, -8.5]))[2][1, 1]
+    assert reference.sample_along(image, flow, way + np.array([0.2, -8.5]))[2][1, 1]
 
 
 def test_some_points_of_an_image_are_those_of_the_whole_image():

@@ -68,7 +68,7 @@ def test_generate() -> None:
     assert texvent.load("Ball 球 1.h5").metadata["prompt"] == "a red ball bounces"
 
 
-@pytest.mark.parametrize("extension", ["aedat4", "raw", "csv", "npz", "dat", "bag", "mcap", "es"])
+@pytest.mark.parametrize("extension", ["aedat4", "raw", "csv", "npz", "dat", "bag", "mcap"])
 def test_convert_and_info(extension: str, capsys: pytest.CaptureFixture[str]) -> None:
     target = f"umge wandelt 事.{extension}"
     assert run("convert", "ereignisse 事件.h5", target) == 0

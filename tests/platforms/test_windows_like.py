@@ -17,14 +17,14 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, OutputError
 from texvent.generate.opensora.external_program import run_program
-from texvent.io import hidden_parts
+from texvent.io import atomic
 from texvent.io.atomic import atomic_file, atomic_folder
 from texvent.runtime import memory
 
 
 @pytest.fixture
 def no_posix(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(hidden_parts, "HAS_LOCKS", False)
+    monkeypatch.setattr(atomic, "CAN_SWEEP", False)
     for name in ("O_DIRECTORY", "O_NOFOLLOW", "pread", "sysconf"):
         monkeypatch.delattr(os, name)
     for name in windows_like.MODULES:
@@ -67,8 +67,8 @@ def test_parts_without_locks_are_not_held_open_while_they_are_renamed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     # Windows would refuse the rename.
-    monkeypatch.setattr(hidden_parts, "HAS_LOCKS", False)
-    with hidden_parts.hidden_file(tmp_path, ".h5") as part:
+    monkeypatch.setattr(atomic, "CAN_SWEEP", False)
+    with atomic.hidden_file(tmp_path, ".h5") as part:
         held = {os.readlink(f"/proc/self/fd/{number}") for number in open_descriptors()}
         assert str(part) not in held
 

@@ -25,7 +25,7 @@ FIRST = ("cv2", "h5py", "av", "numba", "lz4.frame", "yaml", "rich.console", "tyr
          "tempfile", "shutil", "subprocess", "multiprocessing.pool", "asyncio", "pypi_simple",
          "concurrent.futures.process", "pandas", "rosbags.highlevel", "OpenEXR",
          "trimesh", "PIL.Image", "curses")  # fmt: skip
-OPTIONAL = ("torch", "triton", "gradio", "ray", "rerun", "diffusers", "matplotlib", "safetensors")
+OPTIONAL = ("torch", "triton", "gradio", "ray", "diffusers", "matplotlib", "safetensors")
 """Packages of extras: a module that needs one of them is passed over where it is missing."""
 
 

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.represent.binary_event_image import binary_event_image
+from texvent.represent.event_frame import binary_event_image
 from texvent.sensor import SensorSize
 
 from . import definitions

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.represent.packet_slices import slice_between, slice_by_count, slice_regularly
+from texvent.represent.slices import slice_between, slice_by_count, slice_regularly
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(4, 3)

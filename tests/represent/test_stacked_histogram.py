@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.represent.stacked_histogram import stacked_histogram
+from texvent.represent.histogram import stacked_histogram
 from texvent.sensor import SensorSize
 
 from . import definitions

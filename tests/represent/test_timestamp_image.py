@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from texvent.events import EventStream
 from texvent.represent.dist import dist
-from texvent.represent.timestamp_image import (
+from texvent.represent.time_surface import (
     event_image,
     sorted_time_surface,
     timestamp_image,

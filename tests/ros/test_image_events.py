@@ -9,7 +9,7 @@ from tests.ros.rclpy_interface import TYPES, EventPacket, image
 import texvent
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.io.prophesee.evt3 import Evt3Codec
+from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.ros.messages import open_event_packet, pack_event_packet
 from texvent.ros.config import RosConfig
 from texvent.ros.image_events import ImageEvents

@@ -9,7 +9,7 @@ from tests.ros.rclpy_interface import ExternalShutdownException, Policy, World, 
 
 import texvent
 from texvent.cli.app import main
-from texvent.io.prophesee.evt3 import Evt3Codec
+from texvent.io.prophesee.evt import Evt3Codec
 
 FRAMES = np.random.default_rng(3).integers(0, 256, (4, 12, 16), dtype=np.uint8)
 STEP_NS = 20_000_000

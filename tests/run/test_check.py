@@ -32,20 +32,20 @@ def found(images):
 
 
 def test_motion_is_that_of_the_pan(found):
-    assert found.report.measures["motion_px"] == pytest.approx(3.0, abs=0.1)
-    assert found.report.measures["motion_share"] == pytest.approx(3.0 / 320, abs=0.001)
+    assert found.report.measurements["motion_px"] == pytest.approx(3.0, abs=0.1)
+    assert found.report.measurements["motion_share"] == pytest.approx(3.0 / 320, abs=0.001)
 
 
 def test_motion_is_measured_at_the_sensor(images):
     small = check_source(video_of(images), sensor="64x48", noise="none", progress=False)
     assert small.size == (64, 48)
-    assert small.report.measures["motion_px"] == pytest.approx(1.5, abs=0.1)
+    assert small.report.measurements["motion_px"] == pytest.approx(1.5, abs=0.1)
 
 
 def test_the_rate_is_that_of_the_whole_clip(images, found):
     events = texvent.simulate(video_of(images), noise="none", progress=False)
     whole = len(events) / (59 / 25) / images[0].size
-    measures = found.report.measures
+    measures = found.report.measurements
     assert measures["rate_hz"] == pytest.approx(whole, rel=0.1)
     assert 0 < measures["rate_error_hz"] < 0.2 * whole
 
@@ -55,7 +55,7 @@ def test_the_rate_of_linear_light_is_that_of_the_whole_clip(images):
     options = {"noise": "none", "transfer": "linear", "progress": False}
     events = texvent.simulate(light, fps=25, **options)
     whole = len(events) / (59 / 25) / images[0].size
-    measures = check_source(light, fps=25, **options).report.measures
+    measures = check_source(light, fps=25, **options).report.measurements
     assert measures["rate_hz"] == pytest.approx(whole, rel=0.1)
     assert "dark_end" not in measures
 
@@ -63,8 +63,8 @@ def test_the_rate_of_linear_light_is_that_of_the_whole_clip(images):
 def test_the_rate_follows_the_options(images, found):
     less = check_source(
         video_of(images), noise="none", contrast_threshold=0.4, progress=False
-    ).report.measures["rate_hz"]
-    assert less < 0.7 * found.report.measures["rate_hz"]
+    ).report.measurements["rate_hz"]
+    assert less < 0.7 * found.report.measurements["rate_hz"]
 
 
 def test_deflicker_helps_against_flicker(images):
@@ -74,7 +74,7 @@ def test_deflicker_helps_against_flicker(images):
         check_source(video, noise="none", deflicker=one, progress=False) for one in (False, True)
     )
     assert "flicker" in plain.report.problems
-    assert helped.report.measures["rate_hz"] < plain.report.measures["rate_hz"]
+    assert helped.report.measurements["rate_hz"] < plain.report.measurements["rate_hz"]
 
 
 def test_a_stream_is_read_once_and_may_be_of_unknown_length(images):
@@ -91,8 +91,8 @@ def test_a_stream_is_read_once_and_may_be_of_unknown_length(images):
     assert video.frame_count is None
     found = check_frames(video, settings, NoProgress())
     assert read == list(range(60))
-    assert found.report.measures["frames"] == 60
-    assert found.report.measures["motion_px"] == pytest.approx(3.0, abs=0.1)
+    assert found.report.measurements["frames"] == 60
+    assert found.report.measurements["motion_px"] == pytest.approx(3.0, abs=0.1)
 
 
 def test_progress_counts_the_frames(images):
@@ -112,8 +112,7 @@ def settings_times(fps):
 
 def test_two_frames_are_enough_and_one_is_refused(images):
     found = check_source(video_of(images[:2]), noise="none", progress=False)
-    assert found.report.measures["rate_hz"] > 0
-    assert found.spectrum is None
+    assert found.report.measurements["rate_hz"] > 0
     with pytest.raises(texvent.InputError, match="only one frame"):
         check_source([images[0]], fps=25, progress=False)
 

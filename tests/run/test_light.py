@@ -7,8 +7,8 @@ import pytest
 
 import texvent
 from texvent._registry import SIMULATORS
-from texvent.interpolate.dis_flow.pair_flow import PairFlow
-from texvent.interpolate.motion.pair import MotionPair
+from texvent.interpolate.flow import PairFlow
+from texvent.interpolate.motion.interpolator import MotionPair
 from texvent.pairs.instants import matching_levels
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.run.light import gamma_coded

@@ -14,7 +14,7 @@ from texvent.generate.videos.stored_video import write_video
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source, prepare_video
 from texvent.run.settings import resolve
 from texvent.runtime.progress import CallbackProgress
-from texvent.simulate.thresholds import contrast_threshold_of
+from texvent.simulate.model_options import contrast_threshold_of
 from texvent.web.job import SimulateJob
 from texvent.web.worker import simulate
 from texvent_lab.bench.fidelity.entries import simulate_video
@@ -59,7 +59,7 @@ def of_samples(folder, options):
 
 @pytest.mark.parametrize("enter", [of_api, of_web, of_samples])
 def test_an_impossible_backend_is_refused_before_a_generator_starts(tmp_path, prompts, enter):
-    with pytest.raises(ConfigError, match="this simulator has no backend gpu"):
+    with pytest.raises(ConfigError, match="simulator v2e has no backend gpu"):
         enter(tmp_path, IMPOSSIBLE)
     assert prompts == []
 
@@ -72,7 +72,7 @@ def test_commands_refuse_an_impossible_backend_before_a_generator_starts(
     (tmp_path / "prompts.txt").write_text(PROMPT, encoding="utf-8")
     subject = {"generate": PROMPT, "batch": "prompts.txt"}[command]
     assert main([command, subject, *words(IMPOSSIBLE)]) == ConfigError.exit_code
-    assert "this simulator has no backend gpu" in capsys.readouterr().err
+    assert "simulator v2e has no backend gpu" in capsys.readouterr().err
     assert prompts == []
 
 

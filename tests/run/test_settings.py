@@ -89,16 +89,6 @@ def test_a_camera_chooses_size_and_preset_by_any_of_its_names(sensor, size, pres
     assert settings.run.preset == preset
 
 
-def test_biases_are_those_of_the_camera():
-    settings = resolve(
-        "simulate", {"simulator": "physical", "sensor": "gen3.1", "bias": "diff_on=469"}
-    )
-    usual = settings.simulate.contrast_threshold
-    assert settings.simulate.contrast_threshold_on == pytest.approx(2 * usual)
-    with pytest.raises(ConfigError, match="biases belong to a camera"):
-        resolve("simulate", {"simulator": "physical", "bias": "diff_on=469"})
-
-
 def test_a_fitted_sensor_file_sets_simulator_size_and_constants(tmp_path):
     path = tmp_path / "my.toml"
     path.write_text(SENSOR_FILE, encoding="utf-8")

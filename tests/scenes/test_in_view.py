@@ -1,12 +1,13 @@
-"""The check of rays: what is out of view, and what is a few pixels large."""
+"""The check of a scene: what is out of view or tiny, and which words no instant shows."""
 
 from dataclasses import replace
 
 import numpy as np
 import pytest
-from tests.scenes.staged import DURATION_S, SIZE, stage
+from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
-from texvent.scenes.description import SceneDescription, SceneObject
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
+from texvent.scenes.description import Relation, SceneDescription, SceneObject
 from texvent.scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unseen
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.staging.camera.camera_path import CameraPath
@@ -16,11 +17,10 @@ CAR = SceneObject("car")
 
 
 def unseen_from(*objects, relations=(), position=None, target=(0.0, 0.0, 1.0)):
-    """What is unseen from the framing's place, or from another one."""
     scene = stage(*objects, relations=relations, place="plain")
     if position is not None:
         scene = replace(scene, camera_path=CameraPath(pose(position, target), (), DURATION_S))
-    return find_unseen(scene, SceneDescription("", objects), scene.object_of, SIZE, DURATION_S)
+    return find_unseen(scene, SceneDescription("", objects), SIZE, DURATION_S)
 
 
 def test_what_the_camera_frames_is_in_view_and_what_is_worn_is_part_of_who_wears_it():
@@ -43,3 +43,67 @@ def test_pixels_of_small_things_are_counted_one_by_one():
     for instance, count in count_pixels(scene, list(scene.object_of), SIZE, DURATION_S).items():
         assert count >= LEAST_PIXELS
         assert count == pytest.approx(int(np.sum(truth == instance)), rel=0.5, abs=20)
+
+
+BALL = SceneObject("sphere", scale=0.5)
+HELD = {
+    "on": (SceneObject("cup"), SceneObject("table")),
+    "under": (SceneObject("cat"), SceneObject("table")),
+    "above": (SceneObject("drone"), SceneObject("house")),
+    "left of": (BALL, SceneObject("cube")),
+    "right of": (BALL, SceneObject("cube")),
+    "behind": (SceneObject("man"), CAR),
+    "front": (SceneObject("dog"), SceneObject("house")),
+    "between": (BALL, SceneObject("cube", 2)),
+    "past": (thing("car", ("drive",)), SceneObject("tree")),
+    "through": (thing("train", ("drive",)), SceneObject("tunnel")),
+    "towards": (thing("dog", ("walk",)), SceneObject("man")),
+    "around": (thing("dog", ("run",)), SceneObject("tree")),
+}
+OTHER = {
+    "on": "under", "under": "above", "above": "on", "left of": "right of", "right of": "left of",
+    "behind": "front", "front": "behind", "between": "in", "past": "around", "through": "above",
+    "towards": "away from", "around": "through",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("kind", HELD)
+def test_a_relation_holds_where_it_is_staged_and_another_one_does_not(kind):
+    objects = HELD[kind]
+    scene = stage(*objects, relations=((kind, 0, 1),), place="plain")
+
+    def find(said):
+        description = SceneDescription("", objects, (Relation(said, 0, (1,)),))
+        return [one.value for one in find_unseen(scene, description, SIZE, DURATION_S).unheld]
+
+    assert (find(kind), find(OTHER[kind])) == ([], [OTHER[kind]])
+
+
+@pytest.mark.parametrize(("way", "other"), [("left", "right"), ("towards", "away"), ("up", "down")])
+def test_a_direction_holds_where_it_is_staged(way, other):
+    scene = stage(thing("drone", ("fly", way)), place="plain")
+    for said, faults in ((way, ()), (other, (other,))):
+        description = SceneDescription("", (thing("drone", ("fly", said)),))
+        unheld = find_unseen(scene, description, SIZE, DURATION_S).unheld
+        assert tuple(one.value for one in unheld) == faults
+
+
+@pytest.mark.parametrize(
+    ("prompt", "word", "line"),
+    [
+        ("a black disc spins", "spins", "the disc's turning"),
+        ("a dog runs in a sunny kitchen", "sunny", "sunny light, in a room"),
+        ("a cloudy sky over a city, top view", "cloudy", "no sky is in view"),
+        ("falling water", "falling water", "no pixel shows"),
+        ("a ball under a chair", "under", "the ball under the chair"),
+        ("a house burns", "burns", None),
+        ("a dog in the rain", "rain", None),
+        ("a dog in falling snow", "falling snow", None),
+        ("a cloudy sky over a field", "cloudy", None),
+        ("a ball spins", "spins", None),
+    ],
+)
+def test_a_word_is_reported_unless_the_picture_shows_it(prompt, word, line):
+    report = ProceduralGenerator(ProceduralConfig(duration=1.0), size=SIZE).report(prompt)
+    assert (word in report.shown) == (line is None)
+    assert any(line in one for one in report.not_shown) if line else not report.not_shown

@@ -245,7 +245,7 @@ def test_senpi_with_its_defaults_agrees_in_rate_and_polarity(clip):
 )
 def test_voltmeter_agrees_in_its_distributions(clip, preset, name):
     theirs = load_peer(name)
-    config = dataclasses.replace(VoltmeterSimulator.presets[preset], start_voltage="zero")
+    config = dataclasses.replace(VoltmeterSimulator.presets[preset], initial_phase="zero")
     simulator = VoltmeterSimulator(config, seed=1)
     ours = EventStream.concat([simulator.step(frame) for frame in clip]).columns()
     assert len(ours["t"]) == pytest.approx(len(theirs["t"]), rel=0.002)

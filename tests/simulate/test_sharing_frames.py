@@ -5,13 +5,13 @@ import importlib
 
 import numpy as np
 import pytest
+from tests.simulate.references import in_both_forms
 
-from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.senpi.simulator import SenpiSimulator
-from texvent.simulate.v2e.config import V2eConfig
-from texvent.simulate.v2e.simulator import V2eSimulator
+from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
 from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
 from texvent.video import Frame
 
@@ -35,10 +35,7 @@ def patches(dtypes, *, times_us=None, seed=0) -> list[Frame]:
 
 
 def assert_equal_to_reference(simulator_class, config, frames, seed=3) -> int:
-    reference, compiled = (
-        run(simulator_class(config, seed=seed, backend=backend), frames)
-        for backend in ("reference", "cpu")
-    )
+    reference, compiled = in_both_forms(lambda: run(simulator_class(config, seed=seed), frames))
     assert compiled.equals(reference)
     assert np.array_equal(compiled.label, reference.label)
     return len(compiled)
@@ -96,18 +93,18 @@ def test_blocks_that_come_to_rest_and_move_again_fire_as_in_the_reference(simula
 @pytest.mark.parametrize(
     ("simulator_class", "module"),
     [
-        (PhysicalSimulator, "physical.circuit"),
+        (PhysicalSimulator, "physical.circuit_kernel"),
         (V2eSimulator, "v2e.low_pass"),
         (VoltmeterSimulator, "voltmeter.first_passage"),
     ],
 )
 def test_threads_do_not_change_an_event(simulator_class, module, monkeypatch):
     frames = patches([np.uint8] * 5)
-    kernels = importlib.import_module(f"texvent.simulate.{module}_cpu")
+    kernels = importlib.import_module(f"texvent.simulate.{module}")
     monkeypatch.setattr(kernels, "PIXELS_PER_THREAD", 512)
     streams = []
     for threads in ("1", "2", "5"):
         monkeypatch.setenv("TEXVENT_NUM_THREADS", threads)
-        streams.append(run(simulator_class(seed=1, backend="cpu"), frames))
+        streams.append(run(simulator_class(seed=1), frames))
     assert streams[0].equals(streams[1])
     assert streams[0].equals(streams[2])

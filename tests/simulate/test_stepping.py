@@ -8,8 +8,8 @@ from tests.frame_pairs import advance_through, pairs_of
 import texvent
 from texvent._registry import SIMULATORS, Registry
 from texvent.events import EventStream
+from texvent.simulate.build import SteppedPlugIn, with_advance
 from texvent.simulate.esim.simulator import EsimSimulator
-from texvent.simulate.stepping import SteppedPlugIn, with_advance
 
 from .pixel_frames import moving_texture
 

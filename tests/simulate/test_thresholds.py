@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from texvent.simulate.esim.simulator import EsimConfig
+from texvent.simulate.model_options import contrast_threshold_of, with_contrast_threshold
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.random.mismatch import draw_threshold_pair, sensor_key
 from texvent.simulate.texvent.simulator import TexventConfig
-from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
-from texvent.simulate.v2e.config import V2eConfig
-from texvent.simulate.voltmeter.config import VoltmeterConfig
+from texvent.simulate.v2e.simulator import V2eConfig
+from texvent.simulate.voltmeter.simulator import VoltmeterConfig
 
 
 @pytest.mark.parametrize(

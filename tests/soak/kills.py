@@ -33,12 +33,11 @@ SMALL = ("--sensor", "64x48", "--no-video", "--noise", "none")
 RUNS: Mapping[str, tuple[str, ...]] = {
     "simulate": ("simulate", "in/clip.npy", "--fps", "240", "-o", "out/a.h5", "--overwrite",
                  *SMALL),
-    "several": ("simulate", "in/clip.npy", "--fps", "240", "-o", "out/a.raw", "-o", "out/a.es",
+    "several": ("simulate", "in/clip.npy", "--fps", "240", "-o", "out/a.raw", "-o", "out/a.csv",
                 "--overwrite", "--interpolate", "none", *SMALL),
     "generate": ("generate", "a red car drives left", "-o", "out/a.h5", "--duration", "0.5",
                  "--overwrite", *SMALL),
     "convert": ("convert", "in/events.h5", "out/a.aedat4", "--overwrite"),
-    "folder": ("convert", "in/events.h5", "out/a", "--format", "evreal", "--overwrite"),
     "batch": ("batch", "in/prompts.txt", "-o", "out", "--duration", "0.2", *SMALL),
     "batch 2 jobs": ("batch", "in/prompts.txt", "-o", "out", "--duration", "0.2", "--jobs", "2",
                      *SMALL),

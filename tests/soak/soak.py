@@ -26,7 +26,7 @@ import numpy as np
 import texvent
 
 PROMPTS = ("a red car drives left", "a dog runs past two trees", "a ball bounces at night")
-EXTENSIONS = (".h5", ".npz", ".aedat4", ".raw", ".txt", ".es", ".dat")
+EXTENSIONS = (".h5", ".npz", ".aedat4", ".raw", ".txt", ".csv", ".dat")
 TORCH_ONLY = ("v2ce",)
 SPARE_DESCRIPTORS = 2
 """Some are open for a moment while they are counted."""

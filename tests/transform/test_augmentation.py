@@ -14,9 +14,16 @@ from texvent._registry import AUGMENTATIONS
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.transform.augmentation.dropping import DropArea, DropEvents, DropTime
-from texvent.transform.augmentation.space import Crop, FlipX, Rotate, Shift
-from texvent.transform.augmentation.time import JitterTime
+from texvent.transform.augment import (
+    Crop,
+    DropArea,
+    DropEvents,
+    DropTime,
+    FlipX,
+    JitterTime,
+    Rotate,
+    Shift,
+)
 
 from .recordings import SIZE, rows_of, stream, streams
 

@@ -13,13 +13,12 @@ from texvent.errors import ConfigError, InputError, TexventError
 from texvent.events import EventStream
 from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
-from texvent.transform.augmentation.augment import Augment
-from texvent.transform.downsample import block_pixels, fire_blocks_reference
+from texvent.transform.augment import Augment
+from texvent.transform.downsample import block_pixels
 from texvent.transform.downsample_cpu import fire_blocks
-from texvent.transform.orientation import shift
-from texvent.transform.reversal import flip_polarity, reverse_time
-from texvent.transform.window import start_at_zero
+from texvent.transform.edits import flip_polarity, reverse_time, shift, start_at_zero
 
+from . import reference
 from .recordings import CUTS, SIZE, packets, rows_of, stream, streams
 
 EDITS: dict[str, Callable[[EventStream], EventStream]] = {
@@ -157,7 +156,7 @@ def test_the_compiled_blocks_equal_the_reference(events: EventStream, factor: in
     placed = events.downsample(factor)
     block = placed.y.astype(np.int64) * placed.size.width + placed.x
     sums = np.zeros_like(pixels), np.zeros_like(pixels)
-    expected = fire_blocks_reference(block, events.p, pixels, sums[0])
+    expected = reference.fire_blocks(block, events.p, pixels, sums[0])
     np.testing.assert_array_equal(fire_blocks(block, events.p, pixels, sums[1]), expected)
     np.testing.assert_array_equal(*sums)
 

@@ -12,12 +12,16 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.options.parts import read_part
 from texvent.sensor import SensorSize
-from texvent.transform.filters import kernels_cpu, reference
-from texvent.transform.filters.hot_pixels import find_hot_pixels, mask_hot_pixels
-from texvent.transform.filters.pixel_mask import MaskFilter
-from texvent.transform.filters.rate_limit import RateLimitFilter
-from texvent.transform.filters.refractory import RefractoryFilter
+from texvent.transform.filters import kernels_cpu
+from texvent.transform.filters.noise_filters import (
+    MaskFilter,
+    RefractoryFilter,
+    find_hot_pixels,
+    mask_hot_pixels,
+)
+from texvent.transform.filters.rate_filters import RateLimitFilter
 
+from . import reference
 from .recordings import CUTS, SIZE, packets, rows_of, stream, streams
 
 FILTERS = (

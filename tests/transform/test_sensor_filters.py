@@ -11,10 +11,11 @@ from hypothesis import strategies as st
 
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.transform.filters import kernels_cpu, reference
-from texvent.transform.filters.anti_flicker import AntiFlickerFilter
-from texvent.transform.filters.reference import NEVER, FlickerLimits
+from texvent.transform.filters import kernels_cpu
+from texvent.transform.filters.apply import NEVER, FlickerLimits
+from texvent.transform.filters.rate_filters import AntiFlickerFilter
 
+from . import reference
 from .recordings import CUTS, SIZE, packets, rows_of, stream, streams
 
 MODES = ("trail", "stc-cut-trail", "stc-keep-trail")

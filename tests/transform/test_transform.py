@@ -16,15 +16,13 @@ from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.transform.merge import merge
-from texvent.transform.region import Region, crop, resize
+from texvent.transform.edits import Region, crop, keep_time, merge, resize, start_at_zero
 from texvent.transform.undistort import (
     Calibration,
     read_calibration,
     undistort,
     undistorted_pixels,
 )
-from texvent.transform.window import keep_time, start_at_zero
 
 SIZE = SensorSize(8, 6)
 ROWS = st.lists(

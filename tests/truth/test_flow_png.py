@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
-from texvent.truth.flow_png import decode_flow, encode_flow
+from texvent.truth.loading import decode_flow, encode_flow
 from texvent.truth.writer import write_png
 
 

@@ -12,8 +12,13 @@ from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer, decode_srgb
 from texvent.video import Frame
-from texvent.video_check.blocks import block_means, neighbour_correlation, percentile_of_counts
-from texvent.video_check.report import check_video
+from texvent.video_check.checks import check_video
+from texvent.video_check.measurements import (
+    VideoMeasurer,
+    block_means,
+    neighbour_correlation,
+    percentile_of_counts,
+)
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 RNG = np.random.default_rng(0)
@@ -128,7 +133,28 @@ def test_percentiles_of_counts_are_those_of_the_values():
 def test_linear_light_measures_as_its_gamma_coded_image(clip):
     light = 255 * decode_srgb(clip / np.float32(255))
     linear = [Frame(one, i * 40_000, transfer=Transfer.LINEAR) for i, one in enumerate(light)]
-    of_light, of_code = check_video(linear).measures, check_video(frames(clip)).measures
+    of_light, of_code = check_video(linear).measurements, check_video(frames(clip)).measurements
     assert of_code.keys() - of_light.keys() == {"dark_end"}  # nothing clips light
     of_code = {name: of_code[name] for name in of_light}
     assert of_light == pytest.approx(of_code, rel=1e-3, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("times_us", "fps"),
+    [
+        ([40_000 * i for i in range(20) if i not in (5, 6, 11)], 25),  # dropped frames
+        ([1000 * round(i * 1001 / 30) for i in range(20)], 29.97),  # whole milliseconds
+    ],
+)
+def test_the_rate_is_that_of_the_usual_interval(times_us, fps):
+    images = [np.full((8, 8), 90, np.float32)] * len(times_us)
+    video = [Frame(image, t_us) for image, t_us in zip(images, times_us, strict=True)]
+    assert check_video(video).measurements["fps"] == pytest.approx(fps, rel=2e-3)
+
+
+def test_cuts_have_times(clip):
+    measurer = VideoMeasurer()
+    for frame in frames([*clip[:12], *(255 - clip[12:, ::-1])]):
+        measurer.add(frame)
+    assert measurer.cut_times_us == [480_000]
+    assert measurer.measurements()["cuts"] == 1

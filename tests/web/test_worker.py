@@ -3,13 +3,11 @@ from __future__ import annotations
 import signal
 import subprocess
 import sys
-import zipfile
 from pathlib import Path
 
 import pytest
 
 import texvent
-from texvent._registry import CODECS
 from texvent.errors import InputError, TexventError
 from texvent.io.files import extension_of
 from texvent.scenes.report import PromptReport
@@ -181,19 +179,7 @@ def test_events_are_converted_exactly(tmp_path: Path, source: str, format: str) 
     assert events.equals(again)
 
 
-def test_a_format_that_is_a_folder_is_downloaded_as_one_file(tmp_path: Path, source: str) -> None:
-    done = convert(ConvertJob(source=source, folder=str(tmp_path), format="evreal"))
-    with zipfile.ZipFile(done.files["download"]) as archive:
-        assert len(archive.namelist()) > 3
-
-
 def test_a_format_that_cannot_hold_the_events_says_so(tmp_path: Path, source: str) -> None:
-    with pytest.raises(InputError, match="128"):
-        convert(ConvertJob(source=source, folder=str(tmp_path), format="cifar10-dvs"))
+    with pytest.raises(InputError, match="256"):
+        convert(ConvertJob(source=source, folder=str(tmp_path), format="atis"))
     assert not list(tmp_path.iterdir())
-
-
-def test_every_registered_format_has_a_name_to_be_downloaded_by() -> None:
-    folders = {"esim", "evreal"}
-    for name in CODECS.names():
-        assert extension_of(name).startswith(".") or name in folders

@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 
 import pytest
 
-from texvent.interpolate.rife import layouts as rife_layouts
-from texvent.interpolate.rife import weights as rife_weights
 from texvent.sensor import SensorSize
 from texvent_lab.measure import gpu
 
@@ -16,15 +13,12 @@ TINY = SensorSize(24, 16)
 
 
 @pytest.mark.torch
-def test_every_figure_is_measured_and_stored(monkeypatch):
+def test_every_figure_is_measured_and_stored():
     torch = pytest.importorskip("torch")
     pytest.importorskip("triton")
-    narrow = replace(rife_layouts.RIFE_4_6, widths=(8,) * len(rife_layouts.RIFE_4_6.widths))
-    for module in (rife_layouts, rife_weights):
-        monkeypatch.setattr(module, "LAYOUTS", (narrow,))
     plan = gpu.Plan(
         size=TINY, densities=(0.2,), batches=(1, 2), frames=2, repeats=1, calls=1,
-        rife_sizes=(TINY,), precisions=("float32",), between=1, copy_bytes=2**20, layout=narrow,
+        rife_sizes=(TINY,), between=1, copy_bytes=2**20, rife_width=8,
     )  # fmt: skip
     document = json.loads(
         json.dumps(gpu.measure(plan, "cuda" if torch.cuda.is_available() else "cpu"))
@@ -47,7 +41,7 @@ def test_every_figure_is_measured_and_stored(monkeypatch):
 def test_targets_are_judged_where_they_were_measured():
     row = {"model": "paper", "pixels": "uint8", "density": 0.01, "batch": 8, "size": "1280x720"}
     fast, slow = ({**row, "us_per_frame": {"median": one}} for one in (1.5, 2.5))
-    pair = {"size": "640x480", "precision": "float16", "ms_per_pair": {"median": 7.0}}
+    pair = {"size": "640x480", "ms_per_pair": {"median": 7.0}}
     assert [one["is_met"] for one in gpu.check_targets([fast, slow], [pair])] == [
         True,
         False,

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from texvent.data.pull import find_pulled
-from texvent.represent.packet_slices import slice_between
+from texvent.represent.slices import slice_between
 from texvent_lab.bench.real.frame_recording import open_recording
 from texvent_lab.reconstruct.reconstructor import load_reconstructor
 

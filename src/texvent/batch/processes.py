@@ -11,7 +11,7 @@ from concurrent.futures import ProcessPoolExecutor
 from contextlib import contextmanager
 from multiprocessing.connection import wait
 
-from texvent.io.hidden_parts import remove_own_parts
+from texvent.io.atomic import remove_own_parts
 from texvent.runtime.interrupts import raise_interrupted
 from texvent.runtime.threads import THREADS_VARIABLE, count_threads
 

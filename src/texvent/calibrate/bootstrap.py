@@ -1,6 +1,6 @@
 """Bootstrap intervals of any estimate: how far it moves if what it was made of is drawn again.
 
-`metrics.uncertainty.bootstrap` has those of a mean of windows.
+`metrics.uncertainty` has those of a mean of windows.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.metrics.uncertainty.bootstrap import LEVEL
+from texvent.metrics.uncertainty import LEVEL
 
 Float64Array: TypeAlias = NDArray[np.float64]
 RESAMPLES = 200

@@ -5,8 +5,10 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numpy as np
+
 from texvent.events import EventStream
-from texvent.metrics.spike_trains.intervals import IntervalDistance
+from texvent.metrics.spike_trains import Trains
 from texvent.metrics.stpp import Stpp
 
 NOTHING = 10.0
@@ -44,7 +46,7 @@ def measure_distance(simulated: EventStream, recorded: EventStream) -> Distance:
         simulated: by the model.
         recorded: by the sensor; it has events of both polarities.
     """
-    intervals = IntervalDistance()(simulated, recorded)
+    intervals = interval_distance(simulated, recorded)
     on, off = (_log_ratio(simulated, recorded, p) for p in (1, 0))
     return Distance(
         overlap=1.0 - Stpp()(simulated, recorded),
@@ -52,6 +54,23 @@ def measure_distance(simulated: EventStream, recorded: EventStream) -> Distance:
         log_on=on,
         log_off=off,
     )
+
+
+def interval_distance(a: EventStream, b: EventStream) -> float:
+    """1-Wasserstein distance of the log10 inter-event intervals of two streams, decades.
+
+    Intervals of all pixels and polarities are pooled; those below 1 µs count as 1 µs. NaN if a
+    stream has none.
+    """
+    first, second = (
+        np.sort(np.log10(np.maximum(Trains.of(events).intervals_us, 1))) for events in (a, b)
+    )
+    if not first.size or not second.size:
+        return math.nan
+    # The area between the cumulative distributions.
+    edges = np.sort(np.concatenate([first, second]))
+    shares = [np.searchsorted(one, edges[:-1], "right") / one.size for one in (first, second)]
+    return float((np.abs(shares[0] - shares[1]) * np.diff(edges)).sum())
 
 
 def _log_ratio(simulated: EventStream, recorded: EventStream, p: int) -> float:

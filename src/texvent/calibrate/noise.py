@@ -14,7 +14,7 @@ from texvent.calibrate.estimates import Estimate
 from texvent.calibrate.recording import Recording, TimeSpan
 from texvent.represent.event_frame import count_events
 from texvent.simulate.physical.circuit import linearize
-from texvent.simulate.physical.noise_curve import NoiseCurve
+from texvent.simulate.physical.config import NoiseCurve
 from texvent.video import MICROSECONDS, Frame
 
 EDGES = (0, 2, 5, 10, 20, 30, 45, 70, 100, 140, 190, 256)

@@ -12,7 +12,7 @@ from texvent.config import check_range
 from texvent.errors import InputError
 from texvent.pipeline import Simulation
 from texvent.runtime.progress import Progress
-from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
+from texvent.simulate.model_options import contrast_threshold_of, with_contrast_threshold
 from texvent.video import MICROSECONDS
 
 UNREACHED = 0.1

@@ -94,7 +94,7 @@ class Recording:
             self.interpolate,
             balance=model.balance,
             contrast_threshold=model.contrast_threshold,
-            counts_motion=model.gains_from_frames,
+            counts_motion=model.benefits_from_denser_frames,
         )
         return list(dense)
 

@@ -23,8 +23,7 @@ from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
 from texvent.errors import FileFormatError
 from texvent.io.aedat.aedat4_container import MAGIC, Container, open_container, stored_size
-from texvent.io.aedat.aedat4_tables import StreamInfo
-from texvent.io.aedat.flatbuffer import Table
+from texvent.io.aedat.aedat4_tables import StreamInfo, Table
 from texvent.io.input_checks import begins_with
 from texvent.sensor import SensorSize, checked_size
 from texvent.video import Frame, PixelArray

@@ -85,7 +85,7 @@ class DsecFrames(FrameSource):
 
 
 def _read_rectify_map(path: Path) -> NDArray[np.float64]:
-    from texvent.io.hdf5.damage import check_claims, open_hdf5  # brings h5py
+    from texvent.io.hdf5.storage import check_claims, open_hdf5  # brings h5py
 
     with open_hdf5(path) as file:
         stored = file["rectify_map"]

@@ -20,7 +20,7 @@ from texvent.capture.decode import coding_facts, decoded_pixels
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
 from texvent.errors import FileFormatError, warn
-from texvent.io.wrong_kind import refuse_missing
+from texvent.io.input_checks import refuse_missing
 from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, PREVIEW_MARK, Frame, frame_time_us
 

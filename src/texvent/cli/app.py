@@ -16,8 +16,7 @@ from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say, write_out
 from texvent.cli.wording import flags_in_messages
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError, shown
-from texvent.io.hidden_parts import remove_own_parts
-from texvent.io.protected_inputs import protected_inputs
+from texvent.io.atomic import protected_inputs, remove_own_parts
 from texvent.runtime.interrupts import raise_interrupted
 
 COMMANDS = {
@@ -43,10 +42,6 @@ COMMANDS = {
     "view": (
         "texvent.cli.event_files.view",
         "Open an event file in the browser: point cloud, playback, rate.",
-    ),
-    "rerun": (
-        "texvent.cli.event_files.rerun",
-        "Open an event file in the rerun viewer.",
     ),
     "app": (
         "texvent.cli.simulation.web",

@@ -19,7 +19,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED, SCALARS, without_none
 from texvent.cli.wording import name_flags
 from texvent.errors import ConfigError, shown
-from texvent.io.protected_inputs import protect_inputs
+from texvent.io.atomic import protect_inputs
 from texvent.options.fields import (
     option_help,
     option_names,

@@ -13,8 +13,7 @@ from texvent.errors import ConfigError
 from texvent.io.atomic import check_outputs
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
-from texvent.truth.layout import check_truth_folder
-from texvent.truth.parts import parse_parts
+from texvent.truth.layout import check_truth_folder, parse_parts
 from texvent.view.drawing.palettes import get_palette
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from texvent.generate.scene_input import Subject
-from texvent.io.protected_inputs import protect_inputs
+from texvent.io.atomic import protect_inputs
 from texvent.scenes.spec.files import is_scene_file, load_scene
 
 

@@ -30,7 +30,7 @@ from texvent.dataset.publishing.card import CARD_FILE
 from texvent.dataset.publishing.croissant import CROISSANT_FILE
 from texvent.dataset.publishing.index import INDEX_FILE
 from texvent.errors import FileFormatError, one_line, shown
-from texvent.io.hidden_parts import is_hidden_part
+from texvent.io.atomic import is_hidden_part
 
 OWN = (SPECIFICATION_FILE, ITEMS_FILE, CARD_FILE, CROISSANT_FILE, INDEX_FILE, LOGS, "samples.png",
        "samples.html", "stats.html", ".git", ".gitattributes", ".cache")  # fmt: skip

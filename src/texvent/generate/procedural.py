@@ -326,7 +326,7 @@ class ProceduralGenerator:
     def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
         from texvent.scenes.assets import list_files
-        from texvent.scenes.in_view import find_unseen
+        from texvent.scenes.in_view import find_unseen, without_words
         from texvent.scenes.staging.compose import compose_scene
 
         named = nouns_of(prompt, self._nouns)
@@ -340,10 +340,11 @@ class ProceduralGenerator:
             duration_s=duration_s,
             nouns=_shown_nouns(description, named),
         )
-        unseen = find_unseen(scene, description, scene.object_of, self.size, duration_s)
+        unseen = find_unseen(scene, description, self.size, duration_s)
         report = replace(
             said,
-            not_shown=scene.not_shown,
+            shown=without_words(said.shown, unseen.unheld),
+            not_shown=(*scene.not_shown, *filter(None, (one.line for one in unseen.unheld))),
             out_of_view=unseen.out_of_view,
             too_small=unseen.too_small,
         )

@@ -1,4 +1,4 @@
-"""How many intermediate frames a pair needs (Eq. 4)."""
+"""Number of intermediate frames that a pair needs (Eq. 4)."""
 
 from __future__ import annotations
 
@@ -28,21 +28,18 @@ def count_intermediate(
     *,
     balance: float,
     contrast_threshold: float,
-    percentile: float = 100.0,
     cap: int = DEFAULT_CAP,
 ) -> int:
-    """How many intermediate frames the brightness change between two frames needs.
+    """Number of intermediate frames that the brightness change between two frames needs.
 
-    With the maximum (percentile 100) it is 0 exactly when no pixel can fire from a fresh
-    reference, and under a steady logarithmic change every sub-step stays below the threshold, so
-    a pixel fires at most once per sub-step.
+    It is 0 exactly when no pixel can fire from a fresh reference, and under a steady logarithmic
+    change every sub-step stays below the threshold, so a pixel fires at most once per sub-step.
 
     Args:
         first: the earlier frame, or its pixels as in `Frame.pixels`.
         second: the later frame, same size.
         balance: α, on the 0..255 scale.
         contrast_threshold: δ, log units.
-        percentile: statistic of |ΔL| over the pixels, 0..100; 100 is the maximum.
         cap: upper limit of the count.
 
     Returns:
@@ -50,41 +47,39 @@ def count_intermediate(
 
     Raises:
         InputError: the frames differ in size.
-        ConfigError: δ is not above 0, the percentile is not in 0..100, the cap is negative, or
-            α + I is 0 somewhere.
+        ConfigError: δ is not above 0, the cap is negative, or α + I is 0 somewhere.
 
     Equation: (4), section 3.2.1.
     Deviation: the paper takes the remainder by δ, which is below δ and would never interpolate,
         and leaves α out, so black has no logarithm; here the quotient is rounded down and α is
-        inside the logarithm. The percentile and the cap are ours. There is no tolerance: a change
-        of 0.6 at δ = 0.2 counts 2, because 0.6 / 0.2 is below 3 in binary.
+        inside the logarithm. The cap is ours. There is no tolerance: a change of 0.6 at δ = 0.2
+        counts 2, because 0.6 / 0.2 is below 3 in binary.
 
     Example:
         >>> black, white = np.zeros((2, 2), np.uint8), np.full((2, 2), 255, np.uint8)
         >>> count_intermediate(black, white, balance=30.0, contrast_threshold=0.2)
         11
     """
-    _check_options(contrast_threshold, percentile, cap)
+    _check_options(contrast_threshold, cap)
     earlier, later = _luma(first), _luma(second)
     if earlier.shape != later.shape:
         raise InputError(
             f"the frames are {list(earlier.shape)} and {list(later.shape)} (height, width); "
             "both must have one size"
         )
-    if percentile == 100.0 and balance >= 1.0:
+    if balance >= 1.0:
         low, high = _bound_largest_change(earlier, later, balance)
         count = math.floor(low / contrast_threshold)
         if count == math.floor(high / contrast_threshold):
             return min(count, cap)
     change = np.abs(balanced_log(earlier, balance) - balanced_log(later, balance))
-    statistic = change.max() if percentile == 100.0 else np.percentile(change, percentile)
-    return min(math.floor(float(statistic) / contrast_threshold), cap)
+    return min(math.floor(float(change.max()) / contrast_threshold), cap)
 
 
 def count_for_flicker(
     first_us: int, second_us: int, flicker_hz: float | None, *, cap: int = DEFAULT_CAP
 ) -> int:
-    """How many intermediate frames show light that beats faster than the frames come.
+    """Number of intermediate frames that show light which beats faster than the frame rate.
 
     Args:
         first_us: time of the earlier frame, µs.
@@ -109,7 +104,7 @@ def count_for_flicker(
 
 
 def longest_vector_px(first: Motion | None, second: Motion | None) -> float:
-    """How far the fastest part of a pair moves, where motion is known.
+    """Displacement of the fastest part of a pair whose motion is known.
 
     Args:
         first: motion of the earlier frame; its vectors to the later one count.
@@ -144,10 +139,8 @@ def _luma(frame: Frame | PixelArray) -> PixelArray:
     return frame.luma if isinstance(frame, Frame) else Frame(frame, t_us=0).luma
 
 
-def _check_options(contrast_threshold: float, percentile: float, cap: int) -> None:
+def _check_options(contrast_threshold: float, cap: int) -> None:
     if not 0 < contrast_threshold < math.inf:
         raise ConfigError(f"contrast_threshold is {contrast_threshold:g}; it must be above 0")
-    if not 0 <= percentile <= 100:
-        raise ConfigError(f"percentile is {percentile:g}; it must be 0..100")
     if cap < 0:
         raise ConfigError(f"cap is {cap}; it must be at least 0")

@@ -1,4 +1,4 @@
-"""How many intermediate frames a pair gets: Eq. 4 within the limits that the user set."""
+"""Number of intermediate frames of a pair: Eq. 4 within the limits that the user set."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from texvent.interpolate.protocol import Interpolator
 from texvent.video import MICROSECONDS, FlickeringStream, Frame, FrameStream
 
 if TYPE_CHECKING:
-    from texvent.interpolate.dis_flow.pair_flow import PairFlow
+    from texvent.interpolate.flow import PairFlow
 
 
 MOTION_LIMIT = 2
@@ -43,17 +43,14 @@ class CountPolicy:
         Args:
             config: the options.
             stream: the source frames; it may know the frequency of flickering light.
-            interpolator: its optical flow is used, where it has one, to see how far things move.
+            interpolator: its optical flow is used, where it has one, to measure motion.
             balance: the simulator's α.
             contrast_threshold: the simulator's δ.
             counts_motion: whether motion counts, up to `MOTION_LIMIT`, where the options do not
                 say it.
         """
         self._config = config
-        self._balance = balance if config.count_balance is None else config.count_balance
-        self._threshold = (
-            contrast_threshold if config.count_threshold is None else config.count_threshold
-        )
+        self._balance, self._threshold = balance, contrast_threshold
         self._is_limited = config.frames_per_pixel is None
         self._per_pixel = 1.0 if config.frames_per_pixel is None else config.frames_per_pixel
         if self._is_limited:
@@ -65,7 +62,7 @@ class CountPolicy:
         self._flicker_hz = _flicker_hz(stream, config)
 
     def count(self, first: Frame, second: Frame) -> int:
-        """How many intermediate frames go between two source frames.
+        """Number of intermediate frames between two source frames.
 
         Args:
             first: the earlier source frame.
@@ -88,7 +85,6 @@ class CountPolicy:
             second,
             balance=self._balance,
             contrast_threshold=self._threshold,
-            percentile=config.count_percentile,
             cap=cap,
         )
         limit = min(cap, MOTION_LIMIT * count) if self._is_limited else cap
@@ -120,7 +116,7 @@ def _flicker_hz(stream: FrameStream, config: InterpolateConfig) -> float | None:
 
 def _pair_flow(interpolator: Interpolator) -> PairFlow:
     """The flow that the interpolator computes anyway, or a new one."""
-    from texvent.interpolate.dis_flow.pair_flow import PairFlow  # only counting motion needs numba
+    from texvent.interpolate.flow import PairFlow  # only counting motion needs numba
 
     shared: PairFlow | None = getattr(interpolator, "pair_flow", None)
     return shared or PairFlow()

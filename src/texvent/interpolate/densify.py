@@ -31,9 +31,9 @@ def densify(
         stream: source frames.
         interpolator: makes the intermediate frames.
         config: how many there are, and whether cuts and flicker are looked for.
-        balance: the simulator's α, for Eq. 4 unless `config.count_balance` is set.
-        contrast_threshold: the simulator's δ, for Eq. 4 unless `config.count_threshold` is set.
-        counts_motion: whether the simulator gains from more frames where things move fast; then
+        balance: the simulator's α, for Eq. 4.
+        contrast_threshold: the simulator's δ, for Eq. 4.
+        counts_motion: whether the simulator gains from more frames under fast motion; then
             motion counts unless `config.frames_per_pixel` is set.
         on_scene_change: called at every cut and flash, before the frames that show it.
 

@@ -19,7 +19,7 @@ class ExactInterpolator:
     """
 
     bytes_per_pixel: ClassVar[int] = 130
-    """Most of it the flow that tells how many frames fast motion needs (`CountPolicy`)."""
+    """Most of it for the flow that counts the frames of fast motion (`CountPolicy`)."""
 
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config  # an argument of every interpolator; not used here

@@ -2,14 +2,21 @@
 
 from __future__ import annotations
 
+import weakref
 from collections.abc import Sequence
 from typing import ClassVar
 
+import numpy as np
+
 from texvent.config import InterpolateConfig
-from texvent.interpolate.dis_flow.pair_flow import PairFlow
-from texvent.pairs.instants import check_between
+from texvent.interpolate.dis_flow.estimator import DisFlow, FlowArray
+from texvent.pairs.instants import check_between, matching_luma
 from texvent.pairs.motion_interpolation import MotionInterpolation
 from texvent.video import Frame, FrameStream
+
+FAST_PERCENTILE = 99.9
+"""The motion of a pair is that of its fastest thousandth. The maximum would often be an outlier at
+an occlusion."""
 
 
 class FlowInterpolator:
@@ -48,3 +55,42 @@ class FlowInterpolator:
         # Now, not at the first frame: this may run in the prefetch thread.
         flows = self.pair_flow.both_ways(first, second)
         return MotionInterpolation.between(first, second, times_us, flows)
+
+
+class PairFlow:
+    """Optical flow of the current pair, computed once for its frames and for their count.
+
+    The frames themselves are not kept alive.
+    """
+
+    def __init__(self) -> None:
+        self._dis = DisFlow()
+        self._pair: tuple[weakref.ref[Frame], weakref.ref[Frame]] | None = None
+        self._flows: tuple[FlowArray, FlowArray] | None = None
+
+    def both_ways(self, first: Frame, second: Frame) -> tuple[FlowArray, FlowArray]:
+        """Flow from first to second, and from second to first.
+
+        Returns:
+            Two flows, [H, W, 2] float32 as (x, y), px.
+        """
+        if self._flows is None or not self._is_of(first, second):
+            levels = (
+                np.ascontiguousarray(matching_luma(one), np.float32) for one in (first, second)
+            )
+            self._flows = self._dis.both_ways(*levels)
+            self._pair = weakref.ref(first), weakref.ref(second)
+        return self._flows
+
+    def motion_px(self, first: Frame, second: Frame) -> float:
+        """Displacement of the fastest part of a pair.
+
+        Returns:
+            Length of the `FAST_PERCENTILE` of the flow from first to second, px.
+        """
+        forward, _ = self.both_ways(first, second)
+        length = np.hypot(forward[..., 0], forward[..., 1])
+        return float(np.percentile(length, FAST_PERCENTILE))
+
+    def _is_of(self, first: Frame, second: Frame) -> bool:
+        return self._pair is not None and self._pair[0]() is first and self._pair[1]() is second

@@ -10,7 +10,7 @@ from texvent.video import Frame, FrameStream
 
 
 class NoInterpolator:
-    """Adds no frames (ablation of Eq. 4), whatever the change."""
+    """Adds no frames (ablation of Eq. 4)."""
 
     bytes_per_pixel: ClassVar[int] = 0
 
@@ -18,6 +18,6 @@ class NoInterpolator:
         del config, stream  # the arguments of every interpolator; not used here
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
-        """Nothing, whatever the times."""
+        """No frames."""
         del first, second, times_us
         return iter(())

@@ -46,9 +46,9 @@ def plan_pairs(
         video: source frames.
         config: how many intermediate frames there are, and what makes them.
         threads: ends the threads when it is closed.
-        balance: the simulator's α, for Eq. 4 unless `config.count_balance` is set.
-        contrast_threshold: the simulator's δ, for Eq. 4 unless `config.count_threshold` is set.
-        counts_motion: whether the simulator gains from more frames where things move fast; then
+        balance: the simulator's α, for Eq. 4.
+        contrast_threshold: the simulator's δ, for Eq. 4.
+        counts_motion: whether the simulator gains from more frames under fast motion; then
             motion counts unless `config.frames_per_pixel` is set.
 
     Raises:

@@ -1,4 +1,4 @@
-"""What every interpolator offers."""
+"""Protocol of interpolators."""
 
 from __future__ import annotations
 

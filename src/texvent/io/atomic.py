@@ -1,4 +1,4 @@
-"""Files that appear under their name only when they are complete.
+"""Files that appear under their name only when they are complete, and never replace an input.
 
 Every file texvent writes goes through `atomic_file`: it is written beside its target under a
 hidden name, flushed to disk, and renamed. A crash, Ctrl-C or a full disk leaves the old file (or
@@ -8,25 +8,45 @@ next run that writes into the folder removes it.
 
 from __future__ import annotations
 
+import contextlib
 import errno
 import os
-from collections.abc import Callable, Iterator, Sequence
+import platform
+import re
+import secrets
+import shutil
+import time
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from contextvars import ContextVar
 from pathlib import Path
-from typing import Any
 
 from texvent.errors import OutputError, shown
-from texvent.io.hidden_parts import hidden_file, hidden_folder, is_hidden_part
-from texvent.io.protected_inputs import refuse_inputs
+from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 
 DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
+PREFIX = ".texvent-"
+HOST = re.sub(r"[^A-Za-z0-9]", "", platform.node())[:32]
+CAN_SWEEP = os.name == "posix"
+"""Windows has no harmless way to ask whether a process lives."""
+DEAD_SECONDS = 7 * 86_400
+"""Parts of other machines that were not written to for so long are left behind."""
+READ_FROM_FOLDERS = IMAGE_EXTENSIONS | VIDEO_EXTENSIONS | {".npy"}
+"""Files of these kinds, put into an input folder, would be read as its frames by the next run."""
+
 _completed: list[list[Path]] = []
-"""Lists that note what is put in place."""
+"""Lists that note completed outputs."""
+_swept: set[str] = set()
+"""Folders that this process has swept."""
+_own: set[Path] = set()
+"""Parts of this process."""
+_inputs: ContextVar[tuple[tuple[str, Path], ...]] = ContextVar("inputs", default=())
+"""Names of protected inputs as the user wrote them, and resolved."""
 
 
 @contextmanager
 def noting_completed() -> Iterator[list[Path]]:
-    """The files and folders that this process puts in place inside the block, in order."""
+    """The files and folders that this process completes inside the block, in order."""
     completed: list[Path] = []
     _completed.append(completed)
     try:
@@ -39,6 +59,48 @@ def noting_completed() -> Iterator[list[Path]]:
 def _note(target: Path) -> None:
     for completed in _completed:
         completed.append(target)
+
+
+@contextmanager
+def protected_inputs() -> Iterator[None]:
+    """Forget, at the end of the block, the inputs that were protected inside it."""
+    token = _inputs.set(())
+    try:
+        yield
+    finally:
+        _inputs.reset(token)
+
+
+def protect_inputs(paths: Iterable[str | Path]) -> None:
+    """Let no output replace these files, or join the frames of these folders."""
+    found = []
+    for given in paths:
+        with contextlib.suppress(OSError, ValueError):  # ValueError: a NUL byte names no file
+            path = Path(os.path.realpath(given))
+            if path.exists():
+                found.append((str(given), path))
+    _inputs.set((*_inputs.get(), *found))
+
+
+def _refuse_inputs(path: str | Path, target: Path) -> None:
+    """Refuse an output that is an input, holds one, or would be read as a frame of one."""
+    for given, source in _inputs.get():
+        # By identity: links and other spellings of a name count.
+        if target.exists() and source.exists() and target.samefile(source):
+            raise OutputError(
+                f"cannot write {path}: it is the input {given}, which is never replaced; give "
+                "another name"
+            )
+        if target in source.parents:
+            raise OutputError(
+                f"cannot write {path}: it holds the input {given}, which is never replaced; "
+                "give another name"
+            )
+        if target.parent == source and target.suffix.lower() in READ_FROM_FOLDERS:
+            raise OutputError(
+                f"cannot write {path}: it would lie among the files of the input {given}; "
+                "give another folder"
+            )
 
 
 def check_output(path: str | Path, *, overwrite: bool) -> Path:
@@ -56,7 +118,7 @@ def check_output(path: str | Path, *, overwrite: bool) -> Path:
             folder is missing or not writable.
     """
     target = _resolved(path)
-    refuse_inputs(path, target)
+    _refuse_inputs(path, target)
     folder = target.parent
     if target.exists() and not target.is_file():
         what = "a folder" if target.is_dir() else "not a regular file"
@@ -98,7 +160,7 @@ def check_outputs(paths: Sequence[str | Path], *, overwrite: bool) -> None:
 def atomic_file(path: str | Path, *, overwrite: bool) -> Iterator[Path]:
     """A path to write to, which becomes `path` if the `with` block ends without an exception.
 
-    The path given lies in the same folder and has the same extension.
+    The path given is in the same folder and has the same extension.
 
     Args:
         path: the file to be written.
@@ -131,16 +193,16 @@ def check_output_folder(
     Args:
         path: the folder to be written.
         overwrite: whether a folder of the same kind may be replaced.
-        is_own: tells from its path whether a file is of this kind; a folder with any other file
-            is never replaced.
-        is_nested: whether such files may lie in folders inside it.
+        is_own: whether a file of this path is of this kind; a folder with any other file is never
+            replaced.
+        is_nested: whether folders inside it may hold such files.
 
     Raises:
         OutputError: it exists already, holds other files, or its parent folder is missing or not
             writable.
     """
     target = _resolved(path)
-    refuse_inputs(path, target)
+    _refuse_inputs(path, target)
     if target.is_dir():
         found = target.rglob("*") if is_nested else target.iterdir()
         entries = (one for one in found if not (is_nested and _is_real_folder(one)))
@@ -169,8 +231,8 @@ def atomic_folder(
 ) -> Iterator[Path]:
     """A folder to write into, which becomes `path` if the `with` block ends without an exception.
 
-    Between the old folder's going and the new one's coming lies an instant without either; if the
-    process is killed then, the next run beside it puts the old one back.
+    For an instant neither the old folder nor the new one is there; if the process is killed then,
+    the next run beside it puts the old one back.
 
     Raises:
         OutputError: see `check_output_folder`; or the disk became full inside the block.
@@ -219,44 +281,133 @@ def _resolved(path: str | Path) -> Path:
 
 
 def is_disk_full(error: BaseException) -> bool:
-    """True if `error` says that the disk, or the user's share of it, is full."""
+    """True if the disk, or the user's share of it, is full."""
     return isinstance(error, OSError) and error.errno in DISK_FULL
 
 
 @contextmanager
 def _refusals(path: str | Path, target: Path) -> Iterator[None]:
-    """Say in one line why the system refused to write."""
+    """Report in one line why the system refused to write."""
     try:
         yield
     except OSError as error:
         if is_disk_full(error):
-            raise OutputError(
-                f"cannot write {path}: the disk is full ({target.parent}); free some space or "
-                "choose another folder"
-            ) from error
-        if error.errno == errno.EFBIG:
-            raise OutputError(
-                f"cannot write {path}: it grew over the largest file allowed here (ulimit -f); "
-                "raise the limit or write less"
-            ) from error
-        if isinstance(error, PermissionError) and error.filename2 == str(target):
-            raise OutputError(
-                f"cannot write {path}: {error.strerror}; end what has the old one open, or "
-                "choose another name"
-            ) from error
-        if _is_part(error.filename, target.parent):
-            raise OutputError(
-                f"cannot write {path}: {error.strerror} ({error.filename}); choose another folder "
-                "or name"
-            ) from error
-        raise
+            reason = f"the disk is full ({target.parent}); free some space or choose another folder"
+        elif error.errno == errno.EFBIG:
+            reason = (
+                "it grew over the largest file allowed here (ulimit -f); raise the limit or write "
+                "less"
+            )
+        elif isinstance(error, PermissionError) and error.filename2 == str(target):
+            reason = f"{error.strerror}; end what has the old one open, or choose another name"
+        elif PREFIX in str(error.filename) and target.parent in Path(error.filename).parents:
+            reason = f"{error.strerror} ({error.filename}); choose another folder or name"
+        else:
+            raise
+        raise OutputError(f"cannot write {path}: {reason}") from error
 
 
-def _is_part(name: Any, folder: Path) -> bool:
-    """True if a system error is about a hidden file of an output."""
-    return (
-        isinstance(name, str | Path) and is_hidden_part(Path(name)) and folder in Path(name).parents
-    )
+@contextmanager
+def hidden_file(folder: Path, suffix: str) -> Iterator[Path]:
+    """An empty hidden file in `folder`; it is removed at the end of the block if it is still there.
+
+    Args:
+        folder: where it is made.
+        suffix: end of its name, with the dot.
+
+    Raises:
+        OSError: the folder refuses it.
+    """
+    sweep(folder)
+    part = _new_part(folder, f".part{suffix}")
+    try:
+        os.close(os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666))
+        yield part
+    finally:
+        with contextlib.suppress(PermissionError):  # still open, on Windows
+            part.unlink(missing_ok=True)
+        _own.discard(part)
+
+
+@contextmanager
+def hidden_folder(folder: Path, suffix: str = ".part") -> Iterator[Path]:
+    """An empty hidden folder in `folder`; the end of the block removes it if it is still there.
+
+    Raises:
+        OSError: the folder refuses it.
+    """
+    sweep(folder)
+    part = _new_part(folder, suffix)
+    try:
+        part.mkdir()
+        yield part
+    finally:
+        shutil.rmtree(part, ignore_errors=True)
+        _own.discard(part)
+
+
+def _new_part(folder: Path, suffix: str) -> Path:
+    part = folder / f"{PREFIX}{HOST}-{os.getpid()}-{secrets.token_hex(6)}{suffix}"
+    _own.add(part)  # before it exists: a signal may come at any moment
+    return part
+
+
+def is_hidden_part(path: Path) -> bool:
+    """True if a path has the name of a part: `.texvent-….part.h5`, `.texvent-….old`."""
+    return path.name.startswith(PREFIX) and (".part" in path.name or path.suffix == ".old")
+
+
+def remove_own_parts() -> None:
+    """Remove parts that a signal left at the very moment when they came or went.
+
+    For a process that is about to end: the file it was writing is dropped.
+    """
+    for part in list(_own):
+        if f"-{os.getpid()}-" in part.name:  # a forked process knows those of its parent
+            with contextlib.suppress(OSError):
+                _remove(part)
+        _own.discard(part)
+
+
+def sweep(folder: Path) -> None:
+    """Remove parts of dead processes from a folder, once per process and folder.
+
+    An output folder that was being replaced when its process died gets its name back.
+    """
+    if not CAN_SWEEP or str(folder) in _swept:
+        return
+    _swept.add(str(folder))
+    with contextlib.suppress(OSError):
+        for part in filter(is_hidden_part, folder.iterdir()):
+            with contextlib.suppress(OSError):
+                if not part.is_symlink() and _is_dead(part):
+                    _remove(part)
+
+
+def _is_dead(part: Path) -> bool:
+    """True if the process that a part is named after lives no longer."""
+    named = re.match(rf"{re.escape(PREFIX)}(\w*)-(\d+)-", part.name)
+    if named is None or named[1] != HOST:
+        return time.time() - part.stat().st_mtime > DEAD_SECONDS
+    try:
+        os.kill(int(named[2]), 0)
+    except ProcessLookupError:
+        return True
+    except (PermissionError, OverflowError):
+        return False
+    return False
+
+
+def _remove(part: Path) -> None:
+    if not part.is_dir():
+        part.unlink()
+        return
+    if part.suffix == ".old":
+        for replaced in part.iterdir():
+            # A replaced folder gets its name back where nothing has taken it.
+            if not (part.parent / replaced.name).exists():
+                replaced.rename(part.parent / replaced.name)
+    shutil.rmtree(part)
 
 
 def _flush_to_disk(path: Path) -> None:

@@ -1,33 +1,34 @@
-"""A codec whose files are read and written block by block: what nearly every format is.
+"""Base classes of formats that are read, and mostly written, block by block.
 
-A format states its limits and brings two parts. `inspect` reads the beginning of a file; what it
-returns gives the events block by block. `start` opens a file and takes them.
+`inspect` reads the beginning of a file and returns a reader of its events; `start` opens a file
+and returns a writer.
 """
 
 from __future__ import annotations
 
 import itertools
 from abc import ABC, abstractmethod
+from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from texvent.errors import FileFormatError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.io.block_writer import BlockWriter, FileTarget, WriteBlock
+from texvent.io.block_writer import BlockWriter, FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import (
     existing_file,
     existing_folder,
     stored_or_given_size,
     stream_from_file,
 )
-from texvent.io.limits import FormatLimits
 from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
 
@@ -37,7 +38,7 @@ BLOCK_BYTES = 2**21
 
 @dataclass(frozen=True)
 class TimeSeek:
-    """How a file finds a time without reading all before it."""
+    """Search for a time without reading all before it."""
 
     time_range: Callable[[], tuple[int, int] | None]
     """Half-open range of the event times, µs; None without events."""
@@ -47,44 +48,60 @@ class TimeSeek:
 
 @dataclass(frozen=True)
 class FileContents:
-    """What a file states, and its events."""
+    """Facts stated by a file, and a reader of its events."""
 
     size: tuple[int, int] | None
     """Width and height, pixels; None where the file does not state them."""
     metadata: Mapping[str, Any]
     blocks: Callable[[], Iterator[Columns]]
-    """Gives columns x, y, t, p, and label if known, block by block, anew at each call."""
+    """Gives columns x, y, t, p, and label if known, block by block, from the start at each call."""
     seek: TimeSeek | None = None
     """For files that can find a time."""
 
 
-class BlockCodec(ABC):
-    """Reads and writes one format; see `EventCodec`."""
+class BlockReader(ABC):
+    """Reads one format; see `EventReader`."""
 
     name: ClassVar[str]
     extensions: ClassVar[tuple[str, ...]] = ()
-    limits: ClassVar[FormatLimits]
-    has_sidecar: ClassVar[bool] = False
-    """Whether size and metadata are written beside the file."""
     has_checksums: ClassVar[bool] = False
     """Whether events that were changed by damage are noticed; `texvent validate` says where not."""
-    writer: ClassVar[type[BlockWriter]] = BlockWriter
+    is_folder: ClassVar[bool] = False
+    """Whether a recording is a folder of files."""
 
     def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
-        """Events of a file, block by block; the file is opened anew for each pass.
+        """Events of a file, block by block; each pass opens the file again.
 
         Raises:
             InputError: no such file, or it stores no sensor size and none is given.
             FileFormatError: the file is damaged or of another format.
             MissingDependencyError: reading it needs a package that is not installed.
         """
-        path = self.find(path)
+        path = existing_folder(path) if self.is_folder else existing_file(path)
         contents = self.inspect(path)
         final_size = stored_or_given_size(path, contents.size, size)
         packets = BlockPackets(path, contents, final_size)
         if contents.seek is not None:
             packets = SeekableBlockPackets(path, contents, final_size, contents.seek)
         return EventPackets(packets, final_size, contents.metadata)
+
+    @abstractmethod
+    def inspect(self, path: Path) -> FileContents:
+        """Facts that an existing file states, and a function that reads its events.
+
+        Raises:
+            InputError: it does not say enough to be read.
+            FileFormatError: the file is damaged or of another format.
+        """
+
+
+class BlockCodec(BlockReader):
+    """Reads and writes one format; see `EventCodec`."""
+
+    limits: ClassVar[FormatLimits]
+    has_sidecar: ClassVar[bool] = False
+    """Whether size and metadata are written beside the file."""
+    writer: ClassVar[type[BlockWriter]] = BlockWriter
 
     def open_writer(
         self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
@@ -110,62 +127,16 @@ class BlockCodec(ABC):
                 writer.append(packet)
 
     @abstractmethod
-    def inspect(self, path: Path) -> FileContents:
-        """What an existing file states, and how to read its events.
-
-        Raises:
-            InputError: it does not say enough to be read.
-            FileFormatError: the file is damaged or of another format.
-        """
-
-    @abstractmethod
     def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Open the file `part`; see `block_writer.StartFile`."""
 
-    def find(self, path: Path) -> Path:
-        """The path of a readable file.
-
-        Raises:
-            InputError: there is none.
-        """
-        return existing_file(path)
-
-    def check_target(self, target: FileTarget) -> None:  # noqa: B027  # most refuse no more
+    def check_target(self, target: FileTarget) -> None:  # most refuse no more
         """Refuse, before a file is made, what `limits` do not say.
 
         Raises:
             InputError: the format cannot hold this sensor.
             MissingDependencyError: writing needs a package that is not installed.
         """
-
-
-class FolderCodec(BlockCodec):
-    """A format that is a folder of files."""
-
-    def find(self, path: Path) -> Path:
-        """The path of a readable folder.
-
-        Raises:
-            InputError: there is none.
-        """
-        return existing_folder(path)
-
-    def open_writer(
-        self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
-    ) -> BlockWriter:
-        """Start a folder; see `EventCodec.open_writer`."""
-        target = FileTarget(path, size, metadata, overwrite)
-        return self.writer(
-            target,
-            partial(self.start, target),
-            limits=self.limits,
-            copy=self.copy,
-            is_own=self.is_own,
-        )
-
-    @abstractmethod
-    def is_own(self, path: Path) -> bool:
-        """True if a file has a name that this format gives; other files are never replaced."""
 
 
 @dataclass(frozen=True)
@@ -241,3 +212,86 @@ def read_records(path: Path, start: int, record_bytes: int) -> Iterator[bytes]:
                     f"{path} ends inside a record of {record_bytes} bytes; the file was cut off"
                 )
             yield block
+
+
+@dataclass(frozen=True)
+class TimedRows:
+    """The events of an open file."""
+
+    count: int
+    """Number of events."""
+    time_of: Callable[[int], int]
+    """Time of an event by its number, µs."""
+    read: Callable[[int, int], Columns]
+    """Columns of the events from one number to another, which is excluded."""
+    block: int
+    """Events of a packet, a multiple of `unit`."""
+    unit: int = 1
+    """Events that the file keeps in one piece: reading begins at a multiple."""
+
+    def find(self, t_us: int) -> int:
+        """Number of units that begin before a time; the rest of the file is not read."""
+        units = range(-(-self.count // self.unit))
+        return bisect_left(units, t_us, key=lambda unit: self.time_of(unit * self.unit))
+
+
+OpenRows: TypeAlias = Callable[[], AbstractContextManager[TimedRows]]
+
+
+def read_rows(open_rows: OpenRows) -> Iterator[Columns]:
+    """All events, block by block."""
+    with open_rows() as rows:
+        for start in range(0, rows.count, rows.block):
+            yield rows.read(start, min(start + rows.block, rows.count))
+
+
+def seek_rows(path: Path, open_rows: OpenRows) -> TimeSeek:
+    """`TimeSeek` of such a file; every time that is read on the way must be in order."""
+    return TimeSeek(partial(_time_range, path, open_rows), partial(_read_between, path, open_rows))
+
+
+def _time_range(path: Path, open_rows: OpenRows) -> tuple[int, int] | None:
+    with open_rows() as rows:
+        if not rows.count:
+            return None
+        first, last = rows.time_of(0), rows.time_of(rows.count - 1)
+    _check_order(path, [first, last])
+    return first, last + 1
+
+
+def _check_order(path: Path, times: ArrayLike) -> None:
+    """Refuse times that decrease: bisection would lose events.
+
+    Raises:
+        FileFormatError: they do.
+    """
+    t = np.asarray(times, np.int64)
+    later = np.flatnonzero(t[1:] < t[:-1])
+    if len(later):
+        before, after = t[later[0] : later[0] + 2].tolist()
+        raise FileFormatError(f"{path}: time decreases from {before} to {after} µs")
+
+
+def _read_between(
+    path: Path, open_rows: OpenRows, start_us: int, stop_us: int
+) -> Iterator[Columns]:
+    with open_rows() as opened:
+        seen: dict[int, int] = {}
+
+        def time_of(index: int) -> int:
+            seen[index] = opened.time_of(index)
+            return seen[index]
+
+        rows = replace(opened, time_of=time_of)
+        # The unit before the first that begins at the time or later may end after it.
+        first = max(rows.find(start_us) - 1, 0) * rows.unit
+        end = min(rows.find(stop_us) * rows.unit, rows.count)
+        _check_order(path, [seen[index] for index in sorted(seen)])
+        last: list[int] = []
+        for start in range(first, end, rows.block):
+            columns = rows.read(start, min(start + rows.block, end))
+            _check_order(path, [*last, *columns["t"][:1]])
+            _check_order(path, columns["t"])
+            last = columns["t"][-1:].tolist()
+            a, b = np.searchsorted(columns["t"], (start_us, stop_us), side="left")
+            yield {name: column[a:b] for name, column in columns.items()}

@@ -6,7 +6,6 @@ A format opens a file, adds columns to it, and knows how it begins and ends.
 from __future__ import annotations
 
 import os
-import shutil
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
@@ -16,11 +15,81 @@ from typing import Any, Self, TypeAlias
 
 from texvent.errors import InputError, OutputError, warn
 from texvent.events import EventStream
-from texvent.io.atomic import atomic_file, atomic_folder, check_output, check_output_folder
-from texvent.io.limits import LABELLED, FormatLimits
+from texvent.io.atomic import atomic_file, check_output
 from texvent.io.metadata import metadata_to_json, sidecar_path, sidecar_text
 from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
+
+UNLIMITED = "hdf5 (.h5), npz (.npz) and ecd (.txt)"
+"""Formats that hold every sensor size and time."""
+LONGEST = "npz (.npz) or ecd (.txt)"
+"""Formats that hold any span of time."""
+LABELLED = "hdf5 (.h5), npz (.npz) and dsec"
+"""Formats that keep labels."""
+
+
+@dataclass(frozen=True)
+class FormatLimits:
+    """The largest sensor and time of a format."""
+
+    name: str
+    """As messages say it: `EVT3`."""
+    max_side: int
+    """Largest width and height, pixels."""
+    stop_us: int
+    """Exclusive upper limit of event times, µs."""
+    max_span_us: int | None = None
+    """Longest time from the origin of the file's times to the last event, µs, where limited."""
+    start_us: int = 0
+    """Lower limit of event times, µs."""
+    keeps_labels: bool = False
+    """Whether it has a place for the signal/noise label, the instance and the class of events; else
+    they are left out, with a warning."""
+
+    def check_size(self, path: Path, size: SensorSize) -> None:
+        """Refuse a sensor that is too large.
+
+        Raises:
+            InputError: a side is longer than `max_side`.
+        """
+        if max(size) > self.max_side:
+            raise InputError(
+                f"cannot write {path}: {self.name} holds sensors up to "
+                f"{self.max_side}x{self.max_side}, not {size}; {UNLIMITED} hold it"
+            )
+
+    def origin_us(self, first_us: int) -> int:
+        """Origin of the file's times, µs, for the span: the time of its first event."""
+        return first_us
+
+    def check_packet(self, path: Path, packet: EventStream, first_us: int) -> None:
+        """Refuse times that do not fit.
+
+        Args:
+            path: the file, for the message.
+            packet: at least one event.
+            first_us: time of the first event of the file, µs.
+
+        Raises:
+            InputError: see above.
+        """
+        start_us, last_us = int(packet.t[0]), int(packet.t[-1])
+        if start_us < self.start_us:
+            raise InputError(f"an event has time {start_us} µs; event files start at 0 or later")
+        if last_us >= self.stop_us:
+            raise InputError(
+                f"cannot write {path}: an event has time {last_us} µs; {self.name} holds times "
+                f"below {self.stop_us} µs ({self.stop_us / 3.6e9:.3g} h). {UNLIMITED} hold it; or "
+                "check the time unit, or start the recording near 0 (texvent convert --from-zero)"
+            )
+        span_us = last_us - self.origin_us(first_us)
+        if self.max_span_us is not None and span_us > self.max_span_us:
+            raise InputError(
+                f"cannot write {path}: events span {span_us / 3.6e9:.3g} h; {self.name} holds up "
+                f"to {self.max_span_us / 3.6e9:.3g} h. Split the recording, check its time unit, "
+                f"or write {LONGEST}"
+            )
+
 
 BLOCK_EVENTS = 2**18
 """Events given to a format at once, except the last."""
@@ -52,13 +121,11 @@ class BlockWriter:
     """Checks packets, gathers them into blocks and hands these to the format; memory stays flat.
 
     Args:
-        target: what to write.
+        target: the file to write.
         start: opens the file when the `with` block is entered.
-        limits: what the format holds.
+        limits: of the format.
         copy: copies a complete file of the format, with other metadata; see `add_metadata`.
         has_sidecar: whether size and metadata are written beside the file.
-        is_own: for formats that are folders: tells from its path whether a file is of the format,
-            so that the folder may be replaced. None: the format is one file.
 
     Raises:
         OutputError: the file exists already, its folder refuses it, or the disk is full.
@@ -75,12 +142,8 @@ class BlockWriter:
         limits: FormatLimits,
         copy: CopyFile,
         has_sidecar: bool = False,
-        is_own: Callable[[Path], bool] | None = None,
     ) -> None:
-        if is_own is None:
-            check_output(target.path, overwrite=target.overwrite)
-        else:
-            check_output_folder(target.path, overwrite=target.overwrite, is_own=is_own)
+        check_output(target.path, overwrite=target.overwrite)
         if has_sidecar:
             check_output(sidecar_path(target.path), overwrite=target.overwrite)
         limits.check_size(target.path, target.size)
@@ -91,7 +154,6 @@ class BlockWriter:
         self._copy = copy
         self._added: dict[str, Any] = {}
         self._has_sidecar = has_sidecar
-        self._is_own = is_own
         self._stack = ExitStack()
         self._part = self._beside = target.path
         self._write: WriteBlock | None = None
@@ -110,7 +172,7 @@ class BlockWriter:
                     atomic_file(sidecar_path(target.path), overwrite=target.overwrite)
                 )
                 self._write_sidecar(target.metadata)
-            self._part = stack.enter_context(self._place())
+            self._part = stack.enter_context(atomic_file(target.path, overwrite=target.overwrite))
             stack.push(self._store_added)
             # Entered last: the file is closed before it gets its name.
             self._write = stack.enter_context(self._start(self._part))
@@ -166,18 +228,10 @@ class BlockWriter:
         part = self._part
         copy = part.with_stem(f"{part.stem}-copy")
         self._copy(part, FileTarget(copy, self._target.size, metadata, overwrite=True))
-        if part.is_dir():
-            shutil.rmtree(part)
         os.replace(copy, part)
 
     def _write_sidecar(self, metadata: Mapping[str, Any]) -> None:
         self._beside.write_text(sidecar_text(self._target.size, metadata), encoding="utf-8")
-
-    def _place(self) -> AbstractContextManager[Path]:
-        path, overwrite = self._target.path, self._target.overwrite
-        if self._is_own is None:
-            return atomic_file(path, overwrite=overwrite)
-        return atomic_folder(path, overwrite=overwrite, is_own=self._is_own)
 
     @property
     def keeps_labels(self) -> bool:

@@ -10,8 +10,8 @@ from texvent._registry import CODECS
 from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.io.protocol import EventCodec, EventWriter, RecognisingCodec
-from texvent.io.wrong_kind import refuse_other_kind
+from texvent.io.input_checks import refuse_other_kind
+from texvent.io.protocol import EventCodec, EventReader, EventWriter, RecognisingCodec
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import SensorSize, SizeLike, as_size
@@ -21,23 +21,34 @@ def codec_for(path: str | Path, format: str | None = None) -> EventCodec:
     """The codec that writes `path`: the one called `format`, or the first of its extension.
 
     Raises:
-        ConfigError: unknown format, unknown extension, or an extension of other formats than the
-            one given, by which the file could not be read.
+        ConfigError: unknown format, unknown extension, a format that is only read, or an extension
+            of other formats than the one given, by which the file could not be read.
         InputError: it is no path.
     """
-    path, codec = usable_path(path), _codecs_for(path, format)[0]
+    path = usable_path(path)
+    candidates = _codecs_for(path, format)
+    codec = next((one for one in candidates if isinstance(one, EventCodec)), None)
+    if codec is None:
+        raise ConfigError(
+            f"cannot write {path}: {candidates[0].name} files are only read; write hdf5 (.h5), "
+            "npz (.npz), evt3 (.raw), aedat4 (.aedat4) or ecd (.txt)"
+        )
     extension = path.suffix.lower()
     own = _extensions_of(type(codec))
     if extension in event_extensions() and extension not in own:
-        what = f"name it {path.with_suffix(own[0]).name}" if own else "name a folder"
         raise ConfigError(
             f"{path} is named as another format: {extension} files are not read as {codec.name}; "
-            f"{what}, or give another --format"
+            f"name it {path.with_suffix(own[0]).name}, or give another --format"
         )
     return codec
 
 
-def codec_that_reads(path: str | Path, format: str | None = None) -> EventCodec:
+def writable_formats() -> list[str]:
+    """Names of the formats that are written, in the order of the registry."""
+    return [name for name in CODECS.names() if hasattr(CODECS.load(name), "open_writer")]
+
+
+def codec_that_reads(path: str | Path, format: str | None = None) -> EventReader:
     """The codec that reads `path`: called `format`, or of its extension.
 
     Where formats share an extension, the content decides: the first codec that recognises the
@@ -79,9 +90,9 @@ def has_checksums(path: str | Path, format: str | None = None) -> bool:
     return bool(getattr(codec_that_reads(path, format), "has_checksums", False))
 
 
-def find_folder_codec(path: Path) -> EventCodec | None:
+def find_folder_codec(path: Path) -> EventReader | None:
     """The codec of formats made of several files that recognises those in a folder, or None."""
-    codecs: list[EventCodec] = [codec() for codec in CODECS.load_all()]
+    codecs: list[EventReader] = [codec() for codec in CODECS.load_all()]
     for codec in codecs:
         if not codec.extensions and isinstance(codec, RecognisingCodec) and codec.recognises(path):
             return codec
@@ -109,12 +120,12 @@ def event_extensions() -> set[str]:
     return {extension for name in CODECS.names() for extension in CODECS.load(name).extensions}
 
 
-def _codecs_for(path: str | Path, format: str | None) -> list[EventCodec]:
+def _codecs_for(path: str | Path, format: str | None) -> list[EventReader]:
     """The codec called `format` alone, or all that share the path's extension, at least one."""
     if format is not None:
         return [CODECS.load(format)()]
     extension = Path(path).suffix.lower()
-    codecs: list[EventCodec] = [codec() for codec in CODECS.load_all()]
+    codecs: list[EventReader] = [codec() for codec in CODECS.load_all()]
     found = [codec for codec in codecs if extension in codec.extensions]
     if found:
         return found

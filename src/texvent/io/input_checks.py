@@ -1,9 +1,11 @@
-"""What all codecs check when a file comes in: that it is there, sound, and holds valid events."""
+"""Checks of input files: that they exist, are event files, sound, and hold valid events."""
 
 from __future__ import annotations
 
 import os
+import re
 import struct
+import sys
 import zipfile
 import zlib
 from collections.abc import Iterator, Mapping
@@ -16,9 +18,58 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, one_line, shown
 from texvent.events import COLUMN_TYPES, ID_COLUMNS, OPTIONAL_COLUMNS, EventStream
-from texvent.io.wrong_kind import refuse_missing
-from texvent.runtime.file_names import usable_path
+from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS, usable_path
 from texvent.sensor import SensorSize, checked_size
+
+_KINDS = {
+    "a video; texvent simulate makes its events": VIDEO_EXTENSIONS,
+    "an image; texvent simulate takes a folder of images": IMAGE_EXTENSIONS,
+    "a page, made of an event file; give that": (".html", ".htm"),
+    "a file of options, for --config": (".toml", ".yaml", ".yml"),
+}
+_KIND_OF = {extension: kind for kind, names in _KINDS.items() for extension in names}
+
+
+def refuse_other_kind(path: Path) -> None:
+    """Refuse a path that is to be read as events and is missing, or of another kind by its name.
+
+    Raises:
+        InputError: see above; the message names the command that takes it.
+    """
+    refuse_missing(path)
+    kind = _KIND_OF.get(path.suffix.lower())
+    if kind is not None:
+        raise InputError(f"{path} is no event file: it is {kind}")
+
+
+def refuse_missing(path: Path, what: str = "file") -> None:
+    """Refuse a path at which there is nothing.
+
+    Args:
+        path: a file, folder or camera.
+        what: expected kind of a path without a folder's or a camera's name.
+
+    Raises:
+        InputError: see above; a missing camera, or the first folder that is missing, is named.
+    """
+    if path.exists():
+        return
+    if re.fullmatch(r"/dev/video\d+", path.as_posix()):
+        if sys.platform != "linux":
+            camera = "dshow -i video=NAME" if sys.platform == "win32" else "avfoundation -i 0"
+            raise InputError(
+                f"{path} is a camera's name on Linux; on this system let ffmpeg read the camera: "
+                f"ffmpeg -f {camera} -f mjpeg - | texvent simulate - -o events.h5"
+            )
+        cameras = sorted(map(str, Path("/dev").glob("video*")))
+        there = f"there is {', '.join(cameras[:8])}" if cameras else "there is none on this machine"
+        raise InputError(f"no such camera: {path}; {there}")
+    missing = [folder for folder in path.parents if not folder.exists()]
+    if missing:
+        raise InputError(f"no such folder: {missing[-1]} (of {path}); check its name")
+    what = what if path.suffix else f"{what} or folder"
+    raise InputError(f"no such {what}: {path}; check the name and the folder")
+
 
 ZIP_DAMAGE = (
     OSError,
@@ -89,8 +140,8 @@ def reporting_damage(path: Path, kind: str, damage: tuple[type[Exception], ...])
 
     Args:
         path: the file.
-        kind: what it should be, such as "an HDF5 event file".
-        damage: what the library raises.
+        kind: expected kind, such as "an HDF5 event file".
+        damage: exceptions of the library.
 
     Raises:
         FileFormatError: one of `damage` was raised inside the block.
@@ -125,7 +176,7 @@ def check_time_unit(path: Path, stored: Any) -> None:
 
     Args:
         path: the file.
-        stored: what it states, ms per unit, of any type.
+        stored: stated value, ms per unit, of any type.
 
     Raises:
         FileFormatError: see above.

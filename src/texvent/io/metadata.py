@@ -1,6 +1,6 @@
 """Size and metadata of recordings as text: one line of JSON, or a file beside the recording.
 
-`events.es` has no place for them, so they lie in `events.es.json`.
+`events.es` has no place for them, so they are in `events.es.json`.
 """
 
 from __future__ import annotations
@@ -66,13 +66,13 @@ def header_metadata(metadata: Mapping[str, Any]) -> str:
 
 
 def sidecar_path(path: str | Path) -> Path:
-    """Where size and metadata of a file lie: `events.txt` → `events.txt.json`."""
+    """Path of the sidecar file: `events.txt` → `events.txt.json`."""
     path = Path(path)
     return path.with_name(path.name + ".json")
 
 
 def sidecar_text(size: SensorSize, metadata: Mapping[str, Any]) -> str:
-    """What is written beside a file.
+    """Text of a sidecar file.
 
     Raises:
         InputError: the metadata is not JSON-serialisable.
@@ -86,7 +86,7 @@ def sidecar_text(size: SensorSize, metadata: Mapping[str, Any]) -> str:
 
 
 def read_sidecar(path: Path) -> tuple[tuple[int, int] | None, dict[str, Any]]:
-    """Width and height, pixels, and metadata; None and nothing if no such file lies beside.
+    """Width and height, pixels, and metadata; (None, {}) if there is no sidecar file.
 
     Raises:
         InputError: it must not be read.

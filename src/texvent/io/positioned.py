@@ -1,4 +1,4 @@
-"""Read and write a descriptor at an offset, also on Windows, which has no `pread` and `pwrite`."""
+"""Read a descriptor at an offset, also on Windows, which has no `pread`."""
 
 from __future__ import annotations
 
@@ -22,16 +22,3 @@ def read_at(descriptor: int, size: int, offset: int) -> bytes:
     with _moving:
         os.lseek(descriptor, offset, os.SEEK_SET)
         return os.read(descriptor, size)
-
-
-def write_at(descriptor: int, content: memoryview, offset: int) -> int:
-    """Write bytes from `offset` on; returns how many were written, which may be fewer.
-
-    Raises:
-        OSError: the system refuses it, such as a full disk.
-    """
-    if hasattr(os, "pwrite"):
-        return os.pwrite(descriptor, content, offset)
-    with _moving:
-        os.lseek(descriptor, offset, os.SEEK_SET)
-        return os.write(descriptor, content)

@@ -1,4 +1,4 @@
-"""What every event-file codec offers."""
+"""Interfaces of event-file formats."""
 
 from __future__ import annotations
 
@@ -38,8 +38,8 @@ class EventWriter(Protocol):
     ) -> None: ...
 
 
-class EventCodec(Protocol):
-    """Reads and writes one event-file format. Units, order and polarity are converted here only."""
+class EventReader(Protocol):
+    """Reads one event-file format. Units, order and polarity are converted here only."""
 
     name: ClassVar[str]
     extensions: ClassVar[tuple[str, ...]]
@@ -58,6 +58,11 @@ class EventCodec(Protocol):
         """
         ...
 
+
+@runtime_checkable
+class EventCodec(EventReader, Protocol):
+    """Reads and writes one event-file format."""
+
     def open_writer(
         self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
     ) -> EventWriter:
@@ -72,7 +77,7 @@ class EventCodec(Protocol):
 
 @runtime_checkable
 class RecognisingCodec(Protocol):
-    """A codec that can tell its own files from others that end in the same extension."""
+    """A format that recognises its own files among others of the same extension."""
 
     def recognises(self, path: Path) -> bool:
         """True if the beginning of the file is of this format; False too if it cannot be read."""

@@ -1,1 +1,1 @@
-"""How close one event stream is to another: `compare`, and one file per family of metrics."""
+"""Metrics of event streams: `compare`, and one file per family."""

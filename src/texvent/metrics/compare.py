@@ -1,15 +1,73 @@
-"""Compare two event streams by several metrics at once."""
+"""Comparison of two event streams by several metrics at once."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+import html
+import math
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from typing import Any
 
 from texvent._registry import METRICS
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.metrics.protocol import Metric, check_pair, find_missing
-from texvent.metrics.scores import Scores
 from texvent.runtime.progress import NO_PROGRESS, Progress
+
+GOOD = {"lower": "low", "higher": "high", "one": "near 1"}
+"""`Metric.better` in words."""
+TITLES = ("metric", "value", "good", "does not see")
+
+
+class Scores(dict[str, float]):
+    """Name → value, NaN where a metric is undefined; a dict in every other way."""
+
+    def __init__(self, values: Mapping[str, float], metrics: Sequence[Metric]) -> None:
+        """Keep the values.
+
+        Args:
+            values: one for each metric.
+            metrics: the metrics, which know their units and what is good.
+        """
+        super().__init__(values)
+        # Not the metrics: some hold networks, which would stay in memory and be pickled.
+        self._facts = {
+            metric.name: (
+                getattr(metric, "unit", ""),
+                GOOD.get(getattr(metric, "better", ""), ""),
+                getattr(metric, "blind_to", ""),
+            )
+            for metric in metrics
+        }
+
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> dict[str, str]:
+        """Notebook display: a table with units and the direction of good values."""
+        nothing = ("", "", "")
+        rows = [
+            _cells(name, value, *self._facts.get(name, nothing)) for name, value in self.items()
+        ]
+        head = f"<thead>{_row('th', TITLES)}</thead>"
+        body = "".join(_row("td", row) for row in rows)
+        table = f'<table style="font-size:13px">{head}<tbody>{body}</tbody></table>'
+        return {"text/plain": repr(self), "text/html": table}
+
+
+def _cells(
+    name: str, value: float, unit: str, good: str, blind_to: str
+) -> tuple[str, str, str, str]:
+    return name, f"{score_text(value)} {unit}".strip(), good, blind_to
+
+
+def _row(tag: str, cells: Sequence[str]) -> str:
+    style = "text-align:left; vertical-align:top; padding:2px 8px 2px 0"
+    row = "".join(f'<{tag} style="{style}">{html.escape(cell)}</{tag}>' for cell in cells)
+    return f"<tr>{row}</tr>"
+
+
+def score_text(value: float) -> str:
+    """A value with four digits after the point, or "undefined"."""
+    return "undefined" if math.isnan(value) else f"{value:.4f}"
 
 
 def compare(
@@ -28,7 +86,7 @@ def compare(
         metrics: a name from the registry, a metric with parameters of its own, or several of them;
             default: see `default_metrics`.
         span_us: compare only events with `start <= t < stop`, µs; default: all.
-        progress: told of each metric.
+        progress: receives each metric.
 
     Returns:
         Name → value, NaN where a metric is undefined for these streams: a dict that notebooks
@@ -80,3 +138,21 @@ def describe_metrics() -> Mapping[str, Metric]:
 def default_metrics() -> list[Metric]:
     """Every registered metric with its defaults, without those whose weights are missing."""
     return [metric for metric in describe_metrics().values() if find_missing(metric) is None]
+
+
+def plain_values(value: Any, *, digits: int | None = None) -> Any:
+    """Values as JSON holds them: None for what is NaN or infinite.
+
+    Args:
+        value: numbers, texts, and mappings and sequences of them.
+        digits: significant digits that numbers keep; None keeps all.
+    """
+    if isinstance(value, Mapping):
+        return {key: plain_values(item, digits=digits) for key, item in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [plain_values(item, digits=digits) for item in value]
+    if not isinstance(value, float):
+        return value
+    if not math.isfinite(value):
+        return None
+    return float(value) if digits is None else float(f"{value:.{digits}g}")

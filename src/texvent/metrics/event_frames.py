@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TypeAlias
 
@@ -14,10 +15,9 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.events import EventStream
-from texvent.metrics.lpips.distance import lpips_distance
-from texvent.metrics.lpips.weights import find_lpips_weights, read_lpips_weights
+from texvent.metrics.image_measures import structural_similarity
+from texvent.metrics.lpips import Lpips, find_lpips_weights, lpips_distance, read_lpips_weights
 from texvent.metrics.protocol import UNDEFINED, Metric
-from texvent.metrics.structural_similarity import structural_similarity
 from texvent.metrics.windows import count_windows, occupied_windows
 from texvent.represent.event_frame import event_frame
 
@@ -110,13 +110,15 @@ class EventFrameLpips(EventFrameMetric):
             self._weights_file()
         except InputError as error:
             return str(error)
+        if find_spec("torch") is None:
+            return "torch is not installed; install it with: pip install 'texvent[torch]'"
         return None
 
     def _score(self, predicted: EventStream, reference: EventStream) -> float:
-        weights = read_lpips_weights(self._weights_file())
+        network = Lpips(read_lpips_weights(self._weights_file()))
 
         def distance(a: Float64Array, b: Float64Array) -> float:
-            return lpips_distance(a, b, weights)
+            return lpips_distance(a, b, network)
 
         return self._mean(predicted, reference, distance, empty=0.0)
 

@@ -1,4 +1,4 @@
-"""How two grey images, 0..1, are compared: MSE, PSNR, SSIM, LPIPS."""
+"""Comparison of grey images, 0..1: MSE, PSNR, SSIM, LPIPS."""
 
 from __future__ import annotations
 
@@ -10,19 +10,67 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import InputError
-from texvent.metrics.lpips.distance import lpips_distance
-from texvent.metrics.lpips.weights import find_lpips_weights, read_lpips_weights
+from texvent.errors import InputError, MissingDependencyError
+from texvent.metrics.lpips import Lpips, find_lpips_weights, lpips_distance, read_lpips_weights
 from texvent.metrics.protocol import Better
-from texvent.metrics.structural_similarity import structural_similarity
+
+SIGMA_PX = 1.5
+RADIUS_PX = 5
+"""3.5 σ, rounded: an 11×11 window."""
+LUMINANCE, CONTRAST = 0.01, 0.03
+"""K1 and K2 of the paper."""
 
 Float64Array: TypeAlias = NDArray[np.float64]
 Compare: TypeAlias = Callable[[Float64Array, Float64Array], float]
 
 
+def structural_similarity(a: Float64Array, b: Float64Array, *, data_range: float = 1.0) -> float:
+    """Mean SSIM over all pixels whose 11×11 window is inside the image.
+
+    The same as scikit-image's with `gaussian_weights=True, use_sample_covariance=False`.
+
+    Args:
+        a: [H, W].
+        b: [H, W].
+        data_range: difference between the largest and the smallest value a pixel can have.
+
+    Returns:
+        −1..1, or NaN if a side is shorter than 11 px.
+
+    Source: Z. Wang et al., "Image quality assessment: from error visibility to structural
+        similarity", IEEE Transactions on Image Processing 13 (2004), Eq. 13.
+    """
+    if min(a.shape) < 2 * RADIUS_PX + 1:
+        return float("nan")
+    mean_a, mean_b, square_a, square_b, product = _smooth(np.stack([a, b, a * a, b * b, a * b]))
+    variance = square_a - mean_a**2 + square_b - mean_b**2
+    covariance = product - mean_a * mean_b
+    c1, c2 = (LUMINANCE * data_range) ** 2, (CONTRAST * data_range) ** 2
+    ssim = (2 * mean_a * mean_b + c1) * (2 * covariance + c2)
+    ssim /= (mean_a**2 + mean_b**2 + c1) * (variance + c2)
+    return float(ssim.mean())
+
+
+def _smooth(images: Float64Array) -> Float64Array:
+    """Gaussian-weighted mean around every pixel that is far enough from the border."""
+    weights = gaussian_window()
+    for axis in (-1, -2):
+        # The windows become the last axis; the product with the weights removes it again.
+        windows = np.lib.stride_tricks.sliding_window_view(images, len(weights), axis=axis)
+        images = windows @ weights
+    return images
+
+
+def gaussian_window() -> Float64Array:
+    """Weights along one axis, [11], with sum 1."""
+    offset = np.arange(-RADIUS_PX, RADIUS_PX + 1)
+    weights = np.exp(-(offset**2) / (2 * SIGMA_PX**2))
+    return np.asarray(weights / weights.sum())
+
+
 @dataclass(frozen=True)
 class ImageMeasure:
-    """How two images, 0..1, are compared."""
+    """Comparison of two images, 0..1."""
 
     name: str
     better: Better
@@ -31,7 +79,7 @@ class ImageMeasure:
 
 @dataclass(frozen=True, kw_only=True)
 class Measures:
-    """What is measured here, and what cannot be."""
+    """Available measures, and reasons for missing ones."""
 
     chosen: tuple[ImageMeasure, ...]
     absent: Mapping[str, str] = field(default_factory=dict)
@@ -50,10 +98,10 @@ def load_measures() -> Measures:
         ImageMeasure("ssim", "higher", structural_similarity),
     )
     try:
-        weights = read_lpips_weights(find_lpips_weights())
-    except InputError as error:
+        network = Lpips(read_lpips_weights(find_lpips_weights()))
+    except (InputError, MissingDependencyError) as error:
         return Measures(chosen=plain, absent={"lpips": str(error)})
-    lpips = ImageMeasure("lpips", "lower", lambda a, b: lpips_distance(a, b, weights))
+    lpips = ImageMeasure("lpips", "lower", lambda a, b: lpips_distance(a, b, network))
     return Measures(chosen=(*plain, lpips))
 
 

@@ -1,4 +1,4 @@
-"""What every metric offers, and the check that all of them start with."""
+"""Interface of metrics, and the check of a pair of streams."""
 
 from __future__ import annotations
 
@@ -10,10 +10,10 @@ from texvent.errors import InputError
 from texvent.events import EventStream
 
 Better: TypeAlias = Literal["lower", "higher", "one"]
-"""Which values are good: low ones, high ones, or those close to 1."""
+"""Direction of good values: low, high, or close to 1."""
 
 Needs: TypeAlias = Literal["same scene", "any scene"]
-"""What the reference must be: a recording of the same scene, or any recording at all."""
+"""Required reference: a recording of the same scene, or any recording."""
 
 UNDEFINED = float("nan")
 """Value of a metric that the two streams do not define."""
@@ -54,7 +54,7 @@ class Metric(ABC):
         return self._score(predicted, reference)
 
     def missing(self) -> str | None:
-        """What this metric needs and has not got, such as network weights; None if nothing.
+        """Missing requirement of this metric, such as network weights; None if nothing is missing.
 
         Such a metric is left out of `compare` unless it is named.
         """
@@ -66,7 +66,7 @@ class Metric(ABC):
 
 
 def find_missing(metric: Metric) -> str | None:
-    """What `metric.missing` says; None for a metric of a plug-in that has no such method."""
+    """`metric.missing()`; None for a metric of a plug-in that has no such method."""
     missing = getattr(metric, "missing", None)
     reason: str | None = missing() if missing is not None else None
     return reason

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.transform.filters.hot_pixels import mask_hot_pixels
+from texvent.transform.filters.noise_filters import mask_hot_pixels
 
 MAX_DUPLICATES = 1e-3
 """Share of events that repeat another one exactly, above which a recording is suspicious."""
@@ -32,7 +32,7 @@ ONE_SIDED = 0.02
 
 @dataclass(frozen=True)
 class Soundness:
-    """What the check found."""
+    """Findings of the check."""
 
     events: int
     duplicates: int
@@ -47,7 +47,7 @@ class Soundness:
     """Share of ON events; NaN without events."""
 
     def complaints(self) -> list[str]:
-        """What is suspicious, one sentence each; empty if nothing is."""
+        """Suspicious findings, one sentence each; empty if there are none."""
         found = []
         if self.duplicates > MAX_DUPLICATES * self.events:
             found.append(f"{self.duplicates:,} events repeat another one exactly")
@@ -109,7 +109,7 @@ class SoundnessCheck:
         self._held = whole[cut:]
 
     def report(self) -> Soundness:
-        """What was found in the packets so far."""
+        """Findings in the packets so far."""
         held, self._held = self._held, None
         if held is not None:
             self._count_groups(held)

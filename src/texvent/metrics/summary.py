@@ -12,7 +12,7 @@ from texvent.metrics.protocol import Better
 
 
 class Summary(NamedTuple):
-    """What a table says about one metric."""
+    """Summary of one metric over several pairs."""
 
     mean: float
     """Mean of the defined values; NaN if there is none."""

@@ -30,7 +30,7 @@ class RunOptions(TypedDict, total=False):
     preset: str | None
     sensor: SensorName | None
     seed: int | None
-    backend: Literal["auto", "cpu", "reference", "gpu"] | None
+    backend: Literal["cpu", "gpu"] | None
     events: Literal["all", "signal", "noise"] | None
     label_noise: bool | None
     target_rate: float | None
@@ -45,19 +45,12 @@ class InterpolateOptions(TypedDict, total=False):
     count: Literal["brightness", "fixed"] | None
     fixed_count: int | None
     max_intermediate: int | None
-    count_percentile: float | None
-    count_threshold: float | None
-    count_balance: float | None
     frames_per_pixel: float | None
     max_frames_per_second: float | None
     deflicker: bool | None
     detect_cuts: bool | None
     interpolator_weights: str | Path | None
     interpolator_device: Literal["auto", "cpu", "cuda"] | None
-    interpolator_precision: Literal["float32", "float16", "bfloat16"] | None
-    interpolator_compile: bool | None
-    interpolator_tile: int | None
-    rife_flow: Literal["shared", "each"] | None
 
 
 class SimulatorOptions(TypedDict, total=False):
@@ -96,14 +89,8 @@ class SimulatorOptions(TypedDict, total=False):
     arbiter_row_ns: int | None
     arbiter_event_ns: int | None
     scan_period_ns: int | None
-    readout_latency_us: int | None
-    readout_jitter_us: int | None
-    clock_step_us: int | None
     rate_limit_hz: float | None
     rate_limit_window_us: int | None
-    readout_filters: Sequence[str] | None
-    bias_camera: str | None
-    bias: str | None
     contrast_threshold_on: float | None
     contrast_threshold_off: float | None
     threshold_redraw: Literal["frame", "never"] | None
@@ -112,8 +99,6 @@ class SimulatorOptions(TypedDict, total=False):
     shot_noise_rate_hz: float | None
     photoreceptor_noise: bool | None
     well_capacity: float | None
-    hot_fraction: float | None
-    hot_rate_hz: float | None
     shot_noise: bool | None
     dark_electrons: float | None
     exposure_us: int | None
@@ -128,7 +113,6 @@ class SimulatorOptions(TypedDict, total=False):
     k4: float | None
     k5: float | None
     k6: float | None
-    start_voltage: Literal["random", "zero"] | None
 
 
 class CaptureOptions(TypedDict, total=False):

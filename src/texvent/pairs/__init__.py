@@ -1,1 +1,1 @@
-"""A pair of source frames and what lies between them: motion, scene changes, instants."""
+"""Pairs of source frames: motion, scene changes and instants between them."""

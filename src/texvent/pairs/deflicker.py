@@ -42,7 +42,7 @@ TOLERANCE = 0.002
 def steady_frames(frames: Iterator[Frame]) -> Iterator[Frame]:
     """The frames with fast changes of their global gain divided out.
 
-    The gain starts anew at a cut or a flash.
+    The gain restarts at a cut or a flash.
 
     Args:
         frames: source frames in time order.
@@ -72,28 +72,19 @@ def global_gain(first: Frame, second: Frame) -> float:
         second: the later frame, same size.
 
     Returns:
-        The median of ln(I₂ / I₁) over cells, or 0 if motion alone may explain it.
-    """
-    gain, error = measure_gain(first, second)
-    return gain if abs(gain) >= SIGNIFICANT * error else 0.0
-
-
-def measure_gain(first: Frame, second: Frame) -> tuple[float, float]:
-    """As `global_gain`, but whatever motion may explain, and the standard error of it.
-
-    Returns:
-        (the median of ln(I₂ / I₁) over cells, its error); (0, 0) where too few cells can be used.
+        The median of ln(I₂ / I₁) over cells; 0 if motion alone may explain it, or too few cells can
+        be used.
     """
     earlier, later = _cells(first), _cells(second)
     dark, bright = (DARK_LIGHT, math.inf) if first.transfer is Transfer.LINEAR else (DARK, BRIGHT)
     used = (earlier > dark) & (earlier < bright) & (later > dark) & (later < bright)
     if used.mean() < LEAST_USED:
-        return 0.0, 0.0
+        return 0.0
     ratio = np.log(later[used] / earlier[used])
     gain = float(np.median(ratio))
     samples = max(1.0, ratio.size / CELLS_MOVING_TOGETHER)
     error = MEDIAN_ERROR * float(np.median(np.abs(ratio - gain))) / math.sqrt(samples)
-    return gain, error
+    return gain if abs(gain) >= SIGNIFICANT * error else 0.0
 
 
 def _cells(frame: Frame) -> Float64Array:

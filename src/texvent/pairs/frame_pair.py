@@ -1,4 +1,4 @@
-"""A pair of source frames and what lies between: interpolation makes it, simulators read it."""
+"""Pair of source frames with its intermediate frames: interpolators make it, simulators use it."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class FramePair:
     second: Frame
     """The later source frame."""
     change: SceneChange
-    """Whether a cut or a flash lies between the two."""
+    """Cut or flash between the two, if any."""
     times_us: Sequence[int]
     """Times of the intermediate frames, µs; none at a scene change."""
     between: Iterable[Frame]
@@ -52,7 +52,7 @@ class FramePair:
 
     @property
     def motion(self) -> MotionInterpolation:
-        """What moves between the two frames; without intermediate frames if there are none."""
+        """Motion between the two frames; without intermediate frames if there are none."""
         if isinstance(self.between, MotionInterpolation):
             return self.between
         return MotionInterpolation.between(self.earlier, self.second, (), None)

@@ -1,4 +1,4 @@
-"""When intermediate frames are, and where they stand between their two source frames."""
+"""Times of intermediate frames, and luma in which two frames are compared."""
 
 from __future__ import annotations
 

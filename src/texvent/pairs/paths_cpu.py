@@ -1,4 +1,17 @@
-"""Paths through pixels where two surfaces meet, compiled by Numba: `paths_reference`."""
+"""Paths through pixels where two surfaces meet, and how far flows are trusted; compiled.
+
+At an instant, a pixel shows what is there then, not what is there in either frame. Where both flows
+at a pixel agree, both say what passes. Where they do not, and the other frame confirms at least one
+of them, one surface is there in the earlier frame and another in the later one; and a small fast
+thing may pass that is there in neither (the sweep). Of all these motions the path takes the one
+that the flows at its own two ends confirm best.
+
+How far two flows may disagree before they are no longer trusted:
+The error of a flow is the distance between the path it claims (from the earlier to the later
+frame) and the path that the flow of the other direction claims for the same point. Squared, e, and
+with a squared tolerance T, the flow is trusted by T² / (T² + e²): 1 for no error, 1/2 at the
+tolerance, falling to 0 with the fourth power of the error.
+"""
 
 from __future__ import annotations
 
@@ -7,18 +20,41 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.pairs.warp_tolerance import (
-    CLEARLY_BETTER,
-    CONTESTED_PX2,
-    CONTESTED_RELATIVE,
-    LEAST_SWEEP_PX2,
-    MOST_PX2,
-    MOST_SWEEP_PX2,
-    SWEPT,
-    VISIBLE_PX2,
-    VISIBLE_RELATIVE,
-)
 from texvent.runtime.jit import jit
+
+VISIBLE_RELATIVE = 0.01
+VISIBLE_PX2 = 0.1
+"""A point counts as seen in a frame if its squared error is below
+`VISIBLE_RELATIVE · |path|² + VISIBLE_PX2`, px²: a third of a pixel plus a tenth of the path. This
+is the usual occlusion test (Sundaram, Brox and Keutzer 2010), made gradual."""
+
+UNSEEN_WEIGHT = 0.2
+"""Weight of a frame at a point that it seems not to show, as far as the other frame is not trusted
+either."""
+
+LOST_RELATIVE = 0.5
+LOST_PX2 = 2.0
+"""The motion counts as lost if, in both frames, the squared error is above
+`LOST_RELATIVE · |path|² + LOST_PX2`, px²: an error of 0.7 of the path says nothing about motion.
+There the two frames are blended where they are."""
+
+CONTESTED_RELATIVE, CONTESTED_PX2 = 0.1, 16.0
+"""Where the two flows at a pixel differ by more than this share of the longer one, squared, plus
+this, px², two surfaces meet there, and the path is chosen among theirs."""
+
+CLEARLY_BETTER = 0.3
+"""By how much more the flows must confirm another path (0..2) to take it instead of the mean."""
+
+SWEPT = 1.5
+"""How well the flows must confirm a surface that passes in front, 0..2."""
+
+LEAST_SWEEP_PX2, MOST_SWEEP_PX2 = 9.0, 2304.0
+"""A surface that moves less, squared, covers each pixel of its path in one of the frames. One that
+moves more is not followed along its path, which would take too long."""
+
+MOST_PX2 = 1e9
+"""Squares of longer paths and larger errors count as this, so that float32 can hold the products
+of the weights."""
 
 Floats = NDArray[np.float32]
 Numbers = NDArray[np.int32]
@@ -35,7 +71,7 @@ _0, _HALF, _1 = np.float32(0.0), np.float32(0.5), np.float32(1.0)
 
 @jit(error_model="numpy")
 def find_sweep(forward: Floats, backward: Floats) -> Floats:
-    """Motion of what passes each pixel between the frames but lies there in neither.
+    """Motion of surfaces that pass a pixel between the frames but are there in neither.
 
     Args:
         forward: [H, W, 2] px.
@@ -117,7 +153,7 @@ def _apart2(flow: Floats, x: int, y: int, other: Vector) -> np.float32:
 
 @jit(error_model="numpy")
 def mark_contested(forward: Floats, backward: Floats, sweep: Floats) -> NDArray[np.uint8]:
-    """Where a path has to be chosen, [H · W]; empty where nowhere."""
+    """Pixels whose path has to be chosen, [H · W]; empty if there are none."""
     height, width, _ = forward.shape
     marks, number = np.zeros(height * width, np.uint8), 0
     for y in range(height):
@@ -189,7 +225,7 @@ def choose_path(
 def _confirmed(
     forward: Floats, backward: Floats, pixel: Vector, path: Vector, position: np.float32
 ) -> np.float32:
-    """How well the flows at both ends of a path agree with it, 0..2."""
+    """Agreement of the flows at both ends of a path with it, 0..2."""
     length2 = min(path[0] * path[0] + path[1] * path[1], _MOST)
     visible = _VISIBLE_RELATIVE * length2 + _VISIBLE_PX2
     visible = visible * visible

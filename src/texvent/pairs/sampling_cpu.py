@@ -1,7 +1,16 @@
-"""`sampling_reference.sample_along`, compiled by Numba: same steps, same order, equal results.
+"""Samples of an image between its pixels, compiled.
+
+Along an axis, between pixels p1 and p2 with p0 and p3 beside them, a sample is the mean of the
+parabolas through p0, p1, p2 and through p1, p2, p3: `p1 + u (p2 − p1) − u (1 − u) s`, with the bend
+`s = (p0 − p1 − p2 + p3) / 4`. In two dimensions the bends of both axes, each mixed linearly along
+the other one, are taken off the bilinear sample; the result is limited to the range of the four
+pixels around the place.
+
+Source: the piecewise parabolic interpolator of Erup, Gardner and Harris (IEEE Transactions on
+    Communications 41, 1993) with α = 1/4. The sum of both axes and the limit are ours.
 
 Gathering pixels is what costs time: it takes no vector instructions. So what belongs to a place
-lies in words of two float32, and four of them hold the pixels around it and their bends.
+is held in words of two float32, and four of them hold the pixels around it and their bends.
 """
 
 from __future__ import annotations
@@ -30,7 +39,7 @@ class PixelWords(NamedTuple):
     """[(H + 1) · W] each pixel with its right neighbour; the last row is repeated once."""
     bends: Words
     """[H · W · 2] the bend along x of each pixel and of the one below; the bend along y of each
-    pixel and of its right neighbour. See `sampling_reference.find_bends`."""
+    pixel and of its right neighbour."""
 
 
 class Samples(NamedTuple):
@@ -53,7 +62,7 @@ class Samples(NamedTuple):
 
 
 class Corners(NamedTuple):
-    """Scratch memory: what lies around the places; [n]."""
+    """Scratch memory: pixels around the places; [n]."""
 
     upper: Words
     """Intensity of the corner and its right neighbour."""

@@ -57,7 +57,7 @@ FLASH_SHARE = 0.75
 
 
 class SceneChange(Enum):
-    """What happened between two frames."""
+    """Change between two frames."""
 
     NONE = "none"
     """Motion, a fade, noise: nothing that interpolation should not bridge."""
@@ -69,7 +69,7 @@ class SceneChange(Enum):
 
 
 def detect_scene_change(first: Frame, second: Frame) -> SceneChange:
-    """Whether the change between two frames is a cut or a flash, which no motion explains.
+    """Cut or flash between two frames, which no motion explains.
 
     Args:
         first: the earlier frame, at least 16×16 px to be judged.
@@ -110,7 +110,7 @@ class _Thumbnail:
 
 @dataclass(frozen=True)
 class _Change:
-    """How much two thumbnails differ, cell by cell."""
+    """Difference of two thumbnails, cell by cell."""
 
     mean_levels: float
     mean_log: float
@@ -146,13 +146,13 @@ class _Change:
 
     @property
     def is_large(self) -> bool:
-        """Whether it is worth looking at the structure."""
+        """Whether the structure is worth comparing."""
         return self.is_cut or self.is_flash or self.mean_levels >= FLASH_CHANGE_LEVELS
 
 
 @dataclass(frozen=True)
 class _Match:
-    """How well the blocks of one thumbnail are found in another."""
+    """Match of the blocks of one thumbnail in another."""
 
     residual: float
     """Squared difference to the best matches, as a share of the blocks' variance."""

@@ -1,4 +1,4 @@
-"""Whether one image is another one shifted: distinguishes a whip pan from a scene cut."""
+"""Correlation of two images at every shift: distinguishes a whip pan from a scene cut."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ LEAST_VARIANCE = 1e-4
 
 
 def shift_agreement(first: Float64Array, second: Float64Array) -> float:
-    """How well the detail of two images agrees at the best shift.
+    """Agreement of the detail of two images at the best shift.
 
     Args:
         first: log brightness, [H, W]; a thumbnail, because all shifts are tried.

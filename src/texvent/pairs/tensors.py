@@ -1,4 +1,4 @@
-"""Images that lie in torch tensors, on any device."""
+"""Images in torch tensors, on any device."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""`warp_reference.warp_between`, compiled by Numba: same steps, same order, equal results.
+"""Motion-compensated mixing of two frames, compiled; `tests/pairs/reference.py` defines it.
 
 Some rows at a time, in three stages: find the places (vector instructions), sample both frames
 there (`sampling_cpu`), mix the samples (vector instructions). The number of threads does not change
@@ -13,7 +13,18 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.pairs.paths_cpu import choose_path, find_sweep, list_contested, mark_contested
+from texvent.pairs.paths_cpu import (
+    LOST_PX2,
+    LOST_RELATIVE,
+    MOST_PX2,
+    UNSEEN_WEIGHT,
+    VISIBLE_PX2,
+    VISIBLE_RELATIVE,
+    choose_path,
+    find_sweep,
+    list_contested,
+    mark_contested,
+)
 from texvent.pairs.sampling_cpu import (
     Corners,
     Floats,
@@ -25,14 +36,6 @@ from texvent.pairs.sampling_cpu import (
     make_corners,
     make_samples,
     sample,
-)
-from texvent.pairs.warp_tolerance import (
-    LOST_PX2,
-    LOST_RELATIVE,
-    MOST_PX2,
-    UNSEEN_WEIGHT,
-    VISIBLE_PX2,
-    VISIBLE_RELATIVE,
 )
 from texvent.runtime.jit import jit
 from texvent.runtime.read_only import read_only
@@ -93,7 +96,7 @@ class Points(NamedTuple):
     later: Floats
     """Intensity in the later frame."""
     contested: Numbers
-    """How many of the points are contested, then their numbers; [n + 1]."""
+    """Number of contested points, then their indices; [n + 1]."""
 
 
 class Room(NamedTuple):
@@ -118,7 +121,7 @@ def warp_between(
         position: τ, 0 = first, 1 = second.
 
     Returns:
-        [H, W] float32, intensity; defined by `warp_reference.warp_between`.
+        [H, W] float32, intensity.
     """
     pair = prepare_pair(first, second, forward, backward)
     image: Floats = warp_pair(pair, np.array([position]))[0]
@@ -126,7 +129,7 @@ def warp_between(
 
 
 def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Floats) -> WarpPair:
-    """What all intermediate frames of a pair share; see `warp_between`."""
+    """Prepare what all intermediate frames of a pair share; see `warp_between`."""
     # Read-only throughout, because Numba compiles for each kind of array again.
     frames = [read_only(first), read_only(second)]
     prepared = *list_words(frames[0]), *list_words(frames[1])

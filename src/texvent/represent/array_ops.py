@@ -1,4 +1,4 @@
-"""What a representation computes with: integer columns, and sums at an index.
+"""Operations of representations: integer columns, and sums at an index.
 
 NumPy and torch agree on arithmetic, comparison and reshaping; they differ in how values are added
 up at an index. `ArrayOps` holds these differences, so every representation has one definition that
@@ -44,7 +44,7 @@ class ArrayOps:
         return array.copy()
 
     def count_at(self, index: Array, cells: int) -> Array:
-        """How often each of `0..cells − 1` occurs in `index`, [cells] int64."""
+        """Number of occurrences of each of `0..cells − 1` in `index`, [cells] int64."""
         return np.bincount(index, minlength=cells)
 
     def add_at(self, index: Array, values: Array, cells: int) -> Array:

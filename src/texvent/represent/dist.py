@@ -14,12 +14,12 @@ from collections.abc import Callable
 import numpy as np
 
 from texvent.represent.array_ops import Array, ArrayOps, Events, columns_of, flat_index
-from texvent.represent.timestamp_image import NEVER, latest_events
+from texvent.represent.time_surface import NEVER, latest_events
 
 DISCOUNT = 3
 """α of the paper."""
 REACH = 2
-"""Neighbours lie within so many pixels: 5×5."""
+"""Reach of the neighbourhood, pixels: 5×5."""
 UNCLIPPED_SHARE = (99, 100)
 """Counts are clipped at the number that this share of all pixels stays below."""
 
@@ -99,7 +99,7 @@ def _clipped(counts: Array, ops: ArrayOps) -> Array:
 def _over_neighbours(
     values: Array, outside: int, combine: Callable[[Array, Array], Array], ops: ArrayOps
 ) -> Array:
-    """Each pixel's neighbours combined, [H, W]; `outside` stands around the sensor."""
+    """Each pixel's neighbours combined, [H, W]; `outside` is the value around the sensor."""
     height, width = values.shape
     padded = ops.from_numpy(np.full((height + 2 * REACH, width + 2 * REACH), outside))
     padded[REACH:-REACH, REACH:-REACH] = values

@@ -7,14 +7,19 @@ from collections.abc import Callable, Mapping
 from types import MappingProxyType
 from typing import Any, get_type_hints
 
+import numpy as np
+from numpy.typing import NDArray
+
 from texvent._registry import REPRESENTATIONS, suggest
-from texvent.errors import ConfigError, shown
+from texvent._require import require
+from texvent.errors import ConfigError, InputError, shown
+from texvent.events import COLUMN_TYPES, EventStream
 from texvent.options.values import convert
 from texvent.represent.array_ops import Array, Events
 from texvent.represent.tensors import put_events
 
 WINDOW_OPTIONS: Mapping[str, int] = {"start_us": 0, "stop_us": 1, "at_us": 1}
-"""Options of representations that say where the window lies: 0 = its start, 1 = its end."""
+"""Options of representations for the position in the window: 0 = its start, 1 = its end."""
 
 
 def represent(name: str, events: Events, *, device: str | None = None, **options: Any) -> Array:
@@ -104,3 +109,39 @@ def checked_options(
 def option_names_of(function: Callable[..., Array]) -> tuple[str, ...]:
     """Names of a representation's options, in order."""
     return tuple(inspect.signature(function).parameters)[1:]
+
+
+TONIC_TYPE = np.dtype([("x", "<i2"), ("y", "<i2"), ("t", "<i8"), ("p", "i1")])
+"""Signed polarity type: with uint8 or bool, tonic's ToVoxelGrid fails or counts OFF as ON."""
+MAX_TONIC_SIDE = 2**15
+"""tonic's coordinates are int16."""
+
+
+def to_structured(events: EventStream) -> NDArray[Any]:
+    """One record per event; see `EventStream.to_structured`."""
+    columns = events.columns()
+    return _records(events, np.dtype([(name, COLUMN_TYPES[name]) for name in columns]))
+
+
+def to_tonic(events: EventStream) -> NDArray[Any]:
+    """The array that tonic's transforms take; see `EventStream.to_tonic`."""
+    if max(events.size) > MAX_TONIC_SIDE:
+        raise InputError(
+            f"tonic stores coordinates below {MAX_TONIC_SIDE:,}; the sensor is {events.size}. "
+            "Use to_structured()"
+        )
+    return _records(events, TONIC_TYPE)
+
+
+def to_dataframe(events: EventStream) -> Any:
+    """A pandas DataFrame with one row per event; see `EventStream.to_dataframe`."""
+    pandas = require("pandas", extra="pandas")
+    return pandas.DataFrame({name: column.copy() for name, column in events.columns().items()})
+
+
+def _records(events: EventStream, dtype: np.dtype[Any]) -> NDArray[Any]:
+    columns = events.columns()
+    records = np.empty(len(events), dtype)
+    for name in dtype.names or ():
+        records[name] = columns[name]
+    return records

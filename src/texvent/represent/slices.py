@@ -1,11 +1,18 @@
-"""Cut a stream into slices of fixed time or of a fixed number of events."""
+"""Slices of recordings by time or count, in memory and packet by packet."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import itertools
+from collections.abc import Iterable, Iterator
+from fractions import Fraction
+from typing import Any
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError
+from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.represent.array_ops import Array
+from texvent.represent.named import load_representation, represent, represent_window
+from texvent.sensor import SensorSize
 
 
 def slices(
@@ -23,7 +30,7 @@ def slices(
         events: the recording.
         duration_us: length of a slice, µs; slices are half-open, and may be empty.
         count: events per slice. Give either this or `duration_us`.
-        overlap: what a slice shares with the one before, in µs or in events; less than a slice.
+        overlap: length shared with the slice before, in µs or in events; less than a slice.
         start_us: start of the first slice of fixed time, µs; default: the first event.
         keep_partial: also give a last slice that ends after the last event, or has fewer than
             `count` events.
@@ -88,3 +95,162 @@ def _by_time(
         if is_partial:
             return
         start += stride
+
+
+END_OF_TIME_US = 2**62
+
+
+def slice_between(
+    packets: Iterable[EventStream], times_us: Iterable[int], *, size: SensorSize
+) -> Iterator[tuple[int, EventStream]]:
+    """Each instant but the first, with the events since the one before it, `[before, instant)`.
+
+    Memory holds the events of one slice and one packet.
+
+    Args:
+        packets: events in time order.
+        times_us: instants, µs, strictly increasing.
+        size: sensor size, pixels.
+
+    Yields:
+        (instant, its events), also for instants after the last event.
+
+    Raises:
+        InputError: the instants do not increase.
+
+    Example:
+        >>> one = EventStream([0, 0, 0], [0, 0, 0], [5, 12, 31], [1, 1, 1], SensorSize(1, 1))
+        >>> slices = slice_between([one], [10, 20, 30], size=SensorSize(1, 1))
+        >>> [(t_us, events.t.tolist()) for t_us, events in slices]
+        [(20, [12]), (30, [])]
+    """
+    source = iter(packets)
+    held = EventStream.empty(size)
+    before: int | None = None
+    for t_us in times_us:
+        if before is None:
+            before = t_us
+            continue
+        if t_us <= before:
+            raise InputError(f"instants must increase; {t_us} µs comes after {before} µs")
+        parts = [held]
+        while not len(parts[-1]) or int(parts[-1].t[-1]) < t_us:
+            packet = next(source, None)
+            if packet is None:
+                break
+            if len(packet) and int(packet.t[-1]) >= before:
+                parts.append(packet)
+        held = EventStream.concat(parts)
+        yield t_us, held.cut(before, t_us)
+        held = held.cut(t_us, END_OF_TIME_US)
+        before = t_us
+
+
+def slice_regularly(
+    packets: Iterable[EventStream], *, step_us: Fraction, size: SensorSize
+) -> Iterator[tuple[int, EventStream]]:
+    """Slices of equal length from the first event to the last: (end in µs, events).
+
+    Ends are rounded to whole µs, never accumulated. No slice where there are no events.
+
+    Args:
+        packets: events in time order.
+        step_us: length of a slice, µs; may be a fraction.
+        size: sensor size, pixels.
+
+    Raises:
+        ConfigError: the length is below 1 µs.
+    """
+    if step_us < 1:
+        raise ConfigError(f"a slice of {float(step_us):g} µs is too short; it must be at least 1")
+    source = _Source(packets)
+    first = next(source, None)
+    if first is None:
+        return
+    start_us = int(first.t[0])
+    ends_us = (start_us + round(number * step_us) for number in itertools.count())
+    for end_us, events in slice_between(itertools.chain([first], source), ends_us, size=size):
+        yield end_us, events
+        if source.is_at_end and source.last_us < end_us:
+            return
+
+
+def slice_by_count(
+    packets: Iterable[EventStream], *, count: int, size: SensorSize
+) -> Iterator[tuple[int, EventStream]]:
+    """Slices of `count` events: (end in µs, events); the last may have fewer.
+
+    A slice ends at its last event, or 1 µs after the slice before it if that is later.
+
+    Args:
+        packets: events in time order.
+        count: events per slice.
+        size: sensor size, pixels.
+
+    Raises:
+        ConfigError: the count is below 1.
+    """
+    if count < 1:
+        raise ConfigError(f"a slice of {count} events is empty; it must have at least 1")
+    end_us = -END_OF_TIME_US
+    for part in _counted(packets, count, size):
+        end_us = max(int(part.t[-1]), end_us + 1)
+        yield end_us, part
+
+
+def represent_slices(
+    name: str,
+    events: EventPackets,
+    *,
+    duration_us: int | None = None,
+    count: int | None = None,
+    device: str | None = None,
+    **options: Any,
+) -> Iterator[Array]:
+    """A dense array for every slice of a recording; see `EventPackets.represent`."""
+    if (duration_us is None) == (count is None):
+        raise ConfigError(
+            "give either duration_us or count, the length of a slice; for one array of the whole "
+            "recording, collect() the packets first"
+        )
+    load_representation(name, options)  # refused here, not when the first array is asked for
+    if count is not None:
+        slices = slice_by_count(events, count=count, size=events.size)
+        return (represent(name, part, device=device, **options) for _, part in slices)
+    length = int(duration_us or 0)
+    timed = slice_regularly(events, step_us=Fraction(length), size=events.size)
+    return (
+        represent_window(name, part, (end - length, end), device=device, **options)
+        for end, part in timed
+    )
+
+
+def _counted(packets: Iterable[EventStream], count: int, size: SensorSize) -> Iterator[EventStream]:
+    held = EventStream.empty(size)
+    for packet in packets:
+        held = EventStream.concat([held, packet])
+        while len(held) >= count:
+            part, held = held[:count], held[count:]
+            yield part
+    if len(held):
+        yield held
+
+
+class _Source:
+    """Packets that hold events, and how far they have been read."""
+
+    def __init__(self, packets: Iterable[EventStream]) -> None:
+        self._packets = iter(packets)
+        self.last_us = 0
+        self.is_at_end = False
+
+    def __iter__(self) -> _Source:
+        return self
+
+    def __next__(self) -> EventStream:
+        for packet in self._packets:
+            if len(packet):
+                self.last_us = int(packet.t[-1])
+                return packet
+        self.is_at_end = True
+        raise StopIteration

@@ -37,7 +37,7 @@ class EventTensors:
     """Events in tensors of one device; every representation takes them in place of an EventStream.
 
     Raises:
-        InputError: lengths differ, a type is not an integer, a coordinate lies outside the sensor,
+        InputError: lengths differ, a type is not an integer, a coordinate is outside the sensor,
             time decreases, or a polarity is not 0/1.
     """
 

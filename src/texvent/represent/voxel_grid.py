@@ -111,7 +111,7 @@ def voxel_dsec(
         events: the slice, usually 100 ms.
         bins: B, 1..4096; E-RAFT takes 15.
         normalise: bring the non-zero voxels to mean 0 and standard deviation 1.
-        rectify_map: where each pixel lies after rectification, (x, y) in pixels, [H, W, 2], as in
+        rectify_map: position of each pixel after rectification, (x, y) in pixels, [H, W, 2], as in
             DSEC's rectify_map.h5. Events are spread over the four pixels around that place, and
             what falls outside the sensor is lost. None: pixels stay where they are.
 
@@ -159,7 +159,7 @@ def voxel_tonic(events: Events, *, bins: int = 10) -> Array:
 
 
 class _Shares(NamedTuple):
-    """How each event is divided between the bin at or before it and the next."""
+    """Shares of each event in the bin at or before it and in the next."""
 
     first: Array
     """The bin at or before t*, [n] int64."""

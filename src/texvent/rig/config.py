@@ -9,7 +9,7 @@ from typing import Literal
 
 from texvent.config import FPS_RANGE, check_range
 from texvent.errors import ConfigError, shown
-from texvent.truth.parts import parse_parts
+from texvent.truth.layout import parse_parts
 
 MOST_BASELINE_M = 100.0
 IMU_RATE_HZ = (1.0, 1000.0)

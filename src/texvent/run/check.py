@@ -26,9 +26,8 @@ from texvent.run.settings import Settings, resolve
 from texvent.runtime.progress import Progress, ProgressOption, open_progress
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame, FrameStream
-from texvent.video_check.flicker import BALANCE, FlickerSpectrum
-from texvent.video_check.measurer import VideoMeasurer
-from texvent.video_check.report import VideoReport, judge_measures
+from texvent.video_check.checks import VideoReport, evaluate
+from texvent.video_check.measurements import VideoMeasurer
 
 WINDOWS, WINDOW_FRAMES = 8, 6
 """Windows that are simulated, spread over the clip, and frames of each."""
@@ -36,17 +35,17 @@ FIRST_GAP = 10
 """Frames between the first two windows of a clip of unknown length; every gap is twice the last."""
 FLOW_SIDE = 320
 """Longest side of the frames that optical flow is computed on, px."""
+BALANCE = 30.0
+"""Balance of the logarithm, as of the default pixel model."""
 CHANGE_LOG = 0.1
 """Pixels that change by this much between two frames may fire: their motion counts."""
 
 
 @dataclass(frozen=True)
-class WholeCheck:
-    """What a check of a video found."""
+class VideoCheckResult:
+    """Result of the check of a video."""
 
     report: VideoReport
-    spectrum: FlickerSpectrum | None
-    """None of a clip of fewer than 16 frames."""
     cut_times_us: tuple[int, ...]
     """Times of the first frames of new shots, µs."""
     size: SensorSize
@@ -55,7 +54,7 @@ class WholeCheck:
 
 def check_source(
     source: Any, *, progress: ProgressOption = None, **options: Unpack[SimulateOptions]
-) -> WholeCheck:
+) -> VideoCheckResult:
     """Look through a video once, and simulate short windows of it.
 
     Args:
@@ -86,7 +85,7 @@ def open_source(source: Any, settings: Settings) -> FrameStream:
     return open_frames(source, settings.source)
 
 
-def check_frames(video: FrameStream, settings: Settings, progress: Progress) -> WholeCheck:
+def check_frames(video: FrameStream, settings: Settings, progress: Progress) -> VideoCheckResult:
     """The same for frames that are open; they are read once, and may be live.
 
     Args:
@@ -116,10 +115,9 @@ def check_frames(video: FrameStream, settings: Settings, progress: Progress) -> 
         pass
     for window in later:
         windows.add(window)
-    measures = {**measurer.measures(), **windows.measures()}
-    return WholeCheck(
-        judge_measures(measures),
-        measurer.flicker_spectrum(),
+    measurements = {**measurer.measurements(), **windows.measurements()}
+    return VideoCheckResult(
+        evaluate(measurements),
         tuple(measurer.cut_times_us),
         windows.size,
     )
@@ -176,7 +174,7 @@ class _Windows:
         self._flow = self._flow or DisFlow()
         self._lengths.append(moved_px(earlier, later, self._flow) * np.float32(scale))
 
-    def measures(self) -> dict[str, float]:
+    def measurements(self) -> dict[str, float]:
         """By name.
 
         Returns:

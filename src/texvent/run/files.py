@@ -44,7 +44,7 @@ class RunFiles:
     overwrite: bool = False
     """Whether existing files may be replaced."""
     truth: tuple[str, ...] = ()
-    """Parts of ground truth to write; see `texvent.truth.parts`."""
+    """Parts of ground truth to write; see `texvent.truth.layout`."""
     keep_partial: bool = False
     """Whether a run that is stopped, or whose input ends in damage, keeps what it has made."""
 

@@ -38,7 +38,7 @@ def check_run(settings: Settings) -> None:
     describe_weights(settings)
     if settings.size is not None:
         check_memory(settings, settings.size)
-    if settings.run.backend != "auto":
+    if settings.run.backend == "gpu":
         build_simulator(settings.run, settings.simulate)
 
 

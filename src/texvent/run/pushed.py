@@ -24,8 +24,8 @@ from texvent.run.memory import check_memory
 from texvent.run.prepare import check_run, warn_of_unread_weights
 from texvent.run.settings import Settings
 from texvent.sensor import SensorSize
-from texvent.simulate.build import build_simulator, gains_from_frames
-from texvent.simulate.randomized_options import draw_training_config
+from texvent.simulate.build import benefits_from_denser_frames, build_simulator
+from texvent.simulate.model_options import draw_training_config
 from texvent.video import Frame
 
 USED_CAPTURE = ("white_level", "fit", "transfer")
@@ -80,7 +80,7 @@ class PushedSimulation:
             self._threads,
             balance=self._simulator.balance,
             contrast_threshold=self._simulator.contrast_threshold,
-            counts_motion=gains_from_frames(self._simulator),
+            counts_motion=benefits_from_denser_frames(self._simulator),
         )
 
     def push(self, frame: Frame) -> EventStream:

@@ -22,7 +22,7 @@ from texvent.options.values import plain, with_options
 from texvent.run.presets import find_preset
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import SENSORS, Sensor, SensorSize, find_sensor, parse_sensor
-from texvent.simulate.thresholds import with_contrast_threshold
+from texvent.simulate.model_options import with_contrast_threshold
 
 Command = Literal["generate", "simulate"]
 DEFAULT_SENSOR = "davis346"

@@ -14,8 +14,7 @@ from texvent.pipeline import Simulation
 from texvent.run.silence import SignalTally
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.progress import Progress
-from texvent.truth.layout import check_truth_folder
-from texvent.truth.parts import ALL, PARTS, parse_parts
+from texvent.truth.layout import ALL, PARTS, check_truth_folder, parse_parts
 
 if TYPE_CHECKING:
     from texvent.truth.writer import TruthWriter

@@ -73,7 +73,7 @@ _type_of: Any = types.unliteral
 
 
 def _template_of(kernel: Any, arguments: Any, keywords: Any) -> Any:
-    """How another kernel calls this one: compiled for types, not once for each constant passed."""
+    """Call from another kernel: compiled for types, not once for each constant passed."""
     arguments = tuple(_type_of(one) for one in arguments)
     keywords = {name: _type_of(one) for name, one in keywords.items()}
     return type(kernel).get_call_template(kernel, arguments, keywords)

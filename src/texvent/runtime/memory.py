@@ -1,4 +1,4 @@
-"""How much memory a run may use: the user's word, or a share of what the machine has."""
+"""Memory that a run may use: as the user says, or a share of the machine's."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ SHARE = 0.8
 UNITS = {"": 1, "k": 10**3, "m": 10**6, "g": 10**9, "t": 10**12}
 BINARY_UNITS = {"ki": 2**10, "mi": 2**20, "gi": 2**30, "ti": 2**40}
 UNKNOWN_BYTES = 8 * 2**30
-"""Taken for the machine's memory where the system does not tell it, as on Windows."""
+"""Taken for the machine's memory where the system does not report it, as on Windows."""
 _CONTROL_GROUPS = (
     Path("/sys/fs/cgroup/memory.max"),
     Path("/sys/fs/cgroup/memory/memory.limit_in_bytes"),
@@ -47,7 +47,7 @@ def allow_memory(text: str | None) -> None:
 
 
 def allowed_bytes() -> int:
-    """How much memory a run may use, bytes: what was asked for, or `SHARE` of what there is."""
+    """Memory that a run may use, bytes: as asked for, or `SHARE` of the machine's."""
     return _asked[0] if _asked else int(SHARE * _available())
 
 
@@ -62,7 +62,7 @@ def _available() -> int:
 
 
 def machine_bytes() -> int | None:
-    """How much memory the machine has, bytes; None where the system does not tell it."""
+    """Memory of the machine, bytes; None where the system does not report it."""
     try:
         return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (AttributeError, ValueError):  # Windows has no sysconf
@@ -81,7 +81,7 @@ def peak_bytes() -> int | None:
 
 
 def _process_limits() -> list[int]:
-    """What the process may map, bytes, where that is limited."""
+    """Memory that the process may map, bytes, where that is limited."""
     try:
         import resource
     except ImportError:

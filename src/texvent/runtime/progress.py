@@ -1,4 +1,4 @@
-"""How slow work reports its progress, and how callers choose what becomes of it."""
+"""Progress of slow work, and the options of callers for it."""
 
 from __future__ import annotations
 

@@ -25,7 +25,7 @@ _VARIABLES = (THREADS_VARIABLE, "NUMBA_NUM_THREADS")
 
 
 def count_threads() -> int:
-    """How many threads may work: $TEXVENT_NUM_THREADS, $NUMBA_NUM_THREADS, or one per core.
+    """Number of threads that may work: $TEXVENT_NUM_THREADS, $NUMBA_NUM_THREADS, or one per core.
 
     Raises:
         ConfigError: a variable is not a number of at least 1.

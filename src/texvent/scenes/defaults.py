@@ -246,9 +246,10 @@ def _usual_motion(description: SceneDescription, noun: Noun) -> str:
 
 
 def _list_ridden(description: SceneDescription) -> set[int]:
-    """Objects that have a rider, and those that collide: they are on the way."""
-    relations = description.relations
-    ridden = {n for one in relations if one.kind == "ride" for n in one.targets}
+    """Objects with a rider or a person on them, and those that collide: they are on the way."""
+    relations, objects = description.relations, description.objects
+    ridden = {n for one in relations for n in one.targets if one.kind == "ride"
+              or (one.kind == "on" and objects[one.subject].noun in PERSON_NOUNS)}  # fmt: skip
     return ridden | {one.subject for one in relations if one.kind == "collide"}
 
 

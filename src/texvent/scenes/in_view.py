@@ -1,25 +1,32 @@
-"""Visibility check: which objects of a staged scene are out of view or a few pixels large.
+"""Check of a staged scene: objects out of view or tiny, and words that its picture does not show.
 
 Rays through a coarse grid of image points find all large objects. For each other one every pixel
 of its box in the image is looked at, so that the pixels of small things are counted exactly.
+Effects, weather, flicker and spin must change the pixels of small pictures.
 """
 
 from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.description import AMID, SceneDescription
+from texvent.scenes.held import Unheld, bodies_of, find_unheld
+from texvent.scenes.models.places import PLACES
 from texvent.scenes.projection import project
 from texvent.scenes.raycast.records import OwnedWorld, World
-from texvent.scenes.raycast.render import world_and_shapes
+from texvent.scenes.raycast.render import render, world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
-from texvent.scenes.scene import Float64Array, Primitives, Scene
+from texvent.scenes.read.lexicon import lexicon_of
+from texvent.scenes.scene import Float64Array, Ground, Primitives, Scene
+from texvent.scenes.spec.data import PLACING
+from texvent.scenes.staging.compose import ComposedScene
 from texvent.sensor import SensorSize
 
 INSTANTS = 7
@@ -30,31 +37,39 @@ LEAST_PIXELS = 6
 """Pixels below which an object is too small to be told."""
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
+_SMALL = SensorSize(120, 90)
+"""Size of small pictures."""
+_LEAST_LEVELS, _LEAST_SHARE = 6.0, 0.002
+"""Difference of a pixel, of 255, that is seen; share of the pixels in which it must be."""
+_LEAST_CLIP_S = 1.0
+"""Length of a clip, s, in which motions get so far that they are judged."""
+_WATER = (Ground.SEA, Ground.LAKE, Ground.RIVER)
+_OUTDOORS = ("sunny", "overcast", "dusk", "dawn", "moonlight")
+_TURNS = ("spin", "work", "rotate")
 _CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
 """Of the box around a unit shape."""
 
 
 class Unseen(NamedTuple):
-    """What a clip does not show of the objects of its scene."""
+    """Words of a scene that a clip does not show."""
 
     out_of_view: tuple[str, ...]
     """Such as "tree", or "dog (2 of 3)"."""
     too_small: tuple[str, ...]
     """Such as "bird (2 pixels)"."""
+    unheld: tuple[Unheld, ...] = ()
+    """Relations, directions, weather, effects and light."""
 
 
 def find_unseen(
-    scene: Scene,
-    description: SceneDescription,
-    object_of: Mapping[int, int],
-    size: SensorSize,
-    duration_s: float,
+    scene: ComposedScene, description: SceneDescription, size: SensorSize, duration_s: float
 ) -> Unseen:
-    """What the camera never shows, or never larger than a few pixels.
+    """Words of a description that no instant shows.
 
     An object without a body of its own is part of another one's, as a worn coat is, unless it was
-    to stand around others. `object_of` gives the object's index of each instance.
+    to stand around others.
     """
+    object_of = scene.object_of
     pixels = count_pixels(scene, list(object_of), size, duration_s)
     around = {i for one in description.relations if one.kind in AMID for i in one.targets}
     outside: list[str] = []
@@ -68,9 +83,84 @@ def find_unseen(
             outside.append(thing.noun)
         elif most < LEAST_PIXELS:
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
-        elif lost and len(copies) <= MOST_COUNTED and index not in around:
+        elif lost and len(copies) <= max(2 * lost, 0 if index in around else MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(copies)})")
-    return Unseen(tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)))
+    times = np.linspace(0.0, duration_s, INSTANTS)
+    shots = [(scene.primitives(float(time_s)), scene.camera(float(time_s))) for time_s in times]
+    bodies = bodies_of(shots, [one for one, count in pixels.items() if count])
+    unheld = [one for one in find_unheld(description, bodies, object_of)
+              if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
+    unheld += _unlit(scene, description, duration_s)
+    unheld += [Unheld("noun", noun, "") for noun in (*outside, *small)]
+    return Unseen(
+        tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)), tuple(dict.fromkeys(unheld))
+    )
+
+
+def without_words(words: Sequence[str], faults: Sequence[Unheld]) -> tuple[str, ...]:
+    """Words of a report, but for those that mean what a picture does not show."""
+    lost = {(kind, value) for kind, value, _ in faults}
+    return tuple(word for word in words if not lost.intersection(_meanings(word)))
+
+
+def _meanings(word: str) -> Iterator[tuple[str, str | None]]:
+    """Kinds and values, as of `Unheld`, of all senses of a word."""
+    for sense in lexicon_of(None).get(tuple(word.split()), ()):
+        if sense.kind == "verb":
+            one = sense.value
+            yield from (("relation", one.relation), ("direction", one.direction))
+            yield from (("motion", one.kind), ("effect", one.kind))
+        elif sense.kind == "noun":
+            yield "noun", sense.value.noun
+        elif sense.kind in ("adverb", "scene"):
+            *_, field, value = sense.value
+            yield from ((field, ""), (field if field != "kind" else "light", value))
+        else:
+            yield sense.kind, sense.value
+
+
+def _unlit(
+    scene: ComposedScene, description: SceneDescription, duration_s: float
+) -> Iterator[Unheld]:
+    """Weather, light, effects and spin that leave no trace in the picture."""
+    said, light = description.surroundings, description.light.kind
+    place = PLACES[said.name or "grass"]
+    if place.is_room and light in _OUTDOORS:
+        yield Unheld("light", light, f"{light} light, in a room")
+    if said.wave_height > 1.0 and place.ground not in _WATER:
+        yield Unheld("wave_height", "", "waves, without water")
+    if said.has_snow and place.is_room:
+        yield Unheld("has_snow", "", "snow, in a room")
+    times = [share * duration_s for share in (0.17, 0.43, 0.71, 0.93)]
+    if said.clouds:
+        sky = scene.animated_environment
+        clear = replace(sky, base=replace(sky.base, clouds=0.0))
+        if not _differs(scene, replace(scene, animated_environment=clear), times):
+            yield Unheld("clouds", "", "clouds: no sky is in view")
+    staged = scene.particles
+    for kind in dict.fromkeys((said.weather, *(one.kind for one in description.effects))):
+        pairs = zip(staged.effects, staged.kinds, strict=True)
+        rest = tuple(effect for effect, own in pairs if own != kind)
+        without = replace(scene, particles=replace(staged, effects=rest, ends_s={}))
+        if len(rest) < len(staged.effects) and not _differs(scene, without, times):
+            name = "weather" if kind == said.weather else "effect"
+            yield Unheld(name, kind or "", f"{kind}, which no pixel shows")
+    turning = [one for one in description.objects
+               if one.motion and one.motion.kind in _TURNS and not one.then]  # fmt: skip
+    if turning and not description.shot.is_moving and not _differs(scene, scene, times, 0.13):
+        line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
+        yield Unheld("motion", turning[0].motion.kind if turning[0].motion else "", line)
+
+
+def _differs(scene: Scene, other: Scene, times: Sequence[float], later_s: float = 0.0) -> bool:
+    """Whether enough pixels of small pictures are others at one of the instants."""
+    for time_s in times:
+        first, second = (render(one, at_s, _SMALL, samples=1, shadows=False)
+                         for one, at_s in ((scene, time_s), (other, time_s + later_s)))  # fmt: skip
+        change = np.abs(first - second).max(axis=-1)
+        if np.mean(change >= _LEAST_LEVELS) >= _LEAST_SHARE:
+            return True
+    return False
 
 
 def count_pixels(

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 _VOWELS = "aeiou"
 _IRREGULAR = {
     "person": "people", "child": "children", "leaf": "leaves", "wolf": "wolves", "calf": "calves",
@@ -92,8 +94,12 @@ def list_verb_forms(verb: str, irregular: str = "") -> list[tuple[str, str]]:
     Example:
         >>> list_verb_forms("carry")
         [('carry', 'base'), ('carries', 's'), ('carrying', 'ing'), ('carried', 'ed')]
+        >>> list_verb_forms("stop")[2:]
+        [('stopping', 'ing'), ('stopped', 'ed')]
     """
     stem = verb[:-1] if verb.endswith("e") and not verb.endswith("ee") else verb
+    if re.fullmatch(r"[^aeiou]+[aeiou][^aeiouwxy]", verb):  # "stop", "stopping"
+        stem += verb[-1]
     past = f"{verb[:-1]}ied" if _ends_in_y(verb) else f"{stem}ed"
     present, *pasts = irregular.split() or (f"{stem}ing", past)
     forms = [(verb, "base"), (list_finite_forms(verb)[-1], "s"), (present, "ing")]

@@ -14,7 +14,8 @@ _UNITS = {"_m_s": "m/s", "_hz": "Hz", "_m": "m", "_s": "s", "_deg": "degrees"}
 _SIDES = {"left": "on the left", "right": "on the right", "centre": "in the middle",
           "far": "far away", "lane": "on the road", "near": "in the foreground",
           "row": "in a row", "together": "side by side", "ring": "in a circle"}  # fmt: skip
-_RELATIONS = {"front": "in front of", "surround": "surrounded by", "collide": "meets"}
+RELATIONS = {"front": "in front of", "surround": "surrounded by", "collide": "meets"}
+"""Kind of relation → its words, where they differ."""
 _VERBS = {"throw": "fly through the air", "work": "move in place", "stand": "stand still"}
 
 
@@ -53,7 +54,7 @@ def _object(description: SceneDescription, index: int) -> str:
     for one in relations:
         others = " and ".join(_count(description.objects[target]) for target in one.targets)
         others = "each other" if one.targets == (index,) else others
-        words.append(f"{_RELATIONS.get(one.kind, one.kind)} {others}")
+        words.append(f"{RELATIONS.get(one.kind, one.kind)} {others}")
     return _join(*words, *_fields(thing, "noun", "count", "colour", "motion", "then", "side"))
 
 

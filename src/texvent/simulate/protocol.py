@@ -1,4 +1,4 @@
-"""What every event simulator offers."""
+"""The interface of every event simulator."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ class Simulator(Protocol):
     events. It may declare `bytes_per_pixel`: memory that its pixels, its packets and the frames
     that wait for it take, measured on moving texture; `run.memory` adds it up. It may declare
     `takes_linear` as True: then frames of linear light reach it as they are, and are gamma-coded
-    before otherwise. It may declare `gains_from_frames` as True: then a pair in which
-    things move fast gets more frames than Eq. 4 asks for (`interpolate.count_policy`). It may
+    before otherwise. It may declare `benefits_from_denser_frames` as True: then a pair in which
+    objects move fast gets more frames than Eq. 4 asks for (`interpolate.count_policy`). It may
     declare `slow_change`, a text or None: why slow change may fire nothing, and the options that
     help, which `run.silence` says of a run that has lost its signal. It may declare
     `frame_bound_presets`: those whose published definition ties events to the source frames, so
@@ -67,7 +67,7 @@ class Simulator(Protocol):
         ...
 
     def finish(self) -> Iterator[tuple[Frame, EventStream]]:
-        """What `advance` still owes when the last pair has been given."""
+        """Frames and packets that `advance` has held back, after the last pair."""
         ...
 
     def step(self, frame: Frame) -> EventStream:

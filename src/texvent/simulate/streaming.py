@@ -1,24 +1,41 @@
-"""What pixel models share that see one frame interval at a time: check a frame, advance, sort."""
+"""Base classes of pixel models: stepping through a pair, and one frame interval at a time."""
 
 from __future__ import annotations
 
 import abc
-from collections.abc import Mapping
-from typing import Any, ClassVar, Generic, TypeVar
+from collections.abc import Iterator, Mapping
+from typing import Any, ClassVar, Generic, Literal, TypeAlias, TypeVar
 
 from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.simulate.backend.select import AUTO, check_backend
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import SortedEvents, make_packet
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.pairs.frame_pair import FramePair
+from texvent.simulate.packets import FrameInterval, SortedEvents, UnsortedEvents, make_packet
 from texvent.simulate.random.draws import frame_key
-from texvent.simulate.stepping import SteppingSimulator
 from texvent.video import Frame, StreamChecker
 
+
+class SteppingSimulator(abc.ABC):
+    """`advance` and `finish` for a pixel model that only knows how to `step`."""
+
+    @abc.abstractmethod
+    def step(self, frame: Frame) -> EventStream:
+        """Events in `[t of the frame before, t of this frame)`; see `protocol.Simulator.step`."""
+
+    def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
+        """Every intermediate frame and the later frame, each with the events that end at it."""
+        for frame in pair.frames:
+            yield frame, self.step(frame)
+
+    def finish(self) -> Iterator[tuple[Frame, EventStream]]:
+        """Nothing: every frame was answered at once."""
+        yield from ()
+
+
 Config = TypeVar("Config")
+Backend: TypeAlias = Literal["cpu", "gpu"]
+"""Device of a model that runs on both."""
 IntensityArray = NDArray[Any]
 """Luma on the 0..255 scale, [H, W], uint8 or float32."""
 
@@ -34,25 +51,20 @@ class StreamingSimulator(SteppingSimulator, Generic[Config]):
 
     config_type: ClassVar[type]
     presets: ClassVar[Mapping[str, Any]]
-    has_gpu: ClassVar[bool] = False
-    """Whether the model also runs in `texvent.simulate.gpu`."""
 
-    def __init__(self, config: Config | None = None, *, seed: int = 0, backend: str = AUTO) -> None:
+    def __init__(self, config: Config | None = None, *, seed: int = 0) -> None:
         """Prepare a simulator that has seen no frame.
 
         Args:
             config: options; default: the first preset.
             seed: of everything random, 0..2⁶³−1.
-            backend: "auto", "cpu" or "reference": which kernels compute. All give the same
-                events.
 
         Raises:
-            ConfigError: the seed is out of range or the backend unknown.
+            ConfigError: the seed is out of range.
         """
         check_range("seed", seed, 0, 2**63 - 1)
         self.config: Config = config if config is not None else next(iter(self.presets.values()))
         self._seed = int(seed)
-        self._backend = check_backend(backend, has_gpu=self.has_gpu)
         self.reset()
 
     def reset(self) -> None:

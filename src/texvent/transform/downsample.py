@@ -91,27 +91,3 @@ class _Accumulator:
         columns = {name: column[fired] for name, column in placed.columns().items()}
         columns["p"] = polarity[fired]
         return EventStream(**columns, size=placed.size, metadata=placed.metadata)
-
-
-def fire_blocks_reference(
-    block: NDArray[np.int64],
-    p: NDArray[np.uint8],
-    pixels: NDArray[np.int64],
-    sums: NDArray[np.int64],
-) -> NDArray[np.int8]:
-    """Which events make their block fire, and how: 1, 0 or `NOTHING`, [n].
-
-    Args:
-        block: of each event, [n].
-        p: polarity of each event, [n].
-        pixels: of each block.
-        sums: ON less OFF of each block since it fired; changed.
-    """
-    fired = np.full(len(block), NOTHING, np.int8)
-    for event in range(len(block)):
-        one = block[event]
-        sums[one] += 1 if p[event] else -1
-        if abs(sums[one]) == pixels[one]:
-            fired[event] = 1 if sums[one] > 0 else 0
-            sums[one] = 0
-    return fired

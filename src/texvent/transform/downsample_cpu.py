@@ -1,4 +1,4 @@
-"""Compiled form of `downsample.fire_blocks_reference`: equal results."""
+"""Compiled loop of `downsample`: blocks of pixels that fire."""
 
 from __future__ import annotations
 
@@ -15,7 +15,14 @@ def fire_blocks(
     pixels: NDArray[np.int64],
     sums: NDArray[np.int64],
 ) -> NDArray[np.int8]:
-    """As `downsample.fire_blocks_reference`."""
+    """Polarity with which each event makes its block fire: 1, 0, or -1 for none, [n].
+
+    Args:
+        block: of each event, [n].
+        p: polarity of each event, [n].
+        pixels: of each block.
+        sums: ON less OFF of each block since it fired; changed.
+    """
     fired = np.full(len(block), -1, np.int8)
     for event in range(len(block)):
         one = block[event]

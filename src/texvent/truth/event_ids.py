@@ -1,4 +1,4 @@
-"""Which object each event shows.
+"""Object of each event.
 
 A simulator compares the brightness of two instants, the dense frames before and after an event;
 where in between it puts the event is its own rule. So an event belongs to what its pixel sees at
@@ -94,7 +94,7 @@ def ids_of_frames(before: Snapshot, after: Snapshot, interval: Interval) -> Ids:
 def moved_ids(before: Snapshot, after: Snapshot, share: float) -> tuple[Ids, Float32Array]:
     """Ids and depth [H, W] at a share of the way from one frame to the next.
 
-    Without depth, every object lies before the background.
+    Without depth, every object is in front of the background.
     """
     ids, depth = _with_depth(before)
     later, later_depth = _with_depth(after)

@@ -1,26 +1,67 @@
-"""What lies where in a folder of ground truth.
-
-truth.json                    parts, conventions, classes, and what made the run
-timestamps.txt                time of each frame, µs, on the clock of the events
-flow/forward/000000.png       optical flow to the next frame, DSEC's 16-bit PNG
-flow/forward_timestamps.txt   from and to, µs
-flow/forward_npz/000000.npz   the same as float32, and what gets hidden
-flow/backward...              optical flow to the frame before, likewise
-depth/000000.npz              metres along the optical axis, inf for the sky
-instance/000000.png           instance of each pixel, 16 bits; class/ its class
-boxes/coco.json, bbox.npy     2-D boxes
-camera.json, poses.txt, intrinsics.txt
-events.npz                    instance and class of each event, row by row
-overlay.mp4                   the truth drawn over the frames
-"""
+"""The parts of ground truth that can be written, by name."""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from types import MappingProxyType
 
+from texvent._registry import GENERATORS, suggest
+from texvent.errors import ConfigError, shown
 from texvent.io.atomic import check_output_folder
+
+PARTS: Mapping[str, str] = MappingProxyType(
+    {
+        "flow": "optical flow to the next frame, and what gets hidden",
+        "flow-back": "optical flow to the frame before, and what was hidden there",
+        "depth": "depth in metres",
+        "ids": "instance and class of each pixel",
+        "boxes": "2-D boxes: COCO JSON, and Prophesee's .npy",
+        "poses": "camera intrinsics and poses",
+        "events": "instance and class of each event",
+        "overlay": "a video with all of it drawn over the frames",
+    }
+)
+"""Name → what it is."""
+ALL = "all"
+
+
+def parse_parts(wanted: str | Iterable[str] | None) -> tuple[str, ...]:
+    """Names of parts, in the order of `PARTS`.
+
+    Args:
+        wanted: "flow,depth", several names, "all"; None or an empty text: none.
+
+    Raises:
+        ConfigError: an unknown name.
+
+    Example:
+        >>> parse_parts("depth, flow"), parse_parts("")
+        (('flow', 'depth'), ())
+    """
+    words = [wanted] if isinstance(wanted, str) else list(wanted or ())
+    if not all(isinstance(word, str) for word in words):
+        raise ConfigError(f"truth is {shown(wanted)}; give names such as 'flow,depth', or 'all'")
+    names = [name for word in words for name in word.replace(" ", "").split(",") if name]
+    for name in names:
+        if name not in PARTS and name != ALL:
+            raise ConfigError(f"no part {shown(name)} of truth; {suggest(name, (*PARTS, ALL))}")
+    return tuple(name for name in PARTS if name in names or ALL in names)
+
+
+def check_generator(name: str) -> None:
+    """Refuse truth of videos that a generator makes without knowing their scene.
+
+    Raises:
+        ConfigError: it does not know it.
+    """
+    if not getattr(GENERATORS.load(name), "has_ground_truth", False):
+        raise ConfigError(
+            f"truth is asked for, but generator {shown(name)} does not know the scene of its "
+            "videos; leave it out, or take generator procedural"
+        )
+
 
 FACTS, TIMES = "truth.json", "timestamps.txt"
 FORMAT = "texvent truth 1"
@@ -53,7 +94,7 @@ def is_own_file(folder: Path) -> Callable[[Path], bool]:
 
 
 def truth_folder(events: Path) -> Path:
-    """Where the truth of an event file lies.
+    """Folder of the truth of an event file.
 
     Example:
         >>> truth_folder(Path("runs/out.h5")).as_posix()

@@ -1,4 +1,11 @@
-"""Read a folder of ground truth back."""
+"""Optical flow as 16-bit PNG, as DSEC stores it.
+
+Three channels, in the order of the file (RGB): `u · 128 + 2¹⁵`, `v · 128 + 2¹⁵`, 1 where the
+flow is valid. Steps are 1/128 px; displacements are within ±256 px.
+
+Source: Gehrig et al., E-RAFT: Dense Optical Flow from Event Cameras, 3DV 2021, whose ground truth
+DSEC publishes.
+"""
 
 from __future__ import annotations
 
@@ -16,9 +23,41 @@ from texvent.errors import FileFormatError, InputError, one_line, shown
 from texvent.io.arrays.npz import read_arrays
 from texvent.io.input_checks import existing_file, existing_folder
 from texvent.sensor import SensorSize, checked_size
-from texvent.truth.flow_png import decode_flow
 from texvent.truth.layout import DIRECTIONS, FACTS, FORMAT, TIMES
 from texvent.truth.poses import rotation_matrix
+
+STEPS_PER_PX = 128.0
+ZERO = 2.0**15
+HIGHEST = 2**16 - 1
+
+
+def encode_flow(flow: NDArray[np.floating[Any]]) -> NDArray[np.uint16]:
+    """Flow as DSEC's pixels.
+
+    Args:
+        flow: [H, W, 2] x and y, pixels; NaN where it is not known.
+
+    Returns:
+        [H, W, 3] RGB. Where the flow is not known, or beyond ±256 px, it is 0 and not valid.
+
+    Example:
+        >>> encode_flow(np.array([[[1.0, -0.5], [np.nan, np.nan]]])).tolist()
+        [[[32896, 32704, 1], [32768, 32768, 0]]]
+    """
+    steps = np.rint(flow.astype(np.float64) * STEPS_PER_PX + ZERO)
+    is_valid = np.logical_and(steps >= 0, steps <= HIGHEST).all(axis=2)
+    pixels = np.full((*flow.shape[:2], 3), ZERO, dtype=np.uint16)
+    pixels[is_valid, :2] = steps[is_valid]
+    pixels[..., 2] = is_valid
+    return pixels
+
+
+def decode_flow(pixels: NDArray[np.uint16]) -> NDArray[np.float32]:
+    """DSEC's pixels as flow: [H, W, 2] px, NaN where it is not valid."""
+    flow = ((pixels[..., :2].astype(np.float64) - ZERO) / STEPS_PER_PX).astype(np.float32)
+    flow[pixels[..., 2] == 0] = np.nan
+    return flow
+
 
 _FACT_TYPES = {
     **dict.fromkeys(("frames", "width", "height"), int),
@@ -34,9 +73,9 @@ class Truth:
     """
 
     folder: Path
-    """Where it lies."""
+    """Folder of the truth."""
     facts: Mapping[str, Any]
-    """What truth.json says."""
+    """Content of truth.json."""
     times_us: NDArray[np.int64]
     """[N] times of the frames, µs, on the clock of the events."""
 
@@ -70,7 +109,7 @@ class Truth:
 
     @property
     def metadata(self) -> Mapping[str, Any]:
-        """What made the run: prompt, seed, options, version."""
+        """Provenance: prompt, seed, options, version."""
         run: Mapping[str, Any] = self.facts["run"]
         return run
 

@@ -16,10 +16,10 @@ from texvent.sensor import SensorSize
 from texvent.truth.source import Snapshot
 from texvent.video import PREVIEW_MARK, Frame
 from texvent.view.atomic_output import AtomicOutput
-from texvent.view.drawing.annotations import ARROW_US, Annotations, flow_arrows
 from texvent.view.drawing.canvas import Image, blank, draw_label, enlarge, tile
 from texvent.view.drawing.event_image import frame_image
 from texvent.view.drawing.palettes import Colour
+from texvent.view.drawing.panels import ARROW_US, Annotations, flow_arrows
 from texvent.view.video.encoder import VideoEncoder
 
 PANEL_WIDTH = 640
@@ -30,7 +30,7 @@ LABEL: Colour = (236, 238, 242)
 HUES = 180
 """OpenCV's hues."""
 GOLDEN = 0.618034
-"""Hues of consecutive ids lie this share of the circle apart, so they differ well."""
+"""Hues of consecutive ids differ by this share of the circle."""
 FULL_SPEED_PERCENTILE = 99.0
 """Of the pixels that move, those faster than this share have full colour."""
 SHADE = 0.3
@@ -70,7 +70,7 @@ class OverlayVideo(AtomicOutput):
 
         Args:
             frame: the frame.
-            truth: what is true at it.
+            truth: its ground truth.
             events: those before it, back to the frame before.
             ids: their instances.
         """
@@ -101,7 +101,7 @@ def compose(
 
 
 def flow_image(flow: NDArray[np.float32]) -> Image:
-    """Flow as colours: hue tells the direction, strength the speed; grey where it is not known."""
+    """Flow as colours: hue shows the direction, strength the speed; grey where it is not known."""
     is_known = np.isfinite(flow).all(axis=2)
     x, y = np.where(is_known, flow[..., 0], 0.0), np.where(is_known, flow[..., 1], 0.0)
     speed, angle = np.hypot(x, y), np.arctan2(y, x) / (2.0 * np.pi) % 1.0

@@ -111,7 +111,7 @@ def intrinsics_row(t_us: int, camera: Camera, size: SensorSize) -> str:
 
 
 def camera_facts(camera: Camera, size: SensorSize) -> Mapping[str, Any]:
-    """What camera.json says of the camera at the first frame."""
+    """Camera at the first frame, from camera.json."""
     lens = camera.lens
     return {
         "camera_model": "pinhole",

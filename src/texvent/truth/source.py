@@ -1,4 +1,4 @@
-"""What is true of the frames of a stream, wherever it comes from.
+"""Ground truth of the frames of a stream, from any source.
 
 * A stream with a method `ground_truth(t0_us, t1_us)`, such as a scene of the embedded generator,
   is asked at any instant. With `camera_at(t_us)` it has poses, with `instances_at(t_us, points)`
@@ -21,9 +21,9 @@ from texvent.scenes.models.class_ids import BACKGROUND, UNNAMED, class_ids_of
 from texvent.scenes.raycast.ground_truth import Box
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
-from texvent.truth.parts import PARTS
+from texvent.truth.layout import PARTS
 from texvent.video import Frame, FrameStream, Motion
-from texvent.view.drawing.annotations import GroundTruthStream
+from texvent.view.drawing.panels import GroundTruthStream
 
 ON_FRAMES = {"flow", "flow-back", "depth", "ids", "boxes", "overlay"}
 """Parts that take an image of the truth."""
@@ -70,7 +70,7 @@ class Flow:
 
 @dataclass(frozen=True, eq=False)
 class Snapshot:
-    """What is true at a frame; None where it is not known."""
+    """Ground truth of a frame; None where it is not known."""
 
     t_us: int
     flow: Flow | None = None
@@ -138,7 +138,7 @@ class TruthSource:
         return found
 
     def at(self, frame: Frame, previous_us: int | None, next_us: int | None) -> Snapshot:
-        """What is true at a source frame.
+        """Ground truth of a source frame.
 
         Args:
             frame: the frame.

@@ -1,9 +1,9 @@
-"""Ground truth written while a run goes on; `texvent.truth.layout` says what lies where."""
+"""Writer of ground truth during a run; `texvent.truth.layout` describes the files."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import ExitStack
 from pathlib import Path
 from typing import Any
@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import InputError, OutputError
+from texvent.errors import ConfigError, InputError, OutputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_folder
 from texvent.options.values import plain
@@ -22,8 +22,17 @@ from texvent.truth.event_ids import (
     ids_of_scene,
     open_event_ids,
 )
-from texvent.truth.flow_png import encode_flow
-from texvent.truth.layout import DIRECTIONS, FACTS, FORMAT, TIMES, check_truth_folder, is_own_file
+from texvent.truth.layout import (
+    DIRECTIONS,
+    FACTS,
+    FORMAT,
+    PARTS,
+    TIMES,
+    check_truth_folder,
+    is_own_file,
+    parse_parts,
+)
+from texvent.truth.loading import encode_flow
 from texvent.truth.overlay import OverlayVideo
 from texvent.truth.poses import (
     INTRINSICS_HEADER,
@@ -59,8 +68,8 @@ class TruthWriter(AtomicOutput):
     Args:
         path: the folder.
         video: the frames, whose truth is known.
-        parts: what is written; see `texvent.truth.parts.PARTS`.
-        metadata: what made the run, stored with the truth.
+        parts: parts to write; see `texvent.truth.layout.PARTS`.
+        metadata: provenance of the run, stored with the truth.
         overwrite: whether a folder of truth may be replaced.
         on_events: given all events in order, with the ids of their objects, where "events" is among
             the parts; a few frames late.
@@ -178,7 +187,7 @@ class TruthWriter(AtomicOutput):
         return file
 
     def _taken_intervals(self) -> list[Interval]:
-        """The events gathered, which are gathered anew from here."""
+        """The events gathered so far; gathering restarts."""
         taken, self._intervals = self._intervals, []
         return taken
 
@@ -284,3 +293,55 @@ def write_png(path: Path, pixels: NDArray[np.uint16]) -> None:
     if not done:
         raise OutputError(f"pixels of shape {pixels.shape} cannot be written as PNG")
     path.write_bytes(data.tobytes())
+
+
+OF_FRAMES = ",".join(part for part in PARTS if part != "events")
+"""Parts that are known without events."""
+
+
+def save_truth(
+    video: FrameStream,
+    folder: str | Path,
+    parts: str | Iterable[str] = OF_FRAMES,
+    *,
+    overwrite: bool = False,
+) -> Path:
+    """Write what is true of a video's scene into a folder, as `texvent generate --truth` does.
+
+    Args:
+        video: frames whose truth is known: those of `texvent.video(prompt)`, or a stream of yours
+            with `ground_truth(t0_us, t1_us)`, or with `Frame.motion`.
+        folder: where to, such as "out.truth".
+        parts: flow, flow-back, depth, ids, boxes, poses, overlay, with commas between; default:
+            all of them.
+        overwrite: whether a folder of truth may be replaced.
+
+    Returns:
+        The folder, for `load_truth`.
+
+    Raises:
+        ConfigError: an unknown part, or one that the video does not know.
+        InputError: a frame does not bring the truth that is asked for.
+        OutputError: the folder exists already, or cannot be written.
+
+    Example:
+        >>> import tempfile, texvent
+        >>> frames = texvent.video("a red ball bounces", sensor="48x36", duration=0.1)
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     truth = texvent.load_truth(save_truth(frames, f"{folder}/ball.truth", "boxes"))
+        ...     truth, truth.boxes["w"].max() > 0
+        (Truth(3 frames, 48x36, boxes), np.True_)
+    """
+    wanted = parse_parts(parts)
+    if not wanted or "events" in wanted:
+        raise ConfigError(
+            f"parts is {parts!r:.80}; give some of {OF_FRAMES}: instances and classes of events "
+            "are written by a run, texvent.generate(..., truth_folder=...)"
+        )
+    nothing = EventStream.empty(video.size)
+    with TruthWriter(
+        folder, video, wanted, metadata={"source": video.metadata}, overwrite=overwrite
+    ) as writer:
+        for frame in video:
+            writer.append(frame, nothing)
+    return Path(folder)

@@ -1,1 +1,1 @@
-"""What a video is like for an event camera: measures of one pass, and what they amount to."""
+"""Check of a video before it becomes events: measurements of one pass, limits and advice."""

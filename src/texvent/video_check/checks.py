@@ -1,16 +1,16 @@
-"""The checks: which measure, which limit, what it does to events, what helps.
+"""Checks of a video: each has a measurement, a limit, its effect on events, and advice.
 
-docs/checks.md says on which clips the limits were set, and what others measure.
+docs/checks.md says on which clips the limits were set.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
+from typing import Any
 
-from texvent.video_check.flicker import LEAST_LOG, mains_alias
-
-Measures = Mapping[str, float]
+from texvent.video import Frame
+from texvent.video_check.measurements import Measurements, VideoMeasurer, measure_video
 
 FROZEN_SHARE = 0.5
 MOTION_LEVELS = 3.0
@@ -19,12 +19,7 @@ FLASH_LEVELS = 20.0
 DARK_LEVEL, BRIGHT_LEVEL = 12.0, 243.0
 NOISE_CORRELATION = 0.4
 """Images have above 0.8."""
-BEAT_SHARE, LEAST_SHOWN_SHARE = 0.15, 0.01
 REPEAT_SHARE = 0.02
-BLOCKINESS = 1.2
-KEY_RATIO = 1.5
-BANDED_SHARE = 0.1
-IRREGULAR_SHARE = 0.02
 MOTION_SHARE = 0.04
 """Of the longer side, per frame: 13 px of 320."""
 LOW_RATE_HZ, HIGH_RATE_HZ = 0.05, 100.0
@@ -33,24 +28,24 @@ LOW_RATE_HZ, HIGH_RATE_HZ = 0.05, 100.0
 
 @dataclass(frozen=True, kw_only=True)
 class Check:
-    """One thing that is looked for."""
+    """One fault of videos."""
 
     name: str
     needs: str
-    """The measure without which it is not made."""
-    is_found: Callable[[Measures], bool]
-    value: Callable[[Measures], str]
+    """The measurement without which it is not made."""
+    is_found: Callable[[Measurements], bool]
+    value: Callable[[Measurements], str]
     """The measured value with its unit."""
     limit: str
     effect: str
-    """What it does to events."""
+    """Effect on events."""
     help: str
-    """What helps; options are those of texvent simulate."""
+    """Advice; options are those of texvent simulate."""
     is_failure: bool = False
     """Whether a generated video that has it failed: another seed may give a better one."""
 
 
-def _repeats(one: Measures) -> str:
+def _repeats(one: Measurements) -> str:
     text = f"{one['repeat_share']:.1%} of pairs"
     period, repeats = one["pattern_period"], one["pattern_repeats"]
     if not period:
@@ -59,34 +54,14 @@ def _repeats(one: Measures) -> str:
     return f"{text}, {repeats:.0f} of {period:.0f}: true rate {true_fps:.3g} fps"
 
 
-def _beat(one: Measures) -> str:
-    if one["beat_share"] < LEAST_SHOWN_SHARE:
-        return "none"
-    text = f"{one['beat_log']:.3f} log at {one['beat_hz']:.1f} Hz in {one['beat_share']:.0%}"
-    mains = mains_alias(one["beat_hz"], one["fps"], round(one["frames"]))
-    return text if mains is None else f"{text}; {mains:.0f} Hz mains light looks so"
-
-
-def _bars(one: Measures) -> str:
-    names = ("top", "bottom", "left", "right")
-    widths = [f"{name} {one[f'bar_{name}']:.0f}" for name in names if one[f"bar_{name}"]]
-    return f"{one['bar_share']:.0%}" + (f": {', '.join(widths)} px" if widths else "")
-
-
-def _keys(one: Measures) -> str:
-    if not one["key_period"]:
-        return "none"
-    return f"{one['key_ratio']:.1f} times, every {one['key_period']:.0f} frames"
-
-
-def _motion(one: Measures) -> str:
+def _motion(one: Measurements) -> str:
     return (
         f"{one['motion_px']:.1f} px per frame, {one['motion_share']:.1%} of the side; "
         f"fastest {one['fast_px']:.0f} px"
     )
 
 
-def _rate(one: Measures) -> str:
+def _rate(one: Measurements) -> str:
     return f"{one['rate_hz']:.3g} ± {one['rate_error_hz']:.2g} per pixel and s"
 
 
@@ -101,7 +76,7 @@ CHECKS = (
         is_found=lambda one: one["still_share"] > FROZEN_SHARE and not one.get("pattern_period"),
         value=lambda one: f"{one['still_share']:.0%} of pairs still",
         limit=f"{FROZEN_SHARE:.0%}",
-        effect="noise alone while it stands still",
+        effect="noise alone while it rests",
         help=f"--start, --stop; {ANOTHER_SEED}",
     ),
     Check(
@@ -151,7 +126,7 @@ CHECKS = (
         is_found=lambda one: one["bright_end"] < DARK_LEVEL,
         value=lambda one: f"95 % below level {one['bright_end']:.0f}",
         limit=f"{DARK_LEVEL:g}",
-        effect="few events of things, many of noise",
+        effect="few events of the scene, many of noise",
         help="lower --balance, --contrast-threshold; --noise none",
     ),
     Check(
@@ -184,68 +159,12 @@ CHECKS = (
         help="drop them (ffmpeg -vf mpdecimate), then --fps with the true rate",
     ),
     Check(
-        name="beat",
-        needs="beat_share",
-        is_found=lambda one: one["beat_share"] > BEAT_SHARE,
-        value=_beat,
-        limit=f"{LEAST_LOG:g} log in {BEAT_SHARE:.0%}",
-        effect="fires if twice that exceeds the threshold; else shifts the times of others",
-        help="--deflicker, if the whole image beats; or a recording at a higher frame rate",
-    ),
-    Check(
-        name="compression blocks",
-        needs="blockiness",
-        is_found=lambda one: one["blockiness"] > BLOCKINESS,
-        value=lambda one: f"{one['blockiness']:.2f} times",
-        limit=f"{BLOCKINESS:g}",
-        effect="false events in smooth areas, lost ones in detail",
-        help="a better copy; a smaller --sensor averages blocks",
-    ),
-    Check(
-        name="key frames",
-        needs="key_ratio",
-        is_found=lambda one: one["key_ratio"] > KEY_RATIO,
-        value=_keys,
-        limit=f"{KEY_RATIO:g} times",
-        effect="what rests changes at each: clumps of events at their rate",
-        help="a better copy; a smaller --sensor; a higher --contrast-threshold",
-    ),
-    Check(
-        name="banding",
-        needs="banded_share",
-        is_found=lambda one: one["banded_share"] > BANDED_SHARE,
-        value=lambda one: f"{one['banded_share']:.0%} of the image",
-        limit=f"{BANDED_SHARE:.0%}",
-        effect="gradients move in stairs: lines fire together, in clumps",
-        help="a source of 10 bits or more; --video-only stores 16",
-    ),
-    Check(
-        name="black bars",
-        needs="bar_share",
-        is_found=lambda one: one["bar_share"] > 0,
-        value=_bars,
-        limit="0",
-        effect="pixels that give noise alone; steady edges",
-        help="--sensor WIDTHxHEIGHT of what is inside, with --fit cover",
-    ),
-    Check(
-        name="frame times",
-        needs="irregular_share",
-        is_found=lambda one: one["irregular_share"] > IRREGULAR_SHARE,
-        value=lambda one: (
-            f"{one['irregular_share']:.0%} irregular, longest {one['longest_gap']:.1f} times"
-        ),
-        limit=f"{IRREGULAR_SHARE:.0%}",
-        effect="right if the file is; else the rate jumps",
-        help="--fps, or --timestamps of an image folder, replaces the times",
-    ),
-    Check(
         name="motion per frame",
         needs="motion_px",
         is_found=lambda one: one["motion_share"] > MOTION_SHARE,
         value=_motion,
         limit=f"{MOTION_SHARE:.0%} of the side",
-        effect="interpolation loses things that move this far: ghosts instead of edges",
+        effect="interpolation loses motion this fast: ghosts instead of edges",
         help="more frames per second; --motion of a renderer; generate: --interpolate exact",
     ),
     Check(
@@ -259,3 +178,81 @@ CHECKS = (
     ),
 )
 """In the order of the table."""
+
+
+@dataclass(frozen=True)
+class Finding:
+    """One check of one video."""
+
+    check: Check
+    value: str
+    """The measured value with its unit."""
+    is_found: bool
+
+    def as_facts(self) -> dict[str, Any]:
+        """JSON-ready."""
+        check = self.check
+        return {
+            "check": check.name, "is_found": self.is_found, "measured": self.value,
+            "limit": check.limit, "effect": check.effect, "help": check.help,
+        }  # fmt: skip
+
+
+@dataclass(frozen=True)
+class VideoReport:
+    """Findings of the checks."""
+
+    problems: tuple[str, ...]
+    """Of a failed video: frozen, no motion, flicker, flash, cut, dark, saturated, noise."""
+    measurements: Measurements
+    remarks: tuple[str, ...] = ()
+    """Of the other checks: the video is what it should be, and events suffer."""
+
+    @property
+    def is_fine(self) -> bool:
+        """True if the video has not failed."""
+        return not self.problems
+
+    @property
+    def summary(self) -> str:
+        """The problems in one line."""
+        return ", ".join(self.problems) if self.problems else "nothing found"
+
+    @property
+    def findings(self) -> tuple[Finding, ...]:
+        """Every check that was made, found or not."""
+        made = [check for check in CHECKS if check.needs in self.measurements]
+        return tuple(
+            Finding(check, check.value(self.measurements), check.is_found(self.measurements))
+            for check in made
+        )
+
+    def as_facts(self) -> dict[str, Any]:
+        """JSON-ready, for metadata."""
+        rounded = {name: round(value, 4) for name, value in self.measurements.items()}
+        return {"problems": list(self.problems), "remarks": list(self.remarks), **rounded}
+
+
+def check_video(frames: Iterable[Frame]) -> VideoReport:
+    """Look through a clip once.
+
+    Args:
+        frames: a video; at least two frames, else it has no motion.
+    """
+    return evaluate(measure_video(frames))
+
+
+def evaluate(measurements: Measurements) -> VideoReport:
+    """The report of a video's measurements, with or without those of motion and rate."""
+    made = [check for check in CHECKS if check.needs in measurements]
+    found = [check for check in made if check.is_found(measurements)]
+    return VideoReport(
+        problems=tuple(check.name for check in found if check.is_failure),
+        measurements=dict(measurements),
+        remarks=tuple(check.name for check in found if not check.is_failure),
+    )
+
+
+def has_all_measurements(measurements: Measurements) -> bool:
+    """Whether no measurement of a pass is missing: those in a cache may be older."""
+    return set(VideoMeasurer().measurements()) <= set(measurements)

@@ -15,12 +15,12 @@ from texvent.io.atomic import atomic_file, check_output
 from texvent.sensor import SensorSize
 from texvent.video import Frame
 from texvent.view.atomic_output import AtomicOutput
-from texvent.view.drawing.caption import title_of
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
+from texvent.view.drawing.panels import title_of
 from texvent.view.page.writer import PageWriter
-from texvent.view.stills.busiest_window import BusiestWindow
+from texvent.view.stills import BusiestWindow
 from texvent.view.video.writer import VideoWriter
-from texvent.view.windows.event_window import EventWindow, WindowCollector
+from texvent.view.windows import EventWindow, WindowCollector
 
 PREVIEW_KINDS = ("mp4", "gif", "png", "html")
 

@@ -1,11 +1,13 @@
-"""An event file → video, image, page, rerun or MCAP recording, with or without its video."""
+"""An event file rendered as a video, image or page, with or without its source video."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 
+from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
@@ -13,17 +15,16 @@ from texvent.io.atomic import atomic_file, check_output
 from texvent.runtime.progress import NO_PROGRESS, Progress
 from texvent.video import MICROSECONDS, FrameStream
 from texvent.view.drawing.canvas import png_bytes
-from texvent.view.drawing.caption import title_of
-from texvent.view.drawing.palettes import get_palette
-from texvent.view.foxglove_export import write_foxglove
+from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
+from texvent.view.drawing.panels import Overlay, title_of
+from texvent.view.page.sample import SAMPLE_EVENTS
 from texvent.view.page.writer import PageWriter
-from texvent.view.render_config import RenderConfig
-from texvent.view.rerun_export import write_rrd
-from texvent.view.stills.busiest_window import BusiestWindow, find_busiest
-from texvent.view.stills.contact_sheet import draw_contact_sheet
+from texvent.view.stills import BusiestWindow, draw_contact_sheet, find_busiest
 from texvent.view.video.encoder import VIDEO_EXTENSIONS
 from texvent.view.video.writer import VideoWriter
-from texvent.view.windows.cut import (
+from texvent.view.windows import (
+    EventWindow,
+    SourceOverlay,
     cut_counts,
     cut_fading,
     cut_windows,
@@ -31,12 +32,73 @@ from texvent.view.windows.cut import (
     time_range,
     with_fading,
 )
-from texvent.view.windows.event_window import EventWindow
-from texvent.view.windows.source_overlay import SourceOverlay
+
+
+@dataclass(frozen=True, kw_only=True)
+class RenderConfig:
+    """Options of rendering."""
+
+    render_fps: Fraction = Fraction(30)
+    """Images per second of video."""
+    window: float | None = None
+    """Time that one image gathers, in ms of the recording. Without it, videos show every event
+    once and images show at most 40 ms."""
+    events_per_image: int | None = None
+    """Fixed count instead of fixed time: every image gathers this many events, however long
+    that takes; a video shows one such slice after the other."""
+    decay: float | None = None
+    """Let events fade instead of counting them: exp(-age / decay), decay in ms (30 is usual)."""
+    speed: float = 1.0
+    """Speed of the video: 0.1 is ten times slower than the recording."""
+    palette: str = DEFAULT_PALETTE
+    """Colours of ON and OFF events."""
+    panels: int = 1
+    """Images on a PNG: 1 shows the busiest moment, more show moments evenly spaced."""
+    overlay: Overlay = "none"
+    """Boxes with class names, optical flow (arrows as long as the motion in 50 ms), or both, for
+    scenes that the embedded generator renders again."""
+    points: int = SAMPLE_EVENTS
+    """Most events in the cloud of a page; more are drawn uniformly at random."""
+
+    def __post_init__(self) -> None:
+        get_palette(self.palette)
+        check_range("speed", self.speed, 1e-6, 1e6)
+        check_range("panels", self.panels, 1, 100)
+        check_range("points", self.points, 1, 20_000_000)
+        ways = {
+            "window": self.window,
+            "events_per_image": self.events_per_image,
+            "decay": self.decay,
+        }
+        given = {name: value for name, value in ways.items() if value is not None}
+        if len(given) > 1:
+            raise ConfigError(
+                f"{' and '.join(given)} are different ways to gather events; give one of them"
+            )
+        for name, value in given.items():
+            check_range(name, value, 1 if name == "events_per_image" else 0.001, 1e12)
+        if not 0 < self.render_fps <= 1000:
+            raise ConfigError(f"render_fps is {self.render_fps}; it must be above 0, at most 1000")
+
+    @property
+    def window_us(self) -> int | None:
+        """The window in µs."""
+        return None if self.window is None else max(1, round(self.window * 1000))
+
+    @property
+    def step_us(self) -> Fraction:
+        """Time of the recording from one video frame to the next, µs, exact."""
+        return Fraction(self.speed) * MICROSECONDS / self.render_fps
+
+    @property
+    def tau_us(self) -> int | None:
+        """Decay time in µs."""
+        return None if self.decay is None else max(1, round(self.decay * 1000))
+
 
 __all__ = ["RENDER_EXTENSIONS", "RenderConfig", "render_events"]
 
-RENDER_EXTENSIONS = (*VIDEO_EXTENSIONS, ".png", ".html", ".rrd", ".mcap")
+RENDER_EXTENSIONS = (*VIDEO_EXTENSIONS, ".png", ".html")
 
 
 def render_events(
@@ -48,15 +110,15 @@ def render_events(
     overwrite: bool = False,
     progress: Progress = NO_PROGRESS,
 ) -> Path:
-    """Show events as a video, an image, a page, or a recording for rerun or Foxglove.
+    """Show events as a video, an image or a page.
 
     Args:
         events: a recording, whole or packet by packet; images read packets twice.
-        path: what to write; the extension decides: .mp4, .gif, .png, .html, .rrd or .mcap.
+        path: file to write; its extension decides: .mp4, .gif, .png or .html.
         config: how to show them.
         frames: the source video, of the same size and clock.
         overwrite: whether an existing file may be replaced.
-        progress: told of events that are read, and of images of a video.
+        progress: receives events that are read, and images of a video.
 
     Returns:
         The path written.
@@ -65,7 +127,6 @@ def render_events(
         ConfigError: unknown extension, or an overlay without ground truth.
         InputError: there is no event to show, or the video has another size.
         OutputError: the file exists already or cannot be written.
-        MissingDependencyError: .rrd without the extra "rerun", .mcap without "bags".
     """
     path, config = Path(path), config or RenderConfig()
     kind = path.suffix.lower()
@@ -86,10 +147,6 @@ def render_events(
             part.write_bytes(data)
     elif kind == ".html":
         _page(packets, path, config, source, overwrite=overwrite)
-    elif kind == ".rrd":
-        write_rrd(packets, path, config, frames=frames, overwrite=overwrite)
-    elif kind == ".mcap":
-        _mcap(packets, path, config, source, overwrite=overwrite)
     else:
         _video(packets, path, config, source, overwrite=overwrite)
     return path
@@ -142,28 +199,6 @@ def _video(
             shown += 1
         if shown == 0:
             raise _no_events()
-
-
-def _mcap(
-    packets: EventPackets,
-    path: Path,
-    config: RenderConfig,
-    source: SourceOverlay,
-    *,
-    overwrite: bool,
-) -> None:
-    """Events, images of them and the video on the recording's own clock."""
-    if config.overlay != "none":
-        raise ConfigError("overlay is not drawn in .mcap files; leave it out, or render a video")
-    if config.speed != 1:
-        raise ConfigError(f"speed is {config.speed:g}; .mcap files keep the recording's time")
-    step_us = config.step_us
-    windows = _cut(packets, config, step_us, config.window_us or max(1, round(step_us)))
-    extent = time_range(packets) if source.frames is not None else None
-    frames = None if source.frames is None else source.frames_during(extent)
-    write_foxglove(
-        packets, path, windows, get_palette(config.palette), frames=frames, overwrite=overwrite
-    )
 
 
 def _still(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -> bytes:

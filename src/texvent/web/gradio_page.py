@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from texvent._registry import CODECS, SIMULATORS
+from texvent._registry import SIMULATORS
 from texvent._require import require
 from texvent.config import RunConfig
 from texvent.errors import ConfigError, TexventError
+from texvent.io.files import writable_formats
 from texvent.run.settings import DEFAULT_SENSOR, sensor_preset
 from texvent.sensor import SENSORS, parse_sensor
 from texvent.web.answer_html import (
@@ -222,7 +223,7 @@ class WebPage:
             )
         parts["preview"] = gr.HTML()
         with gr.Row(visible=False) as parts["results"]:
-            parts["format"] = _choice(gr, "Format", CODECS.names())
+            parts["format"] = _choice(gr, "Format", writable_formats())
             parts["download"] = gr.Button("Download", elem_id="download", variant="primary")
         parts["viewer"] = gr.HTML()
         gr.Markdown("Prompts to try:")

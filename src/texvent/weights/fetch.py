@@ -24,8 +24,8 @@ from texvent.data.pull import (
 )
 from texvent.errors import FileFormatError
 from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
-from texvent.io.hidden_parts import hidden_folder
-from texvent.metrics.lpips.weights import read_lpips_weights, write_lpips_weights
+from texvent.io.atomic import hidden_folder
+from texvent.metrics.lpips import read_lpips_weights, write_lpips_weights
 from texvent.runtime.cache_folder import cache_folder, make_folder
 from texvent.weights.published import NetworkKind, PublishedWeights, find_weights
 

@@ -12,8 +12,7 @@ from typing import Literal, TypeAlias
 from texvent._registry import suggest
 from texvent.data.catalogue import Archive, DataFile, DataSet
 from texvent.errors import ConfigError, shown
-from texvent.metrics.lpips.layout import LpipsNet
-from texvent.metrics.lpips.weights import weights_file_name
+from texvent.metrics.lpips import LpipsNet, weights_file_name
 
 NetworkKind: TypeAlias = Literal["rife", "lpips"]
 """Networks that are read alike; see `texvent.weights.fetch`."""
@@ -29,7 +28,7 @@ class PublishedWeights:
     file_name: str
     """Name of the converted file in the weights folder."""
     layout: str
-    """Layout that the file must have; see `interpolate.rife.layouts`, `metrics.lpips.layout`."""
+    """Layout that the file must have; see `interpolate.rife.network`, `metrics.lpips`."""
 
     @property
     def name(self) -> str:

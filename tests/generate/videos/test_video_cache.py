@@ -20,7 +20,7 @@ from texvent.generate.videos.stored_video import (
 from texvent.generate.videos.video_cache import VideoCache, content_key, made_folder
 from texvent.transfer import Transfer
 from texvent.video import transfer_of
-from texvent.video_check.measurer import measure_video
+from texvent.video_check.measurements import measure_video
 
 FPS = Fraction(30_000, 1001)
 

@@ -6,11 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.interpolate.dis_flow import compiled, reference
 
-from texvent.interpolate.dis_flow import flow_cpu, flow_reference
-from texvent.interpolate.dis_flow.definitions import leads_outside, make_pyramid
-from texvent.interpolate.dis_flow.estimator import DisFlow
-from texvent.interpolate.dis_flow.shifts import find_shift
+from texvent.interpolate.dis_flow.estimator import DisFlow, make_pyramid
+from texvent.interpolate.dis_flow.frame_motion import find_shift, leads_outside
 
 WIDTH, HEIGHT = 96, 72
 
@@ -30,7 +29,7 @@ def view(image, x, y, width=WIDTH, height=HEIGHT):
 
 
 def shift_between(first, second):
-    return find_shift(*(make_pyramid(one, 0, 2, flow_cpu) for one in (first, second)))
+    return find_shift(*(make_pyramid(one, 0, 2) for one in (first, second)))
 
 
 @pytest.mark.parametrize(("x", "y"), [(20, -6), (-32, 0), (0, 24), (30, 18)])
@@ -97,7 +96,7 @@ def test_what_rests_before_a_moving_ground_keeps_its_own_flow():
     np.testing.assert_allclose(np.median(forward[:12], axis=(0, 1)), (24, 0), atol=0.3)
 
 
-@pytest.mark.parametrize("kernels", [flow_reference, flow_cpu], ids=["reference", "cpu"])
+@pytest.mark.parametrize("kernels", [reference, compiled], ids=["reference", "compiled"])
 def test_a_patch_takes_the_shift_that_fits_it_or_leads_it_out_of_the_view(kernels):
     image = texture(9, side=200)
     start, stop = (kernels.make_level(view(image, x, 0, 32, 8)) for x in (0, 12))
@@ -114,7 +113,7 @@ def test_a_patch_takes_the_shift_that_fits_it_or_leads_it_out_of_the_view(kernel
     np.testing.assert_array_equal(kernels.try_vectors(start, stop, patches, worse), patches)
 
 
-@pytest.mark.parametrize("kernels", [flow_reference, flow_cpu], ids=["reference", "cpu"])
+@pytest.mark.parametrize("kernels", [reference, compiled], ids=["reference", "compiled"])
 def test_texture_that_repeats_goes_with_the_frame(kernels):
     stripes = np.tile(128 + 100 * np.sin(np.arange(40) * np.pi / 8), (8, 1)).astype(np.float32)
     start, stop = (kernels.make_level(np.roll(stripes, x, 1)) for x in (0, 7))

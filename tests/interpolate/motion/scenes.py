@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
+from tests.interpolate.motion.reference import View
 
-from texvent.interpolate.motion.motion_reference import View
 from texvent.video import Frame, Motion
 
 HEIGHT, WIDTH = 12, 14

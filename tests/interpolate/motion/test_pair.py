@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.interpolate.motion.reference import level_at
 from tests.interpolate.motion.scenes import (
     BACKGROUND_M,
     HEIGHT,
@@ -22,8 +23,7 @@ from tests.interpolate.motion.scenes import (
 
 from texvent.errors import InputError
 from texvent.interpolate.motion.draw_cpu import FOLLOWED, MIXED
-from texvent.interpolate.motion.motion_reference import level_at
-from texvent.interpolate.motion.pair import MotionPair, moving_part
+from texvent.interpolate.motion.interpolator import MotionPair, moving_part
 from texvent.video import Frame, Motion
 
 FLAT = np.full((HEIGHT, WIDTH), BACKGROUND_M, np.float32)

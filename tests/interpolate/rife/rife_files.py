@@ -1,13 +1,18 @@
-"""Untrained networks in the published layouts, and files of them."""
+"""Untrained networks in the published layouts, narrow, and files of them."""
 
 import numpy as np
 
 
-def random_tensors(layout, seed=0):
+def random_tensors(torch, layout, seed=0, width=8):
     """Name → float32 array; layers neither vanish nor explode, flows are a few pixels."""
+    from texvent.interpolate.rife.network import RifeNetwork
+
     random = np.random.default_rng(seed)
     tensors = {}
-    for name, shape in layout.tensor_shapes().items():
+    with torch.device("meta"):
+        network = RifeNetwork(layout, (width,) * len(layout.widths))
+    for name, tensor in network.state_dict().items():
+        shape = tuple(tensor.shape)
         if name.endswith("beta"):
             values = random.uniform(0.05, 0.2, shape)
         elif name.endswith(".1.weight") and len(shape) == 1:
@@ -23,7 +28,8 @@ def random_tensors(layout, seed=0):
 
 def save_published(torch, layout, path, *, prefix="module.", **more):
     """A state dict as training leaves it: a prefix before every name, other networks beside."""
-    state = {prefix + name: torch.from_numpy(one) for name, one in random_tensors(layout).items()}
+    arrays = random_tensors(torch, layout)
+    state = {prefix + name: torch.from_numpy(one) for name, one in arrays.items()}
     state.update({prefix + name: one for name, one in more.items()})
     torch.save(state, path)
     return path

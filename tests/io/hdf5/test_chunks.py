@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
-from texvent.io.hdf5.chunks import append_chunks, pack
+from texvent.io.hdf5.storage import append_chunks, pack
 
 CHUNK = 8
 

@@ -11,7 +11,7 @@ import pytest
 
 from texvent.errors import FileFormatError
 from texvent.io.files import load, open_events
-from texvent.io.hdf5.damage import MAX_CHUNK_BYTES
+from texvent.io.hdf5.storage import MAX_CHUNK_BYTES
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(6, 5)

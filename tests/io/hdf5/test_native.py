@@ -17,7 +17,7 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io import block_writer
 from texvent.io.files import load, open_events, save
-from texvent.io.hdf5 import damage, native
+from texvent.io.hdf5 import native, storage
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(6, 5)
@@ -224,7 +224,7 @@ def test_a_foreign_filter_names_the_package_to_install(
 ) -> None:
     path = save(tmp_path / "events.h5", at_times(1, 2))
     monkeypatch.setattr(h5py.h5z, "filter_avail", lambda code: False)
-    monkeypatch.setattr(damage, "require", _no_package)
+    monkeypatch.setattr(storage, "require", _no_package)
     with pytest.raises(MissingDependencyError, match="pip install hdf5plugin"):
         load(path)
 
@@ -237,14 +237,14 @@ def test_a_disk_that_fills_up_while_writing_leaves_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, folder_is_clean: Callable[[], bool]
 ) -> None:
     room = 3000
-    really_write = os.pwrite
+    really_write = os.write
 
-    def write_until_full(descriptor: int, content: bytes, offset: int) -> int:
-        if offset + len(content) > room:
+    def write_until_full(descriptor: int, content: bytes) -> int:
+        if os.lseek(descriptor, 0, os.SEEK_CUR) + len(content) > room:
             raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-        return really_write(descriptor, content, offset)
+        return really_write(descriptor, content)
 
-    monkeypatch.setattr(os, "pwrite", write_until_full)
+    monkeypatch.setattr(os, "write", write_until_full)
     with pytest.raises(OutputError, match="the disk is full") as caught:
         save(tmp_path / "events.h5", at_times(*range(5000)))
     assert "\n" not in str(caught.value)

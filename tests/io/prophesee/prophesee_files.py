@@ -24,10 +24,8 @@ EXTENSIONS = {
     "evt21": ".raw",
     "evt3": ".raw",
     "dat": ".dat",
-    "prophesee-hdf5": ".hdf5",
 }
 FORMATS = tuple(EXTENSIONS)
-WORD_FORMATS = tuple(CODES)
 
 
 def write_words(

@@ -10,17 +10,12 @@ import pytest
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.io.files import codec_for, codec_that_reads, load, open_events, save
-from texvent.io.prophesee import ecf_hdf5
-from texvent.io.prophesee.ecf_dataset import ECF_FILTER
-from texvent.io.prophesee.ecf_hdf5 import CHUNK_EVENTS, EVENT
+from texvent.io.prophesee import prophesee_ecf as ecf_hdf5
 
+from ..read_only_formats import CHUNK_EVENTS, write_ecf
+from ..read_only_formats import ECF_EVENT as EVENT
 from .ecf_bodies import make_chunk
 from .prophesee_files import SIZE, at_times, events_of, row_bursts
-from .test_ecf_index import by_definition
-
-
-def write(path: Path, events: EventStream) -> Path:
-    return save(path, events, format="prophesee-hdf5", overwrite=True)
 
 
 def make_foreign(path: Path, records: np.ndarray, **options: Any) -> Path:
@@ -38,57 +33,11 @@ def records_of(events: EventStream) -> np.ndarray:
     return records
 
 
-def test_the_layout_is_the_one_metavision_opens(tmp_path: Path) -> None:
-    events = row_bursts(3000)
-    with h5py.File(write(tmp_path / "e.hdf5", events)) as file:
-        dataset = file["CD/events"]
-        assert dataset.shape == (len(events),)
-        assert dataset.chunks == (CHUNK_EVENTS,)
-        assert dataset.dtype == EVENT
-        assert dataset.dtype.itemsize == 16
-        properties = dataset.id.get_create_plist()
-        assert properties.get_nfilters() == 1
-        assert properties.get_filter(0)[:2] == (ECF_FILTER, h5py.h5z.FLAG_OPTIONAL)
-        assert file["CD/indexes"].id.get_create_plist().get_nfilters() == 0
-        assert file["CD/indexes"].chunks == (CHUNK_EVENTS,)
-        assert [tuple(entry) for entry in file["CD/indexes"][()]] == by_definition(
-            events.t.tolist()
-        )
-        assert file["CD/indexes"].attrs["offset"] == str(-int(events.t[0]))
-        assert file["EXT_TRIGGER/events"].shape == (0,)
-        assert file["EXT_TRIGGER/events"].dtype.fields["id"][1] == 16
-        assert file["EXT_TRIGGER/indexes"].shape == (0,)
-        assert file.attrs["geometry"] == "1280x720"
-
-
-def test_every_attribute_openeb_reads_is_ascii_text_of_variable_length(tmp_path: Path) -> None:
-    with h5py.File(write(tmp_path / "e.hdf5", at_times(5, 9))) as file:
-        nodes = [(file, name) for name in file.attrs] + [(file["CD/indexes"], "offset")]
-        assert len(nodes) == 7
-        for node, name in nodes:
-            kind = h5py.h5a.open(node.id, name.encode()).get_type()
-            assert isinstance(kind, h5py.h5t.TypeStringID)
-            assert kind.is_variable_str()
-            assert kind.get_cset() == h5py.h5t.CSET_ASCII
-
-
-def test_every_chunk_on_disk_is_one_ecf_body(tmp_path: Path) -> None:
-    events = row_bursts(3000)
-    with h5py.File(write(tmp_path / "e.hdf5", events)) as file:
-        dataset = file["CD/events"]
-        assert dataset.id.get_num_chunks() == -(-len(events) // CHUNK_EVENTS)
-        for start in range(0, len(events), CHUNK_EVENTS):
-            skipped, chunk = dataset.id.read_direct_chunk((start,))
-            assert skipped == 0
-            part = events[start : start + CHUNK_EVENTS]
-            assert bytes(chunk) == make_chunk(events_of(part), "packed")
-
-
 def test_the_content_decides_which_hdf5_reader_opens_it(tmp_path: Path) -> None:
     events = at_times(1, 2)
     for extension in (".h5", ".hdf5"):
         ours = save(tmp_path / f"universal{extension}", events)
-        theirs = write(tmp_path / f"metavision{extension}", events)
+        theirs = write_ecf(tmp_path / f"metavision{extension}", events)
         assert codec_that_reads(ours).name == codec_for(theirs).name == "hdf5"
         assert codec_that_reads(theirs).name == "prophesee-hdf5"
         assert load(ours).equals(events)
@@ -100,19 +49,13 @@ def test_the_content_decides_which_hdf5_reader_opens_it(tmp_path: Path) -> None:
 @pytest.mark.parametrize("kind", ["packed", "pairs", "masked"])
 def test_chunks_of_every_legal_body_are_read(tmp_path: Path, kind: str) -> None:
     events = row_bursts(3000)
-    path = write(tmp_path / "e.hdf5", EventStream.empty(SIZE))
-    with h5py.File(path, "r+") as file:
-        dataset = file["CD/events"]
-        dataset.resize((len(events),))
-        for start in range(0, len(events), CHUNK_EVENTS):
-            part = events[start : start + CHUNK_EVENTS]
-            dataset.id.write_direct_chunk((start,), make_chunk(events_of(part), kind))
-    assert load(path).equals(events)
+    assert len(events) > CHUNK_EVENTS
+    assert load(write_ecf(tmp_path / "e.hdf5", events, kind)).equals(events)
 
 
 def test_a_chunk_the_filter_was_not_applied_to_is_read(tmp_path: Path) -> None:
     events = row_bursts(50)
-    path = write(tmp_path / "e.hdf5", EventStream.empty(SIZE))
+    path = write_ecf(tmp_path / "e.hdf5", EventStream.empty(SIZE))
     full = np.zeros(CHUNK_EVENTS, dtype=EVENT)
     full[: len(events)] = records_of(events)
     with h5py.File(path, "r+") as file:
@@ -138,17 +81,11 @@ def test_packets_end_with_whole_chunks_and_memory_stays_flat(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     events = row_bursts(4000)
-    path = write(tmp_path / "e.hdf5", events)
+    path = write_ecf(tmp_path / "e.hdf5", events)
     monkeypatch.setattr(ecf_hdf5, "PACKET_CHUNKS", 1)
     packets = list(open_events(path))
     assert [len(packet) for packet in packets[:-1]] == [CHUNK_EVENTS] * (len(packets) - 1)
     assert EventStream.concat(packets).equals(events)
-
-
-def test_long_metadata_moves_to_a_dataset(tmp_path: Path) -> None:
-    metadata = {"prompt": "a car " * 20_000}
-    path = write(tmp_path / "e.hdf5", at_times(1).with_metadata(metadata))
-    assert load(path).metadata == metadata
 
 
 def test_an_absent_size_is_asked_for(tmp_path: Path) -> None:
@@ -196,7 +133,7 @@ def damage(path: Path, change: str) -> None:
     ],
 )
 def test_a_damaged_file_is_one_clear_line(tmp_path: Path, change: str, message: str) -> None:
-    path = write(tmp_path / "e.hdf5", at_times(1, 2, 3))
+    path = write_ecf(tmp_path / "e.hdf5", at_times(1, 2, 3))
     damage(path, change)
     with pytest.raises(FileFormatError, match=message) as caught:
         load(path, format="prophesee-hdf5")
@@ -207,7 +144,7 @@ def test_time_that_decreases_between_packets_is_noticed(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(ecf_hdf5, "PACKET_CHUNKS", 1)
-    path = write(tmp_path / "e.hdf5", at_times(*[100] * (CHUNK_EVENTS + 3)))
+    path = write_ecf(tmp_path / "e.hdf5", at_times(*[100] * (CHUNK_EVENTS + 3)))
     with h5py.File(path, "r+") as file:
         early = make_chunk([(0, 0, 99, 0)] * 3, "packed")
         file["CD/events"].id.write_direct_chunk((CHUNK_EVENTS,), early)

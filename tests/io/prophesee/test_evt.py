@@ -123,7 +123,7 @@ def test_the_header_of_a_file_made_by_hand_is_the_one_texvent_reads(
 def test_numba_is_imported_only_when_words_are_decoded() -> None:
     program = (
         "import sys; from texvent.io.files import codec_for; codec_for('a.raw'); "
-        "codec_for('a.dat'); codec_for('a.h5', 'prophesee-hdf5'); "
+        "codec_for('a.dat'); codec_for('a.h5'); "
         "sys.exit('numba' in sys.modules)"
     )
     subprocess.run([sys.executable, "-c", program], check=True, timeout=300)

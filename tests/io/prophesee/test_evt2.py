@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError
 from texvent.io.files import load, save
-from texvent.io.prophesee.evt2 import Evt2Codec
+from texvent.io.prophesee.evt import Evt2Codec
 
 from .prophesee_files import HEADERS, SIZE, at_times, events_of, write_words
 from .slow_words import decode_evt2

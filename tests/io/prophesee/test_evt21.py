@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from texvent.events import EventStream
 from texvent.io.files import load, save
 from texvent.io.prophesee import evt21_coding
-from texvent.io.prophesee.evt21 import LittleDecoder
+from texvent.io.prophesee.evt import SwappedWordDecoder
 
 from .prophesee_files import SIZE, at_times, events_of, row_bursts, write_words
 from .slow_words import decode_evt21
@@ -102,6 +102,6 @@ def test_any_words_mean_what_the_slow_decoder_says(words: list[int]) -> None:
     if (np.diff(highs) < -(2**27)).any():
         # The slow decoder does not know wraps.
         return
-    columns = LittleDecoder(evt21_coding).decode(array)
+    columns = SwappedWordDecoder(evt21_coding).decode(array)
     rows = zip(*(columns[name].tolist() for name in "xytp"), strict=True)
     assert list(rows) == decode_evt21(array.tobytes())

@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from texvent.events import EventStream
 from texvent.io import block_codec
 from texvent.io.files import load, open_events, save
-from texvent.io.prophesee.evt3 import Evt3Codec
+from texvent.io.prophesee.evt import Evt3Codec
 
 from .prophesee_files import SIZE, at_times, events_of, row_bursts, write_words
 from .slow_words import decode_evt3

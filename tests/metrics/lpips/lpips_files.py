@@ -6,8 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.metrics.lpips.layout import ALEX
-from texvent.metrics.lpips.weights import LpipsWeights
+from texvent.metrics.lpips import ALEX, LpipsWeights
 
 NARROW = replace(
     ALEX,

@@ -11,13 +11,14 @@ from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
+from texvent.metrics import lpips
 from texvent.metrics.event_frames import EventFrameLpips
-from texvent.metrics.lpips import distance as lpips
-from texvent.metrics.lpips import weights as lpips_weights
-from texvent.metrics.lpips.distance import lpips_distance
-from texvent.metrics.lpips.layout import ALEX, VGG
-from texvent.metrics.lpips.weights import (
+from texvent.metrics.lpips import (
+    ALEX,
+    VGG,
+    Lpips,
     find_lpips_weights,
+    lpips_distance,
     read_lpips_weights,
     write_lpips_weights,
 )
@@ -32,50 +33,52 @@ WEIGHTS = narrow_weights()
 
 @pytest.fixture(autouse=True)
 def _known_layouts(monkeypatch):
-    monkeypatch.setattr(lpips_weights, "LAYOUTS", (NARROW, ALEX))
+    monkeypatch.setattr(lpips, "LAYOUTS", (NARROW, ALEX))
+
+
+def distance(a, b, weights=WEIGHTS):
+    return lpips_distance(a, b, Lpips(weights))
 
 
 def images(seed, height=37, width=43):
     return np.random.default_rng(seed).random((2, height, width, 3))
 
 
+@pytest.mark.torch
 @pytest.mark.parametrize("seed", [0, 1])
 def test_the_distance_agrees_with_its_slow_twin(seed):
     a, b = images(seed)
     weights = narrow_weights(seed)
     expected = slow_distance(a, b, weights)
     assert expected > 0.01
-    assert lpips_distance(a, b, weights) == pytest.approx(expected, rel=1e-5)
+    assert distance(a, b, weights) == pytest.approx(expected, rel=1e-5)
 
 
-def test_rows_in_blocks_give_the_same_distance(monkeypatch):
-    a, b = images(2)
-    whole = lpips_distance(a, b, WEIGHTS)
-    monkeypatch.setattr(lpips, "BLOCK_VALUES", 1)
-    assert lpips_distance(a, b, WEIGHTS) == pytest.approx(whole, rel=1e-6)
-
-
+@pytest.mark.torch
 @given(seed=st.integers(0, 100))
 @settings(max_examples=5)
 def test_the_distance_is_symmetric_and_zero_for_equal_images(seed):
     a, b = images(seed, 31, 33)
-    assert lpips_distance(a, a, WEIGHTS) == 0.0
-    assert lpips_distance(a, b, WEIGHTS) == pytest.approx(lpips_distance(b, a, WEIGHTS))
+    assert distance(a, a) == 0.0
+    assert distance(a, b) == pytest.approx(distance(b, a))
 
 
+@pytest.mark.torch
 def test_a_grey_image_is_one_with_equal_colours():
     grey = images(3)[..., 0]
     colours = np.repeat(grey[..., None], 3, axis=3)
-    assert lpips_distance(*grey, WEIGHTS) == lpips_distance(*colours, WEIGHTS)
+    assert distance(*grey) == distance(*colours)
 
 
+@pytest.mark.torch
 def test_an_image_too_small_for_the_network_is_undefined():
     small, enough = np.zeros((30, 90)), np.zeros((31, 90))
-    assert math.isnan(lpips_distance(small, small, WEIGHTS))
-    assert lpips_distance(enough, enough, WEIGHTS) == 0.0
+    assert math.isnan(distance(small, small))
+    assert distance(enough, enough) == 0.0
     assert (ALEX.least_side, VGG.least_side) == (31, 16)
 
 
+@pytest.mark.torch
 @pytest.mark.parametrize(
     ("a", "b", "complaint"),
     [
@@ -88,7 +91,7 @@ def test_an_image_too_small_for_the_network_is_undefined():
 )
 def test_what_is_no_pair_of_images_is_refused(a, b, complaint):
     with pytest.raises(InputError, match=complaint):
-        lpips_distance(a, b, WEIGHTS)
+        distance(a, b)
 
 
 def test_the_published_file_and_the_converted_one_hold_the_same_arrays(tmp_path):
@@ -135,13 +138,14 @@ def test_weights_that_were_not_pulled_are_named_with_the_command(tmp_path, monke
         find_lpips_weights("vgg")
 
 
+@pytest.mark.torch
 def test_event_frames_are_compared_as_grey_images(tmp_path):
     write_lpips_weights(WEIGHTS, tmp_path / "narrow.npz")
     metric = EventFrameLpips(weights=tmp_path / "narrow.npz")
     size = SensorSize(40, 33)
     a, b = random_events(1, 600, size, 40_000), random_events(2, 600, size, 40_000)
     frames = [event_frame(one, "polarity").astype(np.float64) for one in (a, b)]
-    assert metric(a, b) == pytest.approx(lpips_distance(*frames, WEIGHTS))
+    assert metric(a, b) == pytest.approx(distance(*frames))
     assert metric(a, a) == 0.0
     assert metric.missing() is None
     # A second frame that is empty in both counts 0.
@@ -150,6 +154,7 @@ def test_event_frames_are_compared_as_grey_images(tmp_path):
     assert metric(*both) == pytest.approx(metric(a, b) / 3)
 
 
+@pytest.mark.torch
 def test_event_frames_of_a_small_sensor_have_no_lpips(tmp_path):
     write_lpips_weights(WEIGHTS, tmp_path / "narrow.npz")
     small = random_events(1)

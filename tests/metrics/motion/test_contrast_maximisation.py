@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.events import EventStream
-from texvent.metrics.motion.contrast_maximisation import (
+from texvent.metrics.event_sharpness import (
     estimate_patch_flow,
     estimate_velocities,
     estimate_velocity,

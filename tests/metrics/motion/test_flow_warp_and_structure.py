@@ -6,8 +6,12 @@ import numpy as np
 import pytest
 
 from texvent.events import EventStream
-from texvent.metrics.motion.flow_warp import FlowWarpRatio, flow_warp_sharpness
-from texvent.metrics.motion.structural_ratio import StructuralRatioQuotient, structural_ratio
+from texvent.metrics.event_sharpness import (
+    FlowWarpRatio,
+    StructuralRatioQuotient,
+    flow_warp_sharpness,
+    structural_ratio,
+)
 from texvent.sensor import SensorSize
 
 from ..recordings import SMALL, random_events

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.typing import NDArray
 
-from texvent.metrics.pixelwise.depth_error import DepthError
+from texvent.metrics.dense_errors import DepthError
 
 DEPTHS = arrays(np.float64, (3, 4), elements=st.floats(0.5, 79, width=32))
 

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.typing import NDArray
 
-from texvent.metrics.pixelwise.flow_error import FlowError
+from texvent.metrics.dense_errors import FlowError
 
 FLOWS = arrays(np.float64, (2, 3, 4), elements=st.floats(-50, 50, width=32))
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from texvent.metrics.rvt.layout import STRIDES, RvtLayout
+from texvent.metrics.rvt_backbone import STRIDES, RvtLayout
 
 TINY = RvtLayout("tiny", 8, 4)
 """Narrower than any that was published, for arithmetic that is checked by loops."""

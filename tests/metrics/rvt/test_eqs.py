@@ -7,11 +7,8 @@ import pytest
 
 from texvent.errors import ConfigError, FileFormatError
 from texvent.events import EventStream
-from texvent.metrics.rvt.eqs import EventQualityScore, load_eqs
-from texvent.metrics.rvt.latent_similarity import LatentSimilarity
-from texvent.metrics.rvt.layout import LAYOUTS
-from texvent.metrics.rvt.network import RvtBackbone
-from texvent.metrics.rvt.weights import RvtWeights, read_rvt_weights
+from texvent.metrics.latent_similarity import EventQualityScore, LatentSimilarity, load_eqs
+from texvent.metrics.rvt_backbone import LAYOUTS, RvtBackbone, RvtWeights, read_rvt_weights
 from texvent.sensor import SensorSize
 
 from ..recordings import one_event, random_events

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.events import EventStream
-from texvent.metrics.rvt.latent_similarity import LatentSimilarity, patch_cosine
+from texvent.metrics.latent_similarity import LatentSimilarity, patch_cosine
 from texvent.sensor import SensorSize
 
 from ..recordings import one_event, random_events

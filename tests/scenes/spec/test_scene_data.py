@@ -159,6 +159,7 @@ WRONG = [
     ({"objects": CAR}, "objects is {'noun': 'car'}; it must be a list"),
     ({"objects": [{}]}, "objects[0] has no noun, which it must have"),
     ({"objects": [CAR, {"noun": "cra"}]}, "objects[1].noun is 'cra'; did you mean 'crab'?"),
+    ({"objects": [{"noun": "jogger"}]}, "objects[0].noun is 'jogger'; did you mean 'runner'?"),
     ({"objects": [{**CAR, "siz": 2}]}, "objects[0] has no field 'siz'; "),
     ({"objects": [{**CAR, "count": 0}]}, "objects[0].count is 0; it must be 1..60"),
     ({"objects": [CAR] * 10_000}, "objects have 10,000 copies in all; a scene shows 60 at most"),

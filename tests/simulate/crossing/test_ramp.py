@@ -5,11 +5,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from tests.simulate.references import esim
+from tests.simulate.references.ramp import Ramp, cross_ramp
 
-from texvent.simulate.crossing.ramp import Ramp, RefractoryPeriod
-from texvent.simulate.crossing.ramp_reference import cross_ramp
-from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels
-from texvent.simulate.esim.segments import CrossingState
+from texvent.simulate.crossing.ramp import RefractoryPeriod
+from texvent.simulate.esim import crossings
+from texvent.simulate.esim.crossings import CrossingState, RampPixels
 from texvent.simulate.random.mismatch import Thresholds
 
 SHAPE = (12,)
@@ -20,13 +21,14 @@ thresholds = arrays(np.float64, SHAPE, elements=st.floats(0.05, 0.5))
 rests = st.builds(RefractoryPeriod, st.sampled_from([0, 1, 300, 5000]), st.booleans())
 
 
-def cross(backend, ramp, fired_us=None, *, span=(0, 1000), rest=None):
+def cross(ramp, fired_us=None, *, span=(0, 1000), rest=None, by=crossings):
     """Events, and where the references are after them: they begin at 0."""
     fired = np.full(SENSOR[0] * SENSOR[1], NEVER) if fired_us is None else fired_us
     candidates = RampPixels(*ramp[:3], None, Thresholds(*ramp[3:]))
     levels = CrossingState(np.zeros(fired.size), fired)
-    cross_thresholds = CROSS_THRESHOLDS.load(backend)
-    events = cross_thresholds(candidates, levels, span, rest or RefractoryPeriod(0, True), SENSOR)
+    events = by.cross_thresholds(
+        candidates, levels, span, rest or RefractoryPeriod(0, True), SENSOR
+    )
     return events, levels.reference
 
 
@@ -35,36 +37,34 @@ def one(start, stop, on=0.2, off=0.2):
     return Ramp(np.zeros(1, np.int64), *values)
 
 
-def test_levels_are_crossed_where_the_line_meets_them(backend):
+def test_levels_are_crossed_where_the_line_meets_them():
     # From 0.1 to 0.7 in 1000 µs: 0.2, 0.4 and 0.6 at 1/6, 1/2 and 5/6.
-    found, reference = cross(backend, one(0.1, 0.7))
+    found, reference = cross(one(0.1, 0.7))
     assert found.t.tolist() == [166, 500, 833]
     assert found.p.tolist() == [1, 1, 1]
     assert found.label.tolist() == [0, 0, 0]
     assert reference[0] == 3 * 0.2
 
 
-def test_a_level_met_exactly_at_the_end_fires_in_the_last_microsecond(backend):
-    assert cross(backend, one(0.0, 0.25, on=0.25))[0].t.tolist() == [999]
+def test_a_level_met_exactly_at_the_end_fires_in_the_last_microsecond():
+    assert cross(one(0.0, 0.25, on=0.25))[0].t.tolist() == [999]
 
 
-def test_a_level_passed_before_the_start_fires_at_once(backend):
-    found, _ = cross(backend, one(0.5, 0.45))
+def test_a_level_passed_before_the_start_fires_at_once():
+    found, _ = cross(one(0.5, 0.45))
     assert found.t.tolist() == [0, 0]
 
 
-def test_off_uses_its_own_threshold(backend):
-    found, reference = cross(backend, one(0.0, -0.35, on=0.2, off=0.1))
+def test_off_uses_its_own_threshold():
+    found, reference = cross(one(0.0, -0.35, on=0.2, off=0.1))
     assert found.p.tolist() == [0, 0, 0]
     assert reference[0] == -3 * 0.1
 
 
 @pytest.mark.parametrize(("is_level_lost", "steps"), [(True, 5), (False, 2)])
-def test_a_rest_keeps_or_loses_the_levels_it_swallows(backend, is_level_lost, steps):
+def test_a_rest_keeps_or_loses_the_levels_it_swallows(is_level_lost, steps):
     fired = np.full(24, NEVER)
-    found, reference = cross(
-        backend, one(0.0, 1.05), fired, rest=RefractoryPeriod(500, is_level_lost)
-    )
+    found, reference = cross(one(0.0, 1.05), fired, rest=RefractoryPeriod(500, is_level_lost))
     assert found.t.tolist() == [190, 761]
     assert reference[0] == steps * 0.2
     assert fired.tolist() == [761] + [NEVER] * 23
@@ -77,8 +77,8 @@ def test_backends_agree_and_crossings_are_sound(start, stop, on, off, rest, dura
     pixel = np.arange(0, 24, 2)
     ramp, span = Ramp(pixel, start, stop, on, off), (70, 70 + duration)
     times = [np.full(24, NEVER) for _ in range(3)]
-    reference, moved = cross("reference", ramp, times[0], span=span, rest=rest)
-    compiled, also_moved = cross("cpu", ramp, times[1], span=span, rest=rest)
+    reference, moved = cross(ramp, times[0], span=span, rest=rest, by=esim)
+    compiled, also_moved = cross(ramp, times[1], span=span, rest=rest)
     for ours, theirs in zip(reference, compiled, strict=True):
         assert np.array_equal(ours, theirs)
     assert np.array_equal(moved, also_moved)
@@ -102,19 +102,18 @@ def test_backends_agree_and_crossings_are_sound(start, stop, on, off, rest, dura
 def test_backends_agree_on_many_crossings_of_many_pixels(rest):
     """Up to 150 events of a pixel, more pixels than a compiled kernel looks at together."""
     found = []
-    for backend in ("reference", "cpu"):
+    for by in (esim, crossings):
         rng = np.random.default_rng(0)
         ramp = Ramp(np.arange(1500), *rng.normal(0, 0.7, (2, 1500)), *np.full((2, 1500), 0.02))
-        cross_thresholds = CROSS_THRESHOLDS.load(backend)
         levels = CrossingState(np.zeros(1500), np.full(1500, NEVER))
         candidates = RampPixels(*ramp[:3], None, Thresholds(*ramp[3:]))
-        events = cross_thresholds(candidates, levels, (0, 5000), rest, (30, 50))
+        events = by.cross_thresholds(candidates, levels, (0, 5000), rest, (30, 50))
         found.append((*events, *levels))
     assert all(np.array_equal(*pair) for pair in zip(*found, strict=True))
     assert len(found[0][0]) > 20_000
 
 
-def test_a_crossing_far_in_time_is_exact(backend):
+def test_a_crossing_far_in_time_is_exact():
     late = 10**15
-    found, _ = cross(backend, one(0.0, 0.3), span=(late, late + 900))
+    found, _ = cross(one(0.0, 0.3), span=(late, late + 900))
     assert found.t.tolist() == [late + math.floor(0.2 / 0.3 * 900)]

@@ -1,4 +1,4 @@
-"""Trigger levels: who is inside them cannot fire, whatever the types, thresholds and backends."""
+"""Trigger levels: who is inside them cannot fire, whatever the types and thresholds."""
 
 import dataclasses
 
@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.simulate.references.ramp import Ramp, cross_ramp
 
-from texvent.simulate.crossing.ramp import Ramp, RefractoryPeriod
-from texvent.simulate.crossing.ramp_reference import cross_ramp
+from texvent.simulate.crossing.ramp import RefractoryPeriod
 from texvent.simulate.crossing.trigger_levels import BrightnessCurve, TriggerLevels
 from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator, log_intensity
 from texvent.simulate.random.mismatch import (
@@ -17,8 +17,7 @@ from texvent.simulate.random.mismatch import (
     draw_threshold_pair,
     sensor_key,
 )
-from texvent.simulate.senpi.config import SenpiConfig
-from texvent.simulate.senpi.simulator import SenpiSimulator, photons
+from texvent.simulate.senpi.simulator import SenpiConfig, SenpiSimulator, photons
 from texvent.video import Frame
 
 from ..pixel_frames import run
@@ -34,7 +33,6 @@ def frames_of(dtypes, seed, shape=(4, 6)) -> list[Frame]:
 
 
 DTYPES = st.lists(st.sampled_from([np.uint8, np.float32]), min_size=3, max_size=6)
-BACKENDS = st.sampled_from(["reference", "numpy", "cpu"])
 
 
 def esim_of_every_pixel(frames, config, seed) -> list[tuple[int, int, int]]:
@@ -60,7 +58,6 @@ def esim_of_every_pixel(frames, config, seed) -> list[tuple[int, int, int]]:
 @given(
     DTYPES,
     st.integers(0, 2**32),
-    BACKENDS,
     st.builds(
         EsimConfig,
         contrast_threshold_on=st.sampled_from([0.01, 0.1, np.log(2.0), 3.0]),
@@ -71,9 +68,9 @@ def esim_of_every_pixel(frames, config, seed) -> list[tuple[int, int, int]]:
         refractory_period_us=st.sampled_from([0, 700, 3000]),
     ),
 )
-def test_esim_with_levels_fires_as_without(dtypes, seed, backend, config):
+def test_esim_with_levels_fires_as_without(dtypes, seed, config):
     frames = frames_of(dtypes, seed)
-    events = run(EsimSimulator(config, seed=seed, backend=backend), frames)
+    events = run(EsimSimulator(config, seed=seed), frames)
     pixel = events.y.astype(int) * 6 + events.x
     ours = zip(events.t.tolist(), pixel.tolist(), events.p.tolist(), strict=True)
     assert list(ours) == esim_of_every_pixel(frames, config, seed)
@@ -100,12 +97,11 @@ def senpi_of_every_pixel(frames, config, seed) -> list[tuple[int, int, int]]:
 @given(
     DTYPES,
     st.integers(0, 2**32),
-    BACKENDS,
     st.sampled_from([0.01, 0.3, np.log(2.0), 10.0]),
     st.sampled_from([0.0, 0.1]),
     st.sampled_from([0, 1500]),
 )
-def test_senpi_with_levels_fires_as_without(dtypes, seed, backend, threshold, sigma, rest_us):
+def test_senpi_with_levels_fires_as_without(dtypes, seed, threshold, sigma, rest_us):
     config = SenpiConfig(
         contrast_threshold_on=threshold,
         contrast_threshold_off=threshold,
@@ -114,62 +110,60 @@ def test_senpi_with_levels_fires_as_without(dtypes, seed, backend, threshold, si
         noise_rate_hz=0.0,
     )
     frames = frames_of(dtypes, seed)
-    events = run(SenpiSimulator(config, seed=seed, backend=backend), frames)
+    events = run(SenpiSimulator(config, seed=seed), frames)
     pixel = events.y.astype(int) * 6 + events.x
     ours = zip(events.t.tolist(), pixel.tolist(), events.p.tolist(), strict=True)
     assert list(ours) == senpi_of_every_pixel(frames, config, seed)
 
 
 @pytest.mark.parametrize("dtype", [np.uint8, np.float32])
-def test_only_pixels_outside_their_levels_are_looked_at(backend, dtype):
+def test_only_pixels_outside_their_levels_are_looked_at(kernels, dtype):
     first = np.full((2, 300), 100, dtype)
-    levels = TriggerLevels(first, BrightnessCurve(1.0, -10.0), backend=backend)
-    assert len(levels.find_outside(first)[0]) == 600
+    levels = TriggerLevels(first, BrightnessCurve(1.0, -10.0))
+    assert len(levels.find_outside_levels(first)[0]) == 600
     # Silent from ln(10 + 90.5) to ln(10 + 120).
     reference, pixel = np.full(600, np.log(110.0)), np.arange(600)
     on, off = np.full(600, np.log(130.0 / 110.0)), np.full(600, np.log(110.0 / 100.5))
     levels.set(pixel, reference, Thresholds(on, off))
     second = first.copy()
     second[0, :5] = [90, 91, 119, 120, 130]
-    pixel, before, now = levels.find_outside(second)
+    pixel, before, now = levels.find_outside_levels(second)
     assert pixel.tolist() == [0, 3, 4]
     assert before.tolist() == [100] * 3
     assert now.tolist() == [90, 120, 130]
 
 
-def test_levels_by_luma_are_those_of_each_pixel(backend):
+def test_levels_by_luma_are_those_of_each_pixel(kernels):
     first = np.arange(256, dtype=np.uint8).reshape(4, 64)
     of_luma = log_intensity(np.arange(256, dtype=np.uint8), 1e-3)
     thresholds = Thresholds(np.array([0.2]), np.array([0.3]))
-    one, other = (
-        TriggerLevels(first, BrightnessCurve(255.0, -0.255), backend=backend) for _ in range(2)
-    )
+    one, other = (TriggerLevels(first, BrightnessCurve(255.0, -0.255)) for _ in range(2))
     one.set_all(of_luma, thresholds)
     other.set_all(of_luma, thresholds, of_luma=of_luma)
     for shift in (1, 20, 60, 200):
         moved = np.roll(first, shift)
-        found = [levels.find_outside(moved).pixel.tolist() for levels in (one, other)]
+        found = [levels.find_outside_levels(moved).pixel.tolist() for levels in (one, other)]
         assert found[0] == found[1]
         change = of_luma[moved.ravel()] - of_luma
         assert found[0] == np.flatnonzero((change >= 0.2) | (change <= -0.3)).tolist()
 
 
-def test_a_pixel_that_always_fires_is_always_looked_at(backend):
+def test_a_pixel_that_always_fires_is_always_looked_at(kernels):
     first = np.full((1, 3), 9, np.uint8)
-    levels = TriggerLevels(first, BrightnessCurve(1.0, 0.0), backend=backend)
+    levels = TriggerLevels(first, BrightnessCurve(1.0, 0.0))
     # ON from below 0 on, OFF from above 255 on, and nowhere silent.
     reference, on = np.array([-21.0, 9.5, 2.5]), np.array([1.0, 0.5, -0.5])
     off = np.array([np.inf, 0.5, -0.5])
     levels.set(np.arange(3), reference, Thresholds(on, off))
-    assert levels.find_outside(np.full((1, 3), 0, np.uint8))[0].tolist() == [0, 1, 2]
+    assert levels.find_outside_levels(np.full((1, 3), 0, np.uint8))[0].tolist() == [0, 1, 2]
 
 
-def test_redrawn_thresholds_may_fire_any_pixel(backend):
+def test_redrawn_thresholds_may_fire_any_pixel(kernels):
     config = EsimConfig(threshold_sigma=0.1)
     dim, bright = np.full((30, 30), 100.0), np.full((30, 30), 102.0)
     frames = [Frame(dim, 0), Frame(bright, 1000)]
-    events = run(EsimSimulator(config, seed=1, backend=backend), frames)
+    events = run(EsimSimulator(config, seed=1), frames)
     # ln(102.255 / 100.255) = 0.0198: a threshold of mean 0.2 and sd 0.1 is below it in 3.6 %.
     assert 10 < len(np.unique(events.y.astype(int) * 30 + events.x)) < 60
     steady = dataclasses.replace(config, threshold_sigma=0.0)
-    assert len(run(EsimSimulator(steady, backend=backend), frames)) == 0
+    assert len(run(EsimSimulator(steady), frames)) == 0

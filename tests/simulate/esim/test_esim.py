@@ -22,34 +22,34 @@ def test_log_intensity_is_the_published_one():
 
 
 @pytest.mark.parametrize("sign", [1, -1])
-def test_a_ramp_fires_where_it_crosses_each_threshold(backend, sign):
+def test_a_ramp_fires_where_it_crosses_each_threshold(kernels, sign):
     frames = frames_of([on_log_scale(-3), on_log_scale(-3 + sign * 1.05)], [0, 1_000_000])
-    events = run(EsimSimulator(backend=backend), frames)
+    events = run(EsimSimulator(), frames)
     assert events.t == pytest.approx([k * 0.2 / 1.05 * 1e6 for k in range(1, 6)], abs=1)
     assert (events.polarity == sign).all()
 
 
-def test_the_reference_is_carried_in_steps_across_frames(backend):
+def test_the_reference_is_carried_in_steps_across_frames(kernels):
     # Ramp B' of docs/equations.md: 0.055 per frame, so crossings lie 0.2 / 0.055 frames apart.
     frames = frames_of([on_log_scale(-3 + 0.055 * i) for i in range(21)], range(0, 21_000, 1000))
-    events = run(EsimSimulator(backend=backend), frames)
+    events = run(EsimSimulator(), frames)
     assert events.t == pytest.approx([k * 0.2 / 0.055 * 1000 for k in range(1, 6)], abs=1)
     assert events.p.all()
 
 
-def test_a_step_fires_once_per_threshold_and_keeps_the_rest(backend):
+def test_a_step_fires_once_per_threshold_and_keeps_the_rest(kernels):
     frames = frames_of([on_log_scale(v) for v in (-3, -2.5, -2.5, -2.39)], [0, 1000, 2000, 3000])
-    events = run(EsimSimulator(backend=backend), frames)
+    events = run(EsimSimulator(), frames)
     # 0.5 crosses 0.2 and 0.4; of the 0.1 left, 0.11 more crosses the third at 0.1 / 0.11.
     assert events.t == pytest.approx([400, 800, 2909], abs=1)
 
 
-def test_a_sinusoid_fires_at_its_levels(backend):
+def test_a_sinusoid_fires_at_its_levels(kernels):
     amplitude = 0.51
     frames = curve(
         lambda s: on_log_scale(-3 + amplitude * math.sin(math.tau * s)), fps=1000, seconds=1.97
     )
-    events = run(EsimSimulator(backend=backend), frames)
+    events = run(EsimSimulator(), frames)
     rising = [math.asin(level / amplitude) / math.tau for level in (-0.2, 0.0, 0.2, 0.4)]
     # From level 0: up to 0.4, down through 0.2, 0, -0.2, -0.4, and so on.
     falling = [0.5 - math.asin(level / amplitude) / math.tau for level in (0.2, 0.0, -0.2, -0.4)]
@@ -62,33 +62,33 @@ def test_a_sinusoid_fires_at_its_levels(backend):
     assert events.t == pytest.approx([t * 1e6 for t, _ in expected], abs=4)
 
 
-def test_unequal_thresholds_count_apart(backend):
+def test_unequal_thresholds_count_apart(kernels):
     config = EsimConfig(contrast_threshold_on=0.3, contrast_threshold_off=0.1)
     frames = frames_of([on_log_scale(v) for v in (-3, -2.05, -3)], [0, 1000, 2000])
-    events = run(EsimSimulator(config, backend=backend), frames)
+    events = run(EsimSimulator(config), frames)
     # Up 0.95: three ON, reference at 0.9. Down to 0: nine OFF (0.9 / 0.1, minus rounding).
     assert int(events.p.sum()) == 3
     assert int((1 - events.p).sum()) in (8, 9)
 
 
-def test_crossings_in_the_refractory_period_are_lost(backend):
+def test_crossings_in_the_refractory_period_are_lost(kernels):
     # One crossing every 10 ms; a period of 25 ms lets every third through.
     config = EsimConfig(refractory_period_us=25_000)
     frames = frames_of([on_log_scale(-3), on_log_scale(-3 + 2.01)], [0, 100_500])
-    events = run(EsimSimulator(config, backend=backend), frames)
+    events = run(EsimSimulator(config), frames)
     assert events.t == pytest.approx([10_000, 40_000, 70_000, 100_000], abs=1)
 
 
-def test_the_reference_steps_over_lost_crossings(backend):
+def test_the_reference_steps_over_lost_crossings(kernels):
     config = EsimConfig(refractory_period_us=25_000)
     values = [on_log_scale(v) for v in (-3, -2.39, -2.39)]
-    events = run(EsimSimulator(config, backend=backend), frames_of(values, [0, 1000, 500_000]))
+    events = run(EsimSimulator(config), frames_of(values, [0, 1000, 500_000]))
     assert len(events) == 1
 
 
-def test_thresholds_fixed_per_pixel_have_the_stated_mean_and_sd(backend):
+def test_thresholds_fixed_per_pixel_have_the_stated_mean_and_sd(kernels):
     config = EsimConfig(threshold_sigma=0.03, threshold_redraw="never")
-    simulator = EsimSimulator(config, seed=5, backend=backend)
+    simulator = EsimSimulator(config, seed=5)
     shape = (60, 60)
     first = np.full(shape, on_log_scale(-3))
     second = np.full(shape, on_log_scale(-2.5))
@@ -100,10 +100,10 @@ def test_thresholds_fixed_per_pixel_have_the_stated_mean_and_sd(backend):
     assert thresholds.std() == pytest.approx(0.03, rel=4 / math.sqrt(2 * 3600))
 
 
-def test_thresholds_drawn_per_frame_change_from_frame_toFrame(backend):
+def test_thresholds_drawn_per_frame_change_from_frame_toFrame(kernels):
     def first_times(redraw):
         config = EsimConfig(threshold_sigma=0.03, threshold_redraw=redraw)
-        simulator = EsimSimulator(config, backend=backend)
+        simulator = EsimSimulator(config)
         low, high = np.full((4, 5), on_log_scale(-3)), np.full((4, 5), on_log_scale(-2.75))
         simulator.step(Frame(low, 0))
         up = simulator.step(Frame(high, 1_000_000))
@@ -123,9 +123,9 @@ def test_thresholds_drawn_per_frame_change_from_frame_toFrame(backend):
 
 
 @pytest.mark.parametrize("fps", [24, 240, 1000])
-def test_a_static_scene_gives_nothing(backend, fps):
+def test_a_static_scene_gives_nothing(kernels, fps):
     frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
-    assert len(run(EsimSimulator(backend=backend), frames)) == 0
+    assert len(run(EsimSimulator(), frames)) == 0
 
 
 def test_eq4_counts_with_the_smaller_threshold_and_the_models_logarithm():

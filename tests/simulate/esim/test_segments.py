@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.simulate.references import segments
 
-from texvent.simulate.esim import segments_cpu, segments_reference
-from texvent.simulate.esim.segments import CrossingRules, CrossingState, Segments
+from texvent.simulate.esim.crossings import CrossingRules, CrossingState, Segments, cross_segments
 
-KERNELS = [segments_reference.cross_segments, segments_cpu.cross_segments]
+KERNELS = [segments.cross_segments, cross_segments]
 kernels = pytest.mark.parametrize("cross", KERNELS, ids=["reference", "cpu"])
 
 
@@ -85,11 +85,11 @@ def test_compiled_kernel_equals_the_definition(seed, refractory_us):
         chain(*zip(range(0, 120, 30), rng.normal(0, 0.6, 4).tolist(), strict=True), pixel=pixel)
         for pixel in range(5)
     ]
-    segments = Segments(*(np.concatenate(column) for column in zip(*chains, strict=True)))
+    given_segments = Segments(*(np.concatenate(column) for column in zip(*chains, strict=True)))
     rules = CrossingRules(*rng.uniform(0.01, 0.4, 2).tolist(), refractory_us)
     states = [at_rest(5), at_rest(5)]
     one, other = (
-        cross(segments, rules, state) for cross, state in zip(KERNELS, states, strict=True)
+        cross(given_segments, rules, state) for cross, state in zip(KERNELS, states, strict=True)
     )
     for mine, theirs in zip((*one, *states[0]), (*other, *states[1]), strict=True):
         np.testing.assert_array_equal(mine, theirs)

@@ -7,24 +7,33 @@ import math
 
 import numpy as np
 import pytest
+from tests.pairs.reference import sample_along, warp_between
+from tests.simulate.references import candidates as definition
 
-from texvent.pairs.sampling_reference import sample_along
 from texvent.pairs.warp_cpu import prepare_pair
-from texvent.pairs.warp_reference import warp_between
 from texvent.runtime.read_only import read_only
-from texvent.simulate.fused import candidates_cpu, candidates_reference
-from texvent.simulate.fused.bounds_cpu import find_bounds, list_active
-from texvent.simulate.fused.definitions import (
-    FOLLOWS,
-    STEPS,
-    STEPS_ONCE,
-    TAKES,
+from texvent.simulate.fused import candidates
+from texvent.simulate.fused.bounds import (
+    PREVIOUS_FRAME,
+    RESET_BY_THRESHOLD,
+    RESET_BY_THRESHOLD_ONCE,
+    RESET_TO_CURRENT,
     PairArrays,
     PreparedPair,
     ReferenceLevels,
+    bound_cells,
+    list_active,
 )
 
-KERNELS = [candidates_reference.find_candidates, candidates_cpu.find_candidates]
+
+def find_candidates(arrays, positions, levels):
+    """All candidates of a pair."""
+    prepared = PreparedPair(prepare_pair(*arrays), bound_cells(arrays))
+    rows = (0, arrays.earlier.shape[0])
+    return candidates.find_in_rows(arrays, positions, levels, prepared, rows)
+
+
+KERNELS = [definition.find_candidates, find_candidates]
 kernels = pytest.mark.parametrize("find", KERNELS, ids=["reference", "cpu"])
 STILL = np.zeros((1, 1, 2), np.float32)
 THIRDS = np.array([1 / 3, 2 / 3])
@@ -61,7 +70,7 @@ def moving(shape, speed, seed=0):
 def test_a_pixel_is_listed_where_it_passes_a_level_and_its_reference_goes_along(find):
     # α + I: 50, 70, 90, 110; ln steps .336, .251, .201: with δ = .3 the first fires (A := 70), then
     # ln(90/70) = .251 does not, and ln(110/70) = .452 does.
-    levels = own_levels(TAKES, up=math.exp(0.3))
+    levels = own_levels(RESET_TO_CURRENT, up=math.exp(0.3))
     found = find(at_rest(20, 80), THIRDS, levels)
     assert found.segment.tolist() == [0, 2]
     np.testing.assert_allclose(found.before, [20, 60], rtol=1e-6)
@@ -72,7 +81,7 @@ def test_a_pixel_is_listed_where_it_passes_a_level_and_its_reference_goes_along(
 def test_a_reference_that_steps_stays_behind(find):
     # The same, A := 50 · e^.3 = 67.5, and ln(90/67.5) = .288 does not fire, ln(110/67.5) = .488
     # does. Falling levels are the mirror image.
-    levels = own_levels(STEPS_ONCE, up=math.exp(0.3))
+    levels = own_levels(RESET_BY_THRESHOLD_ONCE, up=math.exp(0.3))
     assert find(at_rest(20, 80), THIRDS, levels).segment.tolist() == [0, 2]
     # 110, 90, 70, 50: .2007, .452 (fires, A := 81.5), .488 (fires).
     assert find(at_rest(80, 20), THIRDS, levels).segment.tolist() == [1, 2]
@@ -80,17 +89,17 @@ def test_a_reference_that_steps_stays_behind(find):
 
 @kernels
 def test_a_reference_that_follows_every_picture_sees_single_steps_only(find):
-    levels = own_levels(FOLLOWS, up=math.exp(0.3))
+    levels = own_levels(PREVIOUS_FRAME, up=math.exp(0.3))
     assert find(at_rest(20, 80), THIRDS, levels).segment.tolist() == [0]
 
 
 @kernels
 def test_where_it_is_open_whether_a_pixel_fires_all_its_later_pictures_are_listed(find):
     # The change is δ but for rounding, so the finishing pass must see everything from there on.
-    levels = own_levels(TAKES, up=60 / 50)
+    levels = own_levels(RESET_TO_CURRENT, up=60 / 50)
     arrays = pair_of(np.float32([[20]]), np.float32([[30]]), STILL, STILL)
     assert find(arrays, np.array([0.99999]), levels).segment.tolist() == [1]
-    for rule in (TAKES, STEPS_ONCE, STEPS):
+    for rule in (RESET_TO_CURRENT, RESET_BY_THRESHOLD_ONCE, RESET_BY_THRESHOLD):
         late = find(at_rest(20, 30), np.array([1.0, 0.5, 0.3]), own_levels(rule, up=60 / 50))
         assert late.segment.tolist() == [0, 1, 2, 3]
 
@@ -103,23 +112,25 @@ def test_compiled_kernel_lists_what_the_definition_lists(shape, speed):
     kept = (arrays.earlier + 30.0) * np.exp(spread)
     places = (np.array([]), np.array([0.2, 0.5, 0.6]))
     for positions, rule, reference in itertools.product(
-        places, (FOLLOWS, TAKES, STEPS_ONCE, STEPS), (np.empty((0, 0)), kept)
+        places,
+        (PREVIOUS_FRAME, RESET_TO_CURRENT, RESET_BY_THRESHOLD_ONCE, RESET_BY_THRESHOLD),
+        (np.empty((0, 0)), kept),
     ):
         levels = ReferenceLevels(reference, 30.0, math.exp(0.1), math.exp(-0.15), rule)
-        got = candidates_cpu.find_candidates(arrays, positions, levels)
-        wanted = candidates_reference.find_candidates(arrays, positions, levels)
+        got = find_candidates(arrays, positions, levels)
+        wanted = definition.find_candidates(arrays, positions, levels)
         for one, other in zip(got, wanted, strict=True):
             np.testing.assert_array_equal(one, other)
 
 
 def test_rows_can_be_searched_in_bands():
-    arrays, positions, levels = moving((30, 20), 2.0), np.array([0.5]), own_levels(TAKES)
-    prepared = PreparedPair(prepare_pair(*arrays), find_bounds(arrays))
+    arrays, positions, levels = moving((30, 20), 2.0), np.array([0.5]), own_levels(RESET_TO_CURRENT)
+    prepared = PreparedPair(prepare_pair(*arrays), bound_cells(arrays))
     bands = [
-        candidates_cpu.find_in_rows(arrays, positions, levels, prepared, rows)
+        candidates.find_in_rows(arrays, positions, levels, prepared, rows)
         for rows in ((0, 7), (7, 16), (16, 30))
     ]
-    whole = candidates_cpu.find_candidates(arrays, positions, levels)
+    whole = find_candidates(arrays, positions, levels)
     for joined, column in zip(zip(*bands, strict=True), whole, strict=True):
         np.testing.assert_array_equal(np.concatenate(joined), column)
 
@@ -133,13 +144,14 @@ def test_pixels_that_cannot_fire_are_not_followed():
     fast = np.full((32, 32, 2), 40.0, np.float32)
     active = np.empty(32, np.int64)
     for arrays in (pair_of(ramp, ramp + 1, slow, -slow), pair_of(flat, flat, fast, -fast)):
-        bounds = find_bounds(arrays)
+        bounds = bound_cells(arrays)
         assert [
-            list_active(arrays, own_levels(TAKES), bounds, row, active) for row in range(32)
+            list_active(arrays, own_levels(RESET_TO_CURRENT), bounds, row, active)
+            for row in range(32)
         ] == [0] * 32
     arrays = pair_of(ramp, ramp, fast, -fast)
-    bounds = find_bounds(arrays)
-    assert list_active(arrays, own_levels(TAKES), bounds, 3, active) == 32
+    bounds = bound_cells(arrays)
+    assert list_active(arrays, own_levels(RESET_TO_CURRENT), bounds, 3, active) == 32
 
 
 @pytest.mark.parametrize("shape", [(1, 5), (5, 1), (33, 40)])
@@ -151,10 +163,10 @@ def test_no_pixel_is_left_out_whose_trigger_level_a_sample_reaches(shape, speed)
     shares = itertools.product(np.linspace(-1, 1, 9, dtype=np.float32), repeat=2)
     seen = np.float64([sample_along(image, forward, forward * share)[0] for share in shares])
     arrays = pair_of(image, image, forward, -forward)
-    bounds, active = find_bounds(arrays), np.empty(shape[1], np.int64)
+    bounds, active = bound_cells(arrays), np.empty(shape[1], np.int64)
     for levels in (
-        ReferenceLevels((seen.max(axis=0) + 30.0) / UP, 30.0, UP, 1e-9, TAKES),
-        ReferenceLevels((seen.min(axis=0) + 30.0) * UP, 30.0, 1e9, 1 / UP, TAKES),
+        ReferenceLevels((seen.max(axis=0) + 30.0) / UP, 30.0, UP, 1e-9, RESET_TO_CURRENT),
+        ReferenceLevels((seen.min(axis=0) + 30.0) * UP, 30.0, 1e9, 1 / UP, RESET_TO_CURRENT),
     ):
         found = [list_active(arrays, levels, bounds, row, active) for row in range(shape[0])]
         assert found == [shape[1]] * shape[0]
@@ -165,5 +177,5 @@ def test_some_pixels_of_a_picture_are_those_of_the_whole_picture():
     pixel = np.array([0, 17, 311, 599])
     whole = warp_between(*arrays, 0.3)
     np.testing.assert_array_equal(
-        candidates_cpu.warp_pixels(prepare_pair(*arrays), 0.3, pixel), whole.reshape(-1)[pixel]
+        candidates._warp_pixels(prepare_pair(*arrays), 0.3, pixel), whole.reshape(-1)[pixel]
     )

@@ -10,14 +10,13 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.simulate.references import segments as segments_reference
 
 import texvent
 from texvent.errors import InputError
 from texvent.pairs.motion_interpolation import MotionInterpolation, UndrawnFrame
-from texvent.simulate.esim import segments_reference
-from texvent.simulate.esim import simulator as esim_simulator
-from texvent.simulate.esim.segments import CROSS_SEGMENTS
-from texvent.simulate.fused import candidates, candidates_cpu
+from texvent.simulate.esim import pixels as esim_pixels
+from texvent.simulate.fused import candidates
 from texvent.simulate.fused.candidates import find_bounds
 from texvent.simulate.texvent import fused as texvent_fused
 from texvent.video import Frame, Video
@@ -84,7 +83,7 @@ def test_esim_pairs_may_be_drawn_or_not_without_a_difference(name, monkeypatch):
 
 def use_bounds(monkeypatch, function):
     """Let the models find bounds by a function of ours."""
-    for module in (esim_simulator, texvent_fused):
+    for module in (esim_pixels, texvent_fused):
         monkeypatch.setattr(module, "find_bounds", function)
 
 
@@ -177,7 +176,7 @@ def test_any_frames_give_the_same_events(seed, simulator, spread):
 
 
 def test_the_definition_of_crossings_gives_the_same_events(monkeypatch):
-    monkeypatch.setattr(CROSS_SEGMENTS, "load", lambda: segments_reference.cross_segments)
+    monkeypatch.setattr(esim_pixels, "cross_segments", segments_reference.cross_segments)
     assert assert_equal(panning(3), simulator="esim", max_intermediate=5) > 200
 
 
@@ -226,15 +225,14 @@ def test_pairs_out_of_order_are_refused():
         ({"interpolate": "blend"}, False),
         ({"interpolate": "none", "simulator": "esim"}, False),
         ({"noise": "gaussian"}, False),
-        ({"backend": "reference"}, False),
         ({"simulator": "esim", "threshold_sigma": 0.03}, False),
     ],
 )
 def test_a_pair_is_not_drawn_where_it_can_be_fused(options, is_tried, monkeypatch):
     estimated = []
-    whole = candidates_cpu.estimate_active
+    whole = candidates.estimate_active
     monkeypatch.setattr(
-        candidates_cpu, "estimate_active", lambda *given: estimated.append(1) or whole(*given)
+        candidates, "estimate_active", lambda *given: estimated.append(1) or whole(*given)
     )
     texvent.simulate(panning(3), **options)
     assert bool(estimated) is is_tried

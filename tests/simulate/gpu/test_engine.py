@@ -14,7 +14,7 @@ from texvent.events import NOISE
 from texvent.represent.voxel_grid import voxel_zhu
 from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator
 from texvent.simulate.physical.simulator import PhysicalConfig
-from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK
+from texvent.simulate.texvent.noise import NOISE_BLOCK
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 
 from .clips import (
@@ -79,7 +79,7 @@ def test_the_events_are_those_of_the_cpu(name, dtype, device):
         chunks=(3, 2),
     )  # fmt: skip
     for clip in range(CLIPS):
-        simulator = model(config, seed=SEED + clip, backend="reference")
+        simulator = model(config, seed=SEED + clip)
         expected = rows(on_cpu(simulator, clips[clip], times_us[clip], TWO_PAIRS))
         assert len(expected) > 200
         if dtype == np.uint8 or device == "cpu":
@@ -107,7 +107,7 @@ def test_noise_of_several_blocks_is_that_of_the_cpu(noise, device):
     found = on_gpu(torch, GpuSimulator(config), clip, times_us, flags, device=device, chunks=(3,))[
         0
     ]
-    expected = on_cpu(TexventSimulator(config, backend="reference"), clip[0], times_us[0], flags)
+    expected = on_cpu(TexventSimulator(config), clip[0], times_us[0], flags)
     assert np.array_equal(rows(found), rows(expected))
     noisy = found.label == NOISE
     assert (found.y[noisy].astype(int) * 80 + found.x[noisy] >= NOISE_BLOCK).any()
@@ -125,7 +125,7 @@ def test_floats_differ_from_the_cpu_at_most_within_rounding_of_the_threshold(dev
         noise="none", balance=balance, contrast_threshold=float(tie), timestamp_rule="end"
     )
     found = on_gpu(torch, GpuSimulator(config), clip, np.array([[0, 9]]), [True] * 2, device=device)
-    expected = on_cpu(TexventSimulator(config, backend="reference"), clip[0], [0, 9], [True] * 2)
+    expected = on_cpu(TexventSimulator(config), clip[0], [0, 9], [True] * 2)
     pixels = [set((one.y.astype(int) * 24 + one.x).tolist()) for one in (found[0], expected)]
     on_threshold = {int(np.flatnonzero(steps == 0)[0])}
     assert pixels[0] ^ pixels[1] <= on_threshold
@@ -156,7 +156,7 @@ def test_bytes_followed_by_floats_keep_their_references(device):
     )
     simulator.step(bytes_, times_us[:, :2])
     events = simulator.step(floats.float(), times_us[:, 2:])
-    expected = on_cpu(TexventSimulator(config, backend="reference"), clips[0], times_us[0])
+    expected = on_cpu(TexventSimulator(config), clips[0], times_us[0])
     assert np.array_equal(rows(events.stream(0)), rows(expected[expected.t >= times_us[0, 1]]))
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -13,12 +12,9 @@ from tests.simulate.gpu.clips import rows
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
 from texvent.interpolate.count import count_intermediate
-from texvent.interpolate.rife import layouts as rife_layouts
-from texvent.interpolate.rife import weights as rife_weights
 from texvent.interpolate.rife.interpolator import RifeInterpolator
-from texvent.interpolate.rife.layouts import RIFE_4_6
 from texvent.pairs.instants import intermediate_times_us
-from texvent.simulate.gpu.frame_pairs import GpuPairs
+from texvent.simulate.gpu.frames import GpuPairs
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Frame, Video
 
@@ -26,7 +22,6 @@ pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
 pytest.importorskip("triton")
 
-NARROW = replace(RIFE_4_6, widths=(8,) * len(RIFE_4_6.widths))
 TIMES_US = (0, 4_000, 9_000)
 
 
@@ -36,11 +31,11 @@ def device() -> str:
 
 
 @pytest.fixture
-def rife(monkeypatch, tmp_path, device) -> RifeInterpolator:
+def rife(tmp_path, device) -> RifeInterpolator:
     """An untrained network, small."""
-    for module in (rife_layouts, rife_weights):
-        monkeypatch.setattr(module, "LAYOUTS", (NARROW,))
-    path = save_published(torch, NARROW, tmp_path / "rife.pkl")
+    from texvent.interpolate.rife.network import RIFE_4_6
+
+    path = save_published(torch, RIFE_4_6, tmp_path / "rife.pkl")
     config = InterpolateConfig(
         interpolate="rife", interpolator_weights=path, interpolator_device=device
     )
@@ -78,7 +73,7 @@ def test_the_events_are_those_of_the_frames_taken_over_the_host(rife, device, co
 
 def dense_packets(rife, clip, count):
     """The same by way of frames on the host and the CPU's pixel model."""
-    reference = TexventSimulator(TexventConfig(noise="none"), seed=4, backend="reference")
+    reference = TexventSimulator(TexventConfig(noise="none"), seed=4)
     frames = [Frame(picture, t_us) for picture, t_us in zip(clip, TIMES_US, strict=True)]
     yield reference.step(frames[0])
     for first, second in itertools.pairwise(frames):

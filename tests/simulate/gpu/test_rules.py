@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from texvent.errors import InputError
 from texvent.simulate.gpu.intervals import Clock
 from texvent.simulate.gpu.launch import alignment
-from texvent.simulate.texvent.brightness_cache import BrightnessCache
+from texvent.simulate.texvent.event_frame import BrightnessCache
 from texvent.simulate.texvent.gpu.rules import byte_brightness, byte_trigger_levels
 
 

@@ -2,7 +2,7 @@
 
     python -m tests.simulate.physical.camera_tables
 
-Run it after a constant, a bias or a default of the model changed; a test says when it is due.
+Run it after a constant or a default of the model changed; a test says when it is due.
 """
 
 from __future__ import annotations
@@ -11,16 +11,14 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from texvent.simulate.physical.cameras.biases import DAVIS, MAPPED, UNMAPPED
-from texvent.simulate.physical.cameras.constants import CAMERAS, Constant
-from texvent.simulate.physical.cameras.presets import camera_table
+from texvent.simulate.physical.cameras import CAMERAS, Constant, camera_table
 
 PAGE = Path(__file__).parents[3] / "docs" / "simulators" / "cameras.md"
 
 
 def tables() -> dict[str, str]:
     """Name → table in Markdown, without the comments around it."""
-    return {"constants": _constants(), "sources": _sources(), "biases": _biases()}
+    return {"constants": _constants(), "sources": _sources()}
 
 
 def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> str:
@@ -48,21 +46,6 @@ def _sources() -> str:
         for one in camera.constants
     )
     return _table(["preset", "option", "basis", "source"], rows)
-
-
-def _biases() -> str:
-    rows = []
-    for camera, biases in UNMAPPED.items():
-        for name, (low, high) in MAPPED.get(camera, {}).items():
-            rows.append([f"`{camera}`", f"`{name}`", f"{low}..{high}", "mapped, below"])
-        for name, bias in biases.items():
-            span = f"{bias.low}..{bias.high}"
-            rows.append([f"`{camera}`", f"`{name}`", span, f"only {bias.default}"])
-    currents = "`diff`, `on`, `off`, `refr`"
-    for camera in DAVIS:
-        rows.append([f"`{camera}`", currents, "0/1..7/255, 1pA..24.8uA", "mapped, below"])
-        rows.append([f"`{camera}`", "`pr`, `sf`", "", "none"])
-    return _table(["camera", "bias", "range", "taken"], rows)
 
 
 def main() -> None:

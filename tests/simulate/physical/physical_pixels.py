@@ -3,14 +3,14 @@
 import dataclasses
 import math
 
-from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.simulator import PhysicalSimulator
 
 CLEAN = dataclasses.replace(PRESETS["clean"], gamma=1.0)
 
 
-def clean(backend="reference", *, seed=0, **options) -> PhysicalSimulator:
-    return PhysicalSimulator(dataclasses.replace(CLEAN, **options), seed=seed, backend=backend)
+def clean(*, seed=0, **options) -> PhysicalSimulator:
+    return PhysicalSimulator(dataclasses.replace(CLEAN, **options), seed=seed)
 
 
 def intensity(brightness: float, balance: float = 10.0) -> float:
@@ -23,5 +23,5 @@ def poisson_interval(mean: float) -> float:
     return 5 * math.sqrt(mean)
 
 
-def noisy(backend="cpu", **options) -> PhysicalSimulator:
-    return clean(backend, **{"noise_scale": 1.0, "noise_decades": 0.0, **options})
+def noisy(**options) -> PhysicalSimulator:
+    return clean(**{"noise_scale": 1.0, "noise_decades": 0.0, **options})

@@ -1,4 +1,4 @@
-"""Who reads the pixels: rows that queue, and scans."""
+"""Readout of the pixels: rows that queue, and scans."""
 
 import itertools
 
@@ -6,13 +6,18 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.simulate.references import row_arbiter
 
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
-from texvent.simulate.physical.arbitration import row_arbiter_cpu, row_arbiter_reference
-from texvent.simulate.physical.arbitration.arbiter import Arbiter, ArbiterRules
-from texvent.simulate.physical.arbitration.row_arbiter import LOST, WAITS, RowRules
-from texvent.simulate.physical.arbitration.scan import scan_times_us
+from texvent.simulate.packets import UnsortedEvents
+from texvent.simulate.physical import readout
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.physical.readout import (
+    LOST,
+    WAITS,
+    Arbiter,
+    RowRules,
+    scan_times_us,
+)
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Frame
 
@@ -25,13 +30,10 @@ def columns(events) -> tuple[np.ndarray, np.ndarray]:
     return pixel.copy(), t.copy()
 
 
-def rules(kind: str, **options: int) -> ArbiterRules:
-    return PhysicalConfig(arbiter=kind, **options).arbitration
-
-
 def read_all(kind: str, events, steps, **options: int) -> list[tuple[int, ...]]:
     """(t, pixel, p) of what an arbiter reads from events that it gets step by step."""
-    arbiter = Arbiter(rules(kind, **options), first_us=0, shape=SHAPE, backend="reference")
+    config = PhysicalConfig(arbiter=kind, **options)
+    arbiter = Arbiter(config, first_us=0, shape=SHAPE)
     pixel, t = columns(events)
     rows = []
     for start, stop in itertools.pairwise(steps):
@@ -43,22 +45,18 @@ def read_all(kind: str, events, steps, **options: int) -> list[tuple[int, ...]]:
     return sorted(rows)
 
 
-@pytest.mark.parametrize("backend", ["reference", "cpu"])
-def test_rows_queue_and_leave_whole(backend):
+def test_rows_queue_and_leave_whole(kernels):
     # Row 0 (pixels 0..4) is read at once and takes 3 + 1 µs. Row 1 asked at 1 µs; by 4 µs it has
     # two events, which take 5 µs. Row 2 asked after it and is read at 9 µs.
-    module = {"reference": row_arbiter_reference, "cpu": row_arbiter_cpu}[backend]
     pixel, t = np.array([0, 5, 10, 6, 0]), np.array([0, 1, 2, 3, 8])
-    read_us, free_ns = module.serve_rows(pixel, t, SHAPE, RowRules(3000, 1000), 0, 100)
+    read_us, free_ns = readout.serve_rows(pixel, t, SHAPE, RowRules(3000, 1000), 0, 100)
     assert read_us.tolist() == [0, 4, 9, 4, 13]
     assert free_ns == 17_000
 
 
-@pytest.mark.parametrize("backend", ["reference", "cpu"])
-def test_a_waiting_pixel_loses_what_it_fires(backend):
-    module = {"reference": row_arbiter_reference, "cpu": row_arbiter_cpu}[backend]
+def test_a_waiting_pixel_loses_what_it_fires(kernels):
     pixel, t = np.array([0, 5, 5, 5]), np.array([0, 1, 2, 11])
-    read_us, _ = module.serve_rows(pixel, t, SHAPE, RowRules(10_000, 0), 0, 15)
+    read_us, _ = readout.serve_rows(pixel, t, SHAPE, RowRules(10_000, 0), 0, 15)
     assert read_us.tolist() == [0, 10, LOST, WAITS]
 
 
@@ -66,8 +64,8 @@ def test_a_waiting_pixel_loses_what_it_fires(backend):
 def test_compiled_rows_equal_the_reference(events, row_ns, event_ns, stop_us):
     pixel, t = columns(events)
     arguments = pixel, t, SHAPE, RowRules(row_ns, event_ns), 0, stop_us
-    expected, free_ns = row_arbiter_reference.serve_rows(*arguments)
-    found, found_free_ns = row_arbiter_cpu.serve_rows(*arguments)
+    expected, free_ns = row_arbiter.serve_rows(*arguments)
+    found, found_free_ns = readout.serve_rows(*arguments)
     assert found.tolist() == expected.tolist()
     assert found_free_ns == free_ns
 

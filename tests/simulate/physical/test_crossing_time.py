@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from tests.simulate.references.crossing_time import ChangeCurve, time_to_threshold
 
-from texvent.simulate.backend.elementary import exponential
-from texvent.simulate.physical import crossing_time_cpu, crossing_time_reference
-from texvent.simulate.physical.crossing_time_reference import ChangeCurve
+from texvent.simulate.kernels.elementary import exponential
+from texvent.simulate.physical import crossing_time
 
 
 def curve_of(change, slope, transient, cutoff, duration) -> ChangeCurve:
@@ -24,16 +24,16 @@ def first_crossing(curve: ChangeCurve, on: float, off: float) -> float:
 
 
 def compiled_times(curve: ChangeCurve, on, off):
-    rows = np.empty((crossing_time_cpu.ROWS, len(on)))
+    rows = np.empty((crossing_time.ROWS, len(on)))
     rows[:8] = (*curve, on, off)
     scratch = np.empty_like(rows), np.empty(len(on), np.int64)
     with np.errstate(all="ignore"):
-        crossing_time_cpu.find_crossings(rows, *scratch, len(on))
-    return rows[crossing_time_cpu.WAIT], rows[crossing_time_cpu.RISES]
+        crossing_time.find_crossings(rows, *scratch, len(on))
+    return rows[crossing_time.WAIT], rows[crossing_time.RISES]
 
 
 def time_of(curve: ChangeCurve, on=0.2, off=0.2) -> tuple[float, int]:
-    wait, p = crossing_time_reference.time_to_threshold(curve, np.array([on]), np.array([off]))
+    wait, p = time_to_threshold(curve, np.array([on]), np.array([off]))
     return float(wait[0]), int(p[0])
 
 
@@ -82,11 +82,11 @@ def test_backends_agree_and_find_the_first_crossing(curve, on):
     lanes = ChangeCurve(*(np.concatenate(columns) for columns in zip(others, curve, strict=True)))
     limits = np.array([0.2, 0.2, on]), np.full(3, 0.2)
     waits, polarities = compiled_times(lanes, *limits)
-    expected, _ = crossing_time_reference.time_to_threshold(lanes, *limits)
+    expected, _ = time_to_threshold(lanes, *limits)
     assert np.array_equal(waits, expected)
     assert waits[2] == wait
     # A curve may creep up to a threshold and touch it by rounding; small transients are forgotten.
-    forgotten = crossing_time_reference.NEGLIGIBLE * min(on, 0.2) + 1e-9
+    forgotten = crossing_time.NEGLIGIBLE * min(on, 0.2) + 1e-9
     early, late = (first_crossing(curve, on + d, 0.2 + d) for d in (-forgotten, forgotten))
     assert early - 1e-5 * curve.duration[0] <= wait
     assert wait <= late

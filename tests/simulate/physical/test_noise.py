@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Frame
 
@@ -17,8 +17,8 @@ from .physical_pixels import clean, intensity, noisy, poisson_interval
 # Leak.
 
 
-def test_leak_fires_on_events_at_its_rate_labelled_noise(backend):
-    simulator = clean(backend, leak_rate_hz=5.0, leak_rate_decades=0.0)
+def test_leak_fires_on_events_at_its_rate_labelled_noise(kernels):
+    simulator = clean(leak_rate_hz=5.0, leak_rate_decades=0.0)
     events = run(simulator, static(90.0, fps=24, seconds=1.0))
     assert events.t == pytest.approx([200_000, 400_000, 600_000, 800_000], abs=2)
     assert events.p.all()
@@ -28,7 +28,7 @@ def test_leak_fires_on_events_at_its_rate_labelled_noise(backend):
 @pytest.mark.parametrize("fps", [24, 240, 1000])
 def test_the_leak_rate_is_per_second_at_any_frame_rate(fps):
     simulator = clean(
-        "cpu", leak_rate_hz=4.0, leak_rate_decades=0.1, initial_phase="random", threshold_sigma=0.03
+        leak_rate_hz=4.0, leak_rate_decades=0.1, initial_phase="random", threshold_sigma=0.03
     )
     events = run(simulator, static(90.0, fps=fps, seconds=1.0, shape=(30, 40)))
     # The first event of a pixel is early: its phase is uniform over both thresholds.
@@ -37,12 +37,12 @@ def test_the_leak_rate_is_per_second_at_any_frame_rate(fps):
     assert len(late) == pytest.approx(mean / 2, abs=poisson_interval(mean / 2))
 
 
-def test_an_event_that_light_made_more_than_leak_is_signal(backend):
+def test_an_event_that_light_made_more_than_leak_is_signal(kernels):
     # The leak makes a sixth of the change.
     frames = frames_of([intensity(4), intensity(5)], [0, 1_000_000])[:1] + frames_of(
         [intensity(4.99)], [990_000]
     )
-    events = run(clean(backend, leak_rate_hz=1.0, leak_rate_decades=0.0), frames)
+    events = run(clean(leak_rate_hz=1.0, leak_rate_decades=0.0), frames)
     assert events.t == pytest.approx([k / 6 * 1e6 for k in range(1, 6)], abs=2)
     assert (events.label == SIGNAL).all()
 
@@ -103,7 +103,7 @@ def test_noise_resets_its_pixel_unless_told_not_to():
 
 
 def test_hot_pixels_are_as_many_and_as_hot_as_stated():
-    simulator = clean("cpu", hot_pixel_fraction=0.01, hot_pixel_rate_hz=100.0)
+    simulator = clean(hot_pixel_fraction=0.01, hot_pixel_rate_hz=100.0)
     events = run(simulator, static(200.0, fps=24, seconds=1.0, shape=(100, 100)))
     count = np.bincount(events.y.astype(int) * 100 + events.x, minlength=10_000)
     hot = count > 0
@@ -122,7 +122,7 @@ def test_hot_pixels_make_noise_of_their_own():
 def test_a_static_scene_at_the_default_preset_fires_at_the_sum_of_its_rates():
     config = dataclasses.replace(PRESETS["davis346"], gamma=1.0)
     frames = static(10.0, fps=24, seconds=3.0, shape=(100, 120))
-    events = run(PhysicalSimulator(config, backend="cpu"), frames)
+    events = run(PhysicalSimulator(config), frames)
     rate = config.noise_scale * math.exp(np.interp(10, [7.5, 15], np.log([0.30, 0.12])))
     mean = rate * 3 * 12_000
     # 2 %: the mean of 12,000 log-normal factors.
@@ -142,8 +142,8 @@ def first_times(simulator) -> np.ndarray:
     return times
 
 
-def test_thresholds_have_the_stated_mean_and_mismatch(backend):
-    thresholds = first_times(clean(backend, threshold_sigma=0.03)) * 1e-6
+def test_thresholds_have_the_stated_mean_and_mismatch(kernels):
+    thresholds = first_times(clean(threshold_sigma=0.03)) * 1e-6
     assert thresholds.mean() == pytest.approx(0.2, abs=5 * 0.03 / math.sqrt(600))
     assert thresholds.std() == pytest.approx(0.03, rel=5 / math.sqrt(1200))
 
@@ -162,8 +162,8 @@ def test_the_sensor_seed_fixes_the_sensor_and_nothing_else():
 
 
 @pytest.mark.parametrize(("ratio", "whole"), [(1.0, 0.4), (0.25, 0.5)])
-def test_the_first_frame_finds_pixels_in_random_phase(backend, ratio, whole):
-    times = first_times(clean(backend, initial_phase="random", on_off_ratio=ratio)) * 1e-6
+def test_the_first_frame_finds_pixels_in_random_phase(kernels, ratio, whole):
+    times = first_times(clean(initial_phase="random", on_off_ratio=ratio)) * 1e-6
     # From anywhere between both thresholds, 0.2 and 0.2 or 0.4 and 0.1, up to the ON threshold.
     quartiles = np.quantile(times / whole, [0.25, 0.5, 0.75])
     assert quartiles == pytest.approx([0.25, 0.5, 0.75], abs=0.1)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.simulate.physical.noise_curve import DAVIS346_NOISE, parse_noise_curve
+from texvent.simulate.physical.config import DAVIS346_NOISE, parse_noise_curve
 
 
 def test_points_are_met_exactly_and_joined_by_exponentials():

@@ -4,8 +4,7 @@ import math
 
 import numpy as np
 import pytest
-
-from texvent.simulate.physical import reference
+from tests.simulate.references import physical as reference
 
 from ..pixel_frames import curve, frames_of, moving_texture, run
 from .physical_pixels import clean, intensity
@@ -17,14 +16,14 @@ def follow_line(t: float, slope: float, tau: float) -> float:
 
 
 @pytest.mark.parametrize("count", [1, 7, 100])
-def test_the_low_pass_follows_a_line_by_its_closed_form(backend, count):
+def test_the_low_pass_follows_a_line_by_its_closed_form(kernels, count):
     # So small a contrast that the corner frequency, (10 + 100) / 265 of the cutoff, stays.
     cutoff, threshold, balance = 5.0, 0.011, 10.0
     tau = 1 / (math.tau * cutoff * 110 / 265)
     start = math.log(110)
     values = [intensity(start + 0.05 * i / count, balance) for i in range(count + 1)]
     times = [round(i * 500_000 / count) for i in range(count + 1)]
-    simulator = clean(backend, cutoff_hz=cutoff, contrast_threshold=threshold)
+    simulator = clean(cutoff_hz=cutoff, contrast_threshold=threshold)
     events = run(simulator, frames_of(values, times))
     assert len(events) == 3
     reached = [follow_line(t * 1e-6, 0.1, tau) for t in events.t]
@@ -32,22 +31,22 @@ def test_the_low_pass_follows_a_line_by_its_closed_form(backend, count):
     assert reached == pytest.approx([threshold, 2 * threshold, 3 * threshold], rel=0.02)
 
 
-def test_frames_an_hour_apart_are_simulated_at_once(backend):
+def test_frames_an_hour_apart_are_simulated_at_once(kernels):
     hour_us = 3_600_000_000
     start = math.log(110)
     values = [intensity(start, 10.0), intensity(start + 0.65, 10.0)]
-    events = run(clean(backend, cutoff_hz=250.0), frames_of(values, [0, hour_us]))
+    events = run(clean(cutoff_hz=250.0), frames_of(values, [0, hour_us]))
     expected = np.array([0.2, 0.4, 0.6]) / 0.65 * hour_us
     assert events.t == pytest.approx(expected, abs=hour_us / 1024)
 
 
 @pytest.mark.parametrize("fps", [240, 1000])
-def test_bandwidth_does_not_depend_on_the_frame_rate(backend, fps):
+def test_bandwidth_does_not_depend_on_the_frame_rate(kernels, fps):
     knots = np.array([4.0, 4.4, 5.2, 4.9, 4.1, 4.1, 4.8, 3.9, 4.0])
 
     def sampled(rate):
         wave = lambda s: intensity(float(np.interp(s * 24, np.arange(len(knots)), knots)))  # noqa: E731
-        return run(clean(backend, cutoff_hz=60.0), curve(wave, fps=rate, seconds=8 / 24))
+        return run(clean(cutoff_hz=60.0), curve(wave, fps=rate, seconds=8 / 24))
 
     slow, fast = sampled(24), sampled(fps)
     assert len(slow) > 10
@@ -64,7 +63,7 @@ def test_few_pieces_are_as_good_as_many(frame_us, cutoff_hz, monkeypatch):
     frames = frames_of(levels, range(0, 9 * frame_us, frame_us))
 
     def times():
-        simulator = clean("reference", cutoff_hz=cutoff_hz, contrast_threshold=0.1)
+        simulator = clean(cutoff_hz=cutoff_hz, contrast_threshold=0.1)
         return run(simulator, frames).t
 
     few = times()
@@ -74,12 +73,12 @@ def test_few_pieces_are_as_good_as_many(frame_us, cutoff_hz, monkeypatch):
 
 
 @pytest.mark.parametrize("limit_hz", [0.0, 20.0])
-def test_dark_pixels_are_slower_than_bright_ones(backend, limit_hz):
+def test_dark_pixels_are_slower_than_bright_ones(kernels, limit_hz):
     def delay(level):
         start = math.log(10 + level)
         values = [level, intensity(start + 0.4), intensity(start + 0.4)]
         events = run(
-            clean(backend, cutoff_hz=100.0, cutoff_limit_hz=limit_hz),
+            clean(cutoff_hz=100.0, cutoff_limit_hz=limit_hz),
             frames_of(values, [0, 100, 500_000]),
         )
         return int(events.t[0])
@@ -94,6 +93,6 @@ def test_dark_pixels_are_slower_than_bright_ones(backend, limit_hz):
 
 def test_more_bandwidth_converges_to_no_limit():
     frames = moving_texture(4)
-    limited = run(clean("cpu", cutoff_hz=1e5), frames)
-    unlimited = run(clean("cpu"), frames)
+    limited = run(clean(cutoff_hz=1e5), frames)
+    unlimited = run(clean(), frames)
     assert abs(len(limited) - len(unlimited)) <= 0.01 * len(unlimited)

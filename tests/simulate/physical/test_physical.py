@@ -7,9 +7,10 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.simulate.references import in_both_forms
 
 from texvent.errors import ConfigError
-from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.config import RANGES, PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Frame
@@ -21,31 +22,31 @@ from .physical_pixels import clean, intensity
 
 
 @pytest.mark.parametrize("sign", [1, -1])
-def test_a_ramp_fires_where_it_crosses_each_threshold(backend, sign):
+def test_a_ramp_fires_where_it_crosses_each_threshold(kernels, sign):
     frames = frames_of([intensity(4), intensity(4 + sign * 1.05)], [0, 1_000_000])
-    events = run(clean(backend), frames)
+    events = run(clean(), frames)
     assert events.t == pytest.approx([k * 0.2 / 1.05 * 1e6 for k in range(1, 6)], abs=2)
     assert (events.polarity == sign).all()
 
 
-def test_a_slow_ramp_is_summed_over_frames_and_keeps_the_rest(backend):
+def test_a_slow_ramp_is_summed_over_frames_and_keeps_the_rest(kernels):
     # Ramp B' of docs/equations.md: 0.055 per frame.
     frames = frames_of([intensity(4 + 0.055 * i) for i in range(21)], range(0, 21_000, 1000))
-    events = run(clean(backend), frames)
+    events = run(clean(), frames)
     assert events.t == pytest.approx([k * 0.2 / 0.055 * 1000 for k in range(1, 6)], abs=1)
 
 
-def test_a_step_fires_once_per_threshold(backend):
+def test_a_step_fires_once_per_threshold(kernels):
     frames = frames_of([intensity(v) for v in (4, 4, 4.9, 4.9)], [0, 1000, 1001, 500_000])
-    events = run(clean(backend), frames)
+    events = run(clean(), frames)
     assert events.t.tolist() == [1000] * 4
     assert events.p.all()
 
 
-def test_a_sinusoid_fires_at_its_levels(backend):
+def test_a_sinusoid_fires_at_its_levels(kernels):
     amplitude = 0.51
     frames = curve(lambda s: intensity(4 + amplitude * math.sin(math.tau * s)), fps=1000, seconds=1)
-    events = run(clean(backend), frames)
+    events = run(clean(), frames)
     up = [math.asin(level / amplitude) / math.tau for level in (0.2, 0.4)]
     down = [0.5 - math.asin(level / amplitude) / math.tau for level in (0.2, 0.0, -0.2, -0.4)]
     back = [1 + math.asin(level / amplitude) / math.tau for level in (-0.2, 0.0)]
@@ -56,20 +57,20 @@ def test_a_sinusoid_fires_at_its_levels(backend):
 
 
 @pytest.mark.parametrize("fps", [24, 240, 1000])
-def test_a_static_scene_without_noise_gives_nothing(backend, fps):
-    assert len(run(clean(backend), static(90.0, fps=fps, seconds=0.2, shape=(3, 4)))) == 0
+def test_a_static_scene_without_noise_gives_nothing(kernels, fps):
+    assert len(run(clean(), static(90.0, fps=fps, seconds=0.2, shape=(3, 4)))) == 0
 
 
-def test_gamma_makes_video_linear(backend):
+def test_gamma_makes_video_linear(kernels):
     levels = [255 * (linear / 255) ** (1 / 2.2) for linear in (50, 120)]
-    coded = run(clean(backend, gamma=2.2), frames_of(levels, [0, 100_000]))
-    linear = run(clean(backend), frames_of([50, 120], [0, 100_000]))
+    coded = run(clean(gamma=2.2), frames_of(levels, [0, 100_000]))
+    linear = run(clean(), frames_of([50, 120], [0, 100_000]))
     assert len(coded) == 3  # ln(130 / 60) = 0.773
     assert coded.t == pytest.approx(linear.t, abs=2)
 
 
-def test_on_and_off_have_their_own_thresholds(backend):
-    simulator = clean(backend, contrast_threshold=0.2, on_off_ratio=1.44)
+def test_on_and_off_have_their_own_thresholds(kernels):
+    simulator = clean(contrast_threshold=0.2, on_off_ratio=1.44)
     assert simulator.config.contrast_threshold_on == pytest.approx(0.24)
     assert simulator.config.contrast_threshold_off == pytest.approx(0.2 / 1.2)
     events = run(
@@ -80,37 +81,37 @@ def test_on_and_off_have_their_own_thresholds(backend):
     assert int((events.p == 0).sum()) == 5
 
 
-def test_refractory_time_adds_to_the_time_between_events(backend):
+def test_refractory_time_adds_to_the_time_between_events(kernels):
     # 1 log unit per second, threshold 0.2: 200 ms to charge after each 50 ms in reset.
     frames = frames_of([intensity(4), intensity(5)], [0, 1_000_000])
-    events = run(clean(backend, refractory_period_us=50_000), frames)
+    events = run(clean(refractory_period_us=50_000), frames)
     # Times are rounded down, and the next period starts from the rounded one.
     assert events.t == pytest.approx([200_000, 450_000, 700_000, 950_000], abs=6)
 
 
-def test_a_change_in_the_refractory_period_is_lost(backend):
+def test_a_change_in_the_refractory_period_is_lost(kernels):
     values, times = [intensity(v) for v in (4, 4.25, 4.25, 4.45, 4.45)], [0, 10, 20, 30, 10**6]
-    kept = run(clean(backend), frames_of(values, times))
-    lost = run(clean(backend, refractory_period_us=1000), frames_of(values, times))
+    kept = run(clean(), frames_of(values, times))
+    lost = run(clean(refractory_period_us=1000), frames_of(values, times))
     assert len(kept) == 2
     assert len(lost) == 1
 
 
-def test_unfired_change_decays_at_its_rate(backend):
+def test_unfired_change_decays_at_its_rate(kernels):
     # Jumps of 0.15 that are 0.1 s apart; at 5 per second 0.15 becomes 0.0910 in between.
     values = [intensity(v) for v in (4, 4.15, 4.15, 4.3)]
     times = [0, 1, 100_001, 100_002]
-    decaying = run(clean(backend, residual_decay_hz=5.0), frames_of(values, times))
+    decaying = run(clean(residual_decay_hz=5.0), frames_of(values, times))
     assert len(decaying) == 1  # 0.0910 + 0.15 > 0.2
-    assert len(run(clean(backend, residual_decay_hz=12.0), frames_of(values, times))) == 0
-    assert len(run(clean(backend), frames_of(values, times))) == 1
+    assert len(run(clean(residual_decay_hz=12.0), frames_of(values, times))) == 0
+    assert len(run(clean(), frames_of(values, times))) == 1
 
 
-def test_a_fall_decays_until_the_leak_fires(backend):
+def test_a_fall_decays_until_the_leak_fires(kernels):
     # Thresholds 0.1 and 0.9, leak 2 per second, decay r = 5 per second: -0.6 exp(-rt) +
     # 2 / r · (1 - exp(-rt)) reaches 0.1 where exp(-rt) = 0.3. Without decay after 0.35 s.
     options = {"contrast_threshold": 0.3, "on_off_ratio": 1 / 9, "residual_decay_hz": 5.0}
-    simulator = clean(backend, leak_rate_hz=20.0, leak_rate_decades=0.0, **options)
+    simulator = clean(leak_rate_hz=20.0, leak_rate_decades=0.0, **options)
     values = [intensity(4)] + [intensity(3.4)] * 300
     events = run(simulator, frames_of(values, [0, *range(1, 300_000, 1000)]))
     # From 0 on it takes until exp(-rt) = 0.75.
@@ -121,7 +122,7 @@ def test_a_fall_decays_until_the_leak_fires(backend):
 # Everything at once.
 
 
-def test_ideal_events_are_recovered_from_240_frames_per_second(backend):
+def test_ideal_events_are_recovered_from_240_frames_per_second(kernels):
     """An ideal camera, written down independently: every threshold passed at 4800 fps."""
 
     def radiance(t: float) -> np.ndarray:
@@ -144,7 +145,7 @@ def test_ideal_events_are_recovered_from_240_frames_per_second(backend):
         return np.round(255 * np.clip(0.9 * radiance(t), 0, 1) ** (1 / 2.2)).astype(np.uint8)
 
     frames = [Frame(photograph(i / 240), round(i * 1e6 / 240)) for i in range(61)]
-    camera = clean(backend, gamma=2.2, balance=0.004 * 0.9 * 255)
+    camera = clean(gamma=2.2, balance=0.004 * 0.9 * 255)
     events = run(camera, frames)
     assert counts.sum() > 1000
     assert len(events) / counts.sum() == pytest.approx(1, abs=0.03)
@@ -168,9 +169,6 @@ CONFIGS = st.builds(
     noise_scale=st.sampled_from([0.0, 1.0, 300.0]),
     noise_resets=st.booleans(),
     hot_pixel_fraction=st.sampled_from([0.0, 0.2]),
-    readout_latency_us=st.sampled_from([0, 20_000]),
-    readout_jitter_us=st.sampled_from([0, 70_000]),
-    clock_step_us=st.sampled_from([1, 1000]),
     rate_limit_hz=st.sampled_from([0.0, 2000.0]),
 )
 
@@ -179,9 +177,9 @@ CONFIGS = st.builds(
 @given(CONFIGS, st.integers(0, 2**63 - 1), st.integers(0, 99))
 def test_backends_agree_and_packets_are_sound_for_any_options(config, seed, scene):
     frames = moving_texture(5, (4, 6), step_us=41_667, seed=scene)
-    streams = []
-    for backend in ("reference", "cpu"):
-        simulator = PhysicalSimulator(config, seed=seed, backend=backend)
+
+    def packets_of() -> list:
+        simulator = PhysicalSimulator(config, seed=seed)
         last = frames[0].t_us
         packets = []
         for frame in frames:
@@ -189,8 +187,9 @@ def test_backends_agree_and_packets_are_sound_for_any_options(config, seed, scen
             assert not len(packets[-1]) or last <= packets[-1].t[0]
             assert not len(packets[-1]) or packets[-1].t[-1] < frame.t_us
             last = frame.t_us
-        streams.append(packets)
-    assert all(one.equals(two) for one, two in zip(*streams, strict=True))
+        return packets
+
+    assert all(one.equals(two) for one, two in zip(*in_both_forms(packets_of), strict=True))
 
 
 def events_of_pixels(events) -> list:
@@ -208,7 +207,7 @@ def test_inverted_contrast_swaps_on_and_off(scene):
     logs = np.random.default_rng(scene).uniform(-1, 1, (5, 3, 4))
     events, inverted = (
         run(
-            clean("cpu"),
+            clean(),
             [Frame(80 * np.exp(s * log) - 10, i * 10_000) for i, log in enumerate(logs)],
         )
         for s in (1, -1)

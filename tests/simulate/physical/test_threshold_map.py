@@ -29,12 +29,12 @@ def path(tmp_path):
 
 
 @pytest.mark.parametrize(("end", "counts"), [(4.85, [8, 4, 2, 4]), (3.15, [4, 2, 4, 8])])
-def test_each_pixel_fires_at_its_own_threshold(backend, path, end, counts):
+def test_each_pixel_fires_at_its_own_threshold(kernels, path, end, counts):
     """A change of 0.85 over thresholds of 0.1, 0.2, 0.4, and 0.2 where none was measured."""
     frames = [
         Frame(np.full((1, 4), intensity(level)), t_us) for level, t_us in ((4, 0), (end, 10**6))
     ]
-    events = run(clean(backend, threshold_map=path), frames)
+    events = run(clean(threshold_map=path), frames)
     assert np.bincount(events.x, minlength=4).tolist() == counts
     assert events.t[events.x == counts.index(2)] == pytest.approx(
         [0.4e6 / 0.85, 0.8e6 / 0.85], abs=2
@@ -44,8 +44,8 @@ def test_each_pixel_fires_at_its_own_threshold(backend, path, end, counts):
 def test_pixels_that_were_not_measured_keep_what_is_drawn(path):
     def thresholds(**options):
         simulator = PhysicalSimulator(PhysicalConfig(sensor_seed=3, **options))
-        simulator._draw_sensor((1, 4))
-        return simulator._mismatch.threshold_on
+        simulator.step(Frame(np.zeros((1, 4)), 0))
+        return simulator._pixels._mismatch.threshold_on
 
     drawn, mixed = thresholds(), thresholds(threshold_map=path)
     assert mixed[3] == drawn[3]

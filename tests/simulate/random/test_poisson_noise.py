@@ -4,10 +4,11 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.simulate.references import in_both_forms
 
 from texvent.events import NOISE
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.random import poisson_arrivals_cpu
+from texvent.simulate.packets import FrameInterval
+from texvent.simulate.random import poisson_noise
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.random.poisson_noise import PoissonNoise
 
@@ -23,30 +24,30 @@ def counts(rate_hz, seconds, **options):
     return found.reshape(rate_hz.shape)
 
 
-def test_without_a_rate_there_is_no_noise(backend):
-    assert counts(np.zeros((3, 4)), 1.0, backend=backend).sum() == 0
+def test_without_a_rate_there_is_no_noise(kernels):
+    assert counts(np.zeros((3, 4)), 1.0).sum() == 0
 
 
 @pytest.mark.parametrize("mean", [0.05, 1.0, 30.0])
-def test_counts_are_poisson(backend, mean):
-    found = counts(np.full((50, 60), mean), 1.0, backend=backend)
+def test_counts_are_poisson(kernels, mean):
+    found = counts(np.full((50, 60), mean), 1.0)
     assert found.mean() == pytest.approx(mean, abs=4 * math.sqrt(mean / 3000))
     # The variance of a sample variance of 3000 Poisson numbers.
     spread = math.sqrt((mean + 2 * mean * mean) / 3000)
     assert found.var() == pytest.approx(mean, abs=4 * spread)
 
 
-def test_each_pixel_has_its_own_rate(backend):
+def test_each_pixel_has_its_own_rate(kernels):
     rate_hz = np.repeat([[0.0, 2.0, 20.0]], 2000, axis=0)
-    found = counts(rate_hz, 0.5, backend=backend).mean(axis=0)
+    found = counts(rate_hz, 0.5).mean(axis=0)
     assert found[0] == 0
     assert found[1:] == pytest.approx([1.0, 10.0], abs=0.3)
 
 
-def test_times_are_uniform_and_polarity_has_its_share(backend):
+def test_times_are_uniform_and_polarity_has_its_share(kernels):
     on_fraction = np.repeat([[0.1, 0.9]], 3000, axis=0)
     rates = PoissonNoise(np.full((3000, 2), 3.0))
-    events = rates.draw(interval(1.0), on_fraction=on_fraction, backend=backend)
+    events = rates.draw(interval(1.0), on_fraction=on_fraction)
     assert events.t.min() >= 1000
     assert events.t.max() < 1_001_000
     histogram = np.histogram(events.t, bins=10, range=(1000, 1_001_000))[0]
@@ -57,19 +58,17 @@ def test_times_are_uniform_and_polarity_has_its_share(backend):
     assert (events.label == NOISE).all()
 
 
-def test_a_share_of_the_rate_keeps_that_share_of_the_events(backend):
+def test_a_share_of_the_rate_keeps_that_share_of_the_events(kernels):
     rates = PoissonNoise(np.full((2000, 3), 4.0))
     share = np.array([0.0, 0.25, 1.0])
-    events = rates.draw(
-        interval(1.0), rate_fraction=lambda pixel: share[pixel % 3], backend=backend
-    )
+    events = rates.draw(interval(1.0), rate_fraction=lambda pixel: share[pixel % 3])
     found = np.bincount(events.pixel % 3, minlength=3)
     assert found[0] == 0
     assert found[1:] == pytest.approx([2000, 8000], abs=4 * math.sqrt(8000))
 
 
-def test_events_come_by_pixel_and_then_in_time(backend):
-    events = PoissonNoise(np.full((7, 9), 6.0)).draw(interval(1.0), backend=backend)
+def test_events_come_by_pixel_and_then_in_time(kernels):
+    events = PoissonNoise(np.full((7, 9), 6.0)).draw(interval(1.0))
     order = np.lexsort((events.t, events.pixel))
     assert (order == np.arange(len(order))).all()
 
@@ -90,18 +89,16 @@ def test_two_streams_of_one_sensor_are_independent():
 )
 def test_backends_find_the_same_events(seed, shape, highest_hz, seconds):
     rate_hz = np.random.default_rng(seed).uniform(0, 1, shape).round(1) * highest_hz
-    first, second = (
-        PoissonNoise(rate_hz).draw(interval(seconds, seed), backend=backend)
-        for backend in ("reference", "cpu")
-    )
+    rates = PoissonNoise(rate_hz)
+    first, second = in_both_forms(lambda: rates.draw(interval(seconds, seed)))
     assert all(np.array_equal(a, b) for a, b in zip(first, second, strict=True))
     assert rate_hz.reshape(-1)[first.pixel].all()
     assert ((first.t >= 1000) & (first.t < 1000 + round(seconds * 1e6))).all()
 
 
 def test_more_arrivals_than_there_is_room_for_are_all_kept(monkeypatch):
-    monkeypatch.setattr(poisson_arrivals_cpu, "SPREAD", -20.0)
+    monkeypatch.setattr(poisson_noise, "SPREAD", -20.0)
     rates = PoissonNoise(np.full((30, 40), 20.0))
-    plain, compiled = (rates.draw(interval(1.0), backend=name) for name in ("reference", "cpu"))
+    plain, compiled = in_both_forms(lambda: rates.draw(interval(1.0)))
     assert len(plain.t) > 23_000
     assert all(np.array_equal(*columns) for columns in zip(plain, compiled, strict=True))

@@ -5,8 +5,7 @@ import math
 import numpy as np
 import pytest
 
-from texvent.simulate.texvent.brightness_cache import LEAST_SHARE, BrightnessCache
-from texvent.simulate.texvent.fired_pixels import EventFrame
+from texvent.simulate.texvent.event_frame import LEAST_SHARE, BrightnessCache, EventFrame
 
 
 def levels(*values) -> np.ndarray:

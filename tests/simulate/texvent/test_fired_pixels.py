@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from texvent.simulate.texvent.fired_pixels import find_triggered_pixels, generate_event_frame
+from texvent.simulate.texvent.event_frame import find_triggered_pixels, generate_event_frame
 
 BRIGHTNESS = np.array([[0.0, 1.0], [-1.0, 0.25]])
 REFERENCE = np.array([[0.0, 0.5], [0.0, 0.5]])
@@ -11,9 +11,9 @@ REFERENCE = np.array([[0.0, 0.5], [0.0, 0.5]])
 
 def test_crossings_of_a_two_by_two_case():
     """A change of exactly a threshold fires."""
-    crossings = find_triggered_pixels(BRIGHTNESS, REFERENCE, 0.25)
-    assert crossings.pixel.tolist() == [1, 2, 3]
-    assert crossings.change.tolist() == [0.5, -1.0, -0.25]
+    pixel, change = find_triggered_pixels(BRIGHTNESS, REFERENCE, 0.25)
+    assert pixel.tolist() == [1, 2, 3]
+    assert change.tolist() == [0.5, -1.0, -0.25]
 
 
 @pytest.mark.parametrize(("multi_event", "number"), [(False, [1, 1, 1]), (True, [2, 4, 1])])

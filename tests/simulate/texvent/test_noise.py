@@ -6,16 +6,17 @@ import numpy as np
 import pytest
 
 from texvent.events import SIGNAL, EventStream
-from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.noise import (
+    NoisePlaces,
     draw_noise,
     draw_voltage_noise,
-    low_light_background,
+    is_background,
     poisson_cumulative,
     voltage_noise_sd,
 )
-from texvent.simulate.texvent.simulator import TexventSimulator
+from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Frame, frame_time_us
 
 SECOND = 1_000_000
@@ -27,17 +28,24 @@ def resting(shape, times_us, level=20.0):
     return [Frame(picture, t, t in (times_us[0], times_us[-1])) for t in times_us]
 
 
-def simulate(frames, *, backend="cpu", seed=0, **options) -> EventStream:
+def anywhere(pixels, span, mean, *, on_fraction=0.5) -> NoisePlaces:
+    """Noise of `mean` events per pixel, in all pixels."""
+    rate_hz = mean / span.duration_s
+    config = TexventConfig(noise="random", noise_rate_hz=rate_hz, noise_on_fraction=on_fraction)
+    return draw_noise(config, span, pixels, np.zeros(pixels).__getitem__)
+
+
+def simulate(frames, *, seed=0, **options) -> EventStream:
     config = replace(TexventSimulator.presets["paper"], **options)
-    simulator = TexventSimulator(config, seed=seed, backend=backend)
+    simulator = TexventSimulator(config, seed=seed)
     return EventStream.concat([simulator.step(frame) for frame in frames])
 
 
 @pytest.mark.parametrize("inner_frames", [0, 1, 11])
-def test_eq6_expected_noise_does_not_depend_on_the_intermediate_frames(inner_frames, backend):
+def test_eq6_expected_noise_does_not_depend_on_the_intermediate_frames(inner_frames, kernels):
     """λ1 = 0.1 /s over 346×260 resting dark pixels and 1 s: mean 8996, sd 95."""
     times = np.linspace(0, SECOND, inner_frames + 2).round().astype(int).tolist()
-    events = simulate(resting((260, 346), times), seed=inner_frames, backend=backend)
+    events = simulate(resting((260, 346), times), seed=inner_frames)
     assert abs(len(events) - 8996) < 4 * 95
 
 
@@ -68,13 +76,13 @@ def test_gaussian_noise_leaves_no_trace_in_the_reference(reset, cache):
     assert abs(len(events) - 3072) < 4 * np.sqrt(3072)
 
 
-def test_adaptive_noise_is_only_in_dark_resting_pixels(backend):
+def test_adaptive_noise_is_only_in_dark_resting_pixels(kernels):
     first = np.full((30, 30), 20.0)
     first[:, 20:] = 79.0
     first[10:20] = 80.0
     second = first.copy()
     second[:, :5] += 60.0
-    options = {"noise_rate_hz": 100.0, "backend": backend}
+    options = {"noise_rate_hz": 100.0}
     frames = [Frame(first, 0), Frame(second, SECOND)]
     noisy = simulate(frames, **options)
     clean = simulate(frames, **options | {"noise": "none"})
@@ -87,9 +95,9 @@ def test_adaptive_noise_is_only_in_dark_resting_pixels(backend):
     assert as_set(clean) <= as_set(noisy)
 
 
-def test_random_noise_ignores_intensity_and_firing(backend):
+def test_random_noise_ignores_intensity_and_firing(kernels):
     frames = [Frame(np.full((30, 30), 200.0), 0), Frame(np.full((30, 30), 10.0), SECOND)]
-    events = simulate(frames, noise="random", noise_rate_hz=10.0, backend=backend)
+    events = simulate(frames, noise="random", noise_rate_hz=10.0)
     assert abs(len(events) - 900 - 9000) < 4 * np.sqrt(9000)
 
 
@@ -98,11 +106,11 @@ def as_set(events):
 
 
 @pytest.mark.parametrize("kind", ["adaptive", "random"])
-def test_noise_never_touches_the_reference(kind, backend):
+def test_noise_never_touches_the_reference(kind, kernels):
     """Every event of the clean run is there in the noisy one."""
     pictures = np.random.default_rng(2).uniform(0, 120, (6, 12, 12))
     frames = [Frame(picture, 1000 * k, k % 3 == 0) for k, picture in enumerate(pictures)]
-    options = {"cache": "global", "reset": "step", "backend": backend}
+    options = {"cache": "global", "reset": "step"}
     clean = simulate(frames, noise="none", **options)
     noisy = simulate(frames, noise=kind, noise_rate_hz=200.0, **options)
     assert len(clean) < len(noisy)
@@ -127,8 +135,8 @@ def test_noise_polarity_follows_the_stated_share(fraction):
 
 
 @pytest.mark.parametrize("off", [{"noise": "none"}, {"noise_rate_hz": 0.0}, {"noise_scale": 0.0}])
-def test_noise_can_be_switched_off(off, backend):
-    assert len(simulate(resting((50, 50), [0, SECOND]), backend=backend, **off)) == 0
+def test_noise_can_be_switched_off(off, kernels):
+    assert len(simulate(resting((50, 50), [0, SECOND]), **off)) == 0
 
 
 def test_gaussian_noise_of_rate_zero_changes_nothing():
@@ -140,13 +148,15 @@ def test_gaussian_noise_of_rate_zero_changes_nothing():
 
 
 def test_mask_is_dark_and_at_rest():
-    luma = np.array([[79, 80, 81], [0, 10, 20]], np.uint8)
-    mask = low_light_background(luma, np.arange(6), np.array([4]), intensity=80.0)
-    assert mask.tolist() == [True, False, False, True, False, True]
-    two_in_one_pixel = low_light_background(
-        luma, np.array([3, 3, 4]), np.array([4]), intensity=80.0
-    )
-    assert two_in_one_pixel.tolist() == [True, True, False]
+    config, span = TexventConfig(noise_rate_hz=1e4), FrameInterval(0, 1000, frame_key(0, 0))
+    luma = np.array([39, 40, 41, 0], np.uint8)
+    assert set(draw_noise(config, span, 4, luma.__getitem__).pixel.tolist()) == {0, 3}
+    assert is_background(np.array([0, 3, 3, 4]), np.array([3])).tolist() == [
+        True,
+        False,
+        False,
+        True,
+    ]
 
 
 def test_gaussian_noise_is_labelled_where_only_the_noise_fired():
@@ -173,11 +183,11 @@ def test_poisson_table_has_the_mean_and_variance_of_its_distribution(mean):
 
 
 @pytest.mark.parametrize("mean", [0.01, 0.7, 3.0])
-def test_noise_counts_are_poisson_numbers_of_every_pixel(mean, backend):
+def test_noise_counts_are_poisson_numbers_of_every_pixel(mean, kernels):
     """Although they are drawn per block of pixels; the last block is a partial one."""
     pixels = 40_000
     span = FrameInterval(1000, 2000, frame_key(0, 0))
-    noise = draw_noise(pixels, span, mean=mean, on_fraction=0.5, backend=backend)
+    noise = anywhere(pixels, span, mean)
     per_pixel = np.bincount(noise.pixel, minlength=pixels)
     assert len(per_pixel) == pixels
     mass = np.diff(poisson_cumulative(mean), prepend=0.0)
@@ -186,26 +196,23 @@ def test_noise_counts_are_poisson_numbers_of_every_pixel(mean, backend):
     freedom = len(expected)
     deviation = ((counts - expected) ** 2 / expected).sum()
     assert float(deviation) < freedom + 5 * np.sqrt(2 * freedom)
-    assert noise.t.min() >= 1000
-    assert noise.t.max() < 2000
+    assert noise.fraction.min() >= 0
+    assert noise.fraction.max() < 1
 
 
 def test_noise_is_independent_between_places_times_and_polarities():
     span = FrameInterval(0, SECOND, frame_key(7, 3))
-    noise = draw_noise(64 * 4096, span, mean=0.2, on_fraction=0.5)
-    columns = [noise.pixel % 4096, noise.pixel // 4096, noise.t, noise.p]
+    noise = anywhere(64 * 4096, span, 0.2)
+    columns = [noise.pixel % 4096, noise.pixel // 4096, noise.fraction, noise.p]
     correlation = np.corrcoef(np.array(columns, np.float64))
-    assert np.abs(correlation - np.eye(4)).max() < 5 / np.sqrt(len(noise.t))
+    assert np.abs(correlation - np.eye(4)).max() < 5 / np.sqrt(len(noise.p))
 
 
-def test_blocks_draw_the_same_noise_whatever_the_size_of_the_frame(backend):
+def test_blocks_draw_the_same_noise_whatever_the_size_of_the_frame(kernels):
     """So bands of a frame can be simulated apart."""
     span = FrameInterval(0, 1000, frame_key(1, 1))
-    small, large = (
-        draw_noise(pixels, span, mean=0.1, on_fraction=0.3, backend=backend)
-        for pixels in (5000, 20_000)
-    )
-    inside = large.take(large.pixel < 5000)
+    small, large = (anywhere(pixels, span, 0.1, on_fraction=0.3) for pixels in (5000, 20_000))
+    inside = [column[large.pixel < 5000] for column in large]
     assert len(small.pixel) > 300
     assert all(np.array_equal(one, two) for one, two in zip(small, inside, strict=True))
 

@@ -1,15 +1,13 @@
-"""Noise by blocks of pixels: equal bits on every backend."""
+"""Noise by blocks of pixels: the bits of the definition."""
 
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.simulate.references import noise_blocks as noise_reference
 
 from texvent.simulate.random.draws import frame_key
-from texvent.simulate.texvent.kernels import noise_blocks_cpu as noise_cpu
-from texvent.simulate.texvent.kernels import noise_blocks_reference as noise_reference
-from texvent.simulate.texvent.kernels.noise_blocks import NoiseBlock
-from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK
-from texvent.simulate.texvent.noise import poisson_cumulative
+from texvent.simulate.texvent import noise as noise_cpu
+from texvent.simulate.texvent.noise import NOISE_BLOCK, NoiseBlock, poisson_cumulative
 
 
 @settings(max_examples=60)

@@ -1,4 +1,4 @@
-"""The simulator against worked numbers: one pixel, computed by hand, on every backend.
+"""The simulator against worked numbers: one pixel, computed by hand, in both forms.
 
 Unless said: the paper's options, δ = 0.2, α = 30, no noise. Ramp A is `α + I = 50 · exp(1.05 t)`
 over one second, whose true crossings are at 0.190, 0.381, 0.571, 0.762 and 0.952 s.
@@ -29,8 +29,8 @@ def paper(**options) -> TexventConfig:
     return replace(TexventSimulator.presets["paper"], **options)
 
 
-def simulate(frames, *, backend: str = "reference", seed: int = 0, **options) -> EventStream:
-    simulator = TexventSimulator(paper(**{"noise": "none"} | options), seed=seed, backend=backend)
+def simulate(frames, *, seed: int = 0, **options) -> EventStream:
+    simulator = TexventSimulator(paper(**{"noise": "none"} | options), seed=seed)
     return EventStream.concat([simulator.step(frame) for frame in frames])
 
 
@@ -68,8 +68,8 @@ def ramp_b() -> list[Frame]:
         ("step", "linear", TRUE_CROSSINGS),
     ],
 )
-def test_eq5_fires_on_ramp_a_as_worked_out(reset, stamp, times, backend):
-    events = simulate(ramp_a(), reset=reset, timestamp_rule=stamp, backend=backend)
+def test_eq5_fires_on_ramp_a_as_worked_out(reset, stamp, times, kernels):
+    events = simulate(ramp_a(), reset=reset, timestamp_rule=stamp)
     assert seconds(events) == pytest.approx(times, abs=1e-9)
     assert set(events.p.tolist()) == {1}
 
@@ -78,31 +78,29 @@ def test_eq5_fires_on_ramp_a_as_worked_out(reset, stamp, times, backend):
     ("reset", "times"),
     [("current", (0.124, 0.324, 0.528, 0.936)), ("step", (0.124, 0.269, 0.446, 0.660, 0.927))],
 )
-def test_blended_frames_bend_the_times_of_ramp_a(reset, times, backend):
-    events = simulate(ramp_a(blended=True), reset=reset, timestamp_rule="linear", backend=backend)
+def test_blended_frames_bend_the_times_of_ramp_a(reset, times, kernels):
+    events = simulate(ramp_a(blended=True), reset=reset, timestamp_rule="linear")
     assert seconds(events) == pytest.approx(times, abs=1e-9)
 
 
-def test_a_falling_ramp_fires_off_events_at_the_same_times(backend):
-    events = simulate(ramp_a(reverse=True), reset="step", timestamp_rule="linear", backend=backend)
+def test_a_falling_ramp_fires_off_events_at_the_same_times(kernels):
+    events = simulate(ramp_a(reverse=True), reset="step", timestamp_rule="linear")
     assert seconds(events) == pytest.approx(TRUE_CROSSINGS, abs=1e-9)
     assert set(events.polarity.tolist()) == {-1}
 
 
-def test_multi_event_recovers_all_crossings_without_interpolation(backend):
-    events = simulate(
-        ramp_a(inner=0), reset="step", timestamp_rule="linear", multi_event=True, backend=backend
-    )
+def test_multi_event_recovers_all_crossings_without_interpolation(kernels):
+    events = simulate(ramp_a(inner=0), reset="step", timestamp_rule="linear", multi_event=True)
     assert events.t.tolist() == pytest.approx([190476, 380952, 571429, 761905, 952381], abs=1)
 
 
-def test_a_single_event_per_frame_keeps_the_first_crossing_only(backend):
-    events = simulate(ramp_a(inner=0), reset="step", timestamp_rule="linear", backend=backend)
+def test_a_single_event_per_frame_keeps_the_first_crossing_only(kernels):
+    events = simulate(ramp_a(inner=0), reset="step", timestamp_rule="linear")
     assert seconds(events) == [0.190]
 
 
-def test_even_spacing_divides_the_interval(backend):
-    events = simulate(ramp_a(inner=0), timestamp_rule="even", multi_event=True, backend=backend)
+def test_even_spacing_divides_the_interval(kernels):
+    events = simulate(ramp_a(inner=0), timestamp_rule="even", multi_event=True)
     assert seconds(events) == pytest.approx([0.2, 0.4, 0.6, 0.8, 1.0], abs=1e-6)
 
 
@@ -129,32 +127,30 @@ GLOBAL_STEP = (3.636, 7.273, 10.909, 14.545, 18.182)
     ],
     ids=str,
 )
-def test_cache_decides_how_slow_a_ramp_still_fires(options, times, backend):
-    events = simulate(
-        ramp_b(), timestamp_rule="linear", **({"reset": "step"} | options), backend=backend
-    )
+def test_cache_decides_how_slow_a_ramp_still_fires(options, times, kernels):
+    events = simulate(ramp_b(), timestamp_rule="linear", **({"reset": "step"} | options))
     assert seconds(events) == pytest.approx(times, abs=1e-9)
 
 
-def test_a_change_that_swings_inside_the_threshold_never_fires(backend):
+def test_a_change_that_swings_inside_the_threshold_never_fires(kernels):
     frames = [pixel(42 if k % 2 else 38, k * SECOND) for k in range(20)]
-    assert len(simulate(frames, cache="global", reset="step", backend=backend)) == 0
+    assert len(simulate(frames, cache="global", reset="step")) == 0
 
 
-def test_eq1_fires_exactly_from_the_threshold_on(backend):
+def test_eq1_fires_exactly_from_the_threshold_on(kernels):
     """δ is set to the change itself, then to the next larger number."""
     frames = [Frame(np.full((1, 1), level, np.uint8), level) for level in (70, 90)]
     change = float(np.log(120.0) - np.log(100.0))
-    assert len(simulate(frames, contrast_threshold=change, backend=backend)) == 1
+    assert len(simulate(frames, contrast_threshold=change)) == 1
     above = float(np.nextafter(change, 1))
-    assert len(simulate(frames, contrast_threshold=above, backend=backend)) == 0
+    assert len(simulate(frames, contrast_threshold=above)) == 0
 
 
-def test_eq7_spreads_the_events_of_a_frame_over_its_interval(backend):
+def test_eq7_spreads_the_events_of_a_frame_over_its_interval(kernels):
     before = np.full((2, 2), 100.0)
     changes = np.array([[0.25, 0.10], [-0.30, 0.45]])
     after = (before + BALANCE) * np.exp(changes) - BALANCE
-    events = simulate([Frame(before, 0), Frame(after, 10_000)], backend=backend)
+    events = simulate([Frame(before, 0), Frame(after, 10_000)])
     assert list(zip(events.x, events.y, events.polarity, strict=True)) == [
         (1, 1, 1),
         (0, 1, -1),
@@ -163,12 +159,12 @@ def test_eq7_spreads_the_events_of_a_frame_over_its_interval(backend):
     assert events.t.tolist() == pytest.approx([0, 7500, 9999], abs=1)
 
 
-def test_eq7_scale_shrinks_the_spread(backend):
+def test_eq7_scale_shrinks_the_spread(kernels):
     frames = [Frame(np.full((1, 1), 50.0), 0), Frame(np.full((1, 1), 90.0), 1000)]
-    assert simulate(frames, timestamp_scale=0.5, backend=backend).t.tolist() == [250]
+    assert simulate(frames, timestamp_scale=0.5).t.tolist() == [250]
 
 
-def test_local_cache_adds_up_inside_a_pair_and_forgets_at_its_end(backend):
+def test_local_cache_adds_up_inside_a_pair_and_forgets_at_its_end(kernels):
     """0.15 + 0.15 fires within a pair, and does not across a source frame."""
     levels = [70 * np.exp(0.15 * k) - BALANCE for k in range(3)]
 
@@ -178,18 +174,18 @@ def test_local_cache_adds_up_inside_a_pair_and_forgets_at_its_end(backend):
             for k, level in enumerate(levels)
         ]
 
-    assert len(simulate(clip(False), backend=backend)) == 1
-    assert len(simulate(clip(True), backend=backend)) == 0
-    assert len(simulate(clip(False), cache="none", backend=backend)) == 0
+    assert len(simulate(clip(False))) == 1
+    assert len(simulate(clip(True))) == 0
+    assert len(simulate(clip(False), cache="none")) == 0
 
 
-def test_float_frames_are_not_rounded_to_whole_levels(backend):
+def test_float_frames_are_not_rounded_to_whole_levels(kernels):
     """Eight frames between 200 and 201 are eight different levels."""
     frames = [pixel(200 + k / 9, k * 1000, is_source=k in (0, 9)) for k in range(10)]
-    assert len(simulate(frames, contrast_threshold=4e-4, backend=backend)) == 9
+    assert len(simulate(frames, contrast_threshold=4e-4)) == 9
 
 
-def test_bit_depths_of_the_same_picture_give_the_same_events(backend):
+def test_bit_depths_of_the_same_picture_give_the_same_events(kernels):
     pictures = np.random.default_rng(5).integers(0, 256, (4, 6, 7))
     results = [
         simulate(
@@ -199,7 +195,6 @@ def test_bit_depths_of_the_same_picture_give_the_same_events(backend):
             ],
             noise="adaptive",
             noise_rate_hz=100.0,
-            backend=backend,
         )
         for dtype, factor in ((np.uint8, 1), (np.uint16, 257), (np.float32, 1), (np.float64, 1))
     ]
@@ -207,19 +202,19 @@ def test_bit_depths_of_the_same_picture_give_the_same_events(backend):
     assert all(result.equals(results[0]) for result in results)
 
 
-def test_colour_is_reduced_to_luma(backend):
+def test_colour_is_reduced_to_luma(kernels):
     grey = [np.full((2, 2), level, np.float32) for level in (50, 90)]
     colour = [np.repeat(picture[..., None], 3, axis=2) for picture in grey]
     both = [
-        simulate([Frame(one, 1000 * k) for k, one in enumerate(pictures)], backend=backend)
+        simulate([Frame(one, 1000 * k) for k, one in enumerate(pictures)])
         for pictures in (grey, colour)
     ]
     assert len(both[0]) == 4
     assert both[0].equals(both[1])
 
 
-def test_the_first_frame_after_reset_gives_an_empty_stream(backend):
-    simulator = TexventSimulator(paper(noise_rate_hz=1e4), backend=backend)
+def test_the_first_frame_after_reset_gives_an_empty_stream(kernels):
+    simulator = TexventSimulator(paper(noise_rate_hz=1e4))
     frames = [pixel(10, 0), pixel(200, 100)]
     first_run = [simulator.step(frame) for frame in frames]
     simulator.reset()
@@ -229,14 +224,14 @@ def test_the_first_frame_after_reset_gives_an_empty_stream(backend):
     assert all(one.equals(two) for one, two in zip(first_run, second_run, strict=True))
 
 
-def test_intervals_may_vary_from_one_microsecond_to_hours(backend):
+def test_intervals_may_vary_from_one_microsecond_to_hours(kernels):
     times = [-5, -4, 1000, 10**10]
     frames = [pixel(level, t) for level, t in zip((10, 200, 10, 200), times, strict=True)]
-    events = simulate(frames, backend=backend)
+    events = simulate(frames)
     assert events.t.tolist() == [-5, 498, (1000 + 10**10) // 2]
 
 
-def test_the_paper_preset_is_the_publication(backend):
+def test_the_paper_preset_is_the_publication(kernels):
     config = paper()
     assert (config.contrast_threshold, config.balance) == (0.2, 30.0)
     assert (config.cache, config.reset, config.noise, config.timestamp_rule) == (
@@ -271,31 +266,31 @@ def test_all_seeds_are_ordinary():
         (np.full((2, 2), np.inf), 2000, "infinite"),
     ],
 )
-def test_step_fails_on_bad_frames_and_can_go_on(pixels, t_us, message, backend):
+def test_step_fails_on_bad_frames_and_can_go_on(pixels, t_us, message, kernels):
     good = [Frame(np.full((2, 2), level, np.uint8), 1000 * k) for k, level in enumerate((9, 99, 9))]
-    simulator = TexventSimulator(paper(), backend=backend)
+    simulator = TexventSimulator(paper())
     packets = [simulator.step(frame) for frame in good[:2]]
     with pytest.raises(InputError, match=message):
         simulator.step(Frame(pixels, t_us))
     packets.append(simulator.step(good[2]))
-    undisturbed = simulate(good, noise="adaptive", backend=backend)
+    undisturbed = simulate(good, noise="adaptive")
     assert EventStream.concat(packets).equals(undisturbed)
 
 
-def test_step_fails_where_the_logarithm_does_not_exist(backend):
-    simulator = TexventSimulator(TexventConfig(balance=0.0), backend=backend)
+def test_step_fails_where_the_logarithm_does_not_exist(kernels):
+    simulator = TexventSimulator(TexventConfig(balance=0.0))
     with pytest.raises(ConfigError, match="use a balance above 0"):
         simulator.step(Frame(np.zeros((1, 1), np.uint8), 0))
 
 
-def test_no_balance_is_allowed_without_black_pixels(backend):
+def test_no_balance_is_allowed_without_black_pixels(kernels):
     frames = [pixel(level, 1000 * k) for k, level in enumerate((10, 13))]
-    assert len(simulate(frames, balance=0.0, backend=backend)) == 1
+    assert len(simulate(frames, balance=0.0)) == 1
 
 
-def test_step_fails_if_gaussian_noise_would_fire_every_time(backend):
+def test_step_fails_if_gaussian_noise_would_fire_every_time(kernels):
     config = paper(noise="gaussian", noise_rate_hz=30.0)
-    simulator = TexventSimulator(config, backend=backend)
+    simulator = TexventSimulator(config)
     simulator.step(pixel(50, 0))
     with pytest.raises(InputError, match=r"1\.5 events per pixel.*lower noise_rate_hz"):
         simulator.step(pixel(50, 50_000))
@@ -316,18 +311,18 @@ def test_config_fails_with_one_clear_sentence(options, message):
         TexventConfig(**options)
 
 
-def test_a_copy_carries_the_state(backend):
+def test_a_copy_carries_the_state(kernels):
     frames = ramp_b()
-    whole = simulate(frames, cache="global", backend=backend)
-    simulator = TexventSimulator(paper(cache="global", noise="none"), backend=backend)
+    whole = simulate(frames, cache="global")
+    simulator = TexventSimulator(paper(cache="global", noise="none"))
     packets = [simulator.step(frame) for frame in frames[:10]]
     twin = copy.deepcopy(simulator)
     packets += [twin.step(frame) for frame in frames[10:]]
     assert EventStream.concat(packets).equals(whole)
 
 
-def test_every_packet_tells_signal_from_noise(backend):
+def test_every_packet_tells_signal_from_noise(kernels):
     """Even an empty one: writers take their columns from the first packet."""
-    simulator = TexventSimulator(paper(noise_rate_hz=1e4), backend=backend)
+    simulator = TexventSimulator(paper(noise_rate_hz=1e4))
     packets = [simulator.step(pixel(level, 1000 * k)) for k, level in enumerate((20, 20, 70))]
     assert [set(packet.label.tolist()) for packet in packets] == [set(), {NOISE}, {SIGNAL}]

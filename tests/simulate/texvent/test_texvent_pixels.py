@@ -1,4 +1,4 @@
-"""The fast pixels fire exactly as the definition does: every backend, type of frames and option."""
+"""The fast pixels fire exactly as the definition does: any type of frames and option."""
 
 import copy
 import itertools
@@ -10,14 +10,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.simulate.references import definitions, in_both_forms
 
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.simulate.texvent.pixel_state import brightness_table, least_difference
+from texvent.simulate.texvent.pixel_memory import brightness_table, least_difference
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import HIGHEST_INTENSITY, Frame
 
-FAST = ("numpy", "cpu")
 TYPES = (np.uint8, np.uint16, np.float32, np.float64)
 OPTIONS = [
     {"cache": cache, "residual_decay_hz": decay, "reset": reset, "timestamp_rule": stamp}
@@ -57,15 +57,19 @@ def clips(draw):
     return frames
 
 
-def simulate(frames, *, backend, seed=0, **options) -> EventStream:
-    simulator = TexventSimulator(TexventConfig(**options), seed=seed, backend=backend)
+def simulate(frames, *, seed=0, **options) -> EventStream:
+    simulator = TexventSimulator(TexventConfig(**options), seed=seed)
     return EventStream.concat([simulator.step(one) for one in frames])
 
 
-def assert_backends_agree(frames, **options) -> EventStream:
-    expected = simulate(frames, backend="reference", **options)
-    for backend in FAST:
-        assert simulate(frames, backend=backend, **options).equals(expected), backend
+def defined(frames, **options) -> EventStream:
+    with definitions():
+        return simulate(frames, **options)
+
+
+def assert_forms_agree(frames, **options) -> EventStream:
+    expected, events = in_both_forms(lambda: simulate(frames, **options))
+    assert events.equals(expected)
     return expected
 
 
@@ -77,19 +81,19 @@ def assert_backends_agree(frames, **options) -> EventStream:
     st.sampled_from([0.01, 0.2, 2.0]),
     st.integers(0, 2**63 - 1),
 )
-def test_fast_backends_equal_the_reference(frames, options, noise, threshold, seed):
+def test_pixels_equal_the_definition(frames, options, noise, threshold, seed):
     noisy = {"noise": noise, "noise_rate_hz": 20.0, "noise_intensity": 150.0}
-    assert_backends_agree(frames, contrast_threshold=threshold, seed=seed, **noisy, **options)
+    assert_forms_agree(frames, contrast_threshold=threshold, seed=seed, **noisy, **options)
 
 
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
 @pytest.mark.parametrize(("low", "high"), [(0, 7), (70, 90), (100, 101), (3, 255)])
-def test_pixels_at_the_threshold_itself_fire_on_every_backend(low, high, dtype):
+def test_pixels_at_the_threshold_itself_fire_in_both_forms(low, high, dtype):
     """δ is the change of one pair of levels, then the next float64 above and below it."""
     first, second = (frame(np.full((9, 9), float(level)), dtype, level) for level in (low, high))
     change = float(np.log(20.0 + high) - np.log(20.0 + low))
     counts = [
-        len(assert_backends_agree([first, second], contrast_threshold=threshold, noise="none"))
+        len(assert_forms_agree([first, second], contrast_threshold=threshold, noise="none"))
         for threshold in (np.nextafter(change, 0), change, np.nextafter(change, 10))
     ]
     assert counts == [81, 81, 0]
@@ -114,9 +118,7 @@ def test_the_scan_misses_no_float_beside_a_trigger_level(intensity, threshold, b
         intensity, around = max(intensity, 1e-38), np.maximum(around, np.float32(1e-45))
     before = Frame(np.full((1, around.size), intensity, np.float32), 0)
     after = Frame(around[None], 1000)
-    assert_backends_agree(
-        [before, after], contrast_threshold=threshold, balance=balance, noise="none"
-    )
+    assert_forms_agree([before, after], contrast_threshold=threshold, balance=balance, noise="none")
 
 
 @pytest.mark.parametrize("balance", [0.0, 30.0, 1e6])
@@ -131,12 +133,11 @@ def test_no_bytes_closer_than_the_least_difference_fire(threshold, balance):
     assert np.any((size >= threshold) & (distance == least)) or least == 255
 
 
-@pytest.mark.parametrize("backend", FAST)
 @pytest.mark.parametrize("dtype", TYPES)
-def test_black_without_a_balance_is_refused_at_any_frame(dtype, backend):
+def test_black_without_a_balance_is_refused_at_any_frame(dtype):
     levels = np.full((8, 9), 50.0)
     config = TexventConfig(balance=0.0, multi_event=False)
-    simulator = TexventSimulator(config, backend=backend)
+    simulator = TexventSimulator(config)
     simulator.step(frame(levels, dtype, 0))
     black = levels.copy()
     black[3, 4] = 0
@@ -145,46 +146,43 @@ def test_black_without_a_balance_is_refused_at_any_frame(dtype, backend):
     assert len(simulator.step(frame(levels * 2, dtype, 2000))) == 72
 
 
-@pytest.mark.parametrize("backend", FAST)
 @pytest.mark.parametrize("place", [0, 63, 64, 4100, 4222])
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -1.0])
-def test_an_impossible_intensity_is_found_wherever_it_is(bad, place, backend):
+def test_an_impossible_intensity_is_found_wherever_it_is(bad, place):
     """In a whole run, in the rest after it, and in the last tile; the frame is then forgotten."""
     rng = np.random.default_rng(0)
     good = [Frame(rng.uniform(0, 255, (41, 103)).astype(np.float32), t) for t in (0, 10, 30)]
     broken = good[1].pixels.copy()
     broken.reshape(-1)[place] = bad
-    simulator = TexventSimulator(backend=backend)
+    simulator = TexventSimulator()
     packets = [simulator.step(one) for one in good[:2]]
     with pytest.raises(InputError, match=r"1 pixel.s. that are NaN, infinite or negative"):
         simulator.step(Frame(broken, 20))
     packets.append(simulator.step(good[2]))
-    assert EventStream.concat(packets).equals(simulate(good, backend="reference"))
+    assert EventStream.concat(packets).equals(defined(good))
 
 
-@pytest.mark.parametrize("backend", FAST)
 @pytest.mark.parametrize("carry", [copy.deepcopy, lambda one: pickle.loads(pickle.dumps(one))])
-def test_a_simulator_can_be_copied_and_sent_to_another_process(carry, backend):
+def test_a_simulator_can_be_copied_and_sent_to_another_process(carry):
     rng = np.random.default_rng(8)
     frames = [frame(rng.uniform(0, 255, (40, 50)), np.uint8, 10 * k) for k in range(6)]
     options = {"cache": "global", "timestamp_rule": "linear"}
-    simulator = TexventSimulator(TexventConfig(**options), backend=backend)
+    simulator = TexventSimulator(TexventConfig(**options))
     packets = [simulator.step(one) for one in frames[:3]]
     twin = carry(simulator)
     simulator.step(frame(np.zeros((40, 50)), np.uint8, 25))  # must not disturb the copy
     packets += [twin.step(one) for one in frames[3:]]
-    assert EventStream.concat(packets).equals(simulate(frames, backend="reference", **options))
+    assert EventStream.concat(packets).equals(defined(frames, **options))
 
 
-@pytest.mark.parametrize("backend", FAST)
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
-def test_frames_belong_to_the_caller(dtype, backend):
+def test_frames_belong_to_the_caller(dtype):
     """A decoder may reuse its buffer; and nothing writes to it."""
     rng = np.random.default_rng(1)
     pictures = [rng.integers(0, 256, (30, 40)).astype(np.float64) for _ in range(4)]
     frames = [frame(one, dtype, 10 * k, is_source=k == 0) for k, one in enumerate(pictures)]
-    expected = simulate(frames, backend="reference", timestamp_rule="linear")
-    simulator = TexventSimulator(TexventConfig(timestamp_rule="linear"), backend=backend)
+    expected = defined(frames, timestamp_rule="linear")
+    simulator = TexventSimulator(TexventConfig(timestamp_rule="linear"))
     buffer, packets = np.empty((30, 40), dtype), []
     for one in frames:
         buffer[:] = one.pixels
@@ -194,20 +192,18 @@ def test_frames_belong_to_the_caller(dtype, backend):
     assert EventStream.concat(packets).equals(expected)
 
 
-@pytest.mark.parametrize("backend", FAST)
-def test_frames_need_not_be_contiguous_or_writable(backend):
+def test_frames_need_not_be_contiguous_or_writable():
     wide = np.random.default_rng(2).integers(0, 256, (3, 20, 80)).astype(np.uint8)
     wide.flags.writeable = False
     cut = [Frame(one[::2, 5:66:3], 10 * k) for k, one in enumerate(wide)]
     whole = [Frame(one.pixels.copy(), one.t_us) for one in cut]
-    assert simulate(cut, backend=backend).equals(simulate(whole, backend="reference"))
+    assert simulate(cut).equals(defined(whole))
 
 
-@pytest.mark.parametrize("backend", FAST)
-def test_packets_stay_as_they_were_when_the_next_frame_comes(backend):
+def test_packets_stay_as_they_were_when_the_next_frame_comes():
     rng = np.random.default_rng(4)
     frames = [frame(rng.uniform(0, 255, (40, 40)), np.uint8, 10 * k) for k in range(3)]
-    simulator = TexventSimulator(backend=backend)
+    simulator = TexventSimulator()
     simulator.step(frames[0])
     packet = simulator.step(frames[1])
     kept = copy.deepcopy(packet.columns())
@@ -216,16 +212,14 @@ def test_packets_stay_as_they_were_when_the_next_frame_comes(backend):
     assert not any(column.flags.writeable for column in packet.columns().values())
 
 
-@pytest.mark.parametrize("backend", FAST)
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
-def test_no_array_as_large_as_a_frame_is_made_after_the_first(dtype, backend):
-    """Where little fires and references are intensities. NumPy works on 131,072 pixels at a time,
-    so the frame is larger."""
+def test_no_array_as_large_as_a_frame_is_made_after_the_first(dtype):
+    """Where little fires and references are intensities."""
     still = np.full((900, 1000), 100.0)
     moved = still.copy()
     moved[::90, ::100] = 160
     config = replace(TexventSimulator.presets["paper"], noise="none")
-    simulator = TexventSimulator(config, backend=backend)
+    simulator = TexventSimulator(config)
     for k in range(3):
         simulator.step(frame(moved if k % 2 else still, dtype, 10 * k))
     last = frame(moved, dtype, 100)
@@ -235,4 +229,4 @@ def test_no_array_as_large_as_a_frame_is_made_after_the_first(dtype, backend):
         peak = tracemalloc.get_traced_memory()[1]
     finally:
         tracemalloc.stop()
-    assert peak < (100_000 if backend == "cpu" else last.pixels.nbytes)
+    assert peak < 100_000

@@ -13,6 +13,7 @@ from unittest import mock
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from tests.simulate.references import definitions, in_both_forms
 
 from texvent.brightness import balanced_log
 from texvent.errors import ConfigError
@@ -71,8 +72,8 @@ def clips(draw, min_frames=2):
     return [Frame(scaled[k].astype(dtype), int(times[k]), bool(sources[k])) for k in range(count)]
 
 
-def simulate(frames, *, backend="cpu", seed=0, **options) -> EventStream:
-    simulator = TexventSimulator(TexventConfig(**options), seed=seed, backend=backend)
+def simulate(frames, *, seed=0, **options) -> EventStream:
+    simulator = TexventSimulator(TexventConfig(**options), seed=seed)
     return EventStream.concat([simulator.step(frame) for frame in frames])
 
 
@@ -153,10 +154,7 @@ def test_events_are_those_of_the_naive_simulator(frames, options):
 @settings(max_examples=150)
 @given(clips(), switches, noises, seeds)
 def test_cpu_equals_the_reference_exactly(frames, options, noise, seed):
-    both = [
-        simulate(frames, backend=backend, seed=seed, noise=noise, **NOISY, **options)
-        for backend in ("reference", "cpu")
-    ]
+    both = in_both_forms(lambda: simulate(frames, seed=seed, noise=noise, **NOISY, **options))
     assert both[0].equals(both[1])
 
 
@@ -235,10 +233,12 @@ def test_no_change_gives_no_events(frames, options):
 @given(clips(), switches)
 def test_negated_contrast_swaps_on_and_off(frames, options):
     """The brightness itself is negated: negated intensities would round differently."""
-    options = options | {"noise": "none", "backend": "reference"}
-    events = simulate(frames, **options)
-    module = importlib.import_module("texvent.simulate.texvent.reference")
-    with mock.patch.object(module, "balanced_log", lambda *given: -balanced_log(*given)):
+    options = options | {"noise": "none"}
+    with definitions():
+        events = simulate(frames, **options)
+    module = importlib.import_module("texvent.simulate.texvent.dense_pixels")
+    negative = mock.patch.object(module, "balanced_log", lambda *given: -balanced_log(*given))
+    with definitions(), negative:
         negated = simulate(frames, **options)
     swapped = EventStream(negated.x, negated.y, negated.t, 1 - negated.p, negated.size)
     assert swapped.equals(events.without_label())

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
-from texvent.simulate.texvent.fired_pixels import EventFrame, list_threshold_crossings
+from texvent.simulate.texvent.event_frame import EventFrame, list_threshold_crossings
 from texvent.simulate.texvent.timestamps import (
     SubInterval,
     larger_change_earlier,

@@ -4,7 +4,7 @@ import math
 
 import pytest
 
-from texvent.simulate.v2ce.layout import tensor_shapes
+from texvent.simulate.v2ce.network import tensor_shapes
 
 
 def test_the_published_file_has_218_tensors_of_53_million_numbers():

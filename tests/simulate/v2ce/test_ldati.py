@@ -7,11 +7,12 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from tests.simulate.references import ldati as definition
 
 from texvent.errors import ConfigError, InputError
-from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
-from texvent.simulate.v2ce import ldati, ldati_reference
+from texvent.simulate.v2ce import ldati
 from texvent.simulate.v2ce.ldati import (
     density_slope,
     infer_counts,
@@ -123,9 +124,7 @@ voxels = arrays(
 def test_the_reference_gives_equal_events(voxel, duration_us, rounding, bidirectional):
     interval = FrameInterval(-7, duration_us - 7, frame_key(5, duration_us))
     options = {"rounding": rounding, "bidirectional": bidirectional}
-    fast, slow = (
-        rule.sample_events(voxel, interval, **options) for rule in (ldati, ldati_reference)
-    )
+    fast, slow = (rule.sample_events(voxel, interval, **options) for rule in (ldati, definition))
     rows = [sorted(zip(*(c.tolist() for c in one), strict=True)) for one in (fast, slow)]
     assert rows[0] == rows[1]
 

@@ -8,10 +8,8 @@ from tests.frame_pairs import advance_through
 
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.simulate.v2ce.config import V2ceConfig
-from texvent.simulate.v2ce.network import load_network
-from texvent.simulate.v2ce.simulator import V2ceSimulator
-from texvent.simulate.v2ce.weights import read_weights
+from texvent.simulate.v2ce.network import load_network, read_weights
+from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator
 
 from ..pixel_frames import moving_texture, static
 from . import v2ce_numpy

@@ -9,6 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from tests.frame_pairs import advance_through
+from tests.simulate.references import in_both_forms
 
 import texvent
 from texvent.cli.app import main
@@ -18,12 +19,10 @@ from texvent.options.fields import option_help, option_names
 from texvent.options.values import with_options
 from texvent.pipeline import video_to_events
 from texvent.run.settings import default_settings, resolve
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import make_packet
+from texvent.simulate.packets import FrameInterval, make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati
-from texvent.simulate.v2ce.config import V2ceConfig
-from texvent.simulate.v2ce.simulator import V2ceSimulator, normalise
+from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator, normalise
 from texvent.video import Frame, Video
 
 from ..pixel_frames import moving_texture
@@ -45,8 +44,8 @@ def stand_in(monkeypatch) -> None:
 
 @pytest.fixture
 def model(stand_in, weights):
-    def build(seed=0, backend="auto", **options):
-        return V2ceSimulator(V2ceConfig(weights=weights, **options), seed=seed, backend=backend)
+    def build(seed=0, **options):
+        return V2ceSimulator(V2ceConfig(weights=weights, **options), seed=seed)
 
     return build
 
@@ -166,11 +165,11 @@ def test_the_seed_decides_everything_random(model):
 
 
 @pytest.mark.parametrize("options", [{}, {"rounding": "stochastic"}, {"bidirectional": True}])
-def test_backends_give_equal_events(model, options):
+def test_kernels_give_the_events_of_their_definitions(model, options):
     frames = moving_texture()
-    reference = answers(model(backend="reference", **options), frames)
+    reference, events = in_both_forms(lambda: answers(model(**options), frames))
     assert len(reference) > 50
-    assert answers(model(**options), frames).equals(reference)
+    assert events.equals(reference)
     assert options == {} or not answers(model(), frames).equals(reference)
 
 
@@ -269,10 +268,3 @@ def test_no_weights_is_one_clear_error_that_says_where_they_are(tmp_path, capsys
 def test_impossible_options_fail_by_name(option, value):
     with pytest.raises(ConfigError, match=option):
         with_options(V2ceConfig(), {option: value}, where="options")
-
-
-def test_impossible_seeds_and_backends_fail(model):
-    with pytest.raises(ConfigError, match="seed"):
-        model(seed=-1)
-    with pytest.raises(ConfigError, match="backend"):
-        model(backend="abacus")

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from texvent.simulate.v2ce.layout import BATCH_COUNTER, tensor_shapes
+from texvent.simulate.v2ce.network import BATCH_COUNTER, tensor_shapes
 
 BASE_CHANNELS = 2
 """Instead of 32; every name and relation of shapes stays."""

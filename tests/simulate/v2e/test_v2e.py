@@ -3,13 +3,12 @@ import math
 
 import numpy as np
 import pytest
+from tests.simulate.references.v2e import lin_log
 
 from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.v2e.config import V2eConfig
-from texvent.simulate.v2e.reference import lin_log
-from texvent.simulate.v2e.shot_noise import photoreceptor_noise_rms, relative_intensity
-from texvent.simulate.v2e.simulator import V2eSimulator
+from texvent.simulate.v2e.pixels import photoreceptor_noise_rms, relative_intensity
+from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
 
 from ..pixel_frames import curve, frames_of, run, static
 
@@ -27,33 +26,33 @@ def test_brightness_is_linear_below_20_and_logarithmic_above():
     assert lin_log(levels, 20.0) == pytest.approx(expected, rel=1e-15)
 
 
-def test_a_ramp_of_the_logarithm_fires_at_each_threshold(backend):
+def test_a_ramp_of_the_logarithm_fires_at_each_threshold(kernels):
     frames = frames_of([40, 40 * math.exp(1.05)], [0, 1_000_000])
-    events = run(V2eSimulator(CLEAN, backend=backend), frames)
+    events = run(V2eSimulator(CLEAN), frames)
     assert events.t == pytest.approx([k * 0.2 / 1.05 * 1e6 for k in range(1, 6)], abs=1)
     assert events.p.all()
 
 
-def test_dark_pixels_fire_in_proportion_to_intensity(backend):
-    events = run(V2eSimulator(CLEAN, backend=backend), frames_of([0, 20], [0, 1_000_000]))
+def test_dark_pixels_fire_in_proportion_to_intensity(kernels):
+    events = run(V2eSimulator(CLEAN), frames_of([0, 20], [0, 1_000_000]))
     assert events.t == pytest.approx([k * 0.2 / math.log(20) * 1e6 for k in range(1, 15)], abs=1)
 
 
-def test_a_sinusoid_fires_as_often_up_as_down(backend):
+def test_a_sinusoid_fires_as_often_up_as_down(kernels):
     # The amplitude 0.51 spans the levels -0.4..0.4: after the first rise, 4 OFF and 4 ON a period.
     frames = curve(lambda s: 80 * math.exp(0.51 * math.sin(math.tau * s)), fps=500, seconds=3.2)
-    events = run(V2eSimulator(CLEAN, backend=backend), frames)
+    events = run(V2eSimulator(CLEAN), frames)
     rise, fall = [1] * 4, [0] * 4
     assert events.p.tolist() == [1, 1, *fall, *rise, *fall, *rise, *fall, *rise]
     first = [math.asin(level / 0.51) / math.tau * 1e6 for level in (0.2, 0.4)]
     assert events.t[:2] == pytest.approx(first, abs=8)
 
 
-def test_the_photoreceptor_follows_a_step_by_its_bandwidth(backend):
+def test_the_photoreceptor_follows_a_step_by_its_bandwidth(kernels):
     # Weight per frame: (80 + 20) / 275 * 2 pi * f * 1 ms = 0.1, so 1 - 0.9^n of the step is seen.
     cutoff_hz = 0.1 / (100 / 275 * math.tau * 1e-3)
     config = with_only(cutoff_hz=cutoff_hz, contrast_threshold_on=0.05)
-    simulator = V2eSimulator(config, backend=backend)
+    simulator = V2eSimulator(config)
     frames = frames_of([40] + [80] * 30, range(0, 31_000, 1000))
     total = 0
     for n, frame in enumerate(frames):
@@ -61,17 +60,17 @@ def test_the_photoreceptor_follows_a_step_by_its_bandwidth(backend):
         assert total == math.floor(math.log(2) * (1 - 0.9**n) / 0.05)
 
 
-def test_a_bandwidth_above_the_frame_rate_follows_at_once(backend):
+def test_a_bandwidth_above_the_frame_rate_follows_at_once(kernels):
     frames = frames_of([40, 80, 80], [0, 41_667, 83_333])
-    fast = run(V2eSimulator(with_only(cutoff_hz=300.0), backend=backend), frames)
-    assert fast.equals(run(V2eSimulator(CLEAN, backend=backend), frames))
+    fast = run(V2eSimulator(with_only(cutoff_hz=300.0)), frames)
+    assert fast.equals(run(V2eSimulator(CLEAN), frames))
 
 
 @pytest.mark.parametrize("fps", [24, 240, 1000])
-def test_leak_fires_on_events_at_its_rate_at_any_frame_rate(backend, fps):
+def test_leak_fires_on_events_at_its_rate_at_any_frame_rate(kernels, fps):
     config = with_only(leak_rate_hz=10.0, leak_rate_decades=0.0, threshold_sigma=0.02)
     frames = static(100.0, fps=fps, seconds=1.05)
-    events = run(V2eSimulator(config, backend=backend), frames)
+    events = run(V2eSimulator(config), frames)
     assert events.t == pytest.approx([k * 100_000 for k in range(1, 11)], abs=1)
     assert events.p.all()
     assert (events.label == NOISE).all()
@@ -98,32 +97,34 @@ def test_pixels_with_a_low_threshold_have_more_shot_noise():
     events = run(simulator, static(60.0, fps=24, seconds=1.0, shape=(60, 80)))
     counts = np.zeros((60, 80))
     np.add.at(counts, (events.y, events.x), 1)
-    thresholds = simulator._mismatch.threshold_on + simulator._mismatch.threshold_off
+    thresholds = (
+        simulator._pixels._mismatch.threshold_on + simulator._pixels._mismatch.threshold_off
+    )
     assert np.corrcoef(counts.reshape(-1), 1 / thresholds.reshape(-1))[0, 1] > 0.2
 
 
-def test_shot_noise_resets_its_pixel_to_the_present_brightness(backend):
+def test_shot_noise_resets_its_pixel_to_the_present_brightness(kernels):
     config = with_only(shot_noise_rate_hz=1000.0)
-    simulator = V2eSimulator(config, backend=backend)
+    simulator = V2eSimulator(config)
     # 0.15 up, then noise (certain in 1 s), then 0.15 up: without the reset, 0.3 would fire.
     values = [40, 40 * math.exp(0.15), 40 * math.exp(0.30)]
     events = run(simulator, frames_of(values, [0, 1_000_000, 2_000_000]))
     assert (events.label == NOISE).all()
 
 
-def test_noise_brings_the_next_leak_event_nearer(backend):
+def test_noise_brings_the_next_leak_event_nearer(kernels):
     leak = {"leak_rate_hz": 1.0, "leak_rate_decades": 0.0}
     config = with_only(shot_noise_rate_hz=0.5, contrast_threshold_off=2.0, **leak)
     # 0.9 down, so that the leak fires after 5.5 s; noise within 1.1..1.2 s forgets that.
     frames = frames_of([40] + [40 * math.exp(-0.9)] * 30, range(0, 3_100_000, 100_000))
-    events = run(V2eSimulator(config, seed=7, backend=backend), frames)
+    events = run(V2eSimulator(config, seed=7), frames)
     assert 1_100_000 <= events.t[0] < 1_200_000
     assert events.t[1:] == pytest.approx([2_200_000], abs=1)
 
 
-def test_leak_before_a_noise_event_makes_no_light_noise(backend):
+def test_leak_before_a_noise_event_makes_no_light_noise(kernels):
     leak = {"leak_rate_hz": 0.3, "leak_rate_decades": 0.0}
-    simulator = V2eSimulator(with_only(shot_noise_rate_hz=0.5, **leak), seed=7, backend=backend)
+    simulator = V2eSimulator(with_only(shot_noise_rate_hz=0.5, **leak), seed=7)
     # Noise within 1.1..1.2 s; from then on 0.06 of leak and 0.2 of light per second.
     values = [40 * math.exp(max(0.0, 0.02 * (k - 12))) for k in range(21)]
     events = run(simulator, frames_of(values, range(0, 2_100_000, 100_000)))
@@ -150,26 +151,26 @@ def test_photoreceptor_noise_level_is_the_published_fit():
     assert photoreceptor_noise_rms(20.0, 100.0, 0.2) == pytest.approx(0.2 / 10**exponent)
 
 
-def test_a_change_kept_back_by_the_refractory_period_fires_later(backend):
+def test_a_change_kept_back_by_the_refractory_period_fires_later(kernels):
     config = with_only(refractory_period_us=25_000)
     values = [40, 40 * math.exp(2.01), 40 * math.exp(2.01), 40 * math.exp(2.01)]
     frames = frames_of(values, [0, 100_500, 140_500, 180_500])
-    events = run(V2eSimulator(config, backend=backend), frames)
+    events = run(V2eSimulator(config), frames)
     # Crossings every 10 ms; what the period kept back is due when an interval starts after it.
     assert events.t == pytest.approx([10_000, 40_000, 70_000, 100_000, 140_500], abs=1)
 
 
 @pytest.mark.parametrize("fps", [24, 240, 1000])
-def test_a_static_scene_without_noise_gives_nothing(backend, fps):
+def test_a_static_scene_without_noise_gives_nothing(kernels, fps):
     config = with_only(threshold_sigma=0.05, cutoff_hz=30.0, refractory_period_us=500)
     frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
-    assert len(run(V2eSimulator(config, backend=backend), frames)) == 0
+    assert len(run(V2eSimulator(config), frames)) == 0
 
 
-def test_moving_light_is_labelled_signal(backend):
+def test_moving_light_is_labelled_signal(kernels):
     config = with_only(leak_rate_hz=0.1)
     frames = frames_of([40, 80], [0, 41_667])
-    assert (run(V2eSimulator(config, backend=backend), frames).label == SIGNAL).all()
+    assert (run(V2eSimulator(config), frames).label == SIGNAL).all()
 
 
 def test_eq4_counts_as_steeply_as_the_model_at_black():

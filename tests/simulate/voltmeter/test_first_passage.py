@@ -3,20 +3,20 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
+from tests.simulate.references import voltmeter
+from tests.simulate.references.sorting import sort_events
+from tests.simulate.references.voltmeter import MOST_DISPLACEMENT
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import SortedEvents
-from texvent.simulate.packets.sorting_reference import sort_events
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.packets import FrameInterval, SortedEvents, UnsortedEvents
 from texvent.simulate.random.draws import frame_key
+from texvent.simulate.voltmeter import first_passage
 from texvent.simulate.voltmeter.first_passage import (
-    FIND_FIRST_PASSAGES,
     Constants,
     FirstPassageInput,
+    find_first_passages,
     new_voltage,
 )
-from texvent.simulate.voltmeter.reference import MOST_DISPLACEMENT
 
 SHAPE = (3, 4)
 # In thresholds per interval of 1000 µs; 0 and the smallest numbers are edge cases of the formulas.
@@ -27,10 +27,10 @@ lights = arrays(np.float32, (4, *SHAPE), elements=st.sampled_from([0.0, 50.0, 51
 
 
 class Sensor:
-    """Pixels of given constants, stepped by one backend every 1000 µs."""
+    """Pixels of given constants, stepped every 1000 µs."""
 
-    def __init__(self, backend, constants, light, residual):
-        self.step = FIND_FIRST_PASSAGES.load(backend)
+    def __init__(self, constants, light, residual, step=None):
+        self.step = step or first_passage.find_first_passages
         self.constants, self.seen = constants, np.array(light, np.float32)
         self.voltage, self.start_us = new_voltage(np.array(residual, np.float64)), 7000
 
@@ -58,7 +58,8 @@ def constants(*, gain=0.0, drift=0.0, sigma=0.0) -> Constants:
 def test_backends_agree_and_passages_are_sound(gain, drift, sigma, residual, light, seed):
     chosen = constants(gain=gain, drift=drift, sigma=sigma)
     reference, compiled = (
-        Sensor(backend, chosen, light[0], residual) for backend in ("reference", "cpu")
+        Sensor(chosen, light[0], residual, step)
+        for step in (voltmeter.find_first_passages, find_first_passages)
     )
     for now in light[1:]:
         start_us = reference.start_us
@@ -74,10 +75,10 @@ def test_backends_agree_and_passages_are_sound(gain, drift, sigma, residual, lig
         assert np.isfinite(signal).all()
 
 
-def test_where_nothing_moves_nothing_fires_and_the_residual_stays(backend):
+def test_where_nothing_moves_nothing_fires_and_the_residual_stays(kernels):
     residual = np.linspace(-0.9, 0.9, 12).reshape(SHAPE)
     light = np.full(SHAPE, 50.0)
-    sensor = Sensor(backend, constants(gain=1.0), light, residual)
+    sensor = Sensor(constants(gain=1.0), light, residual)
     for _ in range(3):
         assert len(sensor.see(light).t) == 0
     # k1 ΔL / (L + k2) is 0.2: enough for those above 0.8.
@@ -90,25 +91,25 @@ def test_where_nothing_moves_nothing_fires_and_the_residual_stays(backend):
     assert np.abs(way).max() <= MOST_DISPLACEMENT
 
 
-def test_events_are_noise_where_the_signal_drove_less_than_half(backend):
+def test_events_are_noise_where_the_signal_drove_less_than_half(kernels):
     # Of 1.5 thresholds per interval the change of light makes 0.4 and 0.6 parts.
     for share, label in ((0.4, NOISE), (0.6, SIGNAL)):
         change = share * 1.5 * 70 / (5.0 - share * 1.5 / 2)
-        sensor = Sensor(backend, constants(gain=5.0, drift=(1 - share) * 1.5), [[50.0]], [[0.0]])
+        sensor = Sensor(constants(gain=5.0, drift=(1 - share) * 1.5), [[50.0]], [[0.0]])
         assert sensor.see([[50.0 + change]]).label.tolist() == [label]
 
 
-def test_the_signals_share_is_counted_over_intervals(backend):
+def test_the_signals_share_is_counted_over_intervals(kernels):
     # 0.6 thresholds of signal, then 0.6 of leak: the signal made more than half of the way.
     change = 0.6 * 70 / (5.0 - 0.3)
-    sensor = Sensor(backend, constants(gain=5.0, drift=0.0), [[50.0]], [[0.0]])
+    sensor = Sensor(constants(gain=5.0, drift=0.0), [[50.0]], [[0.0]])
     assert len(sensor.see([[50.0 + change]]).t) == 0
     sensor.constants = constants(gain=5.0, drift=0.6)
     assert sensor.see([[50.0 + change]]).label.tolist() == [SIGNAL]
 
 
-def test_a_passage_holds_until_the_light_moves(backend):
-    sensor = Sensor(backend, constants(gain=5.0, drift=0.4), [[50.0, 50.0]], [[0.0, 0.0]])
+def test_a_passage_holds_until_the_light_moves(kernels):
+    sensor = Sensor(constants(gain=5.0, drift=0.4), [[50.0, 50.0]], [[0.0, 0.0]])
     assert len(sensor.see([[50.0, 50.0]]).t) == 0
     assert sensor.voltage.next_crossing_us == pytest.approx([2500.0, 2500.0])
     # The second goes 0.4 + 0.4 − 0.9 in this interval.
@@ -118,8 +119,8 @@ def test_a_passage_holds_until_the_light_moves(backend):
     assert (fired.x.tolist(), fired.t.tolist()) == ([0], [7000 + 2500])
 
 
-def test_many_events_of_few_pixels_find_room(backend):
-    sensor = Sensor(backend, constants(drift=5000.0), [[50.0, 50.0]], [[0.0, 0.0]])
+def test_many_events_of_few_pixels_find_room(kernels):
+    sensor = Sensor(constants(drift=5000.0), [[50.0, 50.0]], [[0.0, 0.0]])
     fired = sensor.see([[50.0, 50.0]])
     # 5000 each; the last falls on the end or just before it, as the sum of gaps rounds.
     assert np.abs(np.bincount(fired.x) - 5000).max() <= 1

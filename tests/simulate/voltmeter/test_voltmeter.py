@@ -3,21 +3,20 @@ import math
 
 import numpy as np
 import pytest
-
-from texvent.events import NOISE, SIGNAL
-from texvent.simulate.voltmeter.config import VoltmeterConfig
-from texvent.simulate.voltmeter.first_passage import Constants
-from texvent.simulate.voltmeter.reference import (
+from tests.simulate.references.voltmeter import (
     drift_and_diffusion,
     first_passage_time,
     probability_along_drift,
 )
-from texvent.simulate.voltmeter.simulator import VoltmeterSimulator
+
+from texvent.events import NOISE, SIGNAL
+from texvent.simulate.voltmeter.first_passage import Constants
+from texvent.simulate.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
 from texvent.video import Frame
 
 from ..pixel_frames import curve, frames_of, run, static
 
-QUIET = VoltmeterConfig(k3=0.0, k4=0.0, k5=0.0, k6=0.0, start_voltage="zero")
+QUIET = VoltmeterConfig(k3=0.0, k4=0.0, k5=0.0, k6=0.0, initial_phase="zero")
 ABOVE_99_9_PERCENT = 1.95
 """Kolmogorov-Smirnov distance times √n that a true sample exceeds once in a thousand."""
 
@@ -50,10 +49,10 @@ def distance_to(cdf, sample) -> float:
     return float(largest * math.sqrt(len(ordered)))
 
 
-def test_a_random_start_lies_on_the_side_that_the_leak_drives_to(backend):
-    config = with_only(k4=-1e-5, start_voltage="random")
+def test_a_random_start_lies_on_the_side_that_the_leak_drives_to(kernels):
+    config = with_only(k4=-1e-5, initial_phase="random")
     frames = static(90.0, fps=100, seconds=0.1, shape=(20, 20))
-    events = run(VoltmeterSimulator(config, backend=backend), frames)
+    events = run(VoltmeterSimulator(config), frames)
     # Down by 1 in 0.1 s: each of 400 pixels fires once.
     assert len(events) == pytest.approx(400, abs=2)
     assert not events.p.any()
@@ -68,31 +67,31 @@ def test_drift_and_diffusion_are_equations_10_and_11():
 
 
 @pytest.mark.parametrize("sign", [1, -1])
-def test_without_noise_a_change_fires_evenly(backend, sign):
+def test_without_noise_a_change_fires_evenly(kernels, sign):
     values = (80, 160) if sign > 0 else (160, 80)
-    events = run(VoltmeterSimulator(QUIET, backend=backend), frames_of(values, [0, 1_000_000]))
+    events = run(VoltmeterSimulator(QUIET), frames_of(values, [0, 1_000_000]))
     volts = 5.265 * 80 / 140
     assert events.t == pytest.approx([k / volts * 1e6 for k in (1, 2, 3)], abs=1)
     assert (events.polarity == sign).all()
     assert (events.label == SIGNAL).all()
 
 
-def test_without_noise_the_residual_is_carried_over(backend):
+def test_without_noise_the_residual_is_carried_over(kernels):
     # Each frame moves by 5.265 * 5 / (L + 22.5); the sum decides, however it is cut.
     levels = [80 + 5 * i for i in range(17)]
-    simulator = VoltmeterSimulator(QUIET, backend=backend)
+    simulator = VoltmeterSimulator(QUIET)
     events = run(simulator, frames_of(levels, range(0, 17_000, 1000)))
     way = np.cumsum([0.0] + [5.265 * 5 / (level + 22.5) for level in levels[:-1]])
     expected = np.interp([1.0, 2.0, 3.0], way, np.arange(17) * 1000)
     assert events.t == pytest.approx(expected, abs=1)
 
 
-def test_without_noise_a_sinusoid_fires_at_its_levels(backend):
+def test_without_noise_a_sinusoid_fires_at_its_levels(kernels):
     # ln(L + k2) swings by ±0.45 about its mean: ±2.37 thresholds, levels −2..2.
     frames = curve(
         lambda s: 100 * math.exp(0.45 * math.sin(math.tau * s)) - 20, fps=1000, seconds=1.2
     )
-    events = run(VoltmeterSimulator(QUIET, backend=backend), frames)
+    events = run(VoltmeterSimulator(QUIET), frames)
     assert events.p.tolist() == [1, 1, 0, 0, 0, 0, 1, 1, 1, 1]
     levels = [math.asin(n / (5.265 * 0.45)) / math.tau for n in (-1, 0, 1, 2)]
     rising, falling = [t + 1 for t in levels], [0.5 - t for t in (levels[2], levels[1], levels[0])]
@@ -102,9 +101,9 @@ def test_without_noise_a_sinusoid_fires_at_its_levels(backend):
 
 
 @pytest.mark.parametrize("fps", [24, 240, 1000])
-def test_leakage_fires_on_events_at_its_rate_at_any_frame_rate(backend, fps):
+def test_leakage_fires_on_events_at_its_rate_at_any_frame_rate(kernels, fps):
     config = with_only(k4=1e-5)
-    events = run(VoltmeterSimulator(config, backend=backend), static(90, fps=fps, seconds=1.05))
+    events = run(VoltmeterSimulator(config), static(90, fps=fps, seconds=1.05))
     assert events.t == pytest.approx([k * 100_000 for k in range(1, 11)], abs=1)
     assert events.p.all()
     assert (events.label == NOISE).all()
@@ -123,10 +122,10 @@ def test_a_static_scene_has_the_rate_of_its_drift_at_any_frame_rate(preset, fps)
     assert events.t.mean() == pytest.approx(500_000, abs=4e6 / math.sqrt(12 * expected))
 
 
-def test_pixels_that_start_at_zero_leak_in_unison(backend):
-    config = dataclasses.replace(VoltmeterConfig(k3=0.0, k6=0.0), start_voltage="zero")
+def test_pixels_that_start_at_zero_leak_in_unison(kernels):
+    config = dataclasses.replace(VoltmeterConfig(k3=0.0, k6=0.0), initial_phase="zero")
     frames = static(250.0, fps=24, seconds=1.0, shape=(3, 4))
-    events = run(VoltmeterSimulator(config, backend=backend), frames)
+    events = run(VoltmeterSimulator(config), frames)
     assert len(events) == 12
     assert np.ptp(events.t) == 0
 
@@ -135,7 +134,7 @@ def test_pixels_that_start_at_zero_leak_in_unison(backend):
 def test_intervals_with_drift_are_inverse_gaussian_at_any_frame_rate(frame_us):
     # Mean 1 / μ = 1 ms, shape 1 / σ² = 10 ms; OFF first is a matter of exp(−20).
     config = with_only(k4=1e-3, k6=math.sqrt(1e-4))
-    simulator = VoltmeterSimulator(config, seed=1, backend="cpu")
+    simulator = VoltmeterSimulator(config, seed=1)
     frames = [Frame(np.full((2, 3), 90.0), t) for t in range(0, 400_001, frame_us)]
     events = run(simulator, frames)
     assert events.p.all()
@@ -194,9 +193,9 @@ def test_the_first_polarity_has_its_closed_form():
     assert probability_along_drift(column(0.0), column(0.0), column(1.0), column(1.0)) == 0.5
 
 
-def test_pure_noise_fires_both_polarities_alike(backend):
+def test_pure_noise_fires_both_polarities_alike(kernels):
     config = with_only(k6=0.05)
-    simulator = VoltmeterSimulator(config, backend=backend)
+    simulator = VoltmeterSimulator(config)
     frames = [Frame(np.full((12, 15), 90.0), t) for t in (0, 100_000)]
     events = run(simulator, frames)
     assert len(events) > 1000
@@ -206,9 +205,9 @@ def test_pure_noise_fires_both_polarities_alike(backend):
 
 
 @pytest.mark.parametrize("fps", [24, 240, 1000])
-def test_a_static_scene_without_noise_gives_nothing(backend, fps):
+def test_a_static_scene_without_noise_gives_nothing(kernels, fps):
     frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
-    assert len(run(VoltmeterSimulator(QUIET, backend=backend), frames)) == 0
+    assert len(run(VoltmeterSimulator(QUIET), frames)) == 0
 
 
 def test_eq4_counts_with_the_gain_and_the_dark_offset():

@@ -24,9 +24,8 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame, Video
-from texvent.view.notebook.stills import busiest_range, shrink_counts
-from texvent.view.page.sample import spread_sample
-from texvent.view.rates import rate_counts
+from texvent.view.notebook.displays import busiest_range, shrink_counts
+from texvent.view.page.sample import rate_counts, spread_sample
 
 SIZE = SensorSize(64, 48)
 MAX_BYTES = 300_000

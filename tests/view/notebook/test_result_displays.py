@@ -13,8 +13,7 @@ import numpy as np
 import texvent
 from texvent.dataset.loading.stored_samples import StoredSample
 from texvent.events import EventStream
-from texvent.metrics.compare import load_metric
-from texvent.metrics.scores import Scores
+from texvent.metrics.compare import Scores, load_metric
 from texvent.sensor import SensorSize
 
 EVENTS = EventStream([1, 2], [0, 0], [100, 900], [1, 0], SensorSize(4, 3))

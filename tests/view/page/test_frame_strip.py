@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from texvent.video import Frame
-from texvent.view.page.frame_strip import STRIP_WIDTH, FrameStrip
+from texvent.view.page.sample import STRIP_WIDTH, FrameStrip
 
 
 def frame(index: int, width: int = 8) -> Frame:

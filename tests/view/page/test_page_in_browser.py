@@ -14,7 +14,6 @@ import pytest
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Video
-from texvent.view.page.comparison import write_comparison
 from texvent.view.page.writer import show
 from texvent.view.render import RenderConfig, render_events
 
@@ -338,30 +337,6 @@ def test_a_browser_without_webgl_says_what_is_missing_and_shows_the_rest(
     slide(browser, "length", 100)
     assert text(browser, "shown-text").startswith("2,000 of")
     assert min(coloured_pixels(image_of(browser, "plane-canvas"))) > 50
-
-
-@pytest.mark.parametrize("scheme", ["light", "dark"])
-def test_a_comparison_shows_two_images_of_the_wanted_scheme_side_by_side(
-    browser: Any, tmp_path: Path, requests_made: Any, scheme: str
-) -> None:
-    hostile = "<img src=x onerror=document.title='broken-into'>"
-    pair = ((hostile, cube_of_events(3_000)), ("true", cube_of_events()))
-    page = write_comparison(tmp_path / "comparison.html", pair, [])
-    with emulated(browser, size=(1280, 800), prefers_color_scheme=scheme):
-        browser.get(page.as_uri())
-        boxes = browser.execute_script(
-            "return [...document.images].map((one) => one.getBoundingClientRect().toJSON())"
-        )
-        assert len(boxes) == 2
-        assert boxes[0]["y"] == boxes[1]["y"]
-        assert boxes[0]["right"] < boxes[1]["left"]
-        png = browser.find_elements("class name", "rate")[0].screenshot_as_png
-        image = cv2.imdecode(np.frombuffer(png, np.uint8), cv2.IMREAD_COLOR)
-        assert image is not None
-        assert bool(image[4, 30].max() < 60) == (scheme == "dark")
-    assert requests_made() == [page.as_uri()]
-    assert browser.get_log("browser") == []
-    assert browser.title != "broken-into"
 
 
 def test_a_recording_without_events_says_so(browser: Any, tmp_path: Path) -> None:

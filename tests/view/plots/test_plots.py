@@ -12,7 +12,7 @@ import pytest
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.view.plots.curves import pixel_intervals
+from texvent.view.plots import pixel_intervals
 
 SIZE = SensorSize(4, 3)
 EVENTS = EventStream.from_columns(

@@ -8,9 +8,8 @@ import numpy as np
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent.view.stills.busiest_window import BusiestWindow, find_busiest
-from texvent.view.windows.cut import cut_windows
-from texvent.view.windows.event_window import WindowCollector
+from texvent.view.stills import BusiestWindow, find_busiest
+from texvent.view.windows import WindowCollector, cut_windows
 
 SIZE = SensorSize(32, 24)
 

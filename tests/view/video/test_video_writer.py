@@ -14,10 +14,10 @@ from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent.view.drawing.caption import title_of
+from texvent.view.drawing.panels import title_of
 from texvent.view.video.encoder import VideoEncoder
 from texvent.view.video.writer import VideoWriter
-from texvent.view.windows.event_window import EventWindow, WindowCollector
+from texvent.view.windows import EventWindow, WindowCollector
 
 SIZE = SensorSize(32, 24)
 Steps = list[tuple[Frame, EventStream]]

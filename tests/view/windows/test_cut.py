@@ -12,7 +12,7 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.represent.time_surface import time_surface
 from texvent.sensor import SensorSize
-from texvent.view.windows.cut import (
+from texvent.view.windows import (
     cut_counts,
     cut_fading,
     cut_windows,

@@ -7,15 +7,14 @@ from texvent.errors import ConfigError
 from texvent.scenes.raycast.ground_truth import Box, GroundTruth
 from texvent.sensor import SensorSize
 from texvent.video import Video
-from texvent.view.drawing.annotations import (
+from texvent.view.drawing.panels import (
     ARROW_US,
     BOX_COLOUR,
     FLOW_COLOUR,
     Annotations,
     annotations_at,
 )
-from texvent.view.windows.event_window import EventWindow
-from texvent.view.windows.source_overlay import SourceOverlay
+from texvent.view.windows import EventWindow, SourceOverlay
 
 SIZE = SensorSize(48, 32)
 

@@ -12,7 +12,7 @@ from typing import Any
 
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.io.atomic import atomic_file
-from texvent.metrics.scores import plain_values
+from texvent.metrics.compare import plain_values
 
 DIGITS = 7
 """Significant digits of the numbers in a compressed document: more than any table shows."""

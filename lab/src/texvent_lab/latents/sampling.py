@@ -20,8 +20,7 @@ from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import make_packet
+from texvent.simulate.packets import FrameInterval, make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce.ldati import sample_events
 from texvent_lab.latents.change import BrightnessChange

@@ -25,7 +25,7 @@ from numpy.typing import NDArray
 import texvent
 from texvent.events import EventStream
 from texvent.extending import full_version, require
-from texvent.metrics.motion.contrast_maximisation import (
+from texvent.metrics.event_sharpness import (
     estimate_patch_flow,
     estimate_velocity,
     splat_events,

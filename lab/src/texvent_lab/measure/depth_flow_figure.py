@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.extending import require
-from texvent.metrics.pixelwise.depth_error import FARTHEST_M
+from texvent.metrics.dense_errors import FARTHEST_M
 from texvent_lab.measure.depth_flow import angle, load_depth, load_flow, torch
 from texvent_lab.train.checkpoint import WEIGHTS_FILE
 from texvent_lab.train.depth.config import DepthConfig

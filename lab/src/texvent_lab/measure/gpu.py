@@ -19,7 +19,7 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
@@ -28,13 +28,12 @@ from texvent.config import InterpolateConfig
 from texvent.errors import TexventError
 from texvent.extending import require
 from texvent.interpolate.rife.interpolator import RifeInterpolator
-from texvent.interpolate.rife.layouts import RIFE_4_6, RifeLayout
-from texvent.interpolate.rife.weights import RifeWeights, write_rife_weights
+from texvent.interpolate.rife.weights import write_rife_weights
 from texvent.sensor import SensorSize
 from texvent.simulate import gpu
 from texvent.simulate.esim.simulator import EsimConfig
-from texvent.simulate.gpu.device import EXTRA, default_device
-from texvent.simulate.gpu.frame_pairs import GpuPairs
+from texvent.simulate.gpu.frames import GpuPairs
+from texvent.simulate.gpu.launch import EXTRA, default_device
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Video
 from texvent_lab.measure.speed.timing import Quartiles, rounded
@@ -44,7 +43,6 @@ DARK, BRIGHT = 100, 145
 """Levels ln(175 / 130) = 0.297 apart: one event at δ = 0.2."""
 FRAME_US = 1_000
 FRAMES_PER_PAIR = 8
-Precision = Literal["float32", "float16"]
 
 
 @dataclass(frozen=True)
@@ -60,11 +58,11 @@ class Plan:
     calls: int = 4
     """Calls of the simulator that are timed together."""
     rife_sizes: tuple[SensorSize, ...] = (VGA, HD)
-    precisions: tuple[Precision, ...] = ("float32", "float16")
     between: int = 10
     """Intermediate frames of a pair; 10 is the paper's ablation E7."""
     copy_bytes: int = 2**30
-    layout: RifeLayout = RIFE_4_6
+    rife_width: int | None = None
+    """Channels inside every block of RIFE 4.6; None for the published ones."""
 
 
 def measure(plan: Plan, device: str) -> dict[str, Any]:
@@ -175,22 +173,19 @@ def measure_pairs(plan: Plan, device: str) -> Iterator[dict[str, Any]]:
     """Milliseconds per pair of source frames: RIFE and simulation, all on the device."""
     torch = require("torch", extra=EXTRA)
     with tempfile.TemporaryDirectory() as folder:
-        weights = write_random_weights(plan.layout, Path(folder) / "rife.safetensors")
+        weights = write_random_weights(plan.rife_width, Path(folder) / "rife.safetensors")
         for size in plan.rife_sizes:
             generator = torch.Generator(device).manual_seed(0)
             coarse = torch.rand(2, 1, 9, 16, device=device, generator=generator) * 255
             pictures = torch.nn.functional.interpolate(coarse, size.shape, mode="bilinear")[:, 0]
-            for precision in plan.precisions:
-                config = InterpolateConfig(
-                    interpolate="rife",
-                    interpolator_weights=weights,
-                    interpolator_device="cuda" if device == "cuda" else "cpu",
-                    interpolator_precision=precision,
-                )
-                rife = RifeInterpolator(config, Video(np.zeros((1, 1, 1), np.uint8), [0]))
-                yield _measure_pair(
-                    plan, GpuPairs(gpu.GpuSimulator(), rife, count=plan.between), pictures
-                ) | {"precision": precision}
+            config = InterpolateConfig(
+                interpolate="rife",
+                interpolator_weights=weights,
+                interpolator_device="cuda" if device == "cuda" else "cpu",
+            )
+            rife = RifeInterpolator(config, Video(np.zeros((1, 1, 1), np.uint8), [0]))
+            pairs = GpuPairs(gpu.GpuSimulator(), rife, count=plan.between)
+            yield _measure_pair(plan, pairs, pictures)
 
 
 def _measure_pair(plan: Plan, pairs: GpuPairs, pictures: Any) -> dict[str, Any]:
@@ -219,15 +214,17 @@ def _measure_pair(plan: Plan, pairs: GpuPairs, pictures: Any) -> dict[str, Any]:
     }
 
 
-def write_random_weights(layout: RifeLayout, path: Path) -> Path:
-    """Weights of an untrained network, whose flows are small."""
+def write_random_weights(width: int | None, path: Path) -> Path:
+    """Weights of an untrained RIFE 4.6, whose flows are small."""
     torch = require("torch", extra=EXTRA)
+    from texvent.interpolate.rife.network import RIFE_4_6, RifeNetwork  # needs torch
+
+    network = RifeNetwork(RIFE_4_6, None if width is None else (width,) * len(RIFE_4_6.widths))
     generator = torch.Generator().manual_seed(0)
-    tensors = {
-        name: torch.randn(shape, generator=generator) * 0.02
-        for name, shape in layout.tensor_shapes().items()
-    }
-    write_rife_weights(RifeWeights(layout, tensors), path)
+    with torch.no_grad():
+        for parameter in network.parameters():
+            parameter.normal_(0, 0.02, generator=generator)
+    write_rife_weights(network, path)
     return path
 
 
@@ -240,9 +237,9 @@ def check_targets(rows: list[dict[str, Any]], pairs: list[dict[str, Any]]) -> li
         == ("paper", "uint8", 0.01, 8, "1280x720")
     ]
     found += [
-        ("ms per 640x480 pair, RIFE float16 + simulation", 6.5, row["ms_per_pair"]["median"])
+        ("ms per 640x480 pair, RIFE + simulation", 6.5, row["ms_per_pair"]["median"])
         for row in pairs
-        if (row["size"], row["precision"]) == ("640x480", "float16")
+        if row["size"] == "640x480"
     ]
     return [
         {"name": name, "limit": limit, "value": value, "is_met": value <= limit}
@@ -286,7 +283,7 @@ def as_text(document: dict[str, Any]) -> str:
     for row in document["rife_pairs"]:
         time_ms = row["ms_per_pair"]
         lines.append(
-            f"{row['size']:9} {row['precision']:9} {time_ms['median']:8.2f}"
+            f"{row['size']:19} {time_ms['median']:8.2f}"
             f" ({time_ms['q1']:.2f}..{time_ms['q3']:.2f}) {row['ms_per_frame']['median']:9.2f}"
             f" {row['peak_mib']:9,.0f}"
         )

@@ -33,7 +33,7 @@ from texvent.interpolate.flow import FlowInterpolator
 from texvent.interpolate.protocol import Interpolator
 from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.interpolate.rife.weights import read_rife_weights
-from texvent.metrics.structural_similarity import structural_similarity
+from texvent.metrics.image_measures import structural_similarity
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.video import Frame, Video
 from texvent_lab.measure.interpolation_scenes import SPEEDS, TEXTURES, embedded_scene, moving_scene
@@ -181,9 +181,9 @@ def interpolators(rife: Sequence[Path]) -> dict[str, Interpolator | None]:
     }
     for path in rife:
         name = read_rife_weights(path).layout.name
-        for flow in ("each", "shared"):
-            config = InterpolateConfig(interpolator_weights=path, rife_flow=flow)
-            found[f"RIFE {name}, {flow}"] = RifeInterpolator(config, stream)
+        found[f"RIFE {name}"] = RifeInterpolator(
+            InterpolateConfig(interpolator_weights=path), stream
+        )
     for interpolator in found.values():
         flat = np.zeros((64, 64), np.uint8)
         between(interpolator, flat, flat, 2)

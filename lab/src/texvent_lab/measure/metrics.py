@@ -23,11 +23,9 @@ from texvent.errors import MissingDependencyError
 from texvent.events import EventStream
 from texvent.extending import require
 from texvent.metrics.compare import default_metrics
+from texvent.metrics.latent_similarity import EventQualityScore
 from texvent.metrics.protocol import Metric
-from texvent.metrics.rvt.eqs import EventQualityScore
-from texvent.metrics.rvt.layout import LAYOUTS
-from texvent.metrics.rvt.network import RvtBackbone
-from texvent.metrics.rvt.weights import EXTRA, RvtWeights
+from texvent.metrics.rvt_backbone import EXTRA, LAYOUTS, RvtBackbone, RvtWeights
 from texvent.sensor import SensorSize
 from texvent_lab.bench.document import write_document
 from texvent_lab.bench.machine import describe_environment

@@ -18,9 +18,9 @@ import numpy as np
 from texvent.data.pull import pull
 from texvent.events import EventStream
 from texvent.io.files import open_events
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
-from texvent.simulate.physical.arbitration.arbiter import Arbiter
+from texvent.simulate.packets import UnsortedEvents
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.physical.readout import Arbiter
 
 SECONDS = 1.0
 """How much of a recording is read, s."""
@@ -79,9 +79,7 @@ def variants(sensor: Sensor) -> Iterator[tuple[str, UnsortedEvents, tuple[int, i
     if sensor.options:
         config = PhysicalConfig(**sensor.options)
         first_us = int(moved.t[0])
-        arbiter = Arbiter(
-            config.arbitration, first_us=first_us, shape=(size[1], size[0]), backend="cpu"
-        )
+        arbiter = Arbiter(config, first_us=first_us, shape=(size[1], size[0]))
         read = arbiter.read(moved, int(moved.t[-1]) + 10_000)
         place = read.pixel % size[0] if sensor.options["arbiter"] == "scan" else read.pixel
         yield "arbiter", read.take(np.lexsort((place, read.t))), size

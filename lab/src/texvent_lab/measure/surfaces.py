@@ -56,14 +56,14 @@ SCENES = {
     "grass": "dog",
     "savanna": "ostrich",
     "forest": "fox",
-    "sand": "dog",
+    "desert": "dog",
     "snow": "horse",
     "river": "dog",
     "lake": "dog",
     "living room": "dog",
     "kitchen": "table",
     "office": "person",
-    "workshop": "person",
+    "warehouse": "person",
 }
 """Place → what moves there."""
 VIEWS = {"near": (0.01, 0.01), "middle": (0.06, 0.06), "far": (0.15, 0.15), "grazing": (0.03, 0.11)}

@@ -76,19 +76,16 @@ def make_clip(size: SensorSize, density: float, count: int, dtype: PixelType) ->
     return frames
 
 
-def time_frames(
-    frames: Sequence[Frame], config: TexventConfig, *, backend: str = "cpu", rounds: int = 5
-) -> Times:
+def time_frames(frames: Sequence[Frame], config: TexventConfig, *, rounds: int = 5) -> Times:
     """Time every step of a clip, and its floor, in turns.
 
     Args:
         frames: at least four; all but the first three are timed.
         config: options of the model.
-        backend: which kernels.
         rounds: how often the clip is simulated.
     """
     steps, floors, events = [], [], 0
-    simulator = TexventSimulator(config, backend=backend)
+    simulator = TexventSimulator(config)
     for _ in range(rounds):
         simulator.reset()
         counts = []
@@ -134,7 +131,7 @@ def clips_per_second(
     """Clips simulated per second, each by one thread, so many at a time."""
 
     def run(clip: Sequence[Frame]) -> int:
-        simulator = TexventSimulator(config, backend="cpu")
+        simulator = TexventSimulator(config)
         return sum(len(simulator.step(frame)) for frame in clip)
 
     with ThreadPoolExecutor(threads) as pool:

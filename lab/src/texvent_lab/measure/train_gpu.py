@@ -24,8 +24,7 @@ import numpy as np
 
 from texvent.errors import MissingDependencyError
 from texvent.extending import require
-from texvent.metrics.lpips.layout import LAYOUTS, LpipsNet
-from texvent.metrics.lpips.weights import LpipsWeights
+from texvent.metrics.lpips import LAYOUTS, LpipsNet, LpipsWeights
 from texvent_lab.bench.document import write_document
 from texvent_lab.bench.machine import describe_environment
 from texvent_lab.measure.speed.timing import Quartiles, rounded

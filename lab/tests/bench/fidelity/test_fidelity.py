@@ -322,10 +322,10 @@ def test_the_document_says_how_far_each_entry_is_behind():
     document = six_textures(**TRACKS).document()
     behind = {score["entry"]: score["behind_best"] for score in document["scores"]}
     assert behind["steady"] is behind["half"] is behind["true frames"] is None
-    assert (behind["behind"]["best"], behind["behind"]["is_told"]) == ("steady", True)
-    assert behind["behind"]["p"] == pytest.approx(2 / 64)
-    assert behind["twin"]["is_told"] is False
-    assert behind["lost"]["p"] is None
+    assert (behind["behind"]["best"], behind["behind"]["is_significant"]) == ("steady", True)
+    assert behind["behind"]["low"] > 0
+    assert behind["twin"]["is_significant"] is False
+    assert behind["lost"]["low"] is None
 
 
 def test_few_textures_and_few_scenes_are_said_to_be_too_few():

@@ -239,4 +239,7 @@ def test_tables_mark_the_best_simulated_source_and_those_like_it():
     assert "(≈): cannot be told apart" in report.markdown()
     behind = {row["source"]: row["behind_best"] for row in reconstruction_document(report)["rows"]}
     assert behind["best"]["mse"] is None
-    assert (behind["behind"]["mse"]["best"], behind["behind"]["mse"]["is_told"]) == ("best", True)
+    assert (behind["behind"]["mse"]["best"], behind["behind"]["mse"]["is_significant"]) == (
+        "best",
+        True,
+    )

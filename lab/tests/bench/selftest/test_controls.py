@@ -7,7 +7,7 @@ import pytest
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
 from texvent.metrics.controls import CONTROLLED, CONTROLS, run_controls
-from texvent.metrics.rvt.latent_similarity import LatentSimilarity
+from texvent.metrics.latent_similarity import LatentSimilarity
 from texvent.metrics.stpp import Stpp
 from texvent.sensor import SensorSize
 

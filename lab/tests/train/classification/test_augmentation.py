@@ -10,7 +10,7 @@ from tests.represent.definitions import rows, streams
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.transform.region import resize
+from texvent.transform.edits import resize
 from texvent_lab.train.classification.augmentation import augment, take_run
 from texvent_lab.train.classification.config import Augmentation
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 from tests.metrics.lpips.lpips_files import narrow_weights
 
-from texvent.metrics.lpips.distance import lpips_distance
-from texvent.metrics.structural_similarity import structural_similarity
+from texvent.metrics.image_measures import structural_similarity
+from texvent.metrics.lpips import Lpips, lpips_distance
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
@@ -16,7 +16,6 @@ from texvent_lab.train.reconstruction.image_losses import (  # noqa: E402
     l1,
     ssim,
 )
-from texvent_lab.train.reconstruction.lpips import LpipsLoss  # noqa: E402
 from texvent_lab.train.reconstruction.sequence_loss import SequenceLoss  # noqa: E402
 
 pytestmark = pytest.mark.torch
@@ -28,15 +27,15 @@ def images(count=3, height=40, width=36, seed=0):
 
 def test_lpips_equals_the_metric():
     weights, a, b = narrow_weights(), images(), images(seed=1)
-    found = LpipsLoss(weights)(torch.from_numpy(a), torch.from_numpy(b))
-    expected = [lpips_distance(x[0], y[0], weights) for x, y in zip(a, b, strict=True)]
+    found = Lpips(weights)(torch.from_numpy(a), torch.from_numpy(b))
+    expected = [lpips_distance(x[0], y[0], Lpips(weights)) for x, y in zip(a, b, strict=True)]
     np.testing.assert_allclose(found, expected, rtol=1e-4)
-    assert LpipsLoss(weights)(torch.from_numpy(a), torch.from_numpy(a)).tolist() == [0, 0, 0]
+    assert Lpips(weights)(torch.from_numpy(a), torch.from_numpy(a)).tolist() == [0, 0, 0]
 
 
 def test_lpips_has_the_gradient_of_finite_differences():
     weights, side = narrow_weights(), 35
-    loss = LpipsLoss(weights)
+    loss = Lpips(weights)
     loss._tensors = {name: one.double() for name, one in loss._tensors.items()}
     a = torch.from_numpy(images(1, side, side)).double().requires_grad_()
     b = torch.from_numpy(images(1, side, side, seed=2)).double()
@@ -58,7 +57,7 @@ def test_lpips_has_a_finite_gradient_where_all_features_are_zero():
         name: np.full_like(one, -9) if name.startswith("bias") else one
         for name, one in weights.arrays.items()
     }
-    loss = LpipsLoss(type(weights)(weights.layout, arrays))
+    loss = Lpips(type(weights)(weights.layout, arrays))
     a = torch.zeros(1, 1, 35, 35, requires_grad=True)
     loss(a, torch.from_numpy(images(1, 35, 35))).sum().backward()
     assert torch.isfinite(a.grad).all()
@@ -81,9 +80,9 @@ def test_ssim_equals_the_metric():
 def test_mixed_precision_changes_no_similarity_and_hardly_lpips():
     a, b, lpips = torch.from_numpy(images()), torch.from_numpy(images(seed=1)), narrow_weights()
     with torch.autocast("cpu", torch.bfloat16):
-        mixed, mixed_lpips = ssim(a, b), LpipsLoss(lpips)(a, b)
+        mixed, mixed_lpips = ssim(a, b), Lpips(lpips)(a, b)
     torch.testing.assert_close(mixed, ssim(a, b), rtol=0, atol=0)
-    torch.testing.assert_close(mixed_lpips, LpipsLoss(lpips)(a, b), rtol=0.02, atol=0)
+    torch.testing.assert_close(mixed_lpips, Lpips(lpips)(a, b), rtol=0.02, atol=0)
 
 
 def test_l1_is_the_mean_absolute_difference():

@@ -11,10 +11,8 @@ import pytest
 from tests.metrics.lpips.lpips_files import narrow_weights
 
 from texvent.cli.app import main
-from texvent.metrics.image_measures import mean_squared_error
-from texvent.metrics.lpips.layout import ALEX
-from texvent.metrics.lpips.weights import weights_file_name, write_lpips_weights
-from texvent.metrics.structural_similarity import structural_similarity
+from texvent.metrics.image_measures import mean_squared_error, structural_similarity
+from texvent.metrics.lpips import ALEX, weights_file_name, write_lpips_weights
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.registries import RECONSTRUCTORS
 

@@ -19,9 +19,8 @@ from texvent.io.atomic import atomic_file
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
-from texvent.view.page.html_parts import table_html
-from texvent.view.page.template import fill_template
-from texvent.view.rates import rate_counts
+from texvent.view.page.html_parts import fill_template, table_html
+from texvent.view.page.sample import rate_counts
 
 RATE_BINS = 120
 

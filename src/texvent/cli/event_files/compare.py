@@ -3,30 +3,28 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, NamedTuple
 
-from texvent.cli.event_files.comparison_output import Candidate, Findings, metric_rows, show
-from texvent.cli.notices import say, write_out
+from texvent.cli.event_files.comparison_output import Candidate, Findings, show
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.io.atomic import check_output
 from texvent.io.files import load
 from texvent.metrics.compare import compare, describe_metrics, load_metric
 from texvent.metrics.controls import CONTROLLED, run_controls
+from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric
-from texvent.metrics.rvt.eqs import EventQualityScore, load_eqs
 from texvent.metrics.stpp import Stpp
-from texvent.metrics.uncertainty.window_scores import check_window, score_windows
+from texvent.metrics.uncertainty import check_window, score_windows
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.sensor import SensorSize, parse_sensor
 from texvent.video import MICROSECONDS
-from texvent.view.page.comparison import write_comparison
 
 DESCRIPTION = """Compare event files of one sensor: one or several to judge, then the true one. Each
 metric says what it does not see, and how sure it is over windows of time; of several files, which
@@ -41,7 +39,6 @@ class CompareOptions:
     """Which files, and by which metrics."""
 
     positional: ClassVar[tuple[str, ...]] = ("files",)
-    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
 
     files: tuple[Path, ...] = REQUIRED
     """Event files to judge, one or several; last, the one with the truth, or another recording of
@@ -64,24 +61,12 @@ class CompareOptions:
     """Show the level matrix of STPP too: how far apart in time and space the events are."""
     json: bool = False
     """Print JSON instead of a table; undefined values are null."""
-    out: Path | None = None
-    """Write a page too (.html), of one file to judge: the same window of it and of the reference,
-    their event rates and the metrics."""
-    overwrite: bool = False
-    """Replace the page if it exists already."""
 
     def __post_init__(self) -> None:
         if self.files != REQUIRED and len(self.files) < 2:
             raise ConfigError(
                 f"{self.files[0]} is the only file; give one or several to judge, and last the one "
                 "with the truth"
-            )
-        if self.out is not None and self.out.suffix.lower() != ".html":
-            raise ConfigError(f"the page of a comparison must end in .html; got {self.out}")
-        if self.out is not None and len(self.files) > 2:
-            raise ConfigError(
-                f"a page shows one file beside the true one; got {len(self.files) - 1} to judge: "
-                "leave out --out, or all but one"
             )
         for name in ("start", "stop"):
             check_range(name, getattr(self, name), -LATEST_S, LATEST_S)
@@ -109,21 +94,11 @@ def run(arguments: Sequence[str]) -> int:
     (options,) = parse_configs(
         arguments, {"input": CompareOptions()}, prog="texvent compare", description=DESCRIPTION
     )
-    if options.out is not None:
-        check_output(options.out, overwrite=options.overwrite)
-    inputs = _prepare(options)
-    findings = _judge(options, inputs)
+    findings = _judge(options, _prepare(options))
     if options.json:
         write_out(json.dumps(findings.document(), indent=2, ensure_ascii=False) + "\n")
     else:
         show(findings)
-    if options.out is not None:
-        name = f"{options.reference.name} (reference)"
-        shown = (*inputs.predicted.items(), (name, inputs.reference))
-        rows = metric_rows(findings)
-        write_comparison(options.out, shown, rows, overwrite=options.overwrite)
-        # Not among the JSON.
-        (say if options.json else write_out)(f"{options.out}\n")
     return 0
 
 

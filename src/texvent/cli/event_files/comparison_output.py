@@ -14,13 +14,11 @@ from rich.markup import escape
 from rich.table import Table
 
 from texvent.cli.notices import result_console
+from texvent.metrics.compare import GOOD, plain_values, score_text
 from texvent.metrics.protocol import Metric
-from texvent.metrics.scores import GOOD, plain_values, score_text
 from texvent.metrics.stpp import SPACE_CELLS, TIME_CELLS
-from texvent.metrics.uncertainty.bootstrap import LEAST_WINDOWS
-from texvent.metrics.uncertainty.window_scores import Verdict, WindowScores
+from texvent.metrics.uncertainty import LEAST_WINDOWS, Verdict, WindowScores
 from texvent.video import MICROSECONDS
-from texvent.view.page.comparison import MetricRow
 
 WINDOW_TITLE = "mean of windows"
 _LONGEST_ROW = 10_000
@@ -96,22 +94,6 @@ class Findings:
         return document
 
 
-def metric_rows(findings: Findings) -> list[MetricRow]:
-    """A row per metric, of one candidate."""
-    ((name, candidate),) = findings.candidates.items()
-    return [
-        MetricRow(
-            name=metric.name,
-            value=score_text(candidate.scores[metric.name]),
-            windows=_mean_text(findings.windows, metric.name, name),
-            unit=metric.unit,
-            good=GOOD[metric.better],
-            blind_to=metric.blind_to,
-        )
-        for metric in findings.metrics
-    ]
-
-
 def show(findings: Findings) -> None:
     """Print everything."""
     with result_console() as console:
@@ -142,9 +124,17 @@ def _show(console: Console, findings: Findings) -> None:
 
 def _show_one(console: Console, findings: Findings) -> None:
     titles = ["metric", "value", WINDOW_TITLE, "unit", "good", "does not see"]
+    ((name, candidate),) = findings.candidates.items()
     rows = [
-        [row.name, row.value, row.windows, row.unit, row.good, row.blind_to]
-        for row in metric_rows(findings)
+        [
+            metric.name,
+            score_text(candidate.scores[metric.name]),
+            _mean_text(findings.windows, metric.name, name),
+            metric.unit,
+            GOOD[metric.better],
+            metric.blind_to,
+        ]
+        for metric in findings.metrics
     ]
     if not any(row[2] for row in rows):
         titles.pop(2)

@@ -23,16 +23,11 @@ from texvent.options.parts import make_part, read_part
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import parse_sensor
 from texvent.transform.downsample import downsample
-from texvent.transform.filters.apply import filter_events
-from texvent.transform.filters.hot_pixels import find_hot_pixels
-from texvent.transform.filters.pixel_mask import MaskFilter
-from texvent.transform.filters.protocol import EventFilter
-from texvent.transform.merge import merge
-from texvent.transform.orientation import Axes, flip, rotate
+from texvent.transform.edits import Axes, Region, crop, flip, merge, resize, rotate, start_at_zero
+from texvent.transform.filters.apply import EventFilter, filter_events
+from texvent.transform.filters.noise_filters import MaskFilter, find_hot_pixels
 from texvent.transform.packets import map_packets, note_edit
-from texvent.transform.region import Region, crop, resize
 from texvent.transform.undistort import read_calibration, undistort
-from texvent.transform.window import start_at_zero
 
 DESCRIPTION = """Convert an event file, or a part of it, to another format. Memory stays flat.
 

@@ -10,7 +10,7 @@ from texvent.cli.event_files.time_option import keep_time_range
 from texvent.cli.option_types import REQUIRED
 from texvent.event_packets import EventPackets
 from texvent.io.files import open_events
-from texvent.io.wrong_kind import refuse_missing
+from texvent.io.input_checks import refuse_missing
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import parse_sensor
 

@@ -1,4 +1,4 @@
-"""`texvent render EVENTS -o out.mp4|gif|png|html|rrd|mcap`: make an event file visible."""
+"""`texvent render EVENTS -o out.mp4|gif|png|html`: make an event file visible."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from texvent.cli.options import parse_configs
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.view.render import RenderConfig, render_events
 
-DESCRIPTION = """Render an event file as a video (.mp4, .gif), an image (.png), an interactive page
-(.html), or a recording for the rerun viewer (.rrd) or Foxglove (.mcap).
+DESCRIPTION = """Render an event file as a video (.mp4, .gif), an image (.png), or an interactive
+page (.html).
 
   texvent render out.h5 -o slow.mp4 --speed 0.1        ten times slower
   texvent render out.h5 -o sheet.png --panels 9        contact sheet of nine
@@ -37,7 +37,7 @@ class RenderOptions(EventRangeOptions):
     )  # fmt: skip
 
     out: Path = REQUIRED
-    """File to write: .mp4, .gif, .png, .html, .rrd or .mcap."""
+    """File to write: .mp4, .gif, .png or .html."""
     video: str = AUTOMATIC
     """Source video to show: a file, an image folder, none or auto. Auto renders the scene again if
     the embedded generator made the file."""

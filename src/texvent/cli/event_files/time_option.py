@@ -6,7 +6,7 @@ from texvent.errors import ConfigError, shown
 from texvent.event_packets import EventPackets
 from texvent.options.values import parse_fraction
 from texvent.time_range import END_OF_TIME_US
-from texvent.transform.window import keep_time
+from texvent.transform.edits import keep_time
 from texvent.video import MICROSECONDS
 
 

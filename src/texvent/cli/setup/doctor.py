@@ -49,7 +49,6 @@ EXTRAS = {
     "plot": ("matplotlib", "events.plot()"),
     "gpu": ("triton", "texvent and esim on a GPU: --backend gpu"),
     "app": ("gradio", "the web page: texvent app"),
-    "rerun": ("rerun", "rerun files (.rrd)"),
     "assets": ("trimesh", "OBJ and PLY models in --assets folders"),
     "exr": ("OpenEXR", "OpenEXR frames and passes of a renderer"),
     "bags": ("rosbags", "ROS bags and mcap"),

@@ -164,7 +164,7 @@ def _draw(noun: Noun, nouns: Mapping[str, Noun], options: ShowOptions) -> bytes:
         Surroundings,
     )
     from texvent.scenes.staging.compose import compose_scene
-    from texvent.view.stills.scene_stills import draw_stills
+    from texvent.view.stills import draw_stills
 
     motion = ObjectMotion("spin" if options.views > 1 else "stand")
     description = SceneDescription(

@@ -28,7 +28,7 @@ from texvent.run.prepare import check_run, prepare_prompt, prepare_source, repor
 from texvent.run.settings import Settings
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.report import ReportTally
-from texvent.truth.parts import check_generator
+from texvent.truth.layout import check_generator
 
 DESCRIPTION = """Events for many prompts, scene files or videos. A list is a .txt (one prompt or
 scene file per line, # begins a comment), .csv or .jsonl (prompt, scene or video, and perhaps name

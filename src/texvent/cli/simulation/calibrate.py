@@ -29,7 +29,7 @@ from texvent.io.files import load
 from texvent.run.settings import resolve
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.sensor import parse_sensor
-from texvent.simulate.physical.cameras.presets import PRESETS
+from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.threshold_map import write_threshold_map
 

@@ -13,16 +13,16 @@ from rich.table import Table
 from texvent.cli.command import resolve_command
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
-from texvent.run.check import WholeCheck, check_frames, open_source
+from texvent.run.check import VideoCheckResult, check_frames, open_source
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.video import MICROSECONDS
-from texvent.video_check.report import Finding
+from texvent.video_check.checks import Finding
 
 FOUND = 1
 """Exit code with --strict of a video in which something was found."""
 SHOWN_CUTS = 8
 DESCRIPTION = """Look through a video once and say what in it harms events, and which option helps:
-flicker, repeated frames, cuts, compression, banding, motion per frame, the event rate to expect.
+frozen or repeated frames, flicker, cuts, levels, motion per frame, the event rate to expect.
 All options of texvent simulate that decide events are taken: the rate is for them.
 
   texvent check clip.mp4
@@ -56,7 +56,7 @@ class CheckOutput:
     all: bool = False
     """Say of every check what it is for, also of those that found nothing."""
     json: bool = False
-    """Print JSON instead of a table, with all measures and the spectrum of flicker."""
+    """Print JSON instead of a table, with all measurements."""
     strict: bool = False
     """End with exit code 1 if something was found."""
     quiet: bool = False
@@ -85,28 +85,18 @@ def run(arguments: Sequence[str]) -> int:
     return 0 if is_fine or not output.strict else FOUND
 
 
-def describe_check(found: WholeCheck) -> dict[str, Any]:
+def describe_check(found: VideoCheckResult) -> dict[str, Any]:
     """All that was found, JSON-ready."""
-    spectrum = found.spectrum
-    fps = found.report.measures["fps"]
     return {
         "found": [*found.report.problems, *found.report.remarks],
         "sensor": str(found.size),
         "findings": [one.as_facts() for one in found.report.findings],
-        "measures": {name: round(one, 6) for name, one in found.report.measures.items()},
+        "measurements": {name: round(one, 6) for name, one in found.report.measurements.items()},
         "cuts_s": [time / MICROSECONDS for time in found.cut_times_us],
-        "flicker": None
-        if spectrum is None
-        else {
-            "hz": [round(float(one) * fps, 4) for one in spectrum.frequency],
-            "whole_log": [round(float(one), 6) for one in spectrum.whole_log],
-            "blocks_log": [round(float(one), 6) for one in spectrum.blocks_log],
-            "line_share": [round(float(one), 4) for one in spectrum.line_share],
-        },
     }
 
 
-def _print_check(found: WholeCheck, *, is_whole: bool) -> None:
+def _print_check(found: VideoCheckResult, *, is_whole: bool) -> None:
     """What was found with advice, then the other checks; a summary last."""
     findings = found.report.findings
     full = [one for one in findings if one.is_found or is_whole]
@@ -137,11 +127,11 @@ def _mark(one: Finding) -> str:
     return f"! {one.check.name}" if one.is_found else one.check.name
 
 
-def _summary(found: WholeCheck) -> list[str]:
-    measures, report = found.report.measures, found.report
+def _summary(found: VideoCheckResult) -> list[str]:
+    measurements, report = found.report.measurements, found.report
     names = [*report.problems, *report.remarks]
     lines = [
-        f"{measures['frames']:.0f} frames, {measures['fps']:.4g} fps, sensor {found.size}",
+        f"{measurements['frames']:.0f} frames, {measurements['fps']:.4g} fps, sensor {found.size}",
         f"found: {', '.join(names)}" if names else "nothing found",
     ]
     if found.cut_times_us:

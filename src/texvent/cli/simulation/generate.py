@@ -28,8 +28,7 @@ from texvent.run.truth import TruthFolder
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.spec.files import is_scene_file, save_scene
 from texvent.scenes.spec.scene import Scene
-from texvent.truth.layout import truth_folder
-from texvent.truth.parts import ALL, check_generator
+from texvent.truth.layout import ALL, check_generator, truth_folder
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
 generator renders simple 3-D shapes; `texvent generators` lists learned models.
@@ -226,7 +225,7 @@ def _write_video(
         video = make_video(prompt, settings, progress=progress)
         write_stream(video, path, overwrite=output.overwrite)
         if truth is not None:
-            from texvent.truth.saving import save_truth  # brings the ray caster
+            from texvent.truth.writer import save_truth  # brings the ray caster
 
             save_truth(video, truth.path, truth.names, overwrite=truth.overwrite)
     if not output.quiet:

@@ -50,7 +50,7 @@ def write_preview(
         InputError: the prompt cannot be shown.
         OutputError: the image cannot be written.
     """
-    from texvent.view.stills.scene_stills import draw_stills  # brings OpenCV
+    from texvent.view.stills import draw_stills  # brings OpenCV
 
     settings = replace(settings, source=replace(settings.source, samples=1))  # a draft
     with ConsoleProgress(is_quiet=is_quiet) as progress:

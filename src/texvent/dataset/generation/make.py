@@ -12,7 +12,7 @@ from texvent.dataset.generation.make_shard import is_complete
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.records import FAILED, ShardSummary
 from texvent.errors import ConfigError
-from texvent.io.hidden_parts import sweep
+from texvent.io.atomic import sweep
 
 OnOutcome = Callable[[Outcome], None]
 

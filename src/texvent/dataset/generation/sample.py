@@ -15,8 +15,8 @@ from texvent.dataset.specification.specification import Filters
 from texvent.events import SIGNAL, EventStream
 from texvent.pipeline import Simulation, select_events
 from texvent.represent.event_frame import count_events
-from texvent.video_check.measurer import VideoMeasurer
-from texvent.video_check.report import judge_measures
+from texvent.video_check.checks import evaluate
+from texvent.video_check.measurements import VideoMeasurer
 
 COLUMNS = ("x", "y", "t", "p")
 PREVIEW_US, PREVIEW_WIDTH = 50_000, 256
@@ -78,7 +78,7 @@ def _too_weak(signal: int, filters: Filters) -> str | None:
 def _looks_failed(measurer: VideoMeasurer | None) -> str | None:
     if measurer is None:
         return None
-    report = judge_measures(measurer.measures())
+    report = evaluate(measurer.measurements())
     return None if report.is_fine else f"the video looks failed: {report.summary}"
 
 

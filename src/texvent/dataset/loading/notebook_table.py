@@ -11,7 +11,7 @@ import numpy as np
 from texvent.errors import few
 from texvent.video import MICROSECONDS
 from texvent.view.notebook.bundle import facts_grid, framed, heading
-from texvent.view.notebook.events import stream_html
+from texvent.view.notebook.displays import stream_html
 
 if TYPE_CHECKING:
     from texvent.dataset.loading.stored_samples import StoredSample, StoredSamples

@@ -21,7 +21,7 @@ from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.represent.named import represent_window
 from texvent.sensor import SensorSize
-from texvent.transform.augmentation.augment import Augment
+from texvent.transform.augment import Augment
 
 if TYPE_CHECKING:
     from texvent.dataset.loading.torch_loader import Loader

@@ -22,12 +22,14 @@ from texvent.view.drawing.canvas import Image, blank, png_bytes, shrink, tile
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.drawing.panels import SURROUND, PanelLayout
-from texvent.view.page.comparison import WINDOW_US, busiest_start
-from texvent.view.page.html_parts import count_text
-from texvent.view.page.template import fill_template
+from texvent.view.page.html_parts import count_text, fill_template
+from texvent.view.stills import busiest_start
 
 SHEET_WIDTH, NARROWEST_PANEL, GAP = 1600.0, 300.0, 4
 IMAGE_WIDTH = 480
+
+
+WINDOW_US = 40_000
 
 
 def write_contact_sheet(samples: Sequence[ChosenSample], path: Path, *, overwrite: bool) -> Path:
@@ -75,7 +77,7 @@ def write_sample_page(
 
 
 def _liveliest(events: EventStream, palette: Palette) -> Image:
-    start = busiest_start(events)
+    start = busiest_start(events, WINDOW_US)
     return draw_events(count_events(events.cut(start, start + WINDOW_US)), palette)
 
 

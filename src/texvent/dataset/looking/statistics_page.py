@@ -17,8 +17,7 @@ from texvent.dataset.contents.summary import summary_lines
 from texvent.dataset.looking.charts import bars, histogram
 from texvent.io.atomic import atomic_file
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
-from texvent.view.page.html_parts import count_text, table_html
-from texvent.view.page.template import fill_template
+from texvent.view.page.html_parts import count_text, fill_template, table_html
 
 
 def write_statistics_page(

@@ -12,11 +12,11 @@ from texvent.generate.videos.clip_model import check_clip_model, measure_clip_sc
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import MEASURES
 from texvent.runtime.progress import NoProgress, Progress
-from texvent.video_check.report import (
+from texvent.video_check.checks import (
     VideoReport,
     check_video,
-    has_all_measures,
-    judge_measures,
+    evaluate,
+    has_all_measurements,
 )
 
 
@@ -65,7 +65,7 @@ def generate_checked(
 def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> VideoReport:
     """Problems of the video itself, and its agreement with the prompt."""
     measures = video.metadata.get(MEASURES) or {}
-    report = judge_measures(measures) if has_all_measures(measures) else check_video(video)
+    report = evaluate(measures) if has_all_measurements(measures) else check_video(video)
     if config.agreement_model is None:
         return report
     score = measure_clip_score(video, prompt, config.agreement_model)
@@ -73,7 +73,7 @@ def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> Vid
     return dataclasses.replace(
         report,
         problems=(*report.problems, *((f"agreement {score:.3f}",) if low else ())),
-        measures={**report.measures, "agreement": score},
+        measurements={**report.measurements, "agreement": score},
     )
 
 

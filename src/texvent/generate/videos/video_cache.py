@@ -25,7 +25,7 @@ from texvent.options.values import plain
 from texvent.runtime.cache_folder import CACHE_VARIABLE, cache_folder
 from texvent.sensor import SensorSize
 from texvent.video import PixelArray
-from texvent.video_check.measurer import VideoMeasurer, measure_video
+from texvent.video_check.measurements import VideoMeasurer, measure_video
 
 MEASURES = "measures"
 """Key of the numbers of `texvent.video_check` in a video's metadata."""
@@ -104,7 +104,7 @@ class VideoCache:
         path = self._path(key, EXTENSION)
         video = write_video(
             frames, path, fps, metadata, overwrite=True, on_frame=measurer.add
-        ).with_metadata(**{MEASURES: measurer.measures()})
+        ).with_metadata(**{MEASURES: measurer.measurements()})
         self._note(video)
         return video
 

@@ -2,33 +2,31 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
-from functools import partial
 from typing import Any
 
 import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.interpolate.dis_flow import flow_cpu
-from texvent.interpolate.dis_flow.definitions import (
-    PATCH,
-    Floats,
-    coarse_to_fine,
-    count_levels,
-    make_pyramid,
-    match_level,
-)
+from texvent.interpolate.dis_flow.definitions import CHANGED, PATCH, Floats, size_of
 from texvent.interpolate.dis_flow.frame_motion import (
     NO_MOTIONS,
+    Flows,
     Motions,
     find_motions,
-    scale,
+    find_shift,
+    leads_outside,
+    patch_vectors,
+    pixel_vectors,
+    scale_motion,
     shift_motion,
 )
-from texvent.interpolate.dis_flow.shifts import find_shift
-from texvent.interpolate.dis_flow.things.fast_things import follow_fast_things, level_of_things
+from texvent.interpolate.dis_flow.pyramid_cpu import double, halve, make_level
+from texvent.interpolate.dis_flow.refine_cpu import change_along, refine
+from texvent.interpolate.dis_flow.search_cpu import join, search, try_vectors
 from texvent.runtime.allocator import keep_freed_memory
 
 FlowArray = NDArray[np.float32]
@@ -38,6 +36,8 @@ SMALL_SIDE_PX = 100
 of 8×8 px on half-size images are coarse for a small frame."""
 LEAST_SIDE_PX = 2 * PATCH
 """Smaller frames are padded to this side by repeating their edges."""
+MOTION_SIDE_PX = 400
+"""Longer side of the level on which the motion of the whole frame is fitted, at most."""
 FULL_RANGE, LEAST_RANGE = 255.0, 16.0
 """Both frames are stretched to the full range, for which the constants of the search are made. A
 smaller range counts as `LEAST_RANGE`, so that the noise of a flat frame does not become texture."""
@@ -74,26 +74,27 @@ class DisFlow:
         images = [_pad_small(image) for image in stretch(first, second)]
         finest = 0 if min(shape) < SMALL_SIDE_PX else 1
         levels = max(finest, count_levels(images[0].shape))
-        earlier, later = (make_pyramid(one, finest, levels, flow_cpu) for one in images)
+        earlier, later = (make_pyramid(one, finest, levels) for one in images)
         shift = find_shift(earlier, later)
         motions = NO_MOTIONS if shift is None else (shift_motion(shift), shift_motion(-shift))
-        number = level_of_things(earlier)
+        sides = [max(size_of(level)) for level in earlier]
+        number = next((k for k, side in enumerate(sides) if side <= MOTION_SIDE_PX), len(sides) - 1)
+        flows = self._follow(earlier[number:], later[number:], _scaled(motions, 0.5**number))
         one, other = earlier[number], later[number]
-        flows = self._follow(earlier[number:], later[number:], scale(motions, 0.5**number))
-        found = find_motions(one, other, flows, flow_cpu)
+        found = find_motions(one, other, flows)
         if found is not None:
-            motions = scale(found, 2.0**number)
+            motions = _scaled(found, 2.0**number)
             flows = self._both(
-                _match_again, (one, other, flows[0], found[0]), (other, one, flows[1], found[1])
+                match_level,
+                (one, other, flows[0], False, found[0]),
+                (other, one, flows[1], False, found[1]),
             )
-        is_full_size = finest == number == 0
-        flows = follow_fast_things(one, other, flows, flow_cpu, is_full_size=is_full_size)
         if number:
             flows = self._follow(earlier[:number], later[:number], motions, flows)
         full = images[0].shape
 
         def enlarge(planes: Floats) -> FlowArray:
-            planes = flow_cpu.double(planes, full) if finest else planes
+            planes = double(planes, full) if finest else planes
             return np.stack([plane[: shape[0], : shape[1]] for plane in planes], axis=-1)
 
         return self._both(enlarge, (flows[0],), (flows[1],))
@@ -103,27 +104,98 @@ class DisFlow:
         earlier: list[Floats],
         later: list[Floats],
         motions: Motions,
-        coarser: tuple[Floats, Floats] | tuple[None, None] = (None, None),
-    ) -> tuple[Floats, Floats]:
+        coarser: Flows | tuple[None, None] = (None, None),
+    ) -> Flows:
         """Both flows between some levels, from those of the next coarser level."""
         return self._both(
-            partial(coarse_to_fine, kernels=flow_cpu),
+            coarse_to_fine,
             (earlier, later, motions[0], coarser[0]),
             (later, earlier, motions[1], coarser[1]),
         )
 
     def _both(
         self, function: Callable[..., Floats], ahead: tuple[Any, ...], back: tuple[Any, ...]
-    ) -> tuple[Floats, Floats]:
-        """What a function returns for each direction, in two threads if there are."""
+    ) -> Flows:
+        """Results of a function for each direction, in two threads if there are."""
         if self._helper is None:
             return function(*ahead), function(*back)
         other = self._helper.submit(function, *back)
         return function(*ahead), other.result()
 
 
-def _match_again(start: Floats, stop: Floats, flow: Floats, motion: Floats) -> Floats:
-    return match_level(start, stop, flow, False, motion=motion, kernels=flow_cpu)
+def count_levels(shape: tuple[int, int]) -> int:
+    """Number of times an image is halved: until its longer side is about four patches.
+
+    The shorter side stays at least one patch.
+    """
+    longest = round(math.log2(max(shape) / (4 * PATCH)))
+    return max(0, min(longest, math.floor(math.log2(min(shape) / PATCH))))
+
+
+def make_pyramid(image: Floats, finest: int, coarsest: int) -> list[Floats]:
+    """The levels of an image, the finest first; see `definitions`.
+
+    Args:
+        image: [H, W], about 0..255.
+        finest: how often the image is halved for the first level.
+        coarsest: how often for the last level.
+    """
+    images = [image]
+    for _ in range(coarsest):
+        images.append(halve(images[-1]))
+    return [make_level(one) for one in images[finest:]]
+
+
+def coarse_to_fine(
+    start: list[Floats],
+    stop: list[Floats],
+    motion: Floats | None = None,
+    coarser: Floats | None = None,
+) -> Floats:
+    """Flow from one image to another.
+
+    Args:
+        start: pyramid of the one.
+        stop: pyramid of the other.
+        motion: of the whole image, which patches try too; see `frame_motion.Motions`.
+        coarser: the flow of the next coarser level, if levels have been matched already.
+
+    Returns:
+        [2, H, W] float32: x and y, px, of the finest level.
+    """
+    flow = np.zeros((2, *size_of(start[-1])), np.float32) if coarser is None else coarser
+    for number in range(len(start) - 1, -1, -1):
+        one, other = start[number], stop[number]
+        is_coarsest = coarser is None and number == len(start) - 1
+        if not is_coarsest:
+            flow = double(flow, size_of(one))
+        scaled = None if motion is None else scale_motion(motion, 0.5**number)
+        flow = match_level(one, other, flow, is_coarsest, scaled)
+    return flow
+
+
+def match_level(
+    start: Floats, stop: Floats, flow: Floats, is_coarsest: bool, motion: Floats | None = None
+) -> Floats:
+    """The flow from one level to another, from an initial flow: search, join, refine."""
+    patches = search(start, stop, flow, is_coarsest)
+    if motion is not None:
+        patches = try_vectors(start, stop, patches, patch_vectors(motion, size_of(start)))
+    refined = refine(start, stop, join(start, stop, patches))
+    if motion is None:
+        return refined
+    # Outside the view, brightness says nothing: what leaves it moves as the frame does.
+    moved = pixel_vectors(motion, size_of(start))
+    is_lost = np.abs(change_along(start, stop, refined)) > CHANGED
+    return np.where(leads_outside(moved) & (leads_outside(refined) | is_lost), moved, refined)
+
+
+def _scaled(motions: Motions, factor: float) -> Motions:
+    """Both motions, for an image that is larger by a factor."""
+    one, other = motions
+    if one is None or other is None:
+        return NO_MOTIONS
+    return scale_motion(one, factor), scale_motion(other, factor)
 
 
 def stretch(

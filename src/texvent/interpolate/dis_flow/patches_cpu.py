@@ -25,7 +25,7 @@ _ANY_ROW = ir.Constant(_ROW, ir.Undefined)
 
 
 def _compare_patch(typing_context: Any, start: Any, stop: Any, layout: Any, weights: Any) -> Any:
-    """How a patch differs from its place in another image.
+    """Difference of a patch from its place in another image.
 
     Args:
         typing_context: Numba's.

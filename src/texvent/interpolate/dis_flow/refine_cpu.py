@@ -1,4 +1,4 @@
-"""The sweeps that refine a flow, compiled."""
+"""Refinement of a flow, and the change of brightness along it; compiled."""
 
 from __future__ import annotations
 
@@ -6,15 +6,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.interpolate.dis_flow.definitions import (
+    CHANGED,
     DATA,
     LEAST2,
     LEAST_SLOPE2,
     MARGIN,
     PATCH,
     RELAXATION,
+    SAME_PX2,
+    SAME_RELATIVE,
     SMOOTHNESS,
     SWEEPS,
     Floats,
+    Mask,
 )
 from texvent.runtime.jit import jit
 
@@ -27,6 +31,8 @@ _SMOOTHNESS = np.float32(SMOOTHNESS)
 _RELAXATION = np.float32(RELAXATION)
 _LEAST2 = np.float32(LEAST2)
 _LEAST_SLOPE2 = np.float32(LEAST_SLOPE2)
+_CHANGED = np.float32(CHANGED)
+_SAME_RELATIVE, _SAME_PX2 = np.float32(SAME_RELATIVE), np.float32(SAME_PX2)
 
 Numbers = NDArray[np.int32]
 
@@ -64,9 +70,28 @@ def _copy(source: Floats, target: Floats, margin: int, new_margin: int) -> None:
 
 @jit(error_model="numpy")
 def change_along(start: Floats, stop: Floats, flow: Floats) -> Floats:
-    """What brightness changes by along a flow, [H, W], levels."""
+    """Change of brightness along a flow, [H, W], levels."""
     _, change = _sample_along(start[0], stop[0], flow)
     return change
+
+
+@jit(error_model="numpy")
+def unconfirmed(start: Floats, stop: Floats, flow: Floats, back: Floats) -> Mask:
+    """Pixels whose flow the other direction contradicts, or along which brightness changes."""
+    _, height, width = flow.shape
+    change = change_along(start, stop, flow)
+    found = np.ones((height, width), np.bool_)
+    for y in range(height):
+        for x in range(width):
+            u, v = flow[0, y, x], flow[1, y, x]
+            column = int(np.floor(np.float32(x) + u + _HALF))
+            row = int(np.floor(np.float32(y) + v + _HALF))
+            if column < 0 or row < 0 or column >= width or row >= height:
+                continue
+            aside, down = u + back[0, row, column], v + back[1, row, column]
+            contradicts = aside * aside + down * down > _SAME_RELATIVE * (u * u + v * v) + _SAME_PX2
+            found[y, x] = contradicts or abs(change[y, x]) > _CHANGED
+    return found
 
 
 @jit(error_model="numpy", inner=True)

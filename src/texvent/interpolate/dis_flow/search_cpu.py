@@ -10,12 +10,14 @@ from texvent.interpolate.dis_flow.definitions import (
     MARGIN,
     MOST_DRIFT,
     MOST_STEPS,
+    NOISE_COST,
     PATCH,
     SAME_FLOW,
     SEARCH_COST,
     SEARCH_RADIUS,
     SMALL_STEP2,
     STEP,
+    UNEXPLAINED,
     Floats,
 )
 from texvent.interpolate.dis_flow.patches_cpu import compare_patch, spread_patch
@@ -32,6 +34,8 @@ _SMALL_STEP2 = np.float32(SMALL_STEP2)
 _SEARCH_COST = np.float32(SEARCH_COST)
 _LEAST_DIFFERENCE = np.float32(LEAST_DIFFERENCE)
 _OUTSIDE = np.float32(-PATCH)
+_SIDE = np.float32(PATCH)
+_UNEXPLAINED, _NOISE_COST = np.float32(UNEXPLAINED), np.float32(NOISE_COST)
 
 Sums = tuple[np.float32, np.float32, np.float32, np.float32]
 """Of d, d², d·slope_x and d·slope_y over a patch."""
@@ -54,22 +58,22 @@ def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floa
                 flow[1, here[0] + PATCH // 2, here[1] + PATCH // 2],
             )
             if is_coarsest:
-                own = search_integer(level, target, shape, here)
-            sum_slopes(level, target, shape, here, slopes[row, column])
+                own = _search_integer(level, target, shape, here)
+            _sum_slopes(level, target, shape, here, slopes[row, column])
             found[row, column, 0], found[row, column, 1] = own
-            _, found[row, column, 2], _, _ = compare(level, target, shape, here, own)
+            _, found[row, column, 2], _, _ = _compare(level, target, shape, here, own)
             _propagate(level, target, shape, found, (row, column, -1))
-            gauss_newton(level, target, shape, own, slopes, found, (row, column))
+            _gauss_newton(level, target, shape, own, slopes, found, (row, column))
     for row in range(down - 1, -1, -1):
         for column in range(across - 1, -1, -1):
             own = found[row, column, 0], found[row, column, 1]
             if _propagate(level, target, shape, found, (row, column, 1)):
-                gauss_newton(level, target, shape, own, slopes, found, (row, column))
+                _gauss_newton(level, target, shape, own, slopes, found, (row, column))
     return found
 
 
 @jit(error_model="numpy", inner=True)
-def compare(
+def _compare(
     level: Floats, target: Floats, shape: tuple[int, int], here: tuple[int, int], flow: Vector
 ) -> Sums:
     """The sums of `compare_patch` for a patch and its place; the second one mean-free."""
@@ -83,7 +87,7 @@ def compare(
 def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, Sums]:
     """Flat index of the pixel up left of a place, and bilinear weights of it and the others.
 
-    Places lie at most a patch outside the image.
+    Places are at most a patch outside the image.
     """
     x = min(max(_OUTSIDE, x), np.float32(shape[1] - 2 * MARGIN))
     y = min(max(_OUTSIDE, y), np.float32(shape[0] - 2 * MARGIN))
@@ -94,7 +98,7 @@ def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, S
 
 
 @jit(error_model="numpy", inner=True)
-def sum_slopes(
+def _sum_slopes(
     level: Floats, target: Floats, shape: tuple[int, int], here: tuple[int, int], sums: Floats
 ) -> None:
     """Fill in the sums over slopes that Gauss-Newton steps need: xx, xy, yy, x, y, determinant."""
@@ -114,7 +118,7 @@ def sum_slopes(
 
 
 @jit(error_model="numpy", inner=True)
-def spread_of(level: Floats, shape: tuple[int, int], here: tuple[int, int]) -> np.float32:
+def _spread_of(level: Floats, shape: tuple[int, int], here: tuple[int, int]) -> np.float32:
     """Mean-free squares of a patch, summed."""
     place = (here[0] + MARGIN) * shape[1] + here[1] + MARGIN
     layout = shape[0] * shape[1], place, place, shape[1]
@@ -123,7 +127,7 @@ def spread_of(level: Floats, shape: tuple[int, int], here: tuple[int, int]) -> n
 
 
 @jit(error_model="numpy", inner=True)
-def search_integer(
+def _search_integer(
     level: Floats, target: Floats, shape: tuple[int, int], here: tuple[int, int]
 ) -> Vector:
     """The best displacement by whole pixels."""
@@ -131,7 +135,7 @@ def search_integer(
     for down in range(-SEARCH_RADIUS, SEARCH_RADIUS + 1):
         for right in range(-SEARCH_RADIUS, SEARCH_RADIUS + 1):
             flow = np.float32(right), np.float32(down)
-            _, cost, _, _ = compare(level, target, shape, here, flow)
+            _, cost, _, _ = _compare(level, target, shape, here, flow)
             cost += _SEARCH_COST * np.float32(right * right + down * down)
             if cost < least:
                 least, best = cost, flow
@@ -158,17 +162,17 @@ def _propagate(
     Returns:
         Whether its flow has changed.
     """
-    row, column, way = patch
+    row, column, direction = patch
     here, own = (row * STEP, column * STEP), found[row, column]
     is_better = False
     for turn in range(2):
-        i, j = (row, column + way) if turn == 0 else (row + way, column)
+        i, j = (row, column + direction) if turn == 0 else (row + direction, column)
         if i < 0 or j < 0 or i >= found.shape[0] or j >= found.shape[1]:
             continue
         u, v = found[i, j, 0], found[i, j, 1]
         if abs(u - own[0]) + abs(v - own[1]) < _SAME_FLOW:
             continue
-        _, cost, _, _ = compare(level, target, shape, here, (u, v))
+        _, cost, _, _ = _compare(level, target, shape, here, (u, v))
         if cost < own[2]:
             own[0], own[1], own[2] = u, v, cost
             is_better = True
@@ -176,7 +180,7 @@ def _propagate(
 
 
 @jit(error_model="numpy", inner=True)
-def gauss_newton(
+def _gauss_newton(
     level: Floats,
     target: Floats,
     shape: tuple[int, int],
@@ -192,7 +196,7 @@ def gauss_newton(
         target: the other image, flat.
         shape: of both, with margins.
         begin: initial flow; the result stays within `MOST_DRIFT` of it.
-        slopes: from `sum_slopes`, of all patches.
+        slopes: from `_sum_slopes`, of all patches.
         found: of all patches.
         patch: row and column.
     """
@@ -201,7 +205,7 @@ def gauss_newton(
     xx, xy, yy, x, y, determinant = known[0], known[1], known[2], known[3], known[4], known[5]
     if not determinant > _LEAST_DETERMINANT:
         return
-    mean, _, sum_x, sum_y = compare(level, target, shape, here, (own[0], own[1]))
+    mean, _, sum_x, sum_y = _compare(level, target, shape, here, (own[0], own[1]))
     for _ in range(MOST_STEPS):
         sum_x, sum_y = sum_x - mean * x / _AREA, sum_y - mean * y / _AREA
         du = (yy * sum_x - xy * sum_y) / determinant
@@ -209,12 +213,38 @@ def gauss_newton(
         u, v = own[0] - du, own[1] - dv
         if abs(u - begin[0]) > _MOST_DRIFT or abs(v - begin[1]) > _MOST_DRIFT:
             return
-        mean, cost, sum_x, sum_y = compare(level, target, shape, here, (u, v))
+        mean, cost, sum_x, sum_y = _compare(level, target, shape, here, (u, v))
         if not cost < own[2]:
             return
         own[0], own[1], own[2] = u, v, cost
         if du * du + dv * dv < _SMALL_STEP2:
             return
+
+
+@jit(error_model="numpy")
+def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -> Floats:
+    """The patches, each with its vector if that fits no worse than its own flow."""
+    found = patches.copy()
+    slopes = np.empty((found.shape[0], found.shape[1], 6), np.float32)
+    level, target, shape = start.reshape(-1), stop.reshape(-1), start.shape[1:]
+    height, width = np.float32(shape[0] - 2 * MARGIN), np.float32(shape[1] - 2 * MARGIN)
+    for row in range(found.shape[0]):
+        for column in range(found.shape[1]):
+            here, own = (row * STEP, column * STEP), found[row, column]
+            u, v = vectors[row, column, 0], vectors[row, column, 1]
+            if abs(u - own[0]) + abs(v - own[1]) < _SAME_FLOW:
+                continue
+            x, y = np.float32(here[1]) + u, np.float32(here[0]) + v
+            if x < _0 or y < _0 or x > width - _SIDE or y > height - _SIDE:
+                if own[2] > _UNEXPLAINED * _spread_of(level, shape, here) + _NOISE_COST:
+                    own[0], own[1], own[2] = u, v, _0
+                continue
+            _, cost, _, _ = _compare(level, target, shape, here, (u, v))
+            if cost < own[2] + _NOISE_COST:
+                own[0], own[1], own[2] = u, v, cost
+                _sum_slopes(level, target, shape, here, slopes[row, column])
+                _gauss_newton(level, target, shape, (u, v), slopes, found, (row, column))
+    return found
 
 
 @jit(error_model="numpy")

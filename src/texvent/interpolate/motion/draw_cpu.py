@@ -1,12 +1,12 @@
 """Draw an instant between two frames whose motion is known, compiled by Numba.
 
-1. Every piece of surface is put where its path leads (`splat_cpu.py`).
-2. Brightness and coverage are read from the source frames where the pieces came from: by a cubic
+1. Every fragment of surface is put where its path leads (`splat_cpu.py`).
+2. Brightness and coverage are read from the source frames where the fragments came from: by a cubic
    spline inside a layer, so that texture stays sharp; by area at contours, so that edges do too.
 3. The nearer layer covers the farther one by its share of the pixel, in linear light. Where both
    frames see a layer, they are mixed by time.
 
-`motion_reference.py` defines the same readably.
+`tests/interpolate/motion/reference.py` defines the same readably.
 """
 
 from __future__ import annotations
@@ -24,14 +24,14 @@ from texvent.interpolate.motion.layers_cpu import (
     linear,
 )
 from texvent.interpolate.motion.splat_cpu import (
-    PLACE,
     SAME_LAYER,
-    Behind,
-    find_meeting_pieces,
-    make_room,
-    number_meetings,
+    SOURCE,
+    OccludedLayer,
+    find_overlapping_fragments,
+    make_nearest_layer,
+    number_overlaps,
     splat,
-    splat_meetings,
+    splat_overlaps,
 )
 from texvent.runtime.jit import jit
 
@@ -44,48 +44,52 @@ UNSURE = np.float32(0.015)
 DARK = np.float32(2.0)
 """Added to levels before they are compared."""
 FOLLOWED, MIXED = 0, 1
-"""What `draw` says of a pixel: within one layer and equally bright in both frames, or not."""
+"""Kinds of pixels: within one layer and equally bright in both frames, or not."""
 
 
-class Side(NamedTuple):
-    """One frame of a pair and the way from it to the other."""
+class FrameSide(NamedTuple):
+    """One frame of a pair and its paths to the other."""
 
     layers: Layers
-    pieces: Floats
-    """[n, PIECE]; see `paths_cpu.list_pieces`."""
+    fragments: Floats
+    """[n, FRAGMENT]; see `paths_cpu.list_fragments`."""
 
 
 @jit(error_model="numpy")
 def draw(
-    first: Side, second: Side, position: np.float32, image: Floats, kind: NDArray[np.uint8]
+    first: FrameSide,
+    second: FrameSide,
+    position: np.float32,
+    image: Floats,
+    kind: NDArray[np.uint8],
 ) -> None:
     """Draw the instant at τ = `position` into `image`, and what was met where into `kind`."""
     height, width = image.shape
     rest = np.float32(1.0) - position
-    room = make_room(height, width)
-    splat(first.pieces, position, 0, room)
-    splat(second.pieces, rest, PLACE, room)
-    meetings = number_meetings(room)
-    behind = Behind(
-        np.zeros((len(meetings), 2 * PLACE), np.float32),
-        np.full(len(meetings), np.inf, np.float32),
+    visible = make_nearest_layer(height, width)
+    splat(first.fragments, position, 0, visible)
+    splat(second.fragments, rest, SOURCE, visible)
+    overlaps = number_overlaps(visible)
+    occluded = OccludedLayer(
+        np.zeros((len(overlaps), 2 * SOURCE), np.float32),
+        np.full(len(overlaps), np.inf, np.float32),
     )
-    if len(meetings) > 1:
-        chosen = find_meeting_pieces(first.pieces, position, room.number)
-        others = find_meeting_pieces(second.pieces, rest, room.number)
+    if len(overlaps) > 1:
+        chosen = find_overlapping_fragments(first.fragments, position, visible.number)
+        others = find_overlapping_fragments(second.fragments, rest, visible.number)
         for is_far in (False, True):
-            splat_meetings(first.pieces, chosen, position, 0, room, behind, is_far)
-            splat_meetings(second.pieces, others, rest, PLACE, room, behind, is_far)
+            splat_overlaps(first.fragments, chosen, position, 0, visible, occluded, is_far)
+            splat_overlaps(second.fragments, others, rest, SOURCE, visible, occluded, is_far)
     pixels = np.arange(height * width).astype(np.int32)
     near = (
-        _gather(first.layers, room.places, 0, pixels),
-        _gather(second.layers, room.places, PLACE, pixels),
+        _gather(first.layers, visible.places, 0, pixels),
+        _gather(second.layers, visible.places, SOURCE, pixels),
     )
     far = (
-        _gather(first.layers, behind.places, 0, meetings),
-        _gather(second.layers, behind.places, PLACE, meetings),
+        _gather(first.layers, occluded.places, 0, overlaps),
+        _gather(second.layers, occluded.places, SOURCE, overlaps),
     )
-    _compose(position, room.number, near, far, image, kind)
+    _compose(position, visible.number, near, far, image, kind)
     _hold(first.layers.value, second.layers.value, position, image)
 
 
@@ -104,21 +108,21 @@ def _compose(
     far_1, far_2 = far
     for y in range(height):
         for x in range(width):
-            k, meeting = y * width + x, number[y, x]
+            k, overlap = y * width + x, number[y, x]
             share_1, value_1 = near_1[k, 0], near_1[k, 1]
             share_2, value_2 = near_2[k, 0], near_2[k, 1]
             level = _mix(share_1, value_1, share_2, value_2, position)
             kind[y, x] = MIXED
-            if meeting == 0:
+            if overlap == 0:
                 is_same = share_1 == 0 or share_2 == 0 or _is_alike(value_1, value_2)
                 if level >= 0 and is_same and near_1[k, 2] > 0 and near_2[k, 2] > 0:
                     kind[y, x] = FOLLOWED
             else:
                 farther = _mix(
-                    far_1[meeting, 0],
-                    far_1[meeting, 1],
-                    far_2[meeting, 0],
-                    far_2[meeting, 1],
+                    far_1[overlap, 0],
+                    far_1[overlap, 1],
+                    far_2[overlap, 0],
+                    far_2[overlap, 1],
                     position,
                 )
                 share = _covered(share_1, share_2, position)
@@ -134,7 +138,7 @@ def _compose(
 
 @jit(error_model="numpy", inner=True)
 def _hold(first: Floats, second: Floats, position: np.float32, image: Floats) -> None:
-    """Where no path leads, both frames are mixed in place."""
+    """Mix both frames in place where no path leads."""
     height, width = image.shape
     for y in range(height):
         for x in range(width):
@@ -151,9 +155,9 @@ def _is_alike(one: np.float32, two: np.float32) -> bool:
 
 @jit(error_model="numpy", inner=True)
 def _covered(share_1: np.float32, share_2: np.float32, position: np.float32) -> np.float32:
-    """How much of a pixel the nearer layer covers.
+    """Share of a pixel that the nearer layer covers.
 
-    Mixed by time, unless one frame cannot see the layer: then the other one tells.
+    Mixed by time, unless one frame cannot see the layer: then that of the other one.
     """
     mixed = share_1 + position * (share_2 - share_1)
     apart = (abs(share_1 - share_2) - SIMILAR) / (DIFFERENT - SIMILAR)
@@ -179,11 +183,11 @@ def _mix(
 
 @jit(error_model="numpy", inner=True)
 def _gather(layers: Layers, places: Floats, index: int, pixels: Numbers) -> Floats:
-    """Share and level of a layer in a frame, and whether the place lies within the layer.
+    """Share and level of a layer in a frame, and whether the place is within the layer.
 
     Args:
         layers: the frame.
-        places: [n, 2 · PLACE] where from.
+        places: [n, 2 · SOURCE] where from.
         index: first column of this frame.
         pixels: [n] flat index of the pixel that each row belongs to.
 
@@ -287,9 +291,9 @@ def _filled(
     top: np.float32,
     bottom: np.float32,
 ) -> np.float32:
-    """How much of a rectangle in a pixel a surface fills that covers `share` of the pixel.
+    """Share of a rectangle in a pixel that a surface fills which covers `share` of the pixel.
 
-    It lies on the side away from the step across its contour; the contour is taken as straight.
+    It is on the side away from the step across its contour; the contour is taken as straight.
     """
     one = np.float32(1.0)
     if share >= one or (step_x == 0 and step_y == 0):

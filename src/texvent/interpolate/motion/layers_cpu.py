@@ -1,4 +1,4 @@
-"""What one frame knows of its surfaces: their order in depth, and who covers what at contours.
+"""Layers of one frame: order in depth of its surfaces, and their coverage at contours.
 
 A pixel at a contour shows two surfaces. Its centre sees one of them; how much of it that one covers
 follows from the brightness on both sides (matting). So the contour can move by parts of a pixel.
@@ -26,14 +26,14 @@ NOTHING = np.float32(1e9)
 LEAST_SHARE = np.float32(0.3)
 """A surface that the centre of a pixel sees covers at least this much of it."""
 LEAST_CONTRAST = 0.004
-"""Linear light: below this the two sides of a contour are too alike to tell shares."""
+"""Linear light: below this the two sides of a contour are too alike to measure shares."""
 JOINT_PX = np.float32(0.02)
 """Two surfaces whose vectors differ by less move as one: their contour stays as it is."""
 GAMMA = 2.2
 """Levels to linear light, in which shares of a pixel add up."""
 WHITE = 255.0
 SPEED_ORDER = np.float32(0.02)
-"""Without depth, of two things the faster is taken to be nearer: this much per pixel."""
+"""Without depth, of two surfaces the faster is taken to be nearer: this much per pixel."""
 
 _POLE = np.float32(math.sqrt(3.0) - 2.0)
 _FIRST_TERMS = 12
@@ -167,7 +167,7 @@ def _split_contour(
     layers.other_value[y, x] = gamma_coded(abs(other))
     layers.other_order[y, x] = order[beyond_y, beyond_x]
     layers.other_pixel[y, x] = beyond_y * image.shape[1] + beyond_x
-    # The nearer surface covers its share; what lies behind it goes on below.
+    # The nearer surface covers its share; the surface behind it goes on below.
     layers.share[y, x] = share if is_nearer else 1.0
     layers.other_share[y, x] = 1.0 if is_nearer else 1.0 - share
 

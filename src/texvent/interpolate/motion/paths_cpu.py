@@ -1,4 +1,4 @@
-"""Where the pixels of a frame are between it and the other frame of its pair."""
+"""Paths of the pixels of a frame to the other frame of its pair."""
 
 from __future__ import annotations
 
@@ -27,8 +27,8 @@ PATH = 11
 """Numbers per pixel: three coefficients of a cubic in x and y, change of ln depth, and how the
 displacement changes along x and y, [dx/dx, dx/dy, dy/dx, dy/dy]."""
 
-PIECE = PATH + 4
-"""Numbers per piece of surface; see `list_pieces`."""
+FRAGMENT = PATH + 4
+"""Numbers per fragment of surface; see `list_fragments`."""
 
 
 @jit
@@ -125,7 +125,7 @@ def _bend(path: Floats, vector: Floats, here: Floats, there: Floats, has_other: 
 def _stretch(
     vectors: Floats, order: Floats, tolerance: np.float32, x: int, y: int, axis: int
 ) -> tuple[np.float32, np.float32]:
-    """How the displacement changes from pixel to pixel along an axis, within the layer."""
+    """Change of the displacement from pixel to pixel along an axis, within the layer."""
     height, width = order.shape
     along_x, along_y, number = np.float32(0.0), np.float32(0.0), 0
     for sign in (-1, 1):
@@ -149,11 +149,11 @@ def _stretch(
 
 
 @jit
-def list_pieces(layers: Layers, paths: Floats) -> Floats:
-    """Every piece of surface of a frame and its path: one per pixel, two at contours.
+def list_fragments(layers: Layers, paths: Floats) -> Floats:
+    """Every fragment of surface of a frame and its path: one per pixel, two at contours.
 
     Returns:
-        [n, PIECE] float32: x and y in the frame, the path, ln depth and its tolerance.
+        [n, FRAGMENT] float32: x and y in the frame, the path, ln depth and its tolerance.
     """
     height, width = layers.order.shape
     count = 0
@@ -161,33 +161,33 @@ def list_pieces(layers: Layers, paths: Floats) -> Floats:
         for x in range(width):
             count += not math.isnan(paths[y, x, 0])
             count += layers.other_pixel[y, x] >= 0
-    pieces = np.empty((count, PIECE), np.float32)
+    fragments = np.empty((count, FRAGMENT), np.float32)
     count = 0
     for y in range(height):
         for x in range(width):
             if not math.isnan(paths[y, x, 0]):
-                _write_piece(pieces, count, (x, y), paths, (x, y))
-                pieces[count, PIECE - 2] = layers.order[y, x]
-                pieces[count, PIECE - 1] = layers.tolerance[y, x]
+                _write_fragment(fragments, count, (x, y), paths, (x, y))
+                fragments[count, FRAGMENT - 2] = layers.order[y, x]
+                fragments[count, FRAGMENT - 1] = layers.tolerance[y, x]
                 count += 1
             other = layers.other_pixel[y, x]
             if other >= 0:
                 donor = other % width, other // width
-                _write_piece(pieces, count, (x, y), paths, donor)
-                pieces[count, PIECE - 2] = layers.other_order[y, x]
-                pieces[count, PIECE - 1] = layers.tolerance[donor[1], donor[0]]
+                _write_fragment(fragments, count, (x, y), paths, donor)
+                fragments[count, FRAGMENT - 2] = layers.other_order[y, x]
+                fragments[count, FRAGMENT - 1] = layers.tolerance[donor[1], donor[0]]
                 count += 1
-    return pieces
+    return fragments
 
 
 @jit(inner=True)
-def _write_piece(
-    pieces: Floats, k: int, pixel: tuple[int, int], paths: Floats, donor: tuple[int, int]
+def _write_fragment(
+    fragments: Floats, k: int, pixel: tuple[int, int], paths: Floats, donor: tuple[int, int]
 ) -> None:
-    """Place and path of piece `k`, which moves as the pixel `donor` does."""
-    pieces[k, 0], pieces[k, 1] = pixel
+    """Place and path of fragment `k`, which moves as the pixel `donor` does."""
+    fragments[k, 0], fragments[k, 1] = pixel
     for j in range(PATH):
-        pieces[k, 2 + j] = paths[donor[1], donor[0], j]
+        fragments[k, 2 + j] = paths[donor[1], donor[0], j]
 
 
 @jit

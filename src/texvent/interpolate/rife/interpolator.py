@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
-from texvent.interpolate.networks.device import WHITE
-from texvent.interpolate.networks.interpolator import NetworkInterpolator
-from texvent.interpolate.networks.torch_import import Tensor, import_torch
-from texvent.interpolate.networks.torch_warp import warp
-from texvent.interpolate.rife.estimator import PreparedPair, RifeEstimator
-from texvent.interpolate.rife.network import MIDDLE, Motion, move_motion
+from texvent.interpolate.networks import (
+    WHITE,
+    NetworkInterpolator,
+    Tensor,
+    import_torch,
+    pad_to_multiple,
+    warp,
+)
 from texvent.interpolate.rife.weights import (
     describe_rife_weights,
     find_rife_weights,
@@ -21,23 +23,21 @@ from texvent.interpolate.rife.weights import (
 from texvent.pairs.tensors import rgb_and_luma
 from texvent.video import FrameStream
 
-
-@dataclass(frozen=True, eq=False)
-class _Pair:
-    tiles: PreparedPair
-    middle: Motion | None
-    """The motion at τ = 1/2, where all instants share it."""
+if TYPE_CHECKING:
+    from texvent.interpolate.rife.network import Motion
 
 
 class RifeInterpolator(NetworkInterpolator):
     """Moves both frames along the flow that a trained network estimates, and mixes them.
 
-    The network only sees the frames; what is moved is their float32 luma, whatever the network's
-    precision, so intermediate frames have no steps.
+    The network only sees the frames; their float32 luma is moved, so intermediate frames have no
+    steps.
 
     Source: Huang et al., Real-Time Intermediate Flow Estimation for Video Frame Interpolation
         (ECCV 2022); section 3.2.1 of the paper.
-    Deviation: grey frames are shown to the network as colour, edges are padded by repetition
+    Deviation: the motion is estimated once per pair, at its middle, and points move straight and
+        evenly; the paper estimates it anew at each instant, and differences between the estimates
+        flicker. Grey frames are shown to the network as colour, edges are padded by repetition
         instead of with black, and the result is not clipped.
     """
 
@@ -45,7 +45,7 @@ class RifeInterpolator(NetworkInterpolator):
         """An interpolator with its weights loaded.
 
         Args:
-            config: weights, device, precision, tiles, and how often the flow is estimated.
+            config: weights and device.
             stream: not used; every interpolator is built alike.
 
         Raises:
@@ -57,9 +57,7 @@ class RifeInterpolator(NetworkInterpolator):
         del stream
         import_torch()
         super().__init__(find_rife_weights(config.interpolator_weights), config)
-        weights = read_rife_weights(self._path)
-        self._estimator = RifeEstimator(weights, self._placement, config)
-        self._is_shared = config.rife_flow == "shared"
+        self._network = read_rife_weights(self._path).to(self._device)
 
     @staticmethod
     def provenance(config: InterpolateConfig) -> dict[str, str]:
@@ -74,7 +72,7 @@ class RifeInterpolator(NetworkInterpolator):
     def between_tensors(
         self, first: Tensor, second: Tensor, positions: Sequence[float]
     ) -> Iterator[Tensor]:
-        """As `between`, for images that may lie on the device already; results stay on it.
+        """As `between`, for images that may be on the device already; results stay on it.
 
         Nothing waits for the device, so the output is not checked: the simulator of
         `texvent.simulate.gpu` refuses NaN and infinite intensities when it counts events.
@@ -97,23 +95,27 @@ class RifeInterpolator(NetworkInterpolator):
                 "one shape"
             )
         torch = import_torch()
-        device = self._placement.device
         with torch.inference_mode():
-            seen, lumas = zip(*(rgb_and_luma(one, device) for one in (first, second)), strict=True)
+            both = (rgb_and_luma(one, self._device) for one in (first, second))
+            seen, lumas = zip(*both, strict=True)
             # Scaled down together, so that a bright pair stays in the range the network knows.
             scale = 1.0 / torch.stack([one.amax() for one in seen]).amax().clamp(min=WHITE)
             images = [one * scale for one in seen]
         yield from self._draw(images, lumas, positions)
 
-    def _prepare(self, images: Sequence[Tensor]) -> _Pair:
-        tiles = self._estimator.prepare(*images)
-        return _Pair(tiles, self._estimator.estimate(tiles, MIDDLE) if self._is_shared else None)
+    def _prepare(self, images: Sequence[Tensor]) -> Motion:
+        from texvent.interpolate.rife.network import Motion  # needs torch
 
-    def _luma_at(self, pair: _Pair, lumas: Sequence[Tensor], at: float) -> Tensor:
-        if pair.middle is None:
-            motion = self._estimator.estimate(pair.tiles, at)
-        else:
-            motion = move_motion(pair.middle, at)
+        height, width = images[0].shape[-2:]
+        pad_to = self._network.layout.pad_to
+        padded = (pad_to_multiple(image, pad_to).to(self._device) for image in images)
+        motion = self._network(*padded)
+        return Motion(motion.flow[..., :height, :width], motion.mask[..., :height, :width])
+
+    def _luma_at(self, pair: Motion, lumas: Sequence[Tensor], at: float) -> Tensor:
+        from texvent.interpolate.rife.network import move_motion  # needs torch
+
+        motion = move_motion(pair, at)
         weight = import_torch().sigmoid(motion.mask)
         first, second = warp(lumas[0], motion.flow[:, :2]), warp(lumas[1], motion.flow[:, 2:])
         return (second + (first - second) * weight)[0, 0]

@@ -1,26 +1,104 @@
-"""IFNet for inference: from two images and an instant to the flow to both, and a mask."""
+"""IFNet, RIFE's network: from two images and an instant to the flow to both, and a mask.
+
+A chain of blocks, coarse to fine; each refines the flow from the wanted instant to both frames and
+a mask that mixes them. Modules have the names of the published tensors. Needs torch to import.
+
+Source: Huang et al., Real-Time Intermediate Flow Estimation for Video Frame Interpolation (ECCV
+2022), as released in Practical-RIFE 4.0, 4.6 and 4.25.
+"""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
-from types import ModuleType
 from typing import Any
 
-from texvent.interpolate.networks.torch_import import Tensor, import_torch
-from texvent.interpolate.networks.torch_warp import warp
-from texvent.interpolate.rife.layouts import BODY_LAYERS, FLOW_CHANNELS, RifeLayout
+from texvent.interpolate.networks import Tensor, import_torch, warp
 
+torch: Any = import_torch()
+nn: Any = torch.nn
+_Module: Any = nn.Module
+
+BODY_LAYERS = 8
+"""Convolutions in the middle of a block."""
+FLOW_CHANNELS = 4
+"""x and y from the instant to the first frame, x and y to the second."""
+ENCODER_CHANNELS = 16
 LEAK = 0.2
 """Slope of leaky ReLU below 0."""
 MIDDLE = 0.5
-"""The instant between two frames that shared motion is estimated at."""
+"""The instant between two frames at which their motion is estimated."""
+
+
+@dataclass(frozen=True)
+class RifeLayout:
+    """One published shape of the network."""
+
+    name: str
+    """The release that introduced it."""
+    scales: tuple[int, ...]
+    """By how much the images are reduced for each block."""
+    widths: tuple[int, ...]
+    """Channels inside each block, as published; a file may have others."""
+    head_channels: int
+    """Channels that come out of a block's last layer, before the pixels are rearranged."""
+    shuffles: bool
+    """True if that layer is followed by a rearrangement of channels into 2×2 pixels."""
+    learned_slopes: bool
+    """True for PReLU and one bridge over the whole body; else leaky ReLU and a bridge per layer."""
+    encoded_channels: int = 0
+    """Channels of the encoder that all blocks see; 0 without one."""
+    features: int = 0
+    """Channels that each block passes to the next, beside flow and mask."""
+    replaces_mask: bool = False
+    """True if each block replaces the mask; else it adds to the one before."""
+
+    @property
+    def pad_to(self) -> int:
+        """Sides are padded to a multiple of this, px: the coarsest block halves twice."""
+        return 4 * max(self.scales)
+
+    def input_channels(self, block: int) -> int:
+        """Channels that go into a block."""
+        seen = 2 * (3 + self.encoded_channels) + 1
+        return seen if block == 0 else seen + 1 + self.features + FLOW_CHANNELS
+
+
+RIFE_4_0 = RifeLayout("4.0", (8, 4, 2, 1), (192, 128, 96, 64), 5, False, True)
+RIFE_4_6 = RifeLayout("4.6", (8, 4, 2, 1), (192, 128, 96, 64), 4 * 6, True, False)
+RIFE_4_25 = RifeLayout(
+    "4.25",
+    (16, 8, 4, 2, 1),
+    (192, 128, 96, 64, 32),
+    4 * 13,
+    True,
+    False,
+    encoded_channels=4,
+    features=8,
+    replaces_mask=True,
+)
+LAYOUTS = (RIFE_4_0, RIFE_4_6, RIFE_4_25)
+
+
+def closest_layout(tensors: Mapping[str, Tensor]) -> tuple[RifeLayout, tuple[int, ...]]:
+    """The layout whose names a file's tensors have, and the widths of its blocks in the file.
+
+    Args:
+        tensors: name → tensor, names without a `module.` in front.
+    """
+    if "encode.cnn0.weight" in tensors:
+        layout = RIFE_4_25
+    else:
+        layout = RIFE_4_6 if "block0.convblock.0.beta" in tensors else RIFE_4_0
+    firsts = (tensors.get(f"block{block}.conv0.1.0.bias") for block in range(len(layout.widths)))
+    widths = zip(layout.widths, firsts, strict=True)
+    return layout, tuple(usual if one is None else len(one) for usual, one in widths)
 
 
 @dataclass(frozen=True, eq=False)
 class Motion:
-    """Where the pixels of an instant are in both frames, and how the frames mix."""
+    """Flow from the pixels of an instant to both frames, and the weights of the frames."""
 
     flow: Tensor
     """[1, 4, H, W] float32, px: to the first frame (x, y), to the second (x, y)."""
@@ -28,17 +106,7 @@ class Motion:
     """[1, 1, H, W] float32: the first frame's weight as a logit."""
 
 
-@dataclass(frozen=True, eq=False)
-class EncodedPair:
-    """What all instants of a pair share."""
-
-    images: tuple[Tensor, Tensor]
-    """[1, 3, H, W] each, 0..1, sides a multiple of the layout's `pad_to`."""
-    encodings: tuple[Tensor, ...]
-    """[1, C, H, W] each, for the first and the second; empty without an encoder."""
-
-
-class RifeNetwork:
+class RifeNetwork(_Module):
     """A chain of blocks, coarse to fine; each sees both images as warped so far.
 
     Deviation: the released 4.0 doubles all scales when the second block finds more than 32 px in
@@ -46,139 +114,132 @@ class RifeNetwork:
         The optional refinement networks of 4.0 are left out, as in the release's fast mode.
     """
 
-    def __init__(self, layout: RifeLayout, tensors: Mapping[str, Tensor]) -> None:
-        """A network from its tensors; they decide device and precision.
+    def __init__(self, layout: RifeLayout, widths: tuple[int, ...] | None = None) -> None:
+        """An untrained network.
 
         Args:
             layout: which shape.
-            tensors: the names of `layout.tensor_shapes()`.
+            widths: channels inside each block; those of the layout if not given.
         """
-        self._layout = layout
-        self._tensors = dict(tensors)
+        super().__init__()
+        self.layout = layout
+        for block, width in enumerate(widths or layout.widths):
+            self.add_module(f"block{block}", _Block(layout, layout.input_channels(block), width))
+        if layout.encoded_channels:
+            self.encode = _Encoder(layout.encoded_channels)
 
-    @property
-    def _torch(self) -> ModuleType:
-        # Not kept as an attribute: a module cannot be copied, an interpolator can.
-        return import_torch()
-
-    def encode(self, first: Tensor, second: Tensor) -> EncodedPair:
-        """Prepare what does not depend on the instant.
-
-        Args:
-            first: the earlier image, [1, 3, H, W], 0..1, sides a multiple of `pad_to`.
-            second: the later image, alike.
-        """
-        encodings: tuple[Tensor, ...] = ()
-        if self._layout.encoded_channels:
-            encodings = (self._encode(first), self._encode(second))
-        return EncodedPair((first, second), encodings)
-
-    def estimate(self, pair: EncodedPair, position: Tensor) -> Motion:
+    def forward(self, first: Tensor, second: Tensor, position: float = MIDDLE) -> Motion:
         """The motion at one instant.
 
         Args:
-            pair: from `encode`.
-            position: τ, 0 = first image, 1 = second, as a tensor of one number.
+            first: the earlier image, [1, 3, H, W], 0..1, sides a multiple of `layout.pad_to`.
+            second: the later image, alike.
+            position: τ, 0 = first image, 1 = second.
         """
-        torch = self._torch
-        first, second = pair.images
-        instant = position.to(first).expand(1, 1, *first.shape[-2:])
+        images: tuple[Tensor, ...] = (first, second)
+        encodings = tuple(map(self.encode, images)) if self.layout.encoded_channels else ()
+        both = images
+        if encodings:
+            both = tuple(torch.cat(parts, 1) for parts in zip(images, encodings, strict=True))
+        instant = torch.full_like(first[:, :1], position)
+        moved = (*images, *encodings)
         flow: Tensor = None
         mask: Tensor = None
         features: Tensor = None
-        moved = (*pair.images, *pair.encodings)
-        for block, scale in enumerate(self._layout.scales):
+        for number, scale in enumerate(self.layout.scales):
+            block = getattr(self, f"block{number}")
             if flow is None:
-                flow, mask, features = self._block(block, (*moved, instant), None, scale)
-                flow, mask = flow.float(), mask.float()
+                flow, mask, features = block((*moved, instant), None, scale)
             else:
-                inputs = (*moved, instant, mask.to(first.dtype), features)
-                step, logit, features = self._block(block, inputs, flow, scale)
-                flow = flow + step.float()
-                mask = logit.float() if self._layout.replaces_mask else mask + logit.float()
-            both = (
-                torch.cat((first, *pair.encodings[:1]), 1),
-                torch.cat((second, *pair.encodings[1:]), 1),
-            )
+                step, logit, features = block((*moved, instant, mask, features), flow, scale)
+                flow = flow + step
+                mask = logit if self.layout.replaces_mask else mask + logit
             moved = self._warped(both, flow)
         return Motion(flow, mask)
 
-    def _warped(self, both: tuple[Tensor, Tensor], flow: Tensor) -> tuple[Tensor, ...]:
+    def _warped(self, both: tuple[Tensor, ...], flow: Tensor) -> tuple[Tensor, ...]:
         """Both images, then both encodings, all warped; an image and its encoding move together."""
         first, second = warp(both[0], flow[:, :2]), warp(both[1], flow[:, 2:])
-        if not self._layout.encoded_channels:
+        if not self.layout.encoded_channels:
             return first, second
         return first[:, :3], second[:, :3], first[:, 3:], second[:, 3:]
 
-    def _block(
-        self, block: int, inputs: tuple[Tensor, ...], flow: Tensor | None, scale: int
+
+class _Block(_Module):
+    """One scale: reduce to a quarter, convolve, enlarge again."""
+
+    def __init__(self, layout: RifeLayout, inputs: int, width: int) -> None:
+        super().__init__()
+        self._layout = layout
+
+        def activated(*channels: int, stride: int) -> Any:
+            slope = nn.PReLU(channels[1]) if layout.learned_slopes else nn.LeakyReLU(LEAK)
+            return nn.Sequential(nn.Conv2d(*channels, 3, stride, 1), slope)
+
+        half = width // 2
+        self.conv0 = nn.Sequential(
+            activated(inputs, half, stride=2), activated(half, width, stride=2)
+        )
+        self.convblock = nn.Sequential(
+            *(
+                activated(width, width, stride=1) if layout.learned_slopes else _Bridged(width)
+                for _ in range(BODY_LAYERS)
+            )
+        )
+        head = nn.ConvTranspose2d(width, layout.head_channels, 4, 2, 1)
+        self.lastconv = nn.Sequential(head, nn.PixelShuffle(2)) if layout.shuffles else head
+
+    def forward(
+        self, inputs: tuple[Tensor, ...], flow: Tensor | None, scale: int
     ) -> tuple[Tensor, Tensor, Tensor]:
-        """Flow step (px), mask and features of one block, at the images' size."""
-        x = self._resize(self._torch.cat(inputs, 1), 1 / scale)
+        """Flow step (px), mask and features, at the images' size."""
+        x = _resize(torch.cat(inputs, 1), 1 / scale)
         if flow is not None:
-            reduced = self._resize(flow, 1 / scale) / scale
-            x = self._torch.cat((x, reduced.to(x.dtype)), 1)
-        name = f"block{block}"
-        x = self._body(self._reduce(x, name), name)
-        if self._layout.shuffles:
-            x = self._convolve_up(x, f"{name}.lastconv.0")
-            x = self._torch.nn.functional.pixel_shuffle(x, 2)
-            grown = scale
-        else:
-            x = self._convolve_up(x, f"{name}.lastconv")
-            grown = 2 * scale
-        x = self._resize(x, grown)
+            x = torch.cat((x, _resize(flow, 1 / scale) / scale), 1)
+        x = self.conv0(x)
+        x = self.convblock(x) + x if self._layout.learned_slopes else self.convblock(x)
+        grown = scale if self._layout.shuffles else 2 * scale
+        x = _resize(self.lastconv(x), grown)
         end = FLOW_CHANNELS + 1
         kept = x[:, end : end + self._layout.features]
-        return x[:, :FLOW_CHANNELS].float() * grown, x[:, FLOW_CHANNELS:end], kept
+        return x[:, :FLOW_CHANNELS] * grown, x[:, FLOW_CHANNELS:end], kept
 
-    def _reduce(self, x: Tensor, name: str) -> Tensor:
-        """A quarter of the size, in two steps."""
-        for layer in (0, 1):
-            at = f"{name}.conv0.{layer}"
-            x = self._activate(self._convolve(x, f"{at}.0", stride=2), f"{at}.1.weight")
+
+class _Bridged(_Module):
+    """A convolution, scaled by channel, around which its input is added."""
+
+    def __init__(self, width: int) -> None:
+        super().__init__()
+        self.conv = nn.Conv2d(width, width, 3, 1, 1)
+        self.beta = nn.Parameter(torch.ones(1, width, 1, 1))
+
+    def forward(self, x: Tensor) -> Tensor:
+        return nn.functional.leaky_relu(self.conv(x) * self.beta + x, LEAK)
+
+
+class _Encoder(_Module):
+    """Features of one image that all blocks see."""
+
+    def __init__(self, channels: int) -> None:
+        super().__init__()
+        self.cnn0 = nn.Conv2d(3, ENCODER_CHANNELS, 3, 2, 1)
+        self.cnn1 = nn.Conv2d(ENCODER_CHANNELS, ENCODER_CHANNELS, 3, 1, 1)
+        self.cnn2 = nn.Conv2d(ENCODER_CHANNELS, ENCODER_CHANNELS, 3, 1, 1)
+        self.cnn3 = nn.ConvTranspose2d(ENCODER_CHANNELS, channels, 4, 2, 1)
+
+    def forward(self, image: Tensor) -> Tensor:
+        x = image
+        for layer in (self.cnn0, self.cnn1, self.cnn2):
+            x = nn.functional.leaky_relu(layer(x), LEAK)
+        return self.cnn3(x)
+
+
+def _resize(x: Tensor, factor: float) -> Tensor:
+    if factor == 1:
         return x
-
-    def _body(self, x: Tensor, name: str) -> Tensor:
-        start = x
-        for layer in range(BODY_LAYERS):
-            at = f"{name}.convblock.{layer}"
-            if self._layout.learned_slopes:
-                x = self._activate(self._convolve(x, f"{at}.0"), f"{at}.1.weight")
-            else:
-                step = self._convolve(x, f"{at}.conv") * self._tensors[f"{at}.beta"]
-                x = self._leak(step + x)
-        return x + start if self._layout.learned_slopes else x
-
-    def _encode(self, image: Tensor) -> Tensor:
-        x = self._leak(self._convolve(image, "encode.cnn0", stride=2))
-        for layer in (1, 2):
-            x = self._leak(self._convolve(x, f"encode.cnn{layer}"))
-        return self._convolve_up(x, "encode.cnn3")
-
-    def _activate(self, x: Tensor, slope: str) -> Tensor:
-        if self._layout.learned_slopes:
-            return self._torch.nn.functional.prelu(x, self._tensors[slope])
-        return self._leak(x)
-
-    def _leak(self, x: Tensor) -> Tensor:
-        return self._torch.nn.functional.leaky_relu(x, LEAK)
-
-    def _convolve(self, x: Tensor, name: str, *, stride: int = 1) -> Tensor:
-        weight, bias = self._tensors[f"{name}.weight"], self._tensors[f"{name}.bias"]
-        return self._torch.nn.functional.conv2d(x, weight, bias, stride=stride, padding=1)
-
-    def _convolve_up(self, x: Tensor, name: str) -> Tensor:
-        weight, bias = self._tensors[f"{name}.weight"], self._tensors[f"{name}.bias"]
-        convolve = self._torch.nn.functional.conv_transpose2d
-        return convolve(x, weight, bias, stride=2, padding=1)
-
-    def _resize(self, x: Tensor, factor: Any) -> Tensor:
-        if factor == 1:
-            return x
-        return self._torch.nn.functional.interpolate(
-            x, scale_factor=float(factor), mode="bilinear", align_corners=False
-        )
+    return nn.functional.interpolate(
+        x, scale_factor=float(factor), mode="bilinear", align_corners=False
+    )
 
 
 def move_motion(middle: Motion, position: float) -> Motion:

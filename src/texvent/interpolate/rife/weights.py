@@ -1,31 +1,20 @@
-"""RIFE's weights: the file, and the layout of its network."""
+"""RIFE's weights file: find it, read it, write it."""
 
 from __future__ import annotations
 
 import functools
-from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError
-from texvent.interpolate.networks.torch_import import EXTRA
-from texvent.interpolate.rife.layouts import (
-    LAYOUTS,
-    RifeLayout,
-    is_network_tensor,
-    recognise_layout,
-)
+from texvent.interpolate.networks import EXTRA, import_torch, load_strictly
 from texvent.io.atomic import atomic_file
-from texvent.networks.weight_files import (
-    Tensor,
-    check_finite,
-    describe_file,
-    describe_mismatch,
-    named_tensors,
-    read_mapping,
-    shapes_of,
-)
+from texvent.networks.weight_files import describe_file, named_tensors, read_mapping
 from texvent.runtime.cache_folder import cache_folder
+
+if TYPE_CHECKING:
+    from texvent.interpolate.rife.network import RifeNetwork
 
 DEFAULT_FILE = "rife.safetensors"
 """Name, in the weights folder, of the file that `texvent weights pull rife` writes."""
@@ -33,15 +22,6 @@ WHERE_FROM = (
     "fetch version 4.0 with: texvent weights pull rife; or pass the flownet.pkl of "
     "Practical-RIFE 4.0, 4.6, 4.25 or 4.26 with --interpolator-weights PATH"
 )
-
-
-@dataclass(frozen=True, eq=False)
-class RifeWeights:
-    """The tensors of one network."""
-
-    layout: RifeLayout
-    tensors: dict[str, Tensor]
-    """Name → tensor, float32, on the CPU; nothing but the network's own."""
 
 
 def find_rife_weights(path: Path | None) -> Path:
@@ -52,28 +32,47 @@ def find_rife_weights(path: Path | None) -> Path:
     """
     chosen = path or cache_folder("weights") / DEFAULT_FILE
     if not chosen.is_file():
-        what = "there is no weights file" if path else "RIFE's weights are not here:"
-        raise InputError(f"{what} {chosen}; {WHERE_FROM}")
+        problem = "there is no weights file" if path else "RIFE's weights are not here:"
+        raise InputError(f"{problem} {chosen}; {WHERE_FROM}")
     return chosen
 
 
-def read_rife_weights(path: Path) -> RifeWeights:
-    """Weights from a published file, or from one that `texvent weights pull` converted.
+def read_rife_weights(path: Path) -> RifeNetwork:
+    """The network in a published file, or in one that `texvent weights pull` converted.
+
+    Tensors outside the blocks and the encoder (a training teacher, a refinement network) are
+    ignored.
 
     Args:
         path: `.safetensors`, or a torch state dict. The layout is recognised from the tensors.
+
+    Returns:
+        The network, float32, on the CPU.
 
     Raises:
         FileFormatError: the file is damaged or holds another network.
         MissingDependencyError: torch or safetensors is not installed.
     """
+    torch = import_torch()
+    from texvent.interpolate.rife.network import RifeNetwork, closest_layout  # needs torch
+
     tensors = named_tensors(read_mapping(path, WHERE_FROM, extra=EXTRA), extra=EXTRA)
-    inner = {name: tensor for name, tensor in tensors.items() if is_network_tensor(name)}
-    layout = recognise_layout(shapes_of(inner))
-    if layout is None:
-        raise FileFormatError(f"{path} {_describe_layout_mismatch(inner)}; {WHERE_FROM}")
-    check_finite(inner, path)
-    return RifeWeights(layout, inner)
+    inner = {name: tensor for name, tensor in tensors.items() if _is_network_tensor(name)}
+    if not inner:
+        raise FileFormatError(
+            f"{path} has no tensor of RIFE's network (none is called block0...); {WHERE_FROM}"
+        )
+    layout, widths = closest_layout(inner)
+    with torch.device("meta"):
+        network = RifeNetwork(layout, widths)
+    load_strictly(network, inner, path, f"closest version: {layout.name}; {WHERE_FROM}")
+    return network
+
+
+def _is_network_tensor(name: str) -> bool:
+    """Whether a tensor belongs to the encoder or to a numbered block."""
+    part = name.partition(".")[0]
+    return part == "encode" or (part.startswith("block") and part[5:].isdigit())
 
 
 def describe_rife_weights(path: Path) -> dict[str, str]:
@@ -92,25 +91,14 @@ def _layout_name(path: Path, sha256: str) -> str:
     return read_rife_weights(path).layout.name
 
 
-def write_rife_weights(weights: RifeWeights, path: Path) -> None:
-    """Store weights as safetensors, replacing a file of that name.
+def write_rife_weights(network: RifeNetwork, path: Path) -> None:
+    """Store a network's weights as safetensors, replacing a file of that name.
 
     Raises:
         OutputError: the file cannot be written.
         MissingDependencyError: safetensors is not installed.
     """
     writer = require("safetensors.torch", extra=EXTRA)
-    tensors = {name: tensor.contiguous() for name, tensor in weights.tensors.items()}
+    tensors = {name: tensor.contiguous() for name, tensor in network.state_dict().items()}
     with atomic_file(path, overwrite=True) as part:
-        part.write_bytes(writer.save(tensors, metadata={"layout": weights.layout.name}))
-
-
-def _describe_layout_mismatch(tensors: dict[str, Tensor]) -> str:
-    """How the tensors differ from the layout that they are closest to."""
-    if not tensors:
-        return "has no tensor of RIFE's network (none is called block0...)"
-    shapes = shapes_of(tensors)
-    closest = max(LAYOUTS, key=lambda one: len(shapes.items() & one.tensor_shapes().items()))
-    known = ", ".join(layout.name for layout in LAYOUTS)
-    problem = describe_mismatch(shapes, closest.tensor_shapes())
-    return f"{problem} (closest layout: {closest.name}; known layouts: {known})"
+        part.write_bytes(writer.save(tensors, metadata={"layout": network.layout.name}))

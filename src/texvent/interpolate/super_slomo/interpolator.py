@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 from texvent.config import InterpolateConfig
-from texvent.interpolate.networks.device import pad_to_multiple
-from texvent.interpolate.networks.interpolator import NetworkInterpolator
-from texvent.interpolate.networks.torch_import import Tensor, import_torch
-from texvent.interpolate.networks.torch_warp import warp
-from texvent.interpolate.super_slomo.layout import FLOW_NET, PAD_TO, REFINE_NET
-from texvent.interpolate.super_slomo.network import UNet
-from texvent.interpolate.super_slomo.weights import check_checkpoint_path, read_checkpoint
+from texvent.errors import ConfigError, InputError
+from texvent.interpolate.networks import (
+    NetworkInterpolator,
+    Tensor,
+    import_torch,
+    pad_to_multiple,
+    warp,
+)
 from texvent.networks.weight_files import describe_file
 from texvent.video import FrameStream
 
@@ -41,7 +43,7 @@ class SuperSlomoInterpolator(NetworkInterpolator):
         """An interpolator with its weights loaded.
 
         Args:
-            config: weights, device and precision.
+            config: weights and device.
             stream: not used; every interpolator is built alike.
 
         Raises:
@@ -52,10 +54,12 @@ class SuperSlomoInterpolator(NetworkInterpolator):
         """
         del stream
         import_torch()
-        super().__init__(check_checkpoint_path(config.interpolator_weights), config)
+        from texvent.interpolate.super_slomo.network import PAD_TO, read_checkpoint  # needs torch
+
+        super().__init__(_find_checkpoint(config.interpolator_weights), config)
         networks = read_checkpoint(self._path)
-        self._flow_net = self._load(networks[FLOW_NET.key])
-        self._refine_net = self._load(networks[REFINE_NET.key])
+        self._flow_net, self._refine_net = (one.to(self._device) for one in networks)
+        self._pad_to = PAD_TO
 
     @staticmethod
     def provenance(config: InterpolateConfig) -> dict[str, str]:
@@ -65,24 +69,14 @@ class SuperSlomoInterpolator(NetworkInterpolator):
             MissingDependencyError, ConfigError, InputError: as when it is built.
         """
         import_torch()
-        return describe_file(check_checkpoint_path(config.interpolator_weights))
-
-    def _load(self, tensors: dict[str, Tensor]) -> UNet:
-        placement = self._placement
-        return UNet(
-            {name: one.to(placement.device, placement.dtype) for name, one in tensors.items()}
-        )
-
-    def _predict(self, network: UNet, x: Tensor) -> Tensor:
-        """The network's output, float32."""
-        return network.predict(x.to(self._placement.dtype)).float()
+        return describe_file(_find_checkpoint(config.interpolator_weights))
 
     def _prepare(self, images: Sequence[Tensor]) -> _Pair:
         torch = import_torch()
         mean = torch.tensor(MEAN_COLOUR).reshape(1, 3, 1, 1)
-        both = torch.cat([pad_to_multiple(image - mean, PAD_TO) for image in images], 1)
-        both = both.to(self._placement.device)
-        return _Pair(both, self._predict(self._flow_net, both))
+        both = torch.cat([pad_to_multiple(image - mean, self._pad_to) for image in images], 1)
+        both = both.to(self._device)
+        return _Pair(both, self._flow_net(both))
 
     def _luma_at(self, pair: _Pair, lumas: Sequence[Tensor], at: float) -> Tensor:
         torch = import_torch()
@@ -92,7 +86,7 @@ class SuperSlomoInterpolator(NetworkInterpolator):
         warped_first = warp(pair.images[:, :3], to_first)
         warped_second = warp(pair.images[:, 3:], to_second)
         seen = (pair.images, pair.flows, to_second, to_first, warped_second, warped_first)
-        correction = self._predict(self._refine_net, torch.cat(seen, 1))
+        correction = self._refine_net(torch.cat(seen, 1))
         height, width = lumas[0].shape[-2:]
         correction = correction[..., :height, :width]
         to_first = to_first[..., :height, :width] + correction[:, :2]
@@ -102,3 +96,20 @@ class SuperSlomoInterpolator(NetworkInterpolator):
         weight_second = at * (1 - visible_first)
         mixed = weight_first * warp(lumas[0], to_first) + weight_second * warp(lumas[1], to_second)
         return (mixed / (weight_first + weight_second))[0, 0]
+
+
+def _find_checkpoint(path: Path | None) -> Path:
+    """The path of a checkpoint that exists.
+
+    Raises:
+        ConfigError: none was named.
+        InputError: there is no such file.
+    """
+    if path is None:
+        raise ConfigError(
+            "super-slomo needs its network's weights, which no package carries: SuperSloMo.ckpt of "
+            "the project avinashpaliwal/Super-SloMo on GitHub. Pass --interpolator-weights PATH"
+        )
+    if not path.is_file():
+        raise InputError(f"there is no weights file {path}; pass SuperSloMo.ckpt")
+    return path

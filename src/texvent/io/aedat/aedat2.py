@@ -1,71 +1,92 @@
 """AEDAT2, jAER's format: text lines that start with `#`, then 8 bytes per event, big-endian.
 
-    record   u32 address · u32 time, µs; the address layouts are in `aedat2_layouts`
+    record       u32 address · u32 time, µs
+    davis346     (259 - y)<<22 | (345 - x)<<12 | p<<11      jAER and v2e; bit 31 or 10: no event
+    jaer-dvs128  (127 - y)<<8 | (127 - x)<<1 | (1 - p)      jAER; bit 31 or 15: no event
+    dvs128       x<<8 | y<<1 | p                            tonic
+    cifar10-dvs  (127 - x)<<8 | (127 - y)<<1 | (1 - p)      SpikingJelly
 
-Times stay below 2^31 µs (35.8 min): most readers take them as signed. texvent names the layout
-in the header (`# Layout: davis346`); a file of another program that names no layout is read only
-with the layout's format given, because a wrong one gives wrong events without any error.
+The layout of the address depends on the camera and the tool; x and y count from the top left here,
+y from the bottom in jAER. A header line `# Layout: davis346` or `# AEChip: ...` names it; any other
+file is read only with the layout's format given, because a wrong one gives wrong events without any
+error. docs/files.md says which recording is read with which.
 
-Traps:
-    The only line with a time is `# Creation time: System.currentTimeMillis() 0`: other wordings
-    crash readers. It is 0, so that the same events give the same file.
-    A first record that begins with the byte of `#` (DAVIS346, y 116 to 119) would be taken for
-    text; then a record of an external signal (no pixel's) of the same time precedes it.
-    SpikingJelly and tonic do not know such records and see one OFF event more.
-
-Source: iniVation, AEDAT 2.0 file format.
+Sources: iniVation, AEDAT 2.0 file format; jAER, DVS128.Extractor (flips x and the polarity); the
+readers named above (formats are facts).
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from contextlib import contextmanager
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError
-from texvent.io.aedat.aedat2_layouts import (
-    CIFAR10_DVS,
-    DAVIS346,
-    DVS128,
-    JAER_DVS128,
-    LAYOUTS,
-    SPECIAL,
-    AddressLayout,
-)
-from texvent.io.aedat.header import (
-    AEDAT2_END,
-    AEDAT2_MAGIC,
-    AedatHeader,
-    make_aedat_header,
-    read_aedat_header,
-)
-from texvent.io.block_codec import BlockCodec, FileContents, read_records
-from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.aedat.header import AEDAT2_END, AEDAT2_MAGIC, AedatHeader, read_aedat_header
+from texvent.io.block_codec import BlockReader, FileContents, read_records
 from texvent.io.input_checks import begins_with
-from texvent.io.limits import FormatLimits
 from texvent.io.protocol import Columns
+from texvent.sensor import SensorSize
 
 RECORD = np.dtype([("address", ">u4"), ("t", ">u4")])
-STOP_US = 1 << 31
-COMMENTS = (
-    "# This is a raw AE data file - do not edit",
-    "# Data format is int32 address, int32 timestamp (8 bytes total), repeated for each event",
-    "# Timestamps tick is 1 us",
-    "# Creation time: System.currentTimeMillis() 0",
-)
+SPECIAL = 1 << 10
+"""Bit of a DAVIS address that is no pixel's: an external signal."""
+APS = 1 << 31
+"""Bit of a DAVIS address that is an image's or an IMU's; of a DVS128's, jAER's special events."""
+SYNC = 1 << 15
+"""Bit of a DVS128 address that is an external signal's."""
+
+Addresses: TypeAlias = NDArray[np.int64]
 
 
-class Aedat2Codec(BlockCodec):
-    """AEDAT2 whose layout follows from the header on reading and from the sensor on writing."""
+@dataclass(frozen=True)
+class AddressLayout:
+    """Pixels and polarity of 32-bit addresses; beyond the sensor, coordinates come out negative."""
+
+    name: str
+    size: SensorSize
+    decode: Callable[[Addresses], dict[str, Addresses]]
+    not_events: int = 0
+    """Addresses with one of these bits are no events."""
+
+
+def _decode_davis(address: Addresses) -> dict[str, Addresses]:
+    x, y = 345 - (address >> 12 & 1023), 259 - (address >> 22 & 511)
+    return {"x": x, "y": y, "p": address >> 11 & 1}
+
+
+def _decode_dvs(address: Addresses) -> dict[str, Addresses]:
+    return {"x": address >> 8, "y": address >> 1 & 127, "p": address & 1}
+
+
+def _decode_jaer_dvs(address: Addresses) -> dict[str, Addresses]:
+    return {"x": 127 - (address >> 1 & 127), "y": 127 - (address >> 8), "p": 1 - (address & 1)}
+
+
+def _decode_cifar(address: Addresses) -> dict[str, Addresses]:
+    # Mirroring x and y and swapping ON and OFF flips all 15 bits.
+    return _decode_dvs(address ^ 0x7FFF)
+
+
+_DVS = SensorSize(128, 128)
+DAVIS346 = AddressLayout("davis346", SensorSize(346, 260), _decode_davis, SPECIAL | APS)
+JAER_DVS128 = AddressLayout("jaer-dvs128", _DVS, _decode_jaer_dvs, APS | SYNC)
+DVS128 = AddressLayout("dvs128", _DVS, _decode_dvs)
+CIFAR10_DVS = AddressLayout("cifar10-dvs", _DVS, _decode_cifar)
+LAYOUTS = {layout.name: layout for layout in (DAVIS346, JAER_DVS128, DVS128, CIFAR10_DVS)}
+
+
+class Aedat2Codec(BlockReader):
+    """AEDAT2 whose header names its layout."""
 
     name: ClassVar[str] = "aedat2"
     extensions: ClassVar[tuple[str, ...]] = (".aedat",)
     layout: ClassVar[AddressLayout | None] = None
-    limits: ClassVar[FormatLimits] = FormatLimits("AEDAT2", 346, STOP_US)
 
     def recognises(self, path: Path) -> bool:
         """True if the file begins as AEDAT2 does."""
@@ -77,40 +98,6 @@ class Aedat2Codec(BlockCodec):
         layout = self.layout or _named_layout(path, header)
         blocks = partial(_read_blocks, path, header.length, layout)
         return FileContents(layout.size, header.metadata(path), blocks)
-
-    def check_target(self, target: FileTarget) -> None:
-        """Refuse a sensor without a layout."""
-        self._layout_for(target)
-
-    @contextmanager
-    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
-        """Write the header."""
-        layout = self._layout_for(target)
-        lines = (AEDAT2_MAGIC, *COMMENTS, f"# Layout: {layout.name}")
-        header = make_aedat_header(lines, target.metadata, AEDAT2_END)
-        with part.open("wb") as file:
-            file.write(header)
-
-            def write(columns: Columns) -> None:
-                records = np.empty(len(columns["t"]), dtype=RECORD)
-                records["address"] = layout.encode(columns)
-                records["t"] = columns["t"]
-                if file.tell() == len(header) and records[0].tobytes().startswith(b"#"):
-                    file.write(np.array([(SPECIAL, records["t"][0])], dtype=RECORD).tobytes())
-                file.write(records.tobytes())
-
-            yield write
-
-    def _layout_for(self, target: FileTarget) -> AddressLayout:
-        layouts = (DAVIS346, DVS128) if self.layout is None else (self.layout,)
-        for layout in layouts:
-            if layout.size == target.size:
-                return layout
-        sizes = " and ".join(str(layout.size) for layout in layouts)
-        raise InputError(
-            f"cannot write {target.path}: {self.name} holds sensors of {sizes}, not {target.size}; "
-            "aedat3 (.aedat), aedat4 (.aedat4) and hdf5 (.h5) hold it"
-        )
 
 
 class Davis346Codec(Aedat2Codec):
@@ -166,10 +153,8 @@ def _named_layout(path: Path, header: AedatHeader) -> AddressLayout:
 def _read_blocks(path: Path, start: int, layout: AddressLayout) -> Iterator[Columns]:
     for block in read_records(path, start, RECORD.itemsize):
         records = np.frombuffer(block, dtype=RECORD)
-        address = records["address"].astype(np.uint32)
-        t = records["t"].astype(np.int64)
-        if layout.not_events:
-            is_event = (address & np.uint32(layout.not_events)) == 0
-            if not is_event.all():
-                address, t = address[is_event], t[is_event]
+        address, t = (records[name].astype(np.int64) for name in ("address", "t"))
+        is_event = (address & layout.not_events) == 0
+        if not is_event.all():
+            address, t = address[is_event], t[is_event]
         yield {**layout.decode(address), "t": t}

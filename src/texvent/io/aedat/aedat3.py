@@ -5,12 +5,9 @@
     event    u32: 31..17 x · 16..2 y · 1 polarity · 0 valid · u32 time, µs, 31 bits
 
 Coordinates below 32768. The time counter turns after 2^31 µs; `time turns` of the packet counts
-this, so long recordings are whole, though many readers look at the 31 bits only. The sensor's
-size is written as `#Size: WIDTHxHEIGHT`; in files of other programs it follows from the camera
-named in `#Source 1: DVS128`, or is asked for. Packets of other types (frames, IMU samples,
-triggers) and events marked invalid are read over.
-
-Traps: capacity is the number of events, because some readers take it for that.
+this, so long recordings are whole. The sensor's size follows from the camera named in
+`#Source 1: DVS128` (or from `#Size: WIDTHxHEIGHT`), or is asked for. Packets of other types
+(frames, IMU samples, triggers) and events marked invalid are skipped.
 
 Source: iniVation, AEDAT 3.1 file format.
 """
@@ -21,7 +18,6 @@ import os
 import re
 import struct
 from collections.abc import Iterator
-from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
 from typing import BinaryIO, ClassVar
@@ -33,18 +29,14 @@ from texvent.io.aedat.header import (
     AEDAT3_END,
     AEDAT3_MAGIC,
     AedatHeader,
-    make_aedat_header,
     read_aedat_header,
 )
-from texvent.io.block_codec import BlockCodec, FileContents, write_records
-from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.block_codec import BlockReader, FileContents
 from texvent.io.input_checks import begins_with
-from texvent.io.limits import FormatLimits
 from texvent.io.protocol import Columns
 from texvent.sensor import SENSORS
 
 EVENT = np.dtype([("place", "<u4"), ("t", "<u4")])
-PACKET_EVENTS = 8192
 POLARITY_TYPE = 1
 TIME_BITS = 31
 TIME_MASK = (1 << TIME_BITS) - 1
@@ -55,12 +47,11 @@ CAMERAS = {"DVS128": "dvs128", "DAVIS240C": "davis240c", "DAVIS346": "davis346"}
 _HEAD = struct.Struct("<2h6i")
 
 
-class Aedat3Codec(BlockCodec):
+class Aedat3Codec(BlockReader):
     """AEDAT3.1."""
 
     name: ClassVar[str] = "aedat3"
     extensions: ClassVar[tuple[str, ...]] = (".aedat",)
-    limits: ClassVar[FormatLimits] = FormatLimits("AEDAT3.1", 1 << 15, 1 << 62)
 
     def recognises(self, path: Path) -> bool:
         """True if the file begins as AEDAT3.1 does."""
@@ -73,41 +64,6 @@ class Aedat3Codec(BlockCodec):
             raise FileFormatError(f"{path}: its header does not end with {AEDAT3_END}")
         size, metadata = _stored_size(path, header), header.metadata(path)
         return FileContents(size, metadata, partial(_read_blocks, path, header.length))
-
-    def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
-        """Write the header."""
-        sizes = {SENSORS[sensor].size: camera for camera, sensor in CAMERAS.items()}
-        lines = (
-            AEDAT3_MAGIC,
-            "#Format: RAW",
-            f"#Source 1: {sizes.get(target.size, 'texvent')}",
-            "#Start-Time: 1970-01-01 00:00:00 (TZ+0000)",
-            f"#Size: {target.size}",
-        )
-        header = make_aedat_header(lines, target.metadata, AEDAT3_END)
-        return write_records(part, header, _encode)
-
-
-def _encode(columns: Columns) -> bytes:
-    """Packets of at most 8192 events, none across a turn of the time counter."""
-    events = np.empty(len(columns["t"]), dtype=EVENT)
-    x, y, p = (columns[name].astype(np.uint32) for name in "xyp")
-    events["place"] = x << 17 | y << 2 | p << 1 | 1
-    events["t"] = columns["t"] & TIME_MASK
-    turns = columns["t"] >> TIME_BITS
-    packets = []
-    start = 0
-    while start < len(events):
-        turn = int(turns[start])
-        same = int(np.searchsorted(turns, turn, side="right"))
-        stop = min(start + PACKET_EVENTS, same)
-        count = stop - start
-        packets += [
-            _HEAD.pack(POLARITY_TYPE, 1, EVENT.itemsize, 4, turn, count, count, count),
-            events[start:stop].tobytes(),
-        ]
-        start = stop
-    return b"".join(packets)
 
 
 def _stored_size(path: Path, header: AedatHeader) -> tuple[int, int] | None:

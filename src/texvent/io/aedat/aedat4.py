@@ -2,7 +2,7 @@
 
 The container is that of `aedat4_container`; a packet of events is a table EVTS.
 Coordinates are i2: sensors up to 32768 pixels a side. Times are i8 µs. Packets hold 10 ms, as
-DV's do, so that its player can seek. How the events were made lies in the XML of the header, as
+DV's do, so that its player can seek. Provenance is in the XML of the header, as
 attribute `texvent`. The first stream of events is read; frames, IMU samples and triggers beside
 it are read over (`texvent.capture.aedat4_frames` reads the frames).
 
@@ -21,13 +21,17 @@ import numpy as np
 
 from texvent.errors import FileFormatError
 from texvent.io.aedat.aedat4_container import (
+    LZ4,
     MAGIC,
+    NONE,
     PACKET_HEAD,
+    ZSTD,
     Container,
+    Packing,
     open_container,
+    packing_of,
     stored_size,
 )
-from texvent.io.aedat.aedat4_packing import LZ4, NONE, ZSTD, Packing, packing_of
 from texvent.io.aedat.aedat4_tables import (
     UNKNOWN,
     PacketEntry,
@@ -39,9 +43,8 @@ from texvent.io.aedat.aedat4_tables import (
     read_events,
 )
 from texvent.io.block_codec import BlockCodec, FileContents, split_by_time
-from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import begins_with
-from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
 

@@ -7,6 +7,9 @@ Events (`aedat4`) and frames (`texvent.capture.aedat4_frames`) are read through 
 packets is not needed: a file whose recording stopped before it was written (position -1) is read
 to its end.
 
+Packets are stored plain, as LZ4 frames or as Zstandard frames (in Python from 3.14 on; before, the
+extra `zstd`). A packet that unpacks to more than 256 MiB is refused.
+
 Source: iniVation, AEDAT 4.0 file format.
 """
 
@@ -14,15 +17,112 @@ from __future__ import annotations
 
 import os
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import BinaryIO
+from types import ModuleType
+from typing import Any, BinaryIO
 
-from texvent.errors import FileFormatError, one_line
-from texvent.io.aedat.aedat4_packing import Packing, packing_of
-from texvent.io.aedat.aedat4_tables import UNKNOWN, StreamInfo, read_info
-from texvent.io.aedat.flatbuffer import Table
+from texvent._require import require
+from texvent.errors import FileFormatError, MissingDependencyError, one_line
+from texvent.io.aedat.aedat4_tables import UNKNOWN, StreamInfo, Table, read_info
+
+MAX_PACKET_BYTES = 256 * 2**20
+"""16 million events, or a frame of 80 megapixels."""
+
+
+@dataclass(frozen=True)
+class Packing:
+    """One way to compress."""
+
+    name: str
+    """As the file's XML says it."""
+    code: int
+    """As the file's header says it."""
+    pack: Callable[[bytes], bytes]
+    unpack: Callable[[bytes], bytes]
+
+
+def packing_of(code: int) -> Packing:
+    """The packing that a file's header names.
+
+    Raises:
+        FileFormatError: no packing has this number.
+        MissingDependencyError: Zstandard is needed and not installed.
+    """
+    if code == 0:
+        return NONE
+    if code in (1, 2):
+        return LZ4
+    if code in (3, 4):
+        _zstd()
+        return ZSTD
+    raise FileFormatError(f"its header names compression {code}; AEDAT4 knows 0 to 4")
+
+
+def _keep(data: bytes) -> bytes:
+    return data
+
+
+def _pack_lz4(data: bytes) -> bytes:
+    packed: bytes = _lz4().compress(data, content_checksum=True)
+    return packed
+
+
+def _unpack_lz4(data: bytes) -> bytes:
+    lz4 = _lz4()
+    return _unpack(lz4.LZ4FrameDecompressor(), data, RuntimeError, "LZ4")
+
+
+def _pack_zstd(data: bytes) -> bytes:
+    zstd = _zstd()
+    options = {zstd.CompressionParameter.checksum_flag: 1}
+    packed: bytes = zstd.compress(data, options=options)
+    return packed
+
+
+def _unpack_zstd(data: bytes) -> bytes:
+    zstd = _zstd()
+    return _unpack(zstd.ZstdDecompressor(), data, zstd.ZstdError, "Zstandard")
+
+
+def _unpack(decompressor: Any, data: bytes, failure: type[Exception], name: str) -> bytes:
+    # In steps: with one large limit, LZ4 sets the whole of it aside for every packet.
+    step = max(65_536, 4 * len(data))
+    parts: list[bytes] = []
+    total = 0
+    try:
+        while not decompressor.eof and total < MAX_PACKET_BYTES:
+            part = decompressor.decompress(b"" if parts else data, max_length=step)
+            if parts and not part:
+                break
+            parts.append(part)
+            total += len(part)
+    except (failure, EOFError, MemoryError) as error:
+        raise FileFormatError(f"a packet is damaged ({name}: {one_line(error)})") from error
+    if not decompressor.eof:
+        what = "is cut off"
+        if total >= MAX_PACKET_BYTES:
+            what = f"unpacks to more than {MAX_PACKET_BYTES // 2**20} MiB"
+        raise FileFormatError(f"a packet {what} ({name})")
+    return parts[0] if len(parts) == 1 else b"".join(parts)
+
+
+def _lz4() -> ModuleType:
+    return require("lz4.frame")
+
+
+def _zstd() -> ModuleType:
+    try:
+        return require("compression.zstd")
+    except MissingDependencyError:
+        return require("backports.zstd", extra="zstd")
+
+
+NONE = Packing("NONE", 0, _keep, _keep)
+LZ4 = Packing("LZ4", 1, _pack_lz4, _unpack_lz4)
+ZSTD = Packing("ZSTD", 3, _pack_zstd, _unpack_zstd)
+
 
 MAGIC = b"#!AER-DAT4.0\r\n"
 PACKET_HEAD = struct.Struct("<ii")
@@ -48,7 +148,7 @@ class Container:
         return next((one for one in self.streams if one.identifier == identifier), None)
 
     def count_packets(self, stream: StreamInfo) -> int:
-        """How many packets a stream has; only their heads are read.
+        """Number of packets of a stream; only their heads are read.
 
         Raises:
             FileFormatError: the file was cut off.
@@ -123,7 +223,7 @@ def stored_size(path: Path, stream: StreamInfo) -> tuple[int, int] | None:
     """Width and height that a stream states, pixels; None if it states none.
 
     Raises:
-        FileFormatError: what it states is no number.
+        FileFormatError: the stated value is no number.
     """
     try:
         return int(stream.attributes["sizeX"]), int(stream.attributes["sizeY"])

@@ -1,19 +1,17 @@
 """The text at the beginning of AEDAT2 and AEDAT3.1 files: lines that start with `#`.
 
-Nothing but the first byte of a line says whether it still is text, so records that begin with
-the byte of `#` would be taken for text. AEDAT3.1 closes its header by a line of its own, and
-texvent writes one into AEDAT2 too (`#End Of ASCII Header`, as jAER does).
+Nothing but the first byte of a line says whether it still is text. AEDAT3.1 closes its header by a
+line of its own, jAER closes AEDAT2 by `#End Of ASCII Header`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from texvent.errors import FileFormatError
-from texvent.io.metadata import MAX_HEADER_BYTES, header_metadata, metadata_from_json
+from texvent.io.metadata import MAX_HEADER_BYTES, metadata_from_json
 
 AEDAT2_MAGIC = "#!AER-DAT2.0"
 AEDAT3_MAGIC = "#!AER-DAT3.1"
@@ -32,7 +30,7 @@ class AedatHeader:
     """Bytes up to the first record."""
 
     def metadata(self, path: Path) -> dict[str, Any]:
-        """How the events were made, or the header another program wrote.
+        """Provenance of the events, or the header of another program.
 
         Raises:
             FileFormatError: the line of texvent is damaged.
@@ -43,7 +41,7 @@ class AedatHeader:
         return {"header": list(self.lines[1:])} if len(self.lines) > 1 else {}
 
     def value(self, key: str) -> str | None:
-        """What follows `#key: ` or `# key: `, if a line begins so."""
+        """Value of the line `#key: ` or `# key: `, if there is one."""
         for line in self.lines:
             name, colon, value = line.removeprefix("#").partition(":")
             if colon and name.strip() == key:
@@ -82,13 +80,3 @@ def read_aedat_header(path: Path, magic: str, end: str) -> AedatHeader:
     if not lines:
         raise FileFormatError(f"{path} does not begin with {magic}")
     return AedatHeader(tuple(lines), length)
-
-
-def make_aedat_header(lines: Sequence[str], metadata: Mapping[str, Any], end: str) -> bytes:
-    """A header of these lines, the metadata and the closing line, ended by CR LF each.
-
-    Raises:
-        InputError: the metadata is not JSON-serialisable or too long.
-    """
-    text = header_metadata(metadata)
-    return "".join(f"{line}\r\n" for line in (*lines, METADATA + text, end)).encode("ascii")

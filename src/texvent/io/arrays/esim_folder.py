@@ -1,7 +1,7 @@
 """ESIM's folders: `0000000000.npz`, `0000000001.npz` …, arrays x, y, t (ns), p (-1 or +1).
 
-texvent adds `texvent.json` with size and metadata; ESIM's folders have none, so the size is asked
-for. Times that are no whole µs are rounded down. Files of 262,144 events keep memory flat.
+ESIM's folders have no sensor size, so it is asked for, unless a file `texvent.json` states it.
+Times that are no whole µs are rounded down.
 
 Trap: tools that expect µs read these times 1000 times too long.
 
@@ -10,10 +10,8 @@ Source: Gehrig et al., Video to Events, CVPR 2020 (rpg_vid2e), and its files.
 
 from __future__ import annotations
 
-import itertools
 import re
 from collections.abc import Iterator
-from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -22,10 +20,8 @@ import numpy as np
 
 from texvent.errors import FileFormatError
 from texvent.io.arrays.npz import read_arrays
-from texvent.io.block_codec import FileContents, FolderCodec
-from texvent.io.block_writer import FileTarget, WriteBlock
-from texvent.io.limits import FormatLimits
-from texvent.io.metadata import parse_sidecar, sidecar_text
+from texvent.io.block_codec import BlockReader, FileContents
+from texvent.io.metadata import parse_sidecar
 from texvent.io.protocol import Columns
 
 FACTS = "texvent.json"
@@ -33,19 +29,19 @@ NS = 1000
 """Nanoseconds per µs."""
 
 
-class EsimFolderCodec(FolderCodec):
+class EsimFolderCodec(BlockReader):
     """Folders of numbered npz files."""
 
     name: ClassVar[str] = "esim"
     has_checksums: ClassVar[bool] = True
-    limits: ClassVar[FormatLimits] = FormatLimits("ESIM npz", 1 << 16, (1 << 63) // NS)
+    is_folder: ClassVar[bool] = True
 
     def recognises(self, path: Path) -> bool:
         """True if it is a folder of npz files with ten-digit names, or of none but texvent's."""
         return path.is_dir() and bool(_numbered(path) or _is_empty_recording(path))
 
     def inspect(self, path: Path) -> FileContents:
-        """Size and metadata lie in a file of texvent's own."""
+        """Size and metadata are in a file of texvent's own."""
         facts = path / FACTS
         size: tuple[int, int] | None = None
         metadata: dict[str, Any] = {}
@@ -54,24 +50,6 @@ class EsimFolderCodec(FolderCodec):
         elif not _numbered(path):
             raise FileFormatError(f"{path} holds no files 0000000000.npz, 0000000001.npz …")
         return FileContents(size, metadata, partial(_read_blocks, path))
-
-    @contextmanager
-    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
-        """Write size and metadata."""
-        text = sidecar_text(target.size, target.metadata)
-        (part / FACTS).write_text(text, encoding="utf-8")
-        numbers = itertools.count()
-
-        def write(columns: Columns) -> None:
-            with (part / f"{next(numbers):010d}.npz").open("wb") as file:
-                t, p = columns["t"] * NS, columns["p"].astype(np.int8) * 2 - 1
-                np.savez(file, x=columns["x"], y=columns["y"], t=t, p=p)
-
-        yield write
-
-    def is_own(self, path: Path) -> bool:
-        """True for numbered archives and texvent's own file."""
-        return path.name == FACTS or re.fullmatch(r"\d{10}\.npz", path.name) is not None
 
 
 def _numbered(path: Path) -> list[Path]:

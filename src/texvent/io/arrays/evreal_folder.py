@@ -4,8 +4,8 @@
     metadata.json  {"sensor_resolution": [height, width], "texvent": all metadata}
 
 Seconds in f8 keep every µs for 71 years, so times stay below 2^51 µs. Images and their times
-(images.npy, images_ts.npy, image_event_indices.npy), which the format may hold too, are neither
-read nor written; a folder that has them is never replaced.
+(images.npy, images_ts.npy, image_event_indices.npy), which the format may hold too, are not read
+here.
 
 Source: Ercan et al., EVREAL: Towards a Comprehensive Benchmark and Analysis Suite for
 Event-based Video Reconstruction, CVPRW 2023, and its reader.
@@ -13,7 +13,6 @@ Event-based Video Reconstruction, CVPRW 2023, and its reader.
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
@@ -24,63 +23,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
-from texvent.io.arrays.npy_file import StoredArray, growing_array
-from texvent.io.block_codec import FileContents, FolderCodec
-from texvent.io.block_writer import FileTarget, WriteBlock
-from texvent.io.limits import FormatLimits
-from texvent.io.metadata import metadata_from_json, metadata_to_json
+from texvent.io.arrays.npy_file import StoredArray
+from texvent.io.block_codec import BlockReader, FileContents, TimedRows, read_rows, seek_rows
+from texvent.io.metadata import metadata_from_json
 from texvent.io.protocol import Columns
-from texvent.io.timed_rows import TimedRows, read_rows, seek_rows
 
 TIMES, PLACES, POLARITIES = "events_ts.npy", "events_xy.npy", "events_p.npy"
 FACTS = "metadata.json"
-OWN = (TIMES, PLACES, POLARITIES, FACTS)
 STOP_US = 1 << 51
 MICROSECONDS = 1_000_000
 PACKET_EVENTS = 2**18
 
 
-class EvrealFolderCodec(FolderCodec):
+class EvrealFolderCodec(BlockReader):
     """Folders that EVREAL reads."""
 
     name: ClassVar[str] = "evreal"
-    limits: ClassVar[FormatLimits] = FormatLimits("EVREAL", 1 << 16, STOP_US)
+    is_folder: ClassVar[bool] = True
 
     def recognises(self, path: Path) -> bool:
         """True if it is a folder with the three arrays."""
         return all((path / name).is_file() for name in (TIMES, PLACES, POLARITIES))
 
     def inspect(self, path: Path) -> FileContents:
-        """Size and metadata lie in metadata.json."""
+        """Size and metadata are in metadata.json."""
         _open_arrays(path)
         size, metadata = _read_facts(path)
         rows = partial(_open_rows, path)
         return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
-
-    @contextmanager
-    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
-        """Write size and metadata, and open the arrays."""
-        facts = {
-            "sensor_resolution": [target.size.height, target.size.width],
-            "texvent": json.loads(metadata_to_json(target.metadata)),
-        }
-        (part / FACTS).write_text(json.dumps(facts) + "\n", encoding="utf-8")
-        with (
-            growing_array(part / TIMES, dtype="<f8") as add_times,
-            growing_array(part / PLACES, dtype="<u2", columns=2) as add_places,
-            growing_array(part / POLARITIES, dtype="?") as add_polarities,
-        ):
-
-            def write(columns: Columns) -> None:
-                add_times(columns["t"] / MICROSECONDS)
-                add_places(np.stack([columns["x"], columns["y"]], axis=1))
-                add_polarities(columns["p"].astype(bool))
-
-            yield write
-
-    def is_own(self, path: Path) -> bool:
-        """True for the three arrays and metadata.json."""
-        return path.name in OWN
 
 
 def _read_facts(path: Path) -> tuple[tuple[int, int] | None, dict[str, Any]]:

@@ -2,7 +2,7 @@
 
 Older files call them x_pos, y_pos, timestamp and polarity.
 
-Beside it lie width, height and texvent (all metadata as JSON), which its loader does not look
+Further arrays are width, height and texvent (all metadata as JSON), which its loader does not look
 for; files of the data set itself have none: it is 640x480, to be given. As with every npz, writer
 and reader hold the whole recording in memory (13 bytes per event).
 
@@ -23,9 +23,8 @@ from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.io.arrays.npz import read_arrays, stored_contents
 from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.files import load
-from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_to_json
 from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize

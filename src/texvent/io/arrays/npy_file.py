@@ -125,7 +125,7 @@ class StoredArray:
         return found.reshape(-1 if values else max(stop - start, 0), *self.shape[1:])
 
     def _read_whole(self) -> NDArray[Any]:
-        """An array stored column by column, whose rows lie all over the file."""
+        """An array stored column by column, whose rows are spread over the file."""
         with reporting_damage(self.path, "a NumPy array", NPY_DAMAGE):
             whole: NDArray[Any] = np.load(self.path, allow_pickle=False)
         return whole

@@ -1,7 +1,7 @@
 """NumPy archives: x, y, t, p and width, height, timestamp_scale_ms; read by eventcv and evutils.
 
 More arrays hold what those do not look for: `texvent`, all metadata as JSON, and `label`
-(1 = noise), `instance` and `class_id` where the run was told to store them.
+(1 = noise), `instance` and `class_id` if the run stores them.
 
 The format holds each column as one array, so writer and reader need the whole recording in
 memory (13 bytes per event). Use HDF5 for long recordings.
@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import tokenize
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -23,8 +23,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, shown
 from texvent.events import COLUMN_TYPES
 from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget, WriteBlock
-from texvent.io.column_names import find_columns
+from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import (
     TIMESTAMP_SCALE_MS,
     ZIP_DAMAGE,
@@ -34,9 +33,42 @@ from texvent.io.input_checks import (
     optional_columns,
     reporting_damage,
 )
-from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
+
+SPELLINGS = {
+    "t": ("t", "ts", "timestamp", "timestamps", "time", "times", "t_us", "timestamp_us"),
+    "x": ("x", "xs"),
+    "y": ("y", "ys"),
+    "p": ("p", "ps", "pol", "polarity", "polarities"),
+}
+"""Column → its names, in lower case."""
+
+
+def find_columns(path: Path, names: Iterable[str], *, kind: str = "column") -> dict[str, str]:
+    """t, x, y, p → the name that a file gives each.
+
+    Args:
+        path: the file, for messages.
+        names: all names in the file, with capitals or without.
+        kind: kind of the named objects, such as "array".
+
+    Raises:
+        FileFormatError: a column is missing or there twice; the message says what is accepted.
+    """
+    names, found = list(names), {}
+    for column, spellings in SPELLINGS.items():
+        matching = [name for name in names if name.lower() in spellings]
+        if len(matching) != 1:
+            what = f"{len(matching)} {kind}s" if matching else f"no {kind}"
+            others = " or ".join(spellings[1:4])
+            raise FileFormatError(
+                f"{path} has {what} {column!r} (it has: {shown(', '.join(names) or 'none')}); "
+                f"texvent reads {kind}s t, x, y, p; {column} may be called {others}"
+            )
+        found[column] = matching[0]
+    return found
+
 
 NPZ_DAMAGE = (
     *ZIP_DAMAGE,

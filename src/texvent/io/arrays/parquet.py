@@ -16,11 +16,10 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import FileFormatError
+from texvent.io.arrays.npz import find_columns
 from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget, WriteBlock
-from texvent.io.column_names import find_columns
+from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import reporting_damage
-from texvent.io.limits import FormatLimits
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
 

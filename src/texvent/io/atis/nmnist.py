@@ -23,8 +23,7 @@ import numpy as np
 
 from texvent.errors import InputError
 from texvent.io.block_codec import BlockCodec, FileContents, read_records, write_records
-from texvent.io.block_writer import FileTarget, WriteBlock
-from texvent.io.limits import UNLIMITED, FormatLimits
+from texvent.io.block_writer import UNLIMITED, FileTarget, FormatLimits, WriteBlock
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
@@ -53,7 +52,7 @@ class NMnistCodec(BlockCodec):
             )
 
     def inspect(self, path: Path) -> FileContents:
-        """Size and metadata lie beside the file."""
+        """Size and metadata are in a sidecar file."""
         size, metadata = read_sidecar(path)
         return FileContents(size, metadata, partial(_read_blocks, path))
 

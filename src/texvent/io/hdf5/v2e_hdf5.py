@@ -21,14 +21,11 @@ import h5py
 import numpy as np
 
 from texvent.errors import FileFormatError
-from texvent.io.block_codec import FileContents
-from texvent.io.block_writer import FileTarget
-from texvent.io.hdf5.damage import check_claims, check_filters, open_hdf5
+from texvent.io.block_codec import FileContents, TimedRows, read_rows, seek_rows
+from texvent.io.block_writer import FileTarget, FormatLimits
 from texvent.io.hdf5.native import read_metadata, stored_size, write_metadata
-from texvent.io.hdf5.writer import Hdf5BlockCodec, Hdf5Sink
-from texvent.io.limits import FormatLimits
+from texvent.io.hdf5.storage import Hdf5BlockCodec, Hdf5Sink, check_claims, check_filters, open_hdf5
 from texvent.io.protocol import Columns
-from texvent.io.timed_rows import TimedRows, read_rows, seek_rows
 
 CHUNK_EVENTS = 65_536
 PACKET_EVENTS = 8 * CHUNK_EVENTS

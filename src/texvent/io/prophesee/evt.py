@@ -1,4 +1,4 @@
-"""What the three event formats in RAW files (.raw) share: the header that tells them apart.
+"""RAW files (.raw) of EVT2, EVT2.1 and EVT3; their words are described in `evtN_coding.py`.
 
 A RAW file is a text header (`% format EVT3;height=720;width=1280`, …, `% end`) and words of the
 format it names. Older recordings have only `% evt 3.0` and `% geometry 1280x720`, or no size.
@@ -19,14 +19,101 @@ from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar, Protocol, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
+from texvent.events import COLUMN_TYPES
 from texvent.io.block_codec import BlockCodec, FileContents, read_records, write_records
-from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
-from texvent.io.prophesee.word_coding import WordDecoder, WordEncoder, WordKernels
 from texvent.io.protocol import Columns
+
+Words: TypeAlias = bytes | memoryview | NDArray[Any]
+"""Whole words, as stored in the file."""
+
+
+class WordKernels(Protocol):
+    """Interface of the compiled loops of a format."""
+
+    @property
+    def START(self) -> tuple[int, ...]:  # noqa: N802  # modules name constants in capitals
+        """Words before the first event."""
+        ...
+
+    @property
+    def WORD(self) -> str:  # noqa: N802
+        """NumPy type of the numbers the functions take; a word of the file may be two of them."""
+        ...
+
+    @property
+    def DECODER_STATE(self) -> tuple[int, ...]:  # noqa: N802
+        """State before the first word is read."""
+        ...
+
+    @property
+    def ENCODER_STATE(self) -> tuple[int, ...]:  # noqa: N802
+        """State after the words `START` were written."""
+        ...
+
+    def count_events(self, words: NDArray[Any]) -> int:
+        """At least as many as the words hold."""
+        ...
+
+    def decode_words(
+        self, words: NDArray[Any], state: NDArray[np.int64], columns: tuple[NDArray[Any], ...]
+    ) -> int:
+        """Fill columns x, y, t, p and update the state; returns the number of events."""
+        ...
+
+    def count_words(self, times: NDArray[np.int64], state: NDArray[np.int64]) -> int:
+        """At least as many as the events at these times need."""
+        ...
+
+    def encode_events(
+        self, columns: tuple[NDArray[Any], ...], state: NDArray[np.int64], words: NDArray[Any]
+    ) -> int:
+        """Fill words from columns x, y, t, p and update the state; returns their number."""
+        ...
+
+
+class WordDecoder:
+    """Turns consecutive blocks of words into events."""
+
+    def __init__(self, kernels: WordKernels) -> None:
+        self._kernels = kernels
+        self._state = np.array(kernels.DECODER_STATE, dtype=np.int64)
+
+    def decode(self, words: Words) -> Columns:
+        """Columns x, y, t, p of the events in these words."""
+        numbers = np.frombuffer(words, self._kernels.WORD)
+        count = self._kernels.count_events(numbers)
+        columns = {name: np.empty(count, dtype=COLUMN_TYPES[name]) for name in "xytp"}
+        count = self._kernels.decode_words(numbers, self._state, tuple(columns.values()))
+        return {name: column[:count] for name, column in columns.items()}
+
+
+class WordEncoder:
+    """Turns consecutive blocks of events into words."""
+
+    def __init__(self, kernels: WordKernels) -> None:
+        self._kernels = kernels
+        self._state = np.array(kernels.ENCODER_STATE, dtype=np.int64)
+
+    def start(self) -> bytes:
+        """Words before the first event."""
+        return np.array(self._kernels.START, dtype=self._kernels.WORD).tobytes()
+
+    def encode(self, columns: Columns) -> memoryview:
+        """Words of the events in columns x, y, t, p."""
+        room = self._kernels.count_words(columns["t"], self._state)
+        words = np.empty(room, dtype=self._kernels.WORD)
+        ordered = tuple(columns[name] for name in "xytp")
+        count = self._kernels.encode_events(ordered, self._state, words)
+        return words[:count].data.cast("B")
+
 
 MAX_SIDE = 2048
 """Coordinates have 11 bits."""
@@ -114,3 +201,81 @@ def _format_name(header: TextHeader) -> str:
     version = header.fields.get("evt", "")
     older = {"2.0": "EVT2", "2.1": "EVT21", "3.0": "EVT3"}
     return named or older.get(version, version)
+
+
+class Evt2Codec(EvtCodec):
+    """RAW files of EVT2."""
+
+    name: ClassVar[str] = "evt2"
+    title: ClassVar[str] = "EVT2"
+    version: ClassVar[str] = "2.0"
+    word_bytes: ClassVar[int] = 4
+    limits: ClassVar[FormatLimits] = FormatLimits("EVT2", MAX_SIDE, 1 << 34)
+
+    def kernels(self) -> WordKernels:
+        """The compiled loops of EVT2."""
+        from texvent.io.prophesee import evt2_coding  # brings Numba
+
+        return evt2_coding
+
+
+LEGACY = "legacy"
+FIRST_LITTLE_SYSTEM = 0x37
+
+
+class Evt21Codec(EvtCodec):
+    """RAW files of EVT2.1."""
+
+    name: ClassVar[str] = "evt21"
+    title: ClassVar[str] = "EVT21"
+    version: ClassVar[str] = "2.1"
+    word_bytes: ClassVar[int] = 8
+    limits: ClassVar[FormatLimits] = FormatLimits("EVT2.1", MAX_SIDE, 1 << 34)
+    options: ClassVar[Mapping[str, str]] = {"endianness": LEGACY}
+
+    def kernels(self) -> WordKernels:
+        """The compiled loops of EVT2.1."""
+        from texvent.io.prophesee import evt21_coding  # brings Numba
+
+        return evt21_coding
+
+    def make_decoder(self, header: TextHeader | None = None) -> WordDecoder:
+        """A decoder for a file with this header: it may have to exchange the halves of words."""
+        kind = WordDecoder if header is None or is_legacy(header) else SwappedWordDecoder
+        return kind(self.kernels())
+
+
+class SwappedWordDecoder(WordDecoder):
+    """Decodes words whose lower half comes first."""
+
+    def decode(self, words: Words) -> Columns:
+        """Columns x, y, t, p of the events in these words."""
+        numbers = np.frombuffer(words, "<u8")
+        return super().decode(numbers << 32 | numbers >> 32)
+
+
+def is_legacy(header: TextHeader) -> bool:
+    """True if the header says, or its camera implies, that the upper half of a word comes first."""
+    stated = header.options()[1].get("endianness", header.fields.get("endianness"))
+    if stated is not None:
+        return stated == LEGACY
+    system = header.fields.get("system_ID", "")
+    maker = header.fields.get("plugin_integrator_name", header.fields.get("integrator_name"))
+    known = system.isdecimal() and len(system) < 9
+    return known and maker in (None, INTEGRATOR) and 0 < int(system) < FIRST_LITTLE_SYSTEM
+
+
+class Evt3Codec(EvtCodec):
+    """RAW files of EVT3."""
+
+    name: ClassVar[str] = "evt3"
+    title: ClassVar[str] = "EVT3"
+    version: ClassVar[str] = "3.0"
+    word_bytes: ClassVar[int] = 2
+    limits: ClassVar[FormatLimits] = FormatLimits("EVT3", MAX_SIDE, 1 << 42)
+
+    def kernels(self) -> WordKernels:
+        """The compiled loops of EVT3."""
+        from texvent.io.prophesee import evt3_coding  # brings Numba
+
+        return evt3_coding

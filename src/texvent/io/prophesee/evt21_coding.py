@@ -1,7 +1,22 @@
-"""EVT2.1 words ↔ events; the layout is described in `texvent.io.prophesee.evt21`.
+"""EVT2.1 words ↔ events: words of 64 bits for up to 32 events each.
+
+    bits 63..60   type: 0 OFF, 1 ON, 8 TIME_HIGH; others are skipped
+    OFF, ON       59..54 low 6 bits of t (µs) · 53..43 first x, a multiple of 32 · 42..32 y
+                  31..0  bit i set: an event at x + i
+    TIME_HIGH     59..32 t >> 6
+
+Coordinates below 2048, times below 2^34 µs (4 h 46 min), as EVT2. Consecutive events of one time,
+row and polarity whose x rises share a word; the order of events is kept.
+
+The words come in one of two orders of bytes, as the header says: `endianness=little`, plain, or
+`endianness=legacy`, upper half first (each half little-endian), as the IMX636 sends them. texvent
+reads both and writes legacy, which more readers know. Where nothing is stated, cameras of
+Prophesee with a system number below 0x37 count as legacy, the others as little, as in OpenEB.
 
 A word of 64 bits is handled as two numbers of 32 bits, upper half first, the way it is written:
 Numba has no type that holds both signed and unsigned 64 bits.
+
+Source: Prophesee, "EVT 2.1 Format".
 """
 
 from __future__ import annotations
@@ -15,9 +30,9 @@ from texvent.runtime.jit import jit
 
 WORD = "<u4"
 START = (0x8000_0000, 0)
-"""TIME_HIGH 0: see `texvent.io.prophesee.evt2`."""
+"""TIME_HIGH 0: see `texvent.io.prophesee.evt`."""
 DECODER_STATE = (0, -1)
-"""How often TIME_HIGH wrapped, and its value (−1: none yet)."""
+"""Number of wraps of TIME_HIGH, and its value (−1: none yet)."""
 ENCODER_STATE = (0, 0)
 TIME_HIGH = 8
 HALF_TURN = 1 << 27

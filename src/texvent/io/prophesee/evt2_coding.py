@@ -1,4 +1,15 @@
-"""EVT2 words ↔ events; the layout is described in `texvent.io.prophesee.evt2`."""
+"""EVT2 words ↔ events: words of 32 bits, little-endian.
+
+    bits 31..28   type: 0 OFF, 1 ON, 8 TIME_HIGH; others (10 trigger, 14, 15) are skipped
+    OFF, ON       27..22 low 6 bits of t (µs) · 21..11 x · 10..0 y
+    TIME_HIGH     27..0  t >> 6
+
+Coordinates below 2048, times below 2^34 µs (4 h 46 min). Readers disagree on what follows when
+the counter wraps, so texvent does not write later times; it reads wrapped files. A TIME_HIGH word
+is written when its value changes.
+
+Source: Prophesee, "EVT 2.0 Format".
+"""
 
 from __future__ import annotations
 
@@ -11,9 +22,9 @@ from texvent.runtime.jit import jit
 
 WORD = "<u4"
 START = (0x8000_0000,)
-"""TIME_HIGH 0: see `texvent.io.prophesee.evt2`."""
+"""TIME_HIGH 0: see `texvent.io.prophesee.evt`."""
 DECODER_STATE = (0, -1)
-"""How often TIME_HIGH wrapped, and its value (−1: none yet)."""
+"""Number of wraps of TIME_HIGH, and its value (−1: none yet)."""
 ENCODER_STATE = (0, 0)
 TIME_HIGH = 8
 HALF_TURN = 1 << 27

@@ -56,7 +56,7 @@ class TextHeader:
         return None
 
     def metadata(self, path: Path) -> dict[str, Any]:
-        """How the events were made, or what another program wrote about them.
+        """Provenance of the events, or the header of another program.
 
         Raises:
             FileFormatError: the line of texvent is damaged.

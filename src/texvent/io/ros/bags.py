@@ -23,14 +23,12 @@ from typing import Any, ClassVar
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, one_line
+from texvent.io.atomic import hidden_folder
 from texvent.io.block_codec import BlockCodec, FileContents, split_by_time
-from texvent.io.block_writer import FileTarget, WriteBlock
-from texvent.io.hidden_parts import hidden_folder
-from texvent.io.limits import FormatLimits
+from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.metadata import parse_sidecar, sidecar_text
-from texvent.io.prophesee.evt3 import Evt3Codec
+from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.protocol import Columns
-from texvent.io.ros.bag_chunks import bound_chunks
 from texvent.io.ros.messages import (
     EVENT_ARRAY,
     EVENT_ARRAY_TEXT,
@@ -40,6 +38,7 @@ from texvent.io.ros.messages import (
     FRAME,
     EventPacket,
     RawMessage,
+    bound_chunks,
     open_event_array,
     open_event_packet,
     pack_event_array,
@@ -58,7 +57,7 @@ OPEN_MESSAGE = {EVENT_ARRAY: open_event_array, EVENT_PACKET: open_event_packet}
 
 
 class BagCodec(BlockCodec):
-    """What both kinds of bag share."""
+    """Base of both kinds of bag."""
 
     module: ClassVar[str]
     """Package that reads and writes the file."""

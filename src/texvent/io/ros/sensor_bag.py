@@ -26,9 +26,9 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.events import EventStream
+from texvent.io.atomic import hidden_folder
 from texvent.io.block_codec import split_by_time
-from texvent.io.hidden_parts import hidden_folder
-from texvent.io.prophesee.evt3 import Evt3Codec
+from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.ros.bags import (
     EXTRA,
     FACTS_TOPIC,
@@ -60,7 +60,7 @@ Float64Array = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class CameraFacts:
-    """What sensor_msgs/CameraInfo says, pixels."""
+    """Fields of sensor_msgs/CameraInfo, pixels."""
 
     size: SensorSize
     distortion_model: str
@@ -271,7 +271,7 @@ def open_sensor_bag(path: Path, kind: BagKind) -> Iterator[SensorBag]:
     """A new bag to write into; it has its name when the block ends without an exception.
 
     Args:
-        path: the file; nothing lies there.
+        path: the file; it must not exist.
         kind: rosbag1 or mcap.
 
     Raises:

@@ -18,13 +18,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
+from texvent.io.arrays.npz import find_columns
 from texvent.io.block_codec import BlockCodec, FileContents, write_records
-from texvent.io.block_writer import FileTarget, WriteBlock
-from texvent.io.column_names import find_columns
-from texvent.io.limits import FormatLimits
+from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
-from texvent.io.text.rows import parse_table, read_text_blocks, whole_numbers
+from texvent.io.text.event_camera_dataset import parse_table, read_text_blocks, whole_numbers
 
 HEADER = b"t,x,y,p\n"
 HEADLESS = ("x", "y", "p", "t")
@@ -42,7 +41,7 @@ class CsvCodec(BlockCodec):
     has_sidecar: ClassVar[bool] = True
 
     def inspect(self, path: Path) -> FileContents:
-        """Size and metadata lie beside the file; its first line names the columns."""
+        """Size and metadata are in a sidecar file; its first line names the columns."""
         size, metadata = read_sidecar(path)
         columns = _read_header(path)
         return FileContents(size, metadata, partial(_read_blocks, path, columns))
@@ -62,7 +61,7 @@ class _Table:
     """Where the columns are, and where the first row begins."""
 
     names: tuple[str, ...]
-    """What the file calls its columns, in their order."""
+    """Column names of the file, in their order."""
     places: Mapping[str, int]
     """t, x, y, p → number of the column."""
     start: int
@@ -70,7 +69,7 @@ class _Table:
 
     @property
     def rows(self) -> str:
-        """What a row should be, for messages."""
+        """Expected form of a row, for messages."""
         return f"rows of numbers `{','.join(self.names)[:60]}`, polarity 0/1 or -1/+1"
 
 

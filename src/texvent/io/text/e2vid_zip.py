@@ -1,6 +1,6 @@
 """E2VID's zip archives: one text file, first line `width height`, then rows `t x y p` (seconds).
 
-How the events were made lies beside the archive, in `NAME.zip.json`: E2VID's reader allows one
+Provenance is in a sidecar file, `NAME.zip.json`: E2VID's reader allows one
 file in it.
 
 Source: Rebecq et al., High Speed and High Dynamic Range Video with an Event Camera, 2019.
@@ -18,12 +18,11 @@ from typing import BinaryIO, ClassVar, cast
 
 from texvent.errors import FileFormatError
 from texvent.io.block_codec import BlockCodec, FileContents
-from texvent.io.block_writer import FileTarget, WriteBlock
+from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import ZIP_DAMAGE, check_zip, reporting_damage
-from texvent.io.limits import FormatLimits
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
-from texvent.io.text.rows import (
+from texvent.io.text.event_camera_dataset import (
     STOP_US,
     make_rows,
     parse_rows,
@@ -47,7 +46,7 @@ class E2vidZipCodec(BlockCodec):
     has_sidecar: ClassVar[bool] = True
 
     def inspect(self, path: Path) -> FileContents:
-        """The text states the size; metadata lies beside the archive."""
+        """The text states the size; metadata is in a sidecar file."""
         with _open_text(path) as file:
             size = _read_size(file, path)
         _, metadata = read_sidecar(path)

@@ -23,7 +23,7 @@ from texvent.rig.recording import Recording
 from texvent.rig.shutter import ExposedFrame
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.progress import Progress
-from texvent.truth.parts import parse_parts
+from texvent.truth.layout import parse_parts
 from texvent.truth.poses import POSE_HEADER, quaternion, seconds_text
 from texvent.truth.writer import TruthWriter
 from texvent.video import Frame

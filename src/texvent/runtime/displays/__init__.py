@@ -1,1 +1,1 @@
-"""How progress is shown: in a terminal, in a notebook."""
+"""Displays of progress: in a terminal, in a notebook."""

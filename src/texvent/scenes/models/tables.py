@@ -1,4 +1,4 @@
-"""The TOML files of `models/data` as tables, and the traits of nouns that are in them."""
+"""The TOML files of `models/data` and `read/data` as tables, and the traits of nouns in them."""
 
 from __future__ import annotations
 
@@ -17,9 +17,9 @@ def list_data(folder: str) -> list[Traversable]:
 
 
 @cache
-def read_table(name: str) -> Mapping[str, Any]:
-    """The content of `data/<name>.toml`."""
-    file = files("texvent.scenes.models") / "data" / f"{name}.toml"
+def read_table(name: str, room: str = "models") -> Mapping[str, Any]:
+    """The content of `data/<name>.toml` of a room of scenes."""
+    file = files(f"texvent.scenes.{room}") / "data" / f"{name}.toml"
     return tomllib.loads(file.read_text(encoding="utf-8"))
 
 

@@ -208,8 +208,7 @@ class _Parser:
         if not is_back and (not self._starts_group(1) or self._token(1).has("adverb")):
             if token.has("adverb") or not token.has("relation"):
                 return None
-            self._take()
-            return clause
+            return replace(clause, after=(*clause.after, self._take()))
         self._at += 1 + is_back
         phrase = Phrase(token, () if is_back else self._groups(token))
         return replace(clause, after=(*clause.after, phrase))

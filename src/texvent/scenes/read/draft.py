@@ -102,8 +102,7 @@ class SceneDraft:
             max(self.things, key=lambda one: int(one["count"]))["count"] -= 1
         ids = number_nouns([one["noun"] for one in self.things])
         for one in self.things:
-            act = "stand" if one.pop("is_lost", False) else ""
-            act = one.pop("act", act)
+            act = one.pop("act", "stand" if one.pop("is_lost", False) else "")
             done = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
             if act and not done and not one["motions"]:
                 one["motions"].append({"kind": act})

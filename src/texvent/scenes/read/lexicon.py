@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from functools import cache
-from importlib.resources import files
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -18,22 +16,16 @@ from texvent.scenes.models.nouns import DRESSING, NOUNS
 from texvent.scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HAND_GESTURES
 from texvent.scenes.models.places import place_names
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.tables import read_table
 
 _UNSAID = ("parked ", "flying ")
 """Begin the names of variants of nouns, which no sentence names: it says that a bicycle stands."""
 
 
 @cache
-def read_table(name: str) -> Mapping[str, Any]:
-    """Table of words, from a TOML file of `data/`."""
-    text = (files("texvent.scenes.read") / "data" / f"{name}.toml").read_text(encoding="utf-8")
-    return MappingProxyType(tomllib.loads(text))
-
-
-@cache
 def word_set(table: str, key: str) -> frozenset[str]:
     """Words of an entry of words.toml."""
-    return frozenset(read_table("words")[table][key])
+    return frozenset(read_table("words", "read")[table][key])
 
 
 @dataclass(frozen=True)
@@ -118,8 +110,9 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
     ]  # fmt: skip
     names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
-    acts = {one: act for act, agents in read_table("words")["agents"].items() for one in agents}
-    for noun, kinds in read_table("kinds").items():
+    agents = read_table("words", "read")["agents"]
+    acts = {one: act for act, kinds in agents.items() for one in kinds}
+    for noun, kinds in read_table("kinds", "read").items():
         for kind in kinds if noun in nouns else ():
             if kind not in plurals:
                 names.setdefault(kind, NounSense(noun, is_kind=True, act=acts.get(kind, "")))
@@ -136,13 +129,13 @@ def _list_verbs() -> Iterator[tuple[str, Sense]]:
     """Verbs; what only persons, hands or animals can do goes before what anything can."""
     for phrase, sense in (*_list_activities(), *_list_plain_verbs()):
         base, _, rest = phrase.replace("-", " ").partition(" ")
-        written = read_table("words")["irregular"].get(base, "")
+        written = read_table("words", "read")["irregular"].get(base, "")
         for word, form in list_verb_forms(base, written):
             yield f"{word} {rest}".strip(), Sense("verb", sense, form)
 
 
 def _list_plain_verbs() -> Iterator[tuple[str, VerbSense]]:
-    words = read_table("words")
+    words = read_table("words", "read")
     for who, kinds in words["doing"].items():
         for verb, kind in ((verb, kind) for kind, verbs in kinds.items() for verb in verbs):
             base, _, pace = verb.partition("*")
@@ -181,7 +174,7 @@ def _list_effects() -> Iterator[tuple[str, Sense]]:
 
 def _list_words() -> Iterator[tuple[str, Sense]]:
     """Words of places, and those of words.toml: the path to a list of phrases is their sense."""
-    words = read_table("words")
+    words = read_table("words", "read")
     for place, names in place_names().items():
         for name in names:
             yield from _with_plurals(name, Sense("place", place))

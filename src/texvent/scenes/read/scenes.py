@@ -6,10 +6,12 @@ from collections.abc import Mapping, Sequence
 from typing import Any, get_args
 
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent.scenes.models.people.props import list_props
 from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.tables import read_table
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent.scenes.read.draft import Reading, SceneDraft
-from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, read_table, word_set
+from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
 from texvent.scenes.read.tokens import Token, split_prompt
 from texvent.scenes.spec.scene import MAX_BODIES, MoveDirection, MoveKind
 
@@ -46,7 +48,7 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
             move[field] = move.get("pace", 1.0) * value if field == "pace" else value
     phrase = f"{move['kind']} {move.get('direction', '')}".strip()
     pace = {"pace": move["pace"]} if "pace" in move else {}
-    move = split_move(read_table("words")["turned_moves"].get(phrase, phrase)) | pace
+    move = split_move(read_table("words", "read")["turned_moves"].get(phrase, phrase)) | pace
     means = [one.kind for one in senses if one.who == "plain" and one.kind in _MEANS]
     if move["kind"] == "travel" and means:
         move["means"] = means[0]
@@ -55,8 +57,6 @@ def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dic
 
 PLURAL_COUNT, SURROUND_COUNT = 3, 14
 """Copies that a bare plural means, and means all around something."""
-SPOTS = ("left", "right", "centre", "far", "near")
-"""Places in the picture, which are said of the group before: "past a tree on the left"."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 
@@ -110,8 +110,9 @@ class _Reader:
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
         if clause.verb and not objects and _is_passive(clause.verb, phrases[len(before) :]):
-            objects, subjects = list(subjects), self._introduce(phrases[len(before)])
             before.append(phrases[len(before)])
+            objects, subjects = list(subjects), self._relate(before[-1], [], [])
+            self._draft.mark(before[-1].preposition, "shown")
         self._subjects, moved = list(subjects), subjects
         if clause.verb is not None:
             is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
@@ -129,7 +130,10 @@ class _Reader:
                 told = self._relate(one, subjects, moved) or moved
             elif not self._set_scene(one):
                 adverb = one.first("adverb")
-                is_spot = adverb and adverb.value in (("placement", spot) for spot in SPOTS)
+                if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
+                    self._draft.mark(one, "lost")
+                field, value = adverb.value if adverb else ("", "")
+                is_spot = field == "placement" and value in word_set("things", "spots")
                 self._say(one, told if is_spot else moved)
 
     def _find_subjects(self, clause: Clause) -> list[int]:
@@ -185,7 +189,9 @@ class _Reader:
 
     def _name_thing(self, group: Group, head: Token) -> list[int]:
         draft, noun = self._draft, head.first("noun")
-        if len(draft.things) == MAX_BODIES:
+        is_owned = group.article in word_set("things", "owners")
+        is_part = is_owned and noun is not None and noun.value.noun in HAND_NOUNS  # "his hands"
+        if len(draft.things) == MAX_BODIES or is_part:
             return []
         draft.show(head)
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.value.noun]
@@ -221,10 +227,14 @@ class _Reader:
         said = token.first("field", "picture", "adverb")
         field, value = said.value if said is not None else ("", "")
         things = [draft.things[index] for index in subjects]
+        is_set = field in word_set("things", "once") and any(field in one for one in things)
+        is_idle = not any(one["motions"] or "blink_hz" in one for one in things)
         if field == "rate_hz" and "flicker_hz" in light and not things:
             light["flicker_hz"] = value
         elif field == "picture" and draft.things:
             (things or draft.things)[-1]["picture"] = vars(value)
+        elif is_set or (field == "rate_hz" and is_idle):
+            return
         elif said is not None and things:
             for thing in things:
                 _set_field(thing, said.kind, field, value)
@@ -242,7 +252,7 @@ class _Reader:
         """Apply the first sense that the subjects can do; who moves, or None: there is none."""
         draft, has_object = self._draft, has_object or bool(objects)
         acts = (one.value for one in verb.all("verb") if subjects)
-        act = next((one for one in acts if self._fits(one, subjects, has_object)), None)
+        act = next((one for one in acts if self._fits(one, subjects, objects, has_object)), None)
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
@@ -269,7 +279,9 @@ class _Reader:
             else:
                 self._add_effect(verb, act.kind, [index])
 
-    def _fits(self, verb: VerbSense, subjects: Sequence[int], has_object: bool) -> bool:
+    def _fits(
+        self, verb: VerbSense, subjects: Sequence[int], objects: Sequence[int], has_object: bool
+    ) -> bool:
         """Whether the subjects can do it, with an object or without one."""
         things = [self._draft.things[one] for one in subjects]
         names = {one["noun"] for one in things}
@@ -277,7 +289,9 @@ class _Reader:
         acts = word_set("things", "acts") if has_object else ()
         match verb.who:
             case "person":
-                return names <= PERSON_NOUNS and verb.kind not in acts
+                used = {noun for prop in list_props(verb.kind) for noun in prop.nouns}
+                is_used = all(self._draft.things[one]["noun"] in used for one in objects)
+                return names <= PERSON_NOUNS and verb.kind not in acts and is_used
             case "hand":
                 return names <= HAND_NOUNS and not has_object
             case "animal":
@@ -286,13 +300,15 @@ class _Reader:
                 return not has_object and all(self._nouns[one].is_working for one in names)
             case "source" | "lamp":
                 return not has_object and not is_acting
-        if verb.who == "camera" or (verb.kind == "drive" and names & PERSON_NOUNS):
+        is_unfit = verb.kind in word_set("things", "not_of_people") and not has_object
+        if verb.who == "camera" or (is_unfit and names & PERSON_NOUNS):
             return False
         if has_object:
             needs_hands = verb.relation in word_set("things", "of_people")
             return bool(verb.relation) and (is_acting or not needs_hands)
         meets = verb.relation == "collide" and sum(one["count"] for one in things) > 1
-        return meets or not verb.relation or (bool(verb.kind) and not verb.object)
+        needs_object = verb.object or verb.relation in word_set("things", "doing")
+        return meets or not verb.relation or (bool(verb.kind) and not needs_object)
 
     # Prepositions
 
@@ -321,16 +337,10 @@ class _Reader:
             draft.effects[-1]["source"] = targets[0]
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
             is_sent = kind in word_set("things", "routes") and done & word_set("things", "sending")
-            able = () if is_sent else subjects
+            able = () if is_sent or kind == "route" else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
             draft.mark(token, "shown" if any(placed) else "lost")
         return targets
-
-    def _introduce(self, phrase: Phrase) -> list[int]:
-        """Add what a phrase names whose preposition relates nothing: "chased by a dog"."""
-        found = self._relate(phrase, [], [])
-        self._draft.mark(phrase.preposition, "shown")
-        return found
 
     def _go_to_place(self, token: Token, subjects: Sequence[int], moved: Sequence[int]) -> None:
         """As "across a field"; "a dog on a road", which is no vehicle, stands on it."""
@@ -352,6 +362,9 @@ class _Reader:
             kind = "wear"
         elif kind == "at" and target["noun"] not in word_set("things", "tables"):
             kind = "beside"
+        seats = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
+        if seats and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
+            return all([draft.relate(one, "on", seats[0]) for one in targets])
         for one in (draft.things[each] for each in targets if kind == "surround"):
             one["count"] = SURROUND_COUNT if one["count"] == PLURAL_COUNT else one["count"]
         return draft.relate(index, kind, targets)
@@ -410,8 +423,14 @@ class _Reader:
             elif targets:  # as "orbits a car in front of a house"
                 self._relate(one, targets, targets)
             else:
-                found, sense = self._introduce(one), one.preposition.first("relation")
-                targets += found if sense and sense.value in word_set("things", "aims") else []
+                found, sense = self._relate(one, [], []), one.preposition.first("relation")
+                kind = sense.value if sense else ""
+                targets += found if kind in word_set("things", "aims") else []
+                # What is beside the camera is not placed so.
+                draft.mark(
+                    one.preposition,
+                    "lost" if found and kind in word_set("things", "sides") else "shown",
+                )
         if move is not None:
             self._add_move(move)
             if targets:

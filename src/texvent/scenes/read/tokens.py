@@ -117,7 +117,7 @@ def _without_chance(
     after = words[end + 1].casefold() if end + 1 < len(words) else ""
     articles = word_set("senses", "articles")
     is_verb = words[end].endswith("ing") and after in articles
-    is_single = bool(before) and before[-1].text in ("a", "an")
+    is_single = any(one.text in ("a", "an") for one in before[-2:])
     is_of_camera = not before or before[-1].is_sign or any(one.has("camera") for one in before[-9:])
     return tuple(
         one for one in senses

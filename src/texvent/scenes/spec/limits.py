@@ -62,8 +62,13 @@ class Word:
     def check(self, value: str, where: str, words: Vocabulary) -> None:
         """See `Limit.check`."""
         known = words.get(self.kind)
-        if known is not None and value not in known:
-            raise ConfigError(f"{where} is {shown(value)}; {suggest(value, tuple(known))}")
+        if known is None or value in known:
+            return
+        nouns = known.items() if isinstance(known, Mapping) else ()
+        named = (name for name, one in nouns if value in getattr(one, "synonyms", ()))
+        meant = next(named, None)
+        hint = f"did you mean {shown(meant)}?" if meant else suggest(value, tuple(known))
+        raise ConfigError(f"{where} is {shown(value)}; {hint}")
 
     def schema(self) -> dict[str, Any]:
         """See `Limit.schema`: the schema has the words, which editors offer, at one place."""

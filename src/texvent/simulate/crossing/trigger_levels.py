@@ -19,13 +19,24 @@ inside cannot.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.backend.select import Kernel
+from texvent.runtime.jit import jit
+from texvent.runtime.read_only import read_only
+from texvent.runtime.scratch import take_scratch
+from texvent.simulate.kernels.active_pixels import (
+    RUN,
+    MarkedRuns,
+    as_bits,
+    list_marked_runs,
+    make_flags,
+    number_of,
+)
+from texvent.simulate.kernels.elementary_cpu import exponential
+from texvent.simulate.random.draws_cpu import allow_wrap_around
 from texvent.simulate.random.mismatch import Thresholds, thresholds_at
 from texvent.simulate.streaming import IntensityArray
 
@@ -35,7 +46,7 @@ Luma: TypeAlias = NDArray[Any]
 """[n] 0..255 scale, uint8 or float32."""
 
 MARGIN = 1e-6
-"""By how much trigger levels are moved towards the reference; relative, see above."""
+"""Shift of trigger levels towards the reference; relative, see above."""
 BRIGHTNESS_SLACK = 1e-9
 """Log units by which a brightness must be out of reach, for what is rounded."""
 PIXELS_AT_A_TIME = 1 << 14
@@ -68,7 +79,7 @@ class OutsidePixels(NamedTuple):
 
 
 class BrightnessCurve(NamedTuple):
-    """How brightness and intensity belong together."""
+    """Relation of brightness and intensity."""
 
     scale: float
     """A pixel of brightness v has the intensity `scale · e^v + offset`."""
@@ -77,38 +88,22 @@ class BrightnessCurve(NamedTuple):
     """No intensity is as dark as a brightness below this, log units."""
 
 
-FindOutside: TypeAlias = Callable[[Luma, Luma, Luma, Luma], OutsidePixels]
-"""`find_outside(luma, seen, low, high)`, see `trigger_levels_reference.find_outside`."""
-FIND_OUTSIDE = Kernel[FindOutside](__name__, "find_outside")
-SetLevels: TypeAlias = Callable[
-    [Int64Array, Float64Array, Thresholds, BrightnessCurve, Luma, Luma], None
-]
-"""`set_levels(pixel, reference, thresholds, curve, low, high)`, see
-`trigger_levels_reference.set_levels`."""
-SET_LEVELS = Kernel[SetLevels](__name__, "set_levels")
-LookUp: TypeAlias = Callable[[NDArray[Any], NDArray[np.uint8]], NDArray[Any]]
-"""`look_up(table, luma)`, see `trigger_levels_reference.look_up`."""
-LOOK_UP = Kernel[LookUp](__name__, "look_up")
-
-
 class TriggerLevels:
     """The trigger levels of every pixel and its last luma, in the type of the frames."""
 
-    def __init__(self, luma: IntensityArray, curve: BrightnessCurve, *, backend: str) -> None:
+    def __init__(self, luma: IntensityArray, curve: BrightnessCurve) -> None:
         """Start from the first frame; every pixel may fire until its levels are set.
 
         Args:
             luma: 0..255 scale, [H, W], uint8 or float32; copied.
             curve: brightness and intensity.
-            backend: which kernels scan; all find the same.
         """
         self._curve = curve
-        self._backend = backend
         self._seen: Luma = luma.reshape(-1).copy()
         self._low = np.full(self._seen.size, 255, self._seen.dtype)
         self._high = np.zeros(self._seen.size, self._seen.dtype)
 
-    def find_outside(self, luma: IntensityArray) -> OutsidePixels:
+    def find_outside_levels(self, luma: IntensityArray) -> OutsidePixels:
         """Pixels that may fire at a frame, which becomes the last one seen.
 
         Args:
@@ -119,8 +114,7 @@ class TriggerLevels:
             # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
             self._seen, now = self._as_float(self._seen), self._as_float(now)
             self._low, self._high = self._as_float(self._low), self._as_float(self._high)
-        find_outside = FIND_OUTSIDE.load(self._backend)
-        return find_outside(now, self._seen, self._low, self._high)
+        return find_outside_levels(now, self._seen, self._low, self._high)
 
     def set(self, pixel: Int64Array, reference: Float64Array, thresholds: Thresholds) -> None:
         """Set the levels of some pixels from their references.
@@ -130,7 +124,6 @@ class TriggerLevels:
             reference: of all pixels, [H · W] log units.
             thresholds: of the chosen pixels.
         """
-        set_levels = SET_LEVELS.load(self._backend)
         set_levels(pixel, reference, thresholds, self._curve, self._low, self._high)
 
     def set_all(
@@ -149,9 +142,7 @@ class TriggerLevels:
         """
         if of_luma is not None and thresholds.on.size == 1:
             low, high = np.empty(256, np.uint8), np.empty(256, np.uint8)
-            set_levels = SET_LEVELS.load(self._backend)
             set_levels(np.arange(256), of_luma, thresholds, self._curve, low, high)
-            look_up = LOOK_UP.load(self._backend)
             self._low, self._high = look_up(low, self._seen), look_up(high, self._seen)
             return
         # Some at a time: one list of all is larger than most frames.
@@ -162,3 +153,185 @@ class TriggerLevels:
     @staticmethod
     def _as_float(luma: NDArray[Any]) -> Luma:
         return luma.astype(np.float32, copy=False)
+
+
+BLOCK = 128
+"""Pixels whose levels are set together."""
+_0, _1 = np.uint64(0), np.uint64(1)
+
+
+def find_outside_levels(luma: Luma, seen: Luma, low: Luma, high: Luma) -> OutsidePixels:
+    """Pixels that may fire: those not between their two levels.
+
+    Args:
+        luma: [n].
+        seen: luma of the frame before, [n], of the same type as `luma`; becomes `luma`.
+        low: lowest luma at which each pixel cannot fire, [n], of the same type.
+        high: highest such luma, [n]; below `low` where a pixel may fire at any luma.
+    """
+    # Room for all pixels; the system gives memory only to what is used.
+    size, kind = luma.size + 1, luma.dtype
+    found = OutsidePixels(
+        take_scratch("candidates", size, np.int64),
+        take_scratch("before " + kind.char, size, kind.type),
+        take_scratch("now " + kind.char, size, kind.type),
+    )
+    with allow_wrap_around():
+        count = _find_outside_levels(read_only(luma), seen, low, high, found)
+    pixel, before, now = found
+    return OutsidePixels(pixel[:count], before[:count], now[:count])
+
+
+def look_up(table: NDArray[Any], luma: NDArray[np.uint8]) -> NDArray[Any]:
+    """Entries of a table for the luma of each pixel, without NumPy's 64-bit copy of the luma.
+
+    Args:
+        table: [256] float64 or uint8.
+        luma: [n].
+
+    Returns:
+        [n] of the table's type.
+    """
+    found = np.empty(luma.size, table.dtype)
+    _look_up(read_only(table), read_only(luma), found)
+    return found
+
+
+@jit
+def _look_up(table: NDArray[Any], luma: NDArray[np.uint8], found: NDArray[Any]) -> None:
+    for i in range(luma.size):
+        found[i] = table[luma[i]]
+
+
+@jit
+def _find_outside_levels(
+    luma: Luma, seen: Luma, low: Luma, high: Luma, found: OutsidePixels
+) -> int:
+    pixel, before, now = found
+    run, all_bits = _mark_outside(luma, low, high)
+    # Places are counted in uint64, which need no check for counting from the end.
+    count = _0
+    for k in range(run.size):
+        first, bits = np.uint64(run[k] * RUN), all_bits[k]
+        while bits != _0:
+            lowest = bits & (~bits + _1)
+            i = first + np.uint64(number_of(lowest))
+            pixel[count], before[count], now[count] = i, seen[i], luma[i]
+            count += _1
+            bits ^= lowest
+    for place in range(luma.size):
+        seen[place] = luma[place]
+    return int(count)
+
+
+@jit
+def _mark_outside(luma: Luma, low: Luma, high: Luma) -> MarkedRuns:
+    """Mark pixels outside their levels; see `bitmask_cpu`."""
+    is_marked = make_flags(luma.size)
+    for number in range(luma.size // RUN):
+        first, is_any = number * RUN, np.uint8(0)
+        for i in range(first, first + RUN):
+            is_any |= _is_outside(luma[i], low[i], high[i])
+        is_marked[number] = is_any
+    run = list_marked_runs(is_marked)
+    bits, word = np.empty(run.size, np.uint64), np.empty(RUN // 8, np.uint64)
+    mark = word.view(np.uint8)
+    for k in range(run.size):
+        first, last = run[k] * RUN, min(run[k] * RUN + RUN, luma.size)
+        _mark_run(luma, low, high, np.uint64(first), np.uint64(last), mark)
+        bits[k] = as_bits(word)
+    return MarkedRuns(run, bits)
+
+
+@jit
+def _mark_run(
+    luma: Luma,
+    low: Luma,
+    high: Luma,
+    first: np.uint64,
+    last: np.uint64,
+    mark: NDArray[np.uint8],
+) -> None:
+    for i in range(last - first):
+        mark[i] = _is_outside(luma[first + i], low[first + i], high[first + i])
+    mark[last - first :] = 0
+
+
+@jit(inline="always")
+def _is_outside(luma: Any, low: Any, high: Any) -> Any:
+    return np.uint8(luma < low) | np.uint8(luma > high)
+
+
+def set_levels(
+    pixel: NDArray[np.int64],
+    reference: Float64Array,
+    thresholds: Thresholds,
+    curve: BrightnessCurve,
+    low: Luma,
+    high: Luma,
+) -> None:
+    """Set the trigger levels of some pixels, between which they cannot fire.
+
+    Args:
+        pixel: flat index, [n].
+        reference: brightness that all pixels compare with, log units.
+        thresholds: of the chosen pixels.
+        curve: brightness and intensity.
+        low: lowest luma at which a pixel cannot fire, of all pixels; changed in place.
+        high: highest such luma, of all pixels; changed in place.
+    """
+    with np.errstate(all="ignore"):
+        _set_levels(pixel, reference, thresholds, curve, low, high)
+
+
+@jit(error_model="numpy")
+def _set_levels(
+    pixel: NDArray[np.int64],
+    reference: Float64Array,
+    thresholds: Thresholds,
+    curve: BrightnessCurve,
+    low: Luma,
+    high: Luma,
+) -> None:
+    on, off = thresholds
+    scale, offset, darkest = curve
+    darkest_level = scale * exponential(darkest - BRIGHTNESS_SLACK) + offset
+    centre, up, down = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
+    lowest, highest = np.empty(BLOCK, low.dtype), np.empty(BLOCK, low.dtype)
+    for first in range(0, pixel.size, BLOCK):
+        size = min(BLOCK, pixel.size - first)
+        _take_exponentials(on, 1.0, first, size, up)
+        _take_exponentials(off, -1.0, first, size, down)
+        for j in range(size):
+            centre[j] = reference[pixel[first + j]]
+        for j in range(size):
+            centre[j] = scale * exponential(centre[j])
+        for j in range(size):
+            below, above = centre[j] * down[j] + offset, centre[j] * up[j] + offset
+            least = below + MARGIN * (1.0 + abs(below)) if below >= darkest_level else 0.0
+            lowest[j], highest[j] = _as_luma(least, above - MARGIN * (1.0 + abs(above)), low)
+        for j in range(size):
+            low[pixel[first + j]], high[pixel[first + j]] = lowest[j], highest[j]
+
+
+@jit(error_model="numpy")
+def _take_exponentials(
+    values: Float64Array, sign: float, first: int, size: int, rows: Float64Array
+) -> None:
+    """Exponentials of some rows; of [1] values, the only one into all."""
+    if values.size == 1:
+        rows[:size] = exponential(sign * values[0])
+    else:
+        for j in range(size):
+            rows[j] = exponential(sign * values[first + j])
+
+
+@jit(inline="always")
+def _as_luma(lowest: float, highest: float, kind: Luma) -> Any:
+    """Levels in the type of the frames: of bytes, those between both numbers."""
+    if kind.itemsize > 1:
+        return lowest, highest
+    least, most = np.ceil(max(lowest, 0.0)), np.floor(min(highest, 255.0))
+    is_empty = least > most
+    # By way of 32 bits, from which bytes are made in vector registers.
+    return np.int32(255.0 if is_empty else least), np.int32(0.0 if is_empty else most)

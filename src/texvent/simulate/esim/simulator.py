@@ -9,40 +9,63 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
+from texvent.config import check_choices, check_range
 from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
-from texvent.simulate.backend.select import AUTO, GPU
-from texvent.simulate.crossing.ramp import RefractoryPeriod
-from texvent.simulate.crossing.trigger_levels import LOOK_UP, BrightnessCurve, TriggerLevels
-from texvent.simulate.esim.config import WHITE, EsimConfig
-from texvent.simulate.esim.crossings import CROSS_THRESHOLDS, RampPixels
-from texvent.simulate.esim.segment_pixels import BandEvents, LogScale, SegmentPixels
-from texvent.simulate.esim.segments import CrossingRules, CrossingState
-from texvent.simulate.fused.candidates import find_bounds
-from texvent.simulate.fused.definitions import Float64Array, LumaBounds
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import SortedEvents, make_packet
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.packets import FrameInterval, SortedEvents, make_packet
 from texvent.simulate.random.mismatch import (
-    LONG_AGO_US,
-    LOWEST_THRESHOLD,
-    Thresholds,
-    draw_threshold_pair_at,
-    sensor_thresholds,
-    thresholds_at,
+    Float64Array,
+    check_nominal_thresholds,
+    smaller_threshold,
 )
-from texvent.simulate.streaming import IntensityArray, StreamingSimulator
+from texvent.simulate.streaming import Backend, IntensityArray, StreamingSimulator
 from texvent.video import Frame
 
-__all__ = ["EsimConfig", "EsimSimulator"]
+WHITE = 255.0
 
-FLOOR = Thresholds(np.array([LOWEST_THRESHOLD]), np.array([LOWEST_THRESHOLD]))
-"""The lowest that are ever drawn, for all pixels."""
+
+@dataclass(frozen=True, kw_only=True)
+class EsimConfig:
+    """Options of the ESIM pixel model; the defaults are those of VID2E.
+
+    Raises:
+        ConfigError: an option is out of range.
+    """
+
+    contrast_threshold_on: float = 0.2
+    """Rise of ln(I/255 + log eps) that fires an ON event."""
+    contrast_threshold_off: float = 0.2
+    """Fall of ln(I/255 + log eps) that fires an OFF event."""
+    threshold_sigma: float = 0.0
+    """Standard deviation of both thresholds, log units; drawn thresholds are at least 0.01."""
+    threshold_redraw: Literal["frame", "never"] = "frame"
+    """With a threshold sigma: draw thresholds again for every pixel and frame, as ESIM describes
+    it (frame), or once per pixel, as mismatch between pixels (never)."""
+    log_eps: float = 1e-3
+    """Added to intensities on the 0..1 scale before the logarithm, above 0."""
+    refractory_period_us: int = 0
+    """Time after an event in which the pixel cannot fire; crossings in it are lost."""
+
+    def __post_init__(self) -> None:
+        check_nominal_thresholds(self)
+        check_range("log_eps", self.log_eps, 1e-9, 1.0)
+        check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
+        check_choices(self)
+
+    @property
+    def contrast_threshold(self) -> float:
+        """The smaller threshold, log units: δ that Eq. 4 should count with."""
+        return smaller_threshold(self)
+
+    @property
+    def balance(self) -> float:
+        """`255 · log_eps`, the α with which Eq. 4's logarithm is the model's own."""
+        return WHITE * self.log_eps
 
 
 class EsimSimulator(StreamingSimulator[EsimConfig]):
@@ -53,7 +76,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
 
     Example:
         >>> from texvent.video import Frame
-        >>> simulator = EsimSimulator(EsimConfig(contrast_threshold_on=0.5), backend="reference")
+        >>> simulator = EsimSimulator(EsimConfig(contrast_threshold_on=0.5))
         >>> dark, bright = np.array([[50]], np.uint8), np.array([[200]], np.uint8)
         >>> len(simulator.step(Frame(dark, t_us=0)))  # nothing to compare with yet
         0
@@ -65,7 +88,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
     config_type: ClassVar[type] = EsimConfig
     takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 90
-    gains_from_frames: ClassVar[bool] = True
+    benefits_from_denser_frames: ClassVar[bool] = True
     presets: ClassVar[Mapping[str, EsimConfig]] = {
         "default": EsimConfig(),
         "peer-common": EsimConfig(),
@@ -83,21 +106,32 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         """`255 · log_eps`: with it, Eq. 4's logarithm is the model's own."""
         return self.config.balance
 
+    def __init__(
+        self, config: EsimConfig | None = None, *, seed: int = 0, backend: Backend = "cpu"
+    ) -> None:
+        """Prepare a simulator that has seen no frame.
+
+        Args:
+            config: options; default: the first preset.
+            seed: of drawn thresholds, 0..2⁶³−1.
+            backend: "cpu", or "gpu" for kernels on a GPU, with the same events as nearly as
+                `texvent.simulate.gpu` says.
+
+        Raises:
+            ConfigError: the seed is out of range, or the backend is "gpu" and there is no GPU, or
+                an option that only the CPU has.
+        """
+        self._backend = backend
+        super().__init__(config, seed=seed)
+
     def reset(self) -> None:
         """Forget all frames: the next one is the first."""
         super().reset()
         self._on_gpu: Any = None
-        if self._backend == GPU:
-            from texvent.simulate.gpu.frame_steps import FrameSteps  # brings torch
+        if self._backend == "gpu":
+            from texvent.simulate.gpu.frames import FrameSteps  # brings torch
 
             self._on_gpu = FrameSteps(self.config, self._seed)
-        config = self.config
-        rules = CrossingRules(
-            config.contrast_threshold_on, config.contrast_threshold_off, config.refractory_period_us
-        )
-        scale = LogScale(self._log_intensity, balance=config.balance, unit=WHITE)
-        self._segments = SegmentPixels(rules, scale)
-        self._triggers: TriggerLevels | None = None
 
     def step(self, frame: Frame) -> EventStream:
         """Events in `[t of the frame before, t of this frame)`; see `StreamingSimulator.step`."""
@@ -109,93 +143,26 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
 
     def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
         """Events between two frames; see `simulate.protocol.Simulator.advance`."""
-        bounds = None if pair.first is None else self._find_bounds(pair)
-        yield from super().advance(pair) if bounds is None else self._fuse(pair, bounds)
-
-    def _find_bounds(self, pair: FramePair) -> LumaBounds | None:
-        """Luma bounds if the pair is better computed without drawing its frames, else None."""
-        if self._backend not in (AUTO, "cpu") or self.config.threshold_sigma > 0:
-            return None
-        return find_bounds(pair.motion, self._segments.levels)
-
-    def _fuse(self, pair: FramePair, bounds: LumaBounds) -> Iterator[tuple[Frame, EventStream]]:
-        """The packets of `step` for every frame of a pair, without drawing them."""
-        motion, edges_us = pair.motion, pair.edges_us
-        bands = self._segments.cross(motion, edges_us, bounds)
-        self._leave_pair(pair)
-        parts = [_split_by_segment(band, len(edges_us) - 1) for band in bands]
-        spans = itertools.pairwise(edges_us.tolist())
-        for frame, span_us, fired in zip(
-            pair.undrawn_frames, spans, zip(*parts, strict=True), strict=True
-        ):
-            interval = FrameInterval(*span_us, np.uint64(0))
-            yield frame, make_packet(UnsortedEvents.concat(fired), interval, motion.size)
-
-    def _leave_pair(self, pair: FramePair) -> None:
-        """Note that the pixels have seen the later frame of a pair, though no frame was stepped."""
+        bounds = None
+        if pair.first is not None and self._on_gpu is None and self.config.threshold_sigma == 0:
+            bounds = self._pixels.find_bounds(pair)
+        if bounds is None:
+            yield from super().advance(pair)
+            return
+        segments = self._pixels.fuse(pair, bounds)
         self._enter(pair.second)
-        # Found again from the references when a frame is stepped.
-        self._triggers = None
-        self._last_luma = pair.second.luma
+        spans = itertools.pairwise(pair.edges_us.tolist())
+        for frame, span_us, fired in zip(pair.undrawn_frames, spans, segments, strict=True):
+            interval = FrameInterval(*span_us, np.uint64(0))
+            yield frame, make_packet(fired, interval, pair.second.size)
 
     def _begin(self, intensity: IntensityArray) -> None:
-        config = self.config
-        self._table = log_intensity(np.arange(256, dtype=np.uint8), config.log_eps)
-        of_luma = self._table if intensity.dtype == np.uint8 else None
-        if of_luma is None:
-            reference = self._log_intensity(intensity).reshape(-1)
-        else:
-            reference = LOOK_UP.load(self._backend)(of_luma, intensity.reshape(-1))
-        rested = reference.size if config.refractory_period_us else 0
-        self._references = CrossingState(reference, np.full(rested, LONG_AGO_US))
-        height, width = intensity.shape
-        self._shape = height, width
-        self._segments.watch(self._references, self._shape)
-        self._is_redrawn = config.threshold_sigma > 0 and config.threshold_redraw == "frame"
-        # Any threshold may be drawn anew, but none below the floor.
-        self._fixed = FLOOR
-        if not self._is_redrawn:
-            self._fixed = sensor_thresholds(intensity.shape, self._seed, config)
-        self._triggers = self._find_triggers(intensity, of_luma)
+        from texvent.simulate.esim.pixels import EsimPixels  # brings Numba
 
-    def _find_triggers(
-        self, intensity: IntensityArray, of_luma: Float64Array | None = None
-    ) -> TriggerLevels:
-        """The trigger levels of all pixels; arguments as for `TriggerLevels.set_all`."""
-        curve = BrightnessCurve(WHITE, -self.config.balance)
-        triggers = TriggerLevels(intensity, curve, backend=self._backend)
-        triggers.set_all(self._references.reference, self._fixed, of_luma=of_luma)
-        return triggers
+        self._pixels = EsimPixels(self.config, self._seed, intensity)
 
     def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> SortedEvents:
-        triggers = self._triggers or self._find_triggers(self._last_luma)
-        pixel, before, now = triggers.find_outside(intensity)
-        table = self._table if now.dtype == np.uint8 else None
-        if table is None:
-            before, now = self._log_intensity(before), self._log_intensity(now)
-        cross_thresholds = CROSS_THRESHOLDS.load(self._backend)
-        columns = cross_thresholds(
-            RampPixels(pixel, before, now, table, self._thresholds(pixel, interval.key)),
-            self._references,
-            (interval.start_us, interval.stop_us),
-            RefractoryPeriod(self.config.refractory_period_us, is_level_lost=True),
-            self._shape,
-        )
-        triggers.set(pixel, self._references.reference, thresholds_at(pixel, self._fixed))
-        self._triggers = triggers
-        # The references have moved.
-        self._segments.watch(self._references, self._shape)
-        return columns
-
-    def _log_intensity(self, intensity: IntensityArray) -> Float64Array:
-        return log_intensity(intensity, self.config.log_eps)
-
-    def _thresholds(self, pixel: NDArray[np.int64], key: np.uint64) -> Thresholds:
-        """Thresholds of some pixels in this interval."""
-        if self._is_redrawn:
-            y, x = np.divmod(pixel, self._shape[1])
-            return Thresholds(*draw_threshold_pair_at(y, x, key, self.config))
-        return thresholds_at(pixel, self._fixed)
+        return self._pixels.advance(intensity, interval)
 
 
 def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:
@@ -212,13 +179,3 @@ def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:
         table = np.log(np.arange(256) / WHITE + log_eps)
         return np.asarray(table[intensity])
     return np.asarray(np.log(intensity / np.float64(WHITE) + log_eps))
-
-
-def _split_by_segment(band: BandEvents, segments: int) -> list[UnsortedEvents]:
-    """The events of each segment."""
-    fired, segment = band
-    order = np.argsort(segment, kind="stable")
-    cuts = np.searchsorted(segment[order], np.arange(segments + 1)).tolist()
-    pixel, t, p = fired.pixel[order], fired.t[order], fired.p[order]
-    rows = (slice(*cut) for cut in itertools.pairwise(cuts))
-    return [UnsortedEvents.signal(pixel[part], t[part], p[part]) for part in rows]

@@ -1,4 +1,9 @@
-"""Candidates of a pair of frames, found in bands of rows on several threads."""
+"""Candidates of a pair of frames, found without drawing a frame, in bands of rows on threads.
+
+A few rows at a time pass through all intermediate instants, so no intermediate frame is written to
+memory. Most pixels of most videos cannot fire at all: bounds of their luma cost a few operations
+(`bounds`), and pixels whose bounds stay inside the trigger levels are skipped.
+"""
 
 from __future__ import annotations
 
@@ -7,19 +12,37 @@ from collections.abc import Callable
 from typing import TypeVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.pairs.motion_interpolation import MotionInterpolation
+from texvent.pairs.warp_cpu import (
+    POINTS,
+    Room,
+    WarpPair,
+    make_room,
+    take_points,
+    warp_points,
+)
+from texvent.runtime.jit import jit
 from texvent.runtime.threads import count_threads, run_parts
-from texvent.simulate.fused.definitions import (
+from texvent.simulate.crossing.trigger_levels import MARGIN
+from texvent.simulate.fused.bounds import (
+    PREVIOUS_FRAME,
+    RESET_BY_THRESHOLD,
+    RESET_TO_CURRENT,
     CrossingCandidates,
     Float32Array,
+    Float64Array,
     Int64Array,
     LumaBounds,
     PairArrays,
     PreparedPair,
     ReferenceLevels,
+    bound_cells,
+    list_active,
     with_sweep,
 )
+from texvent.simulate.kernels.active_pixels import grown
 
 BAND_PIXELS = 1 << 16
 """Most pixels that a thread takes at a time: candidates are held band by band."""
@@ -37,7 +60,7 @@ def find_bounds(
     """Luma bounds of a pair, if evaluating single pixels costs less than drawing its frames.
 
     Args:
-        motion: what lies between the two frames.
+        motion: of the pixels between the two frames.
         levels: gives what the pixels are compared with; not called where it makes no difference.
 
     Returns:
@@ -47,11 +70,9 @@ def find_bounds(
     """
     if motion.flows is None:
         return None
-    from texvent.simulate.fused import bounds_cpu, candidates_cpu  # need Numba
-
     arrays = arrays_of(motion)
-    bounds: LumaBounds = bounds_cpu.find_bounds(arrays)
-    share = candidates_cpu.estimate_active(arrays, levels(), bounds)
+    bounds: LumaBounds = bound_cells(arrays)
+    share = estimate_active(arrays, levels(), bounds)
     return bounds if share < BUSY else None
 
 
@@ -68,12 +89,10 @@ def map_candidates(
 
     Args:
         decide: called in threads, so it must change the pixels of its candidates only.
-        motion: what lies between the two frames; with flow.
+        motion: of the pixels between the two frames; with flow.
         levels: what pixels are compared with.
         bounds: of `find_bounds`.
     """
-    from texvent.simulate.fused.candidates_cpu import find_in_rows  # needs Numba
-
     arrays, positions = arrays_of(motion), np.array(motion.positions, np.float64)
     prepared = PreparedPair(motion.prepared, bounds)
 
@@ -92,17 +111,13 @@ def warp_pixels(motion: MotionInterpolation, index: int, pixel: Int64Array) -> F
     """Luma of some pixels of an intermediate frame, [n], or of the later frame after the last one.
 
     Args:
-        motion: what lies between the two frames; with flow.
+        motion: of the pixels between the two frames; with flow.
         index: number of the intermediate frame.
         pixel: [n] flat indices.
     """
     if index == len(motion):
         return motion.later.reshape(-1)[pixel]
-    from texvent.simulate.fused import candidates_cpu  # needs Numba
-
-    warped: Float32Array = candidates_cpu.warp_pixels(
-        motion.prepared, motion.positions[index], pixel
-    )
+    warped: Float32Array = _warp_pixels(motion.prepared, motion.positions[index], pixel)
     return warped
 
 
@@ -112,3 +127,217 @@ def arrays_of(motion: MotionInterpolation) -> PairArrays:
         raise ValueError("the frames of the pair are blended, and no pixel moves")
     arrays = PairArrays(motion.earlier, motion.later, *motion.flows)
     return with_sweep(arrays, motion.prepared.sweep)
+
+
+Columns = tuple[
+    NDArray[np.int64],
+    NDArray[np.int16],
+    NDArray[np.float32],
+    NDArray[np.float32],
+]
+FIRST_ROOM = 1024
+SAMPLE = 16
+"""Rows of which `estimate_active` looks at one."""
+BUSY_ROW, PROBE = 0.9, 8
+"""After a row of which a larger share than `BUSY_ROW` is active, all pixels are evaluated up to
+the next row whose number is a multiple of `PROBE`."""
+
+
+@jit
+def estimate_active(arrays: PairArrays, levels: ReferenceLevels, bounds: LumaBounds) -> float:
+    """Share of the pixels that may fire, 0..1, by every `SAMPLE`-th row."""
+    height, width = arrays.earlier.shape
+    active = np.empty(width, np.int64)
+    number, rows = 0, 0
+    for row in range(min(SAMPLE // 2, height - 1), height, SAMPLE):
+        number += list_active(arrays, levels, bounds, row, active)
+        rows += 1
+    share: float = number / (rows * width)
+    return share
+
+
+def find_in_rows(
+    arrays: PairArrays,
+    positions: Float64Array,
+    levels: ReferenceLevels,
+    prepared: PreparedPair,
+    rows: tuple[int, int],
+) -> CrossingCandidates:
+    """The candidates of some rows; threads may compute different rows at the same time.
+
+    Args:
+        arrays: the pair.
+        positions: [K] τ of each intermediate instant.
+        levels: what pixels are compared with.
+        prepared: the pair prepared, and its `find_bounds`.
+        rows: first row, and the one after the last.
+    """
+    found, columns = _find(arrays, positions, levels, prepared, rows)
+    return CrossingCandidates(*columns).take(slice(found))
+
+
+@jit
+def _find(
+    arrays: PairArrays,
+    positions: Float64Array,
+    levels: ReferenceLevels,
+    prepared: PreparedPair,
+    rows: tuple[int, int],
+) -> tuple[int, Columns]:
+    width = arrays.earlier.shape[1]
+    found, columns = 0, _columns(FIRST_ROOM)
+    room, warped = make_room(POINTS + width), np.empty(FIRST_ROOM, np.float32)
+    memory = np.empty((2, POINTS + width), np.int64)
+    row, number = rows[0], 0
+    while row < rows[1]:
+        filled = 0
+        while row < rows[1] and filled < POINTS:
+            # Where nearly all pixels may fire, the bounds of each are not worth computing.
+            if number <= BUSY_ROW * width or row % PROBE == 0:
+                number = list_active(arrays, levels, prepared.bounds, row, memory[1])
+            else:
+                number = _list_all(memory[1, :width])
+            for k in range(number):
+                memory[0, filled + k] = row * width + memory[1, k]
+            filled += number
+            row += 1
+        active = memory[0, :filled]
+        size = filled * (positions.size + 1)
+        if size > warped.size:
+            warped = np.empty(2 * size, np.float32)
+        if found + size > columns[0].size:
+            columns = _grown(columns, size)
+        lumas = warped[:size].reshape(positions.size + 1, filled)
+        _warp_active(prepared.pair, positions, active, room, lumas)
+        found = _list_candidates(arrays, levels, active, lumas, (columns, found))
+    return found, columns
+
+
+@jit
+def _list_all(active: NDArray[np.int64]) -> int:
+    for column in range(active.size):
+        active[column] = column
+    return active.size
+
+
+@jit
+def _warp_active(
+    pair: WarpPair,
+    positions: Float64Array,
+    active: NDArray[np.int64],
+    room: Room,
+    lumas: NDArray[np.float32],
+) -> None:
+    """Fill in the luma of active pixels [n] at the ends of the segments, [K + 1, n]."""
+    take_points(pair, active, room.points)
+    for segment in range(positions.size):
+        warp_points(pair, room, active.size, positions[segment], lumas[segment])
+    lumas[positions.size] = room.points.later[: active.size]
+
+
+@jit
+def _list_candidates(
+    arrays: PairArrays,
+    levels: ReferenceLevels,
+    active: NDArray[np.int64],
+    lumas: NDArray[np.float32],
+    out: tuple[Columns, int],
+) -> int:
+    """List the candidates among some pixels behind those found; return how many there are."""
+    earlier = arrays.earlier.reshape(-1)
+    reference, balance, up, down, rule = levels
+    references = reference.reshape(-1)
+    (pixel, segment, befores, nows), found = out
+    for k in range(active.size):
+        i = active[k]
+        before = earlier[i]
+        level = references[i] if references.size else np.float64(before) + balance
+        above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
+        is_open: bool | np.bool_ = False
+        for j in range(len(lumas)):
+            now = lumas[j, k]
+            shifted = np.float64(now) + balance
+            is_up, is_down = shifted >= above, shifted <= below
+            if is_up | is_down:
+                pixel[found], segment[found] = i, j
+                befores[found], nows[found] = before, now
+                found += 1
+                level, is_unclear = _move(level, shifted, is_up, is_down, (up, down, rule))
+                above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
+                is_open |= is_unclear
+                if is_open:
+                    # From here on every instant is listed.
+                    above = -np.inf
+            if rule == PREVIOUS_FRAME:
+                level = shifted
+                above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
+            before = now
+    return found
+
+
+@jit
+def _move(
+    level: float,
+    shifted: float,
+    is_up: bool | np.bool_,
+    is_down: bool | np.bool_,
+    moves: tuple[float, float, int],
+) -> tuple[float, bool | np.bool_]:
+    """The reference after an instant, and whether it is unclear."""
+    up, down, rule = moves
+    if rule == PREVIOUS_FRAME:
+        return shifted, False
+    above, below = 1.0 + MARGIN, 1.0 - MARGIN
+    is_surely_up = shifted > level * (up * above)
+    is_surely_down = shifted < level * (down * below)
+    is_unclear = (is_up and not is_surely_up) or (is_down and not is_surely_down)
+    if rule == RESET_TO_CURRENT:
+        return (shifted if is_surely_up or is_surely_down else level), is_unclear
+    if is_surely_up:
+        level *= up
+        while rule == RESET_BY_THRESHOLD and shifted > level * (up * above):
+            level *= up
+        is_unclear = rule == RESET_BY_THRESHOLD and shifted >= level * (up * below)
+    elif is_surely_down:
+        level *= down
+        while rule == RESET_BY_THRESHOLD and shifted < level * (down * below):
+            level *= down
+        is_unclear = rule == RESET_BY_THRESHOLD and shifted <= level * (down * above)
+    return level, is_unclear
+
+
+@jit
+def _columns(size: int) -> Columns:
+    return (
+        np.empty(size, np.int64),
+        np.empty(size, np.int16),
+        np.empty(size, np.float32),
+        np.empty(size, np.float32),
+    )
+
+
+@jit
+def _grown(columns: Columns, least: int) -> Columns:
+    """The same columns with more room."""
+    pixel, segment, before, now = columns
+    room = 2 * pixel.size + least
+    return grown(pixel, room), grown(segment, room), grown(before, room), grown(now, room)
+
+
+@jit
+def _warp_pixels(pair: WarpPair, position: float, pixel: NDArray[np.int64]) -> NDArray[np.float32]:
+    """Luma of some pixels of the intermediate frame at a position.
+
+    Args:
+        pair: the pair, prepared.
+        position: τ, 0 = earlier, 1 = later.
+        pixel: [n] flat indices.
+
+    Returns:
+        [n] float32: the same bits as in the drawn frame.
+    """
+    warped = np.empty(pixel.size, np.float32)
+    room = make_room(pixel.size)
+    take_points(pair, pixel, room.points)
+    warp_points(pair, room, pixel.size, position, warped)
+    return warped

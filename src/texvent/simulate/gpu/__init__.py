@@ -18,9 +18,8 @@ def __getattr__(name: str) -> Any:
     if name not in __all__:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     require("triton", extra="gpu")
-    from texvent.simulate.gpu.batch import EventBatch
-    from texvent.simulate.gpu.engine import GpuSimulator
-    from texvent.simulate.gpu.frame_pairs import GpuPairs
+    from texvent.simulate.gpu.engine import EventBatch, GpuSimulator
+    from texvent.simulate.gpu.frames import GpuPairs
 
     public = {"EventBatch": EventBatch, "GpuPairs": GpuPairs, "GpuSimulator": GpuSimulator}
     return public[name]

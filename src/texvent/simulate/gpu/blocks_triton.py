@@ -1,4 +1,4 @@
-"""What the GPU kernels of all pixel models share: reading frames, writing events down."""
+"""Functions of the GPU kernels of all models: keyed draws, reading frames, writing events."""
 
 from __future__ import annotations
 
@@ -6,6 +6,36 @@ import triton
 import triton.language as tl
 
 from texvent.simulate.gpu import kernel_types
+from texvent.simulate.random import draws
+
+# The twin of `texvent.simulate.random.draws`: same bits. Kernels may read module-level numbers
+# only as constexpr.
+_GOLDEN = tl.constexpr(draws.GOLDEN)
+_MULTIPLIER_1 = tl.constexpr(draws.MULTIPLIER_1)
+_MULTIPLIER_2 = tl.constexpr(draws.MULTIPLIER_2)
+_UNIT = tl.constexpr(draws.UNIT)
+
+
+@triton.jit
+def _mix(word: tl.tensor) -> tl.tensor:
+    word = (word ^ (word >> 30)) * _MULTIPLIER_1
+    word = (word ^ (word >> 27)) * _MULTIPLIER_2
+    return word ^ (word >> 31)
+
+
+@triton.jit
+def draw_word(key: tl.tensor, y: tl.tensor, x: tl.tensor, draw: tl.tensor) -> tl.tensor:
+    """64 random bits, uint64; see `draws.draw_words`. `key` must be a uint64."""
+    place = (y.to(tl.uint64) << 16) | x.to(tl.uint64)
+    counter = (draw.to(tl.uint64) << 32) | place
+    return _mix(_mix(counter * _GOLDEN + key) ^ key)
+
+
+@triton.jit
+def to_uniform(word: tl.tensor) -> tl.tensor:
+    """Uniform number in [0, 1) of a word, float64; see `draws.draw_uniforms`."""
+    return (word >> 11).to(tl.float64) * _UNIT
+
 
 _PER_MARK = tl.constexpr(kernel_types.PIXELS_PER_MARK)
 
@@ -28,7 +58,7 @@ def own_pixels(frames: tl.tuple, ALIGN: tl.constexpr, BLOCK: tl.constexpr) -> tl
 
 @triton.jit
 def skip_frames(frames: tl.tuple, count: tl.tensor, ALIGN: tl.constexpr) -> tl.tensor:
-    """How far behind the first frame of a clip another one lies, pixels."""
+    """Distance of a frame from the first one of its clip, pixels."""
     return tl.multiple_of(tl.cast(count, tl.int64) * frames.frame_stride, ALIGN)
 
 
@@ -116,7 +146,7 @@ def read_share(intervals: tl.tuple, segment: tl.tensor) -> tl.tensor:
 
 @triton.jit
 def read_order(records: tl.tuple, at: tl.tensor, inside: tl.tensor) -> tl.tensor:
-    """Which of its pixel's events a record is."""
+    """Number of a record among its pixel's events."""
     if records.order is not None:
         order = tl.load(records.order + at, mask=inside, other=1)
     else:

@@ -3,28 +3,82 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.represent.tensors import EventTensors
 from texvent.sensor import SensorSize, checked_size
 from texvent.simulate.esim.gpu.pixels import EsimPixels
 from texvent.simulate.esim.simulator import EsimConfig
-from texvent.simulate.gpu.batch import EventBatch
-from texvent.simulate.gpu.device import EXTRA, check_device, on_device
 from texvent.simulate.gpu.intervals import Clock, Span
 from texvent.simulate.gpu.kernel_types import Call, Frames, Intervals, NoiseRules, Tensor
-from texvent.simulate.gpu.launch import alignment, to_device
+from texvent.simulate.gpu.launch import EXTRA, alignment, check_device, on_device, to_device
 from texvent.simulate.gpu.ordering import order_events
-from texvent.simulate.gpu.passes import run_passes
-from texvent.simulate.gpu.pixels import GpuPixels
+from texvent.simulate.gpu.passes import GpuPixels, run_passes
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.gpu.noise import noise_rules
 from texvent.simulate.texvent.gpu.pixels import TexventPixels
+
+
+@dataclass(frozen=True, eq=False)
+class EventBatch:
+    """The events of all clips, clip by clip, each sorted by (t, y, x, p, label)."""
+
+    x: Tensor
+    """Column, pixels, [n] int32."""
+    y: Tensor
+    """Row, pixels from the top, [n] int32."""
+    t: Tensor
+    """Time, µs, [n] int64."""
+    p: Tensor
+    """Polarity, [n] int8: 1 = ON, 0 = OFF."""
+    label: Tensor
+    """[n] int8: `events.SIGNAL` or `events.NOISE`."""
+    clip_offsets: Tensor
+    """[B + 1] int64: where the events of each clip begin, and n; on the same device."""
+    size: SensorSize
+    """Width and height of the sensor, pixels."""
+    frame_ends: NDArray[np.int64] = field(repr=False)
+    """[B, T + 1] on the host: where the events of each interval begin, and where the last ends."""
+
+    def __len__(self) -> int:
+        return len(self.t)
+
+    @property
+    def clips(self) -> int:
+        """B."""
+        return len(self.frame_ends)
+
+    def clip(self, index: int) -> EventTensors:
+        """The events of one clip, without a copy; every representation takes them.
+
+        `EventTensors` checks what it is given, which waits for the device.
+        """
+        part = self._part(index)
+        return EventTensors(self.x[part], self.y[part], self.t[part], self.p[part], self.size)
+
+    def stream(self, index: int) -> EventStream:
+        """The events of one clip, copied to the host."""
+        part = self._part(index)
+        x, y, t, p, label = (
+            column[part].cpu().numpy() for column in (self.x, self.y, self.t, self.p, self.label)
+        )
+        return EventStream(
+            x.astype(np.uint16), y.astype(np.uint16), t, p.astype(np.uint8), self.size,
+            label=label.astype(np.uint8),
+        )  # fmt: skip
+
+    def _part(self, index: int) -> slice:
+        ends = self.frame_ends[index]
+        return slice(int(ends[0]), int(ends[-1]))
+
 
 _MAX_AREA = 2**31
 _MAX_WORD = 2**63
@@ -32,7 +86,7 @@ _MAX_WORD = 2**63
 
 @dataclass(eq=False)
 class _Clips:
-    """What is kept of a batch of clips from one call to the next."""
+    """State of a batch of clips from one call to the next."""
 
     size: SensorSize
     clock: Clock
@@ -45,7 +99,7 @@ class GpuSimulator:
     """A pixel model on a batch of clips of one size, a chunk of frames at a time.
 
     Clip b of a batch gives the events that the same model gives on the CPU with clip b's seed: bit
-    for bit from 8-bit frames; from float32 frames wherever no change lies within rounding, about
+    for bit from 8-bit frames; from float32 frames wherever no change is within rounding, about
     10⁻¹⁵ log units, of the threshold. How a clip is cut into chunks changes nothing.
     """
 
@@ -118,7 +172,7 @@ class GpuSimulator:
         return events
 
     def _begin(self, frames: Tensor) -> _Clips:
-        """What clips like these need, before their first frame."""
+        """State of clips like these, before their first frame."""
         check_device(frames.device)
         count, _, height, width = frames.shape
         pixels = _make_pixels(self.config, _seeds_of(self._seed, count))
@@ -188,7 +242,7 @@ def _make_pixels(config: object, seeds: Sequence[int]) -> GpuPixels[Any]:
 
 
 def _seeds_of(seed: int | Sequence[int], clips: int | None) -> tuple[int, ...]:
-    """A seed per clip; `clips` None: as many as are told."""
+    """A seed per clip; `clips` None: as many as are given."""
     if isinstance(seed, int):
         seeds = tuple(range(seed, seed + (clips or 1)))
     else:
@@ -224,7 +278,7 @@ def _check_alike(clips: _Clips, frames: Tensor) -> None:
 
 
 def _rows_in_place(frames: Tensor) -> Tensor:
-    """The frames, copied only if their pixels do not lie one after the other."""
+    """The frames, copied only if their pixels are not contiguous."""
     width = frames.shape[3]
     return frames if frames.stride()[2:] == (width, 1) else frames.contiguous()
 
@@ -237,7 +291,7 @@ def _of_one_type(first: Tensor, frames: Tensor) -> tuple[Tensor, Tensor]:
 
 
 def _no_events(clips: _Clips, frames: Tensor) -> EventBatch:
-    """What the first frame of clips gives."""
+    """The empty batch of the first frame of clips."""
     torch = require("torch", extra=EXTRA)
     count, device = len(frames), frames.device
     columns = order_events(

@@ -35,7 +35,7 @@ class Span:
 
     @property
     def origins_us(self) -> Int64Array:
-        """What to add to the times of a clip so that the clips follow each other from 0, [B]."""
+        """Offsets of the times of each clip, so that the clips follow each other from 0, [B]."""
         lengths = self.stop_us[:, -1] - self.start_us[:, 0]
         return np.asarray(np.cumsum(lengths) - lengths - self.start_us[:, 0])
 

@@ -1,6 +1,6 @@
-"""What the GPU kernels take: tensors by name, in groups.
+"""Arguments of the GPU kernels: tensors by name, in groups.
 
-A group is one argument of a kernel. Tensors lie on one device; an item that a model does not need
+A group is one argument of a kernel. Tensors are on one device; an item that a model does not need
 is None, and the kernel is then compiled without it. S is the number of segments, the intervals of
 all clips, one clip after the other: clip · T + interval.
 """
@@ -47,7 +47,7 @@ class Intervals(NamedTuple):
     origin_us: Tensor
     """Added to a time it gives the time on an axis that puts the clips one after the other."""
     table: Tensor
-    """Which row of the Poisson tables the interval draws its noise from."""
+    """Row of the Poisson tables for the noise of the interval."""
 
 
 class NoiseRules(NamedTuple):
@@ -62,7 +62,7 @@ class NoiseRules(NamedTuple):
 
 
 class PassCounts(NamedTuple):
-    """What the first pass over the frames counts, and the second one reads."""
+    """Counts of the first pass over the frames, which the second one reads."""
 
     events: Tensor
     """[S, blocks] int32, first pass: events of a block in an interval. Second pass: int64, where
@@ -79,16 +79,16 @@ class Records(NamedTuple):
     pixel: Tensor
     """Flat index y · W + x, int32."""
     order: Tensor
-    """Which of its pixel's events in this interval it is: 1, 2, ...; int32; None where a pixel has
-    one at most."""
+    """Number of the event among its pixel's in this interval: 1, 2, ...; int32; None where a pixel
+    has one at most."""
     reference: Tensor
-    """What the pixel compared with: an intensity, in the frames' type, or a brightness, float64."""
+    """Reference of the pixel: an intensity, in the frames' type, or a brightness, float64."""
 
 
 PIXELS_PER_MARK = 4
 """Pixels in a byte of `PassCounts.fired`: those of one thread, so that none waits for another."""
 ON_FRACTION, DARK_BELOW = range(2)
-"""Where each number lies in `NoiseRules.numbers`."""
+"""Places in `NoiseRules.numbers`."""
 
 
 class Call(NamedTuple):

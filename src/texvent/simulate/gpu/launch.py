@@ -1,16 +1,80 @@
-"""How many programs a kernel starts, and how tables reach the device."""
+"""Devices of the GPU backend, and the launch of its kernels: sizes of programs, grids, tables."""
 
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent._require import require
-from texvent.simulate.gpu.device import EXTRA, is_interpreted
+from texvent.errors import ConfigError
 from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
+
+EXTRA = "gpu"
+LAUNCH = {"enable_fp_fusion": False}
+"""Options of every launch. A fused multiply-add rounds once where the CPU rounds twice, and an
+event at the threshold would show it."""
+
+
+def check_device(device: Any) -> None:
+    """Refuse a device that the kernels cannot run on.
+
+    Args:
+        device: torch.device of the frames.
+
+    Raises:
+        ConfigError: it is no GPU, and Triton's interpreter is off.
+        MissingDependencyError: torch or Triton is not installed.
+    """
+    if device.type == "cuda" or is_interpreted():
+        return
+    raise ConfigError(
+        f"backend gpu needs frames on a GPU; these are on {device.type!r}. Use backend cpu, or, to "
+        "try the GPU kernels slowly on a CPU, set TRITON_INTERPRET=1 before Python starts"
+    )
+
+
+def default_device() -> str:
+    """Device for frames from the host: the GPU, or the CPU under the interpreter.
+
+    Raises:
+        ConfigError: torch finds no GPU, and Triton's interpreter is off.
+        MissingDependencyError: torch or Triton is not installed.
+    """
+    can_interpret = is_interpreted()
+    torch = require("torch", extra=EXTRA)
+    if torch.cuda.is_available():
+        return "cuda"
+    if can_interpret:
+        return "cpu"
+    raise ConfigError(
+        "backend gpu needs a GPU, and torch finds none here; use backend cpu, or, to try the GPU "
+        "kernels slowly on a CPU, set TRITON_INTERPRET=1 before Python starts"
+    )
+
+
+def is_interpreted() -> bool:
+    """Whether Triton runs kernels in its interpreter, on the CPU.
+
+    Raises:
+        MissingDependencyError: Triton is not installed.
+    """
+    return bool(require("triton", extra=EXTRA).knobs.runtime.interpret)
+
+
+@contextmanager
+def on_device(device: Any) -> Iterator[None]:
+    """Launch kernels on this device."""
+    if device.type != "cuda":
+        yield
+        return
+    with require("torch", extra=EXTRA).cuda.device(device):
+        yield
+
 
 _MOST_ALIGNED = 16
 
@@ -22,6 +86,17 @@ class LaunchSize(NamedTuple):
     """Pixels of a program, at least 8."""
     warps: int
     """Threads of a program, in groups of 32."""
+
+
+LEVELS_LAUNCH = LaunchSize(128, 1)
+"""Of Texvent's scan by trigger levels. One warp: nothing waits at a barrier, and a quiet one has
+little to do."""
+BRIGHTNESS_LAUNCH = LaunchSize(512, 4)
+"""Of Texvent's scan by brightness."""
+RAMP_LAUNCH = LaunchSize(512, 4)
+"""Of ESIM's scan."""
+RECORD_BLOCK = 512
+"""Records that a program takes at a time to give them times or order them."""
 
 
 def choose_launch_size(compiled: LaunchSize) -> LaunchSize:

@@ -1,23 +1,28 @@
-"""The pixel circuits of the `physical` model over one interval: input, state, kernel by backend.
+"""Input and state of the pixel circuits of the `physical` model.
 
 Pixels are numbered y · W + x, every array is flat, and times are µs. A pixel remembers the output
 of its photoreceptor at its last reset; every event resets it, whatever its cause.
+
+The photoreceptor is a first-order low-pass of the brightness ln(α + I) whose cutoff frequency is
+proportional to α + I, as photocurrent and dark current charge its capacitance. Its response to a
+straight line is known in closed form, so the frame rate decides only how well straight lines fit
+the scene.
+
+Source: v2e (Hu, Liu and Delbruck, CVPRW 2021), section 4.2, which follows the proportionality of
+    photocurrent and bandwidth (Lichtsteiner et al., JSSC 2008).
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.simulate.backend.elementary import exponential, natural_log
-from texvent.simulate.backend.select import Kernel
-from texvent.simulate.packets.sorting import SortedEvents
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
-from texvent.simulate.physical.refractory import ResetRules
-from texvent.simulate.random.mismatch import PixelMismatch
+from texvent.simulate.kernels.elementary import exponential, natural_log
+from texvent.simulate.streaming import IntensityArray
+from texvent.video import MICROSECONDS
 
 Float64Array: TypeAlias = NDArray[np.float64]
 Int64Array: TypeAlias = NDArray[np.int64]
@@ -32,7 +37,7 @@ BLOCK = 256
 
 
 class Optics(NamedTuple):
-    """How luma is turned into brightness and bandwidth."""
+    """Constants that turn luma into brightness and bandwidth."""
 
     gamma: float
     """Exponent that makes the luma linear; 1 if it is already."""
@@ -59,8 +64,17 @@ class PhotoreceptorInput(NamedTuple):
     """(height, width) of the sensor."""
 
 
+class ResetRules(NamedTuple):
+    """Effects of an event on its pixel, besides the reset."""
+
+    refractory_us: int
+    """The refractory period: how long the pixel is held in reset, and change is lost; 0 is none."""
+    by_noise: bool
+    """Whether noise events reset their pixels too."""
+
+
 class CircuitState(NamedTuple):
-    """What a pixel remembers; a kernel changes it in place.
+    """State of the pixels; a kernel changes it in place.
 
     The change that fires a pixel is `output − level + leak · (t − since)`.
     """
@@ -85,15 +99,6 @@ class NoiseEvents(NamedTuple):
     """[m] µs, in the interval."""
     p: NDArray[np.uint8]
     """[m] 1 = ON, 0 = OFF."""
-
-
-AdvancePixels: TypeAlias = Callable[
-    [PhotoreceptorInput, PixelMismatch, CircuitState, NoiseEvents, ResetRules, tuple[int, int]],
-    UnsortedEvents | SortedEvents,
-]
-"""`advance_pixels(light, mismatch, state, noise, rules, (start_us, stop_us))`, see
-`reference.advance_pixels`."""
-ADVANCE_PIXELS = Kernel[AdvancePixels](__name__, "advance_pixels")
 
 
 def brightness_and_cutoff(luma: Float64Array, optics: Optics) -> tuple[Float64Array, Float64Array]:
@@ -143,3 +148,56 @@ def new_state(output: Float64Array, level: Float64Array, first_us: int) -> Circu
     blocks = -(-output.size // BLOCK)
     since = np.full(output.size, first_us, np.int64)
     return CircuitState(output, level, since, np.full(blocks, first_us, np.int64))
+
+
+class InputFrames:
+    """The last frame that the photoreceptors received, and what they receive until the next."""
+
+    def __init__(
+        self,
+        luma: IntensityArray,
+        *,
+        gamma: float,
+        balance: float,
+        cutoff_hz: float,
+        cutoff_limit_hz: float = 0.0,
+    ) -> None:
+        """Start from the first frame.
+
+        Args:
+            luma: 0..255 scale, [H, W], uint8 or float; copied.
+            gamma: exponent that makes it linear; 1 if it is already.
+            balance: α, linear levels, above 0.
+            cutoff_hz: bandwidth at white; 0 is unlimited. It is `cutoff · (α + I) / (α + 255)`, ...
+            cutoff_limit_hz: ... and at most this; 0 is unlimited.
+        """
+        cutoff_per_level = 2.0 * math.pi * cutoff_hz / (balance + WHITE) / MICROSECONDS
+        most_current = math.inf
+        if cutoff_hz > 0 and cutoff_limit_hz > 0:
+            most_current = cutoff_limit_hz / cutoff_hz * (balance + WHITE)
+        self._optics = Optics(gamma, balance, cutoff_per_level, most_current)
+        self._table = brightness_and_cutoff(np.arange(256.0), self._optics)
+        self._seen: Luma = luma.reshape(-1).copy()
+
+    def brightness(self) -> Float64Array:
+        """`ln(α + I)` of the last frame, [n], log units."""
+        return brightness_and_cutoff(self._seen.astype(np.float64), self._optics)[0]
+
+    def until(self, luma: IntensityArray) -> PhotoreceptorInput:
+        """The input from the last frame to this one; a kernel makes this one the last.
+
+        Args:
+            luma: [H, W].
+        """
+        now: Luma = luma.reshape(-1)
+        if now.dtype != self._seen.dtype:
+            # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
+            self._seen, now = self._seen.astype(np.float32), now.astype(np.float32)
+        table = self._table if now.dtype == np.uint8 else None
+        return PhotoreceptorInput(
+            self._seen, np.ascontiguousarray(now), self._optics, table, luma.shape
+        )
+
+    def intensity(self, luma: NDArray[np.generic]) -> Float64Array:
+        """Linear intensity of some luma, of the same shape."""
+        return linearize(luma.astype(np.float64), self._optics.gamma)

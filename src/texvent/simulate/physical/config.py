@@ -1,23 +1,76 @@
-"""Options of the `physical` pixel model."""
+"""Options of the `physical` pixel model, and its noise rate by intensity."""
 
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
 
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError, shown
-from texvent.simulate.physical.arbitration.arbiter import ArbiterKind, ArbiterRules
-from texvent.simulate.physical.arbitration.row_arbiter import RowRules
-from texvent.simulate.physical.cameras.biases import BiasEffect, bias_effect, check_camera
-from texvent.simulate.physical.cameras.constants import constants_for_biases
-from texvent.simulate.physical.noise_curve import DAVIS346_NOISE, parse_noise_curve
-from texvent.simulate.physical.readout import ReadoutRules
-from texvent.simulate.physical.readout_filters import check_readout_filters
 from texvent.simulate.random.mismatch import LOWEST_THRESHOLD
+
+DAVIS346_NOISE = "1:0.46 3.5:0.77 7.5:0.30 15:0.12 25:0.015 37.5:0.004 57.5:0.003"
+"""Events per pixel and second, ON and OFF together, at the linear intensity of static pixels of a
+DAVIS346 (frame levels, 0..255). Measured by us; the points are the middles of the level ranges
+0-2, 2-5, 5-10, 10-20, 20-30, 30-45 and 45-70."""
+
+
+class NoiseCurve(NamedTuple):
+    """Noise rate by intensity: log-linear between points, constant outside them."""
+
+    levels: NDArray[np.float64]
+    """[n] linear intensity, 0..255 scale, increasing."""
+    rates_hz: NDArray[np.float64]
+    """[n] events per pixel and second, above 0."""
+
+    @property
+    def highest_hz(self) -> float:
+        """The highest rate at any intensity, events per pixel and second."""
+        return float(self.rates_hz.max())
+
+    def rate_at(self, intensity: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Events per pixel and second at a linear intensity, of the same shape."""
+        return np.asarray(np.exp(np.interp(intensity, self.levels, np.log(self.rates_hz))))
+
+    def __str__(self) -> str:
+        return " ".join(
+            f"{level:g}:{rate:g}" for level, rate in zip(self.levels, self.rates_hz, strict=True)
+        )
+
+
+def parse_noise_curve(text: str) -> NoiseCurve:
+    """The curve that a text such as "2:0.5 20:0.1 60:0.003" describes.
+
+    Raises:
+        ConfigError: it is empty or no list of LEVEL:RATE, levels do not increase within 0..255,
+            or a rate is not above 0.
+
+    Example:
+        >>> parse_noise_curve("0:1 10:0.01").rate_at(np.array([5.0, 50.0])).round(4).tolist()
+        [0.1, 0.01]
+    """
+    try:
+        points = [tuple(map(float, word.split(":"))) for word in re.split(r"[\s,]+", text.strip())]
+        levels, rates = np.array(points, np.float64).reshape(len(points), 2).T
+    except ValueError:
+        raise ConfigError(
+            f"noise_curve is {shown(text)}; it must be points LEVEL:RATE such as "
+            "'2:0.5 20:0.1 60:0.003'"
+        ) from None
+    is_range = levels[0] >= 0 and levels[-1] <= 255 and (np.diff(levels) > 0).all()
+    if not (is_range and np.isfinite(rates).all() and (rates > 0).all()):
+        raise ConfigError(
+            f"noise_curve is {shown(text)}; levels must increase within 0..255 and rates be "
+            "above 0 (for no noise at all, set noise_scale to 0)"
+        )
+    return NoiseCurve(levels, rates)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +99,7 @@ class PhysicalConfig:
     """Thresholds of each pixel of one sensor, over their mean: a file of texvent calibrate --scene
     flicker. Pixels that it does not know have drawn ones."""
     initial_phase: Literal["random", "zero"] = "zero"
-    """How far each pixel is from its next event at the first frame: anywhere between its
+    """Change of each pixel at the first frame: anywhere between its
     thresholds, as in a sensor that was on before, for frames without grain (random), or just reset
     (zero); leak then begins to fire after 1 / leak_rate_hz."""
     residual_decay_hz: float = 0.0
@@ -58,7 +111,7 @@ class PhysicalConfig:
     """Bandwidth that bright light does not exceed, that of the circuit behind the photodiode; 0 is
     unlimited."""
     refractory_period_us: int = 300
-    """Time for which an event holds its pixel in reset; changes in it are lost."""
+    """Refractory period: brightness changes within it are lost."""
     leak_rate_hz: float = 0.01
     """ON events per pixel and second from junction leakage: the mean over pixels."""
     leak_rate_decades: float = 0.1
@@ -81,36 +134,22 @@ class PhysicalConfig:
     sensor_seed: int | None = None
     """Seed of everything fixed to a pixel (thresholds, noise and leak rates, hot pixels); without
     it, the run's seed. Set it to record many clips with one sensor."""
-    arbiter: ArbiterKind = "none"
-    """What reads the pixels: all at once (none), row by row in the order in which rows ask (rows,
+    arbiter: Literal["none", "rows", "scan"] = "none"
+    """Readout of the pixels: all at once (none), row by row in the order in which rows ask (rows,
     as in a DAVIS or Prophesee's sensors), or a scan of the columns (scan, as in a DVXplorer).
-    What a pixel fires while its event waits is lost."""
+    Events that a pixel fires while another of its events waits are lost."""
     arbiter_row_ns: int = 300
-    """With --arbiter rows: how long a row takes, and in addition..."""
+    """Readout time of a row, ns (--arbiter rows)."""
     arbiter_event_ns: int = 80
-    """... each of its events."""
+    """Additional readout time per event of the row, ns."""
     scan_period_ns: int = 197_150
-    """With --arbiter scan: from one scan to the next; the columns follow each other evenly."""
-    readout_latency_us: int = 0
-    """Delay between an event and its time stamp."""
-    readout_jitter_us: int = 0
-    """Longest random delay that is added to the latency."""
-    clock_step_us: int = 1
-    """Period of the time stamp clock; events get the time of its next tick."""
+    """Time from one scan to the next, ns (--arbiter scan); columns follow each other evenly."""
     rate_limit_hz: float = 0.0
     """Events per second of the whole sensor above which events are dropped at random; 0 is
     never."""
     rate_limit_window_us: int = 1000
     """Window of the rate limit: what was counted in one decides how many are dropped in the
     next."""
-    readout_filters: tuple[str, ...] = ()
-    """Filters of the readout, in order, before the rate limit: event-trail, anti-flicker and more,
-    such as event-trail:mode=trail,threshold_us=5000."""
-    bias_camera: str | None = None
-    """Camera whose biases `bias` names; the presets of cameras set it."""
-    bias: str | None = None
-    """Biases in the camera's units, such as diff_on=400,diff_off=200; refused where what they do is
-    not published."""
 
     def __post_init__(self) -> None:
         for name, (low, high) in RANGES.items():
@@ -119,77 +158,16 @@ class PhysicalConfig:
         if self.sensor_seed is not None:
             check_range("sensor_seed", self.sensor_seed, 0, 2**63 - 1)
         parse_noise_curve(self.noise_curve)
-        check_readout_filters(self.readout_filters)
-        self._check_bias()
-
-    @property
-    def bias_effect(self) -> BiasEffect:
-        """What the biases do to a pixel."""
-        return BiasEffect() if self.bias is None else bias_effect(self.bias_camera, self.bias)
 
     @property
     def contrast_threshold_on(self) -> float:
         """Mean ON threshold, log units."""
-        effect = self.bias_effect
-        on = self.contrast_threshold * math.sqrt(self.on_off_ratio) * effect.scale_on
-        return max(on if effect.threshold_on is None else effect.threshold_on, LOWEST_THRESHOLD)
+        return max(self.contrast_threshold * math.sqrt(self.on_off_ratio), LOWEST_THRESHOLD)
 
     @property
     def contrast_threshold_off(self) -> float:
         """Mean OFF threshold, log units."""
-        effect = self.bias_effect
-        off = self.contrast_threshold / math.sqrt(self.on_off_ratio) * effect.scale_off
-        return max(off if effect.threshold_off is None else effect.threshold_off, LOWEST_THRESHOLD)
-
-    @property
-    def refractory_us(self) -> int:
-        """Refractory period, µs: that of the biases, or the option."""
-        period = self.bias_effect.refractory_us
-        return self.refractory_period_us if period is None else period
-
-    @property
-    def arbitration(self) -> ArbiterRules:
-        """The arbiter's share of the options."""
-        return ArbiterRules(
-            self.arbiter,
-            RowRules(self.arbiter_row_ns, self.arbiter_event_ns),
-            self.scan_period_ns,
-        )
-
-    @property
-    def readout(self) -> ReadoutRules:
-        """The readout's share of the options."""
-        return ReadoutRules(
-            latency_us=self.readout_latency_us,
-            jitter_us=self.readout_jitter_us,
-            clock_us=self.clock_step_us,
-            rate_limit_hz=self.rate_limit_hz,
-            rate_limit_window_us=self.rate_limit_window_us,
-            filters=self.readout_filters,
-        )
-
-    def _check_bias(self) -> None:
-        """Refuse biases without a meaning, and options that say the same as a bias.
-
-        Raises:
-            ConfigError: see `biases.bias_effect`; or an option differs from the camera's preset
-                although a bias sets its value.
-        """
-        check_camera(self.bias_camera)
-        effect = self.bias_effect
-        set_by_bias = {
-            "contrast_threshold": effect.threshold_on,
-            "on_off_ratio": effect.threshold_on,
-            "refractory_period_us": effect.refractory_us,
-        }
-        known = {one.option: one.value for one in constants_for_biases(self.bias_camera)}
-        for name, value in set_by_bias.items():
-            stated = known.get(name, type(self).__dataclass_fields__[name].default)
-            if value is not None and getattr(self, name) != stated:
-                raise ConfigError(
-                    f"{name} is {getattr(self, name):g}, but bias {shown(self.bias)} sets it too; "
-                    "leave one of them out"
-                )
+        return max(self.contrast_threshold / math.sqrt(self.on_off_ratio), LOWEST_THRESHOLD)
 
 
 RANGES: Mapping[str, tuple[float, float]] = {
@@ -212,9 +190,6 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "arbiter_row_ns": (0, 10**9),
     "arbiter_event_ns": (0, 10**9),
     "scan_period_ns": (1, 10**9),
-    "readout_latency_us": (0, 10**6),
-    "readout_jitter_us": (0, 10**6),
-    "clock_step_us": (1, 10**6),
     "rate_limit_hz": (0.0, 1e12),
     "rate_limit_window_us": (1, 10**6),
 }

@@ -33,7 +33,7 @@ HALF_UNIT = 2.0**-32
 
 
 class Purpose(IntEnum):
-    """What a pixel draws for. Each purpose has draws 0, 1, 2, ... of its own in every frame."""
+    """Purposes of a pixel's draws. Each has draws 0, 1, 2, ... of its own in every frame."""
 
     NOISE_COUNT = 0
     NOISE_POLARITY = 1
@@ -62,7 +62,7 @@ def frame_key(seed: int, frame: int) -> np.uint64:
 
     Args:
         seed: 0..2⁶³−1; 0 is as good as any.
-        frame: what tells this frame from the others of the run, any integer: its index, or its
+        frame: identifies this frame in the run, any integer: its index, or its
             time in µs, which also survives cutting the clip.
 
     Returns:

@@ -23,7 +23,7 @@ SENSOR_FRAME = -1
 
 
 class Thresholds(NamedTuple):
-    """By how much a pixel's brightness must change to fire, log units."""
+    """Contrast thresholds: changes of brightness that fire a pixel, log units."""
 
     on: Float64Array
     """[n], or [1] where all pixels have the same."""
@@ -51,7 +51,7 @@ class NominalThresholds(Protocol):
 
 
 class PixelMismatch(NamedTuple):
-    """What differs from pixel to pixel and never changes, as compiled kernels read it."""
+    """Constants that differ from pixel to pixel, as compiled kernels read them."""
 
     threshold_on: NDArray[np.float32]
     """[n] log units, above 0."""

@@ -10,26 +10,83 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import ClassVar
 
 import numpy as np
 
-from texvent.simulate.crossing.trigger_levels import BrightnessCurve, TriggerLevels
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.config import check_range
+from texvent.simulate.packets import FrameInterval, UnsortedEvents
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.mismatch import (
     LONG_AGO_US,
     Float64Array,
+    check_nominal_thresholds,
     draw_chosen,
     sensor_key,
     sensor_thresholds,
     smaller_threshold,
     thresholds_at,
 )
-from texvent.simulate.random.poisson_noise import PoissonNoise
-from texvent.simulate.senpi.config import PRESETS, WHITE, SenpiConfig
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
+
+WHITE = 255.0
+FULL_SCALE = 0.9616
+"""SENPI's threshold of 0.1 in its unit of ln(15000): 0.96158 in natural-log units."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class SenpiConfig:
+    """Options of the SENPI pixel model; the defaults are those of its program, per second.
+
+    Raises:
+        ConfigError: an option is out of range.
+    """
+
+    contrast_threshold_on: float = FULL_SCALE
+    """Rise of ln(photons) that fires an ON event: the mean over pixels."""
+    contrast_threshold_off: float = FULL_SCALE
+    """Fall of ln(photons) that fires an OFF event: the mean over pixels."""
+    threshold_sigma: float = 0.0
+    """Standard deviation of both thresholds between pixels, log units; none is below 0.01."""
+    well_capacity: float = 15_000.0
+    """Photons of a white pixel."""
+    noise_rate_hz: float = 1.2
+    """Noise events per pixel and second; SENPI's 0.05 per frame, at 24 frames per second."""
+    hot_pixel_fraction: float = 0.0
+    """Share of hot pixels, 0..1."""
+    hot_pixel_rate_hz: float = 10.0
+    """Noise events per second of a hot pixel."""
+    shot_noise: bool = False
+    """Add the noise events that photon statistics cause."""
+    dark_electrons: float = 2.0
+    """Rms of the dark noise, electrons; counts with shot noise only."""
+    exposure_us: int = 41_667
+    """Time between independent samples of the photon number: how often shot noise can fire."""
+    refractory_period_us: int = 50
+    """Time after an event in which a change cannot fire the pixel."""
+
+    def __post_init__(self) -> None:
+        check_nominal_thresholds(self)
+        check_range("well_capacity", self.well_capacity, WHITE, 1e9)
+        check_range("noise_rate_hz", self.noise_rate_hz, 0.0, 1e4)
+        check_range("hot_pixel_fraction", self.hot_pixel_fraction, 0.0, 1.0)
+        check_range("hot_pixel_rate_hz", self.hot_pixel_rate_hz, 0.0, 1e4)
+        check_range("dark_electrons", self.dark_electrons, 0.0, 1e6)
+        check_range("exposure_us", self.exposure_us, 1, 10**9)
+        check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
+
+
+PRESETS: Mapping[str, SenpiConfig] = {
+    "default": SenpiConfig(),
+    "peer-common": SenpiConfig(
+        contrast_threshold_on=0.2,
+        contrast_threshold_off=0.2,
+        noise_rate_hz=0.0,
+        refractory_period_us=0,
+    ),
+}
+"""Name → options."""
 
 DARKEST = 1.0
 """Intensity below which all pixels count as equally dark, levels of 0..255."""
@@ -40,7 +97,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
 
     Example:
         >>> from texvent.video import Frame
-        >>> simulator = SenpiSimulator(SenpiSimulator.presets["peer-common"], backend="reference")
+        >>> simulator = SenpiSimulator(SenpiSimulator.presets["peer-common"])
         >>> len(simulator.step(Frame(np.array([[40]], np.uint8), t_us=0)))
         0
         >>> events = simulator.step(Frame(np.array([[90]], np.uint8), t_us=1000))
@@ -65,18 +122,22 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         return DARKEST
 
     def _begin(self, intensity: IntensityArray) -> None:
+        # Both bring Numba.
+        from texvent.simulate.crossing.trigger_levels import BrightnessCurve, TriggerLevels
+        from texvent.simulate.random.poisson_noise import PoissonNoise
+
         config = self.config
         key, shape = sensor_key(self._seed), intensity.shape
         self._thresholds = sensor_thresholds(shape, self._seed, config)
-        is_hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_fraction)
-        self._rate_hz = np.where(is_hot, config.hot_rate_hz, config.noise_rate_hz)
+        is_hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_pixel_fraction)
+        self._rate_hz = np.where(is_hot, config.hot_pixel_rate_hz, config.noise_rate_hz)
         self._noise = PoissonNoise(self._rate_hz)
         self._reference = np.log(photons(intensity, config.well_capacity)).reshape(-1)
         self._fired_us = np.full(intensity.size, LONG_AGO_US)
         # Below the darkest level all voltages are equal, so one that is lower is never reached.
         darkest = math.log(DARKEST / WHITE * config.well_capacity)
         curve = BrightnessCurve(WHITE / config.well_capacity, 0.0, darkest)
-        self._levels = TriggerLevels(intensity, curve, backend=self._backend)
+        self._levels = TriggerLevels(intensity, curve)
         self._levels.set_all(self._reference, self._thresholds)
 
     def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
@@ -94,7 +155,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
     def _compare(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
         """At most one event per pixel, in the interval's last microsecond."""
         t_us = interval.stop_us - 1
-        pixel, _, now = self._levels.find_outside(intensity)
+        pixel, _, now = self._levels.find_outside_levels(intensity)
         change = self._voltage(now) - self._reference[pixel]
         threshold = np.where(change > 0, *thresholds_at(pixel, self._thresholds))
         is_rested = t_us - self._fired_us[pixel] >= self.config.refractory_period_us
@@ -107,7 +168,9 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
 
     def _draw_noise(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
         if not self.config.shot_noise:
-            return self._noise.draw(interval, backend=self._backend)
+            return self._noise.draw(interval)
+        from texvent.simulate.random.poisson_noise import PoissonNoise  # brings Numba
+
         electrons = photons(intensity, self.config.well_capacity)
         on, off = (
             shot_noise_rate_hz(electrons.reshape(-1), threshold, self.config).reshape(
@@ -117,7 +180,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         )
         total = self._rate_hz + on + off
         on_fraction = (self._rate_hz / 2 + on) / np.maximum(total, np.finfo(np.float64).tiny)
-        return PoissonNoise(total).draw(interval, on_fraction=on_fraction, backend=self._backend)
+        return PoissonNoise(total).draw(interval, on_fraction=on_fraction)
 
 
 def photons(intensity: IntensityArray, well_capacity: float) -> Float64Array:

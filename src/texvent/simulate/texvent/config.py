@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
-from texvent.simulate.texvent.brightness_cache import CachePolicy, ResetRule
-from texvent.simulate.texvent.noise import NoiseKind
-from texvent.simulate.texvent.timestamps import TimestampRule
+
+CachePolicy = Literal["local", "global", "none"]
+ResetRule = Literal["current", "step"]
+NoiseKind = Literal["adaptive", "gaussian", "random", "none"]
+TimestampRule = Literal["eq7", "random", "linear", "hyperbolic", "even", "end"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -28,15 +31,15 @@ class TexventConfig:
     """Balance α, in levels of 0..255: what is added to intensities before the logarithm, so that
     dark pixels do not fire more easily than bright ones."""
     cache: CachePolicy = "global"
-    """How long a pixel that has not fired remembers its reference brightness: for the whole video
+    """Memory of the reference brightness of a pixel that has not fired: for the whole video
     (global), within a pair of source frames (local, the paper's; slow motion at a high frame rate
     then gives no event), or not at all (none)."""
     residual_decay_hz: float = 0.1
     """With --cache global: rate at which a pixel forgets change that has not fired yet, per second;
     0 is never."""
     reset: ResetRule = "step"
-    """Where a pixel fires, its reference becomes the current brightness (current), or moves by one
-    threshold per event, as in the circuit (step)."""
+    """Reset of a pixel that fires: its reference becomes the current brightness (current), or moves
+    by one threshold per event, as in the circuit (step)."""
     multi_event: bool = True
     """Fire one event per threshold crossed, not one per frame; needs a --timestamp-rule other than
     eq7."""
@@ -78,7 +81,7 @@ class TexventConfig:
 
     @property
     def reset_step(self) -> float | None:
-        """By how much an event moves its reference, log units; None: to the current brightness."""
+        """Step of the reference per event, log units; None: to the current brightness."""
         return self.contrast_threshold if self.reset == "step" else None
 
     @property

@@ -16,29 +16,29 @@ from numpy.typing import NDArray
 from texvent.brightness import Float64Array, balanced_log
 from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
-from texvent.simulate.backend.select import AUTO
 from texvent.simulate.crossing.trigger_levels import trigger_factors
-from texvent.simulate.fused.candidates import (
-    find_bounds,
-    map_candidates,
-    warp_pixels,
-)
-from texvent.simulate.fused.definitions import (
-    FOLLOWS,
-    STEPS,
-    STEPS_ONCE,
-    TAKES,
+from texvent.simulate.fused.bounds import (
+    PREVIOUS_FRAME,
+    RESET_BY_THRESHOLD,
+    RESET_BY_THRESHOLD_ONCE,
+    RESET_TO_CURRENT,
     CrossingCandidates,
     Int64Array,
     LumaBounds,
     ReferenceLevels,
 )
-from texvent.simulate.packets.interval import FrameInterval
+from texvent.simulate.fused.candidates import (
+    find_bounds,
+    map_candidates,
+    warp_pixels,
+)
+from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.kernels.scan import Fired, Memory
-from texvent.simulate.texvent.kernels.timestamping import TIMESTAMP_EVENTS
-from texvent.simulate.texvent.pixels import draw_noise_places, timing_of
+from texvent.simulate.texvent.noise import draw_noise
+from texvent.simulate.texvent.pixel_memory import FiredPixels, Memory
+from texvent.simulate.texvent.pixels import timing_of
+from texvent.simulate.texvent.timestamps import timestamp_events
 from texvent.video import Frame
 
 
@@ -91,28 +91,27 @@ class FusedPass:
         return self._timestamp(pair, list(zip(*bands, strict=True)), edges_us)
 
     def _timestamp(
-        self, pair: FramePair, fired: list[tuple[Fired, ...]], edges_us: list[int]
+        self, pair: FramePair, fired: list[tuple[FiredPixels, ...]], edges_us: list[int]
     ) -> Iterator[tuple[Frame, EventStream]]:
         """Eqs. 6 and 7 for each sub-interval."""
         motion, size = pair.motion, pair.second.size
-        timestamp_events = TIMESTAMP_EVENTS.load(AUTO)
         spans = itertools.pairwise(edges_us)
         for part, (frame, span_us) in enumerate(zip(pair.undrawn_frames, spans, strict=True)):
             span = FrameInterval(*span_us, frame_key(self._seed, span_us[1]))
             luma_of = functools.partial(warp_pixels, motion, part)
-            noise = draw_noise_places(self._config, span, size.width * size.height, luma_of, AUTO)
+            noise = draw_noise(self._config, span, size.width * size.height, luma_of)
             x, y, t, p, label = timestamp_events(fired[part], noise, self._timing, span, size.shape)
             yield frame, EventStream.unchecked(x, y, t, p, size=size, label=label)
 
     def _levels(self, pair: FramePair, memory: Memory | None) -> ReferenceLevels:
-        """What the pixels are compared with at the start of a pair, and how it moves."""
+        """References at the start of a pair, and the rule by which they move."""
         config = self._config
         if config.cache == "none":
-            rule = FOLLOWS
+            rule = PREVIOUS_FRAME
         elif config.reset == "current":
-            rule = TAKES
+            rule = RESET_TO_CURRENT
         else:
-            rule = STEPS if config.multi_event else STEPS_ONCE
+            rule = RESET_BY_THRESHOLD if config.multi_event else RESET_BY_THRESHOLD_ONCE
         up, down = trigger_factors(config.contrast_threshold, config.contrast_threshold)
         level = np.empty((0, 0))
         if memory is not None:
@@ -127,7 +126,7 @@ class FusedPass:
         earlier: NDArray[np.float32],
         memory: Memory | None,
         parts: int,
-    ) -> list[Fired]:
+    ) -> list[FiredPixels]:
         """Eq. 5 for the candidates of a band: what fires in each sub-interval.
 
         Args:
@@ -158,7 +157,7 @@ class FusedPass:
 
     def _fire(
         self, pixel: Int64Array, start: Float64Array, stop: Float64Array, reference: Float64Array
-    ) -> Fired:
+    ) -> FiredPixels:
         """Eq. 5: which of the candidates of a sub-interval fire; moves their references.
 
         Args:
@@ -179,7 +178,7 @@ class FusedPass:
             threshold = config.contrast_threshold
             number = np.floor(np.abs(change) / threshold) if config.multi_event else 1.0
             reference[pixel] = then + np.sign(change) * (number * threshold)
-        return Fired(pixel, change, start, stop, then)
+        return FiredPixels(pixel, change, start, stop, then)
 
     def _brightness_of(self, luma: NDArray[np.float32]) -> Float64Array:
         return balanced_log(luma, self._config.balance)

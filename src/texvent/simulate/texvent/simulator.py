@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
-from texvent.simulate.backend.select import AUTO, GPU, check_backend
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import make_packet
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.packets import FrameInterval, UnsortedEvents, make_packet
 from texvent.simulate.random.draws import frame_key
-from texvent.simulate.stepping import SteppingSimulator
+from texvent.simulate.streaming import Backend, SteppingSimulator
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.fused import FusedPass
-from texvent.simulate.texvent.pixels import SparsePixels
-from texvent.simulate.texvent.reference import DensePixels
 from texvent.video import Frame, StreamChecker, check_intensity
+
+if TYPE_CHECKING:
+    from texvent.simulate.texvent.dense_pixels import DensePixels
+    from texvent.simulate.texvent.fused import FusedPass
+    from texvent.simulate.texvent.pixels import SparsePixels
 
 __all__ = ["TexventConfig", "TexventSimulator"]
 
@@ -32,7 +31,7 @@ class TexventSimulator(SteppingSimulator):
     them where few pixels may fire; the events are the same.
 
     Example:
-        >>> simulator = TexventSimulator(TexventConfig(noise="none"), backend="reference")
+        >>> simulator = TexventSimulator(TexventConfig(noise="none"), seed=1)
         >>> dark, bright = np.full((1, 2), 50, np.uint8), np.array([[50, 90]], np.uint8)
         >>> len(simulator.step(Frame(dark, t_us=0)))  # nothing to compare with yet
         0
@@ -58,31 +57,32 @@ class TexventSimulator(SteppingSimulator):
         ),
     }
     frame_bound_presets: ClassVar[frozenset[str]] = frozenset({"paper"})
+    has_gpu: ClassVar[bool] = True
 
     def __init__(
         self,
         config: TexventConfig | None = None,
         *,
         seed: int = 0,
-        backend: str = AUTO,
+        backend: Backend = "cpu",
     ) -> None:
         """Prepare a simulator that has seen no frame.
 
         Args:
             config: options; default: the preset "accurate".
             seed: of noise and random times, 0..2⁶³−1.
-            backend: "auto", "cpu", "numpy", "reference" or "gpu": which kernels scan the pixels.
-                All give the same events; `texvent.simulate.gpu` says how nearly.
+            backend: "cpu", or "gpu" for kernels on a GPU, with the same events as nearly as
+                `texvent.simulate.gpu` says.
 
         Raises:
-            ConfigError: the seed is out of range, the backend unknown, or it is "gpu" and there is
-                none, or an option that only the CPU has.
+            ConfigError: the seed is out of range, or the backend is "gpu" and there is no
+                GPU, or an option that only the CPU has.
             MissingDependencyError: what the backend needs is not installed.
         """
         check_range("seed", seed, 0, 2**63 - 1)
         self.config = config or TexventConfig()
         self._seed = int(seed)
-        self._backend = check_backend(backend, has_gpu=True)
+        self._backend = backend
         self._forgets = self.config.cache in ("local", "none")
         self.reset()
 
@@ -97,7 +97,7 @@ class TexventSimulator(SteppingSimulator):
         return self.config.balance
 
     @property
-    def gains_from_frames(self) -> bool:
+    def benefits_from_denser_frames(self) -> bool:
         """Whether a pixel may fire several times per frame; else more frames are more events."""
         return self.config.multi_event
 
@@ -118,10 +118,10 @@ class TexventSimulator(SteppingSimulator):
         self._checker = StreamChecker()
         self._pixels: DensePixels | SparsePixels | None = None
         self._last: Frame | None = None
-        self._fused = FusedPass(self.config, self._seed)
+        self._fused: FusedPass | None = None
         self._on_gpu: Any = None
-        if self._backend == GPU:
-            from texvent.simulate.gpu.frame_steps import FrameSteps  # brings torch
+        if self._backend == "gpu":
+            from texvent.simulate.gpu.frames import FrameSteps  # brings torch
 
             self._on_gpu = FrameSteps(self.config, self._seed)
 
@@ -129,31 +129,38 @@ class TexventSimulator(SteppingSimulator):
         """Events between two frames; see `simulate.protocol.Simulator.advance`."""
         is_drawn = (
             pair.first is None
-            or self._backend not in (AUTO, "cpu")
+            or self._on_gpu is not None
             or self.config.noise == "gaussian"
             or pair.motion.flows is None
         )
+        if is_drawn:
+            yield from super().advance(pair)
+            return
+        from texvent.simulate.texvent.fused import FusedPass  # brings Numba
+        from texvent.simulate.texvent.pixels import SparsePixels
+
+        self._fused = self._fused or FusedPass(self.config, self._seed)
         # The pixels' references; those of a cache that forgets are the earlier frame's.
-        memory = None
-        if not is_drawn and not self._forgets and isinstance(self._pixels, SparsePixels):
-            memory = self._pixels.hold_levels()
-        bounds = None if is_drawn else self._fused.find_bounds(pair, memory)
+        pixels = self._pixels
+        if self._forgets or not isinstance(pixels, SparsePixels):
+            pixels = None
+        memory = None if pixels is None else pixels.ensure_reference()
+        bounds = self._fused.find_bounds(pair, memory)
         if bounds is None:
             yield from super().advance(pair)
             return
         packets = self._fused.packets(pair, memory, bounds)
-        self._leave_pair(pair)
+        self._leave_pair(pair, pixels)
         yield from packets
 
-    def _leave_pair(self, pair: FramePair) -> None:
+    def _leave_pair(self, pair: FramePair, pixels: SparsePixels | None) -> None:
         """Note that the pixels have seen the later frame of a pair, though no frame was stepped."""
         where = self._checker.check_order(pair.second)
         check_intensity(pair.second.pixels, where)
-        if isinstance(self._pixels, SparsePixels) and not self._forgets:
-            self._pixels.leave_pair(pair.second)
-        else:
-            # Made again from the last frame when one is stepped.
-            self._pixels = None
+        if pixels is not None:
+            pixels.advance_to(pair.second)
+        # Without them, they are made again from the last frame when one is stepped.
+        self._pixels = pixels
         self._checker.accept(pair.second)
         self._last = pair.second
 
@@ -171,7 +178,7 @@ class TexventSimulator(SteppingSimulator):
         elif self._last is None:
             self._pixels = self._begin(frame, where)
             span = FrameInterval(frame.t_us, frame.t_us, np.uint64(0))
-            packet = make_packet(UnsortedEvents.none(), span, frame.size, self._backend)
+            packet = make_packet(UnsortedEvents.none(), span, frame.size)
         else:
             pixels = self._pixels or self._begin(self._last, where)
             span = FrameInterval(self._last.t_us, frame.t_us, frame_key(self._seed, frame.t_us))
@@ -183,6 +190,11 @@ class TexventSimulator(SteppingSimulator):
 
     def _begin(self, frame: Frame, where: str) -> DensePixels | SparsePixels:
         """Pixels whose references are those of a frame."""
-        is_dense = self._backend == "reference" or self.config.noise == "gaussian"
-        pixels_type = DensePixels if is_dense else SparsePixels
-        return pixels_type(self.config, self._backend, frame, where)
+        # Both bring Numba.
+        if self.config.noise == "gaussian":
+            from texvent.simulate.texvent.dense_pixels import DensePixels
+
+            return DensePixels(self.config, frame, where)
+        from texvent.simulate.texvent.pixels import SparsePixels
+
+        return SparsePixels(self.config, frame, where)

@@ -10,10 +10,10 @@ Events Simulator", ICRA 2024); it works on any voxel grid that is linear in time
 An event in sub-interval i, at the fraction τ of its length, added 1 − τ to node i and τ to
 node i + 1. Going along a pixel's nodes undoes this: the first node says how many events its
 sub-interval holds, and what they must have added to the second node, and so on. A lone event gets
-exactly the time that made the grid. Where a sub-interval holds several, the grid does not tell
-them apart: their times are drawn from a density that rises or falls as the neighbours' counts do.
+exactly the time that made the grid. Where a sub-interval holds several, the grid cannot
+resolve them: their times are drawn from a density that rises or falls as the neighbours' counts do.
 
-`ldati_reference` is the same rule pixel by pixel; docs/simulators/v2ce.md names the deviations.
+docs/simulators/v2ce.md names the deviations.
 """
 
 from __future__ import annotations
@@ -27,9 +27,7 @@ from texvent.config import check_range
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.simulate.packets.interval import FrameInterval, place_in
-from texvent.simulate.packets.sorting import make_packet
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.packets import FrameInterval, UnsortedEvents, make_packet, place_in
 from texvent.simulate.random.draws import Purpose, draw_uniforms, frame_key
 
 Rounding: TypeAlias = Literal["published", "stochastic"]
@@ -100,7 +98,7 @@ def sample_events(
     Args:
         voxel: events per node, [2, B, H, W], ON first, then OFF.
         interval: time from node 0 to node B − 1; its key decides the draws.
-        rounding: what becomes of the part of an event that is left where a pixel's sum is not
+        rounding: of the part of an event that is left where a pixel's sum is not
             whole; see `infer_counts`.
         bidirectional: go from both ends to the middle instead of from start to end.
 
@@ -129,7 +127,7 @@ def sample_events(
 
 
 class PlacedCounts(NamedTuple):
-    """How many events each sub-interval holds, and when a lone one happens."""
+    """Number of events of each sub-interval, and the time of a lone one."""
 
     counts: NDArray[np.int64]
     """[2, B − 1, H, W], at least 0."""

@@ -1,8 +1,13 @@
-"""V2CE's 3-D U-Net for inference: pairs of frames in, voxel grids out."""
+"""V2CE's 3-D U-Net for inference: layout and reading of its weights, and the network.
+
+The names are those of the published file, `v2ce_3d.pt`. It describes a 3-D U-Net (Zhang et al.,
+ICRA 2024, section on the network): head, four encoders that halve the image and double the
+channels, two residual blocks, four decoders, and a last layer that gives 2 polarities × 10 nodes.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Literal, TypeAlias
@@ -12,18 +17,194 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.errors import ConfigError, FileFormatError, InputError
-from texvent.networks.weight_files import Tensor
-from texvent.simulate.v2ce.layout import (
-    DECODERS,
-    ENCODERS,
-    FRAMES,
-    HEAD,
-    MIDDLE,
-    NODES,
-    POLARITIES,
-    PREDICTION,
+from texvent.networks.weight_files import (
+    Tensor,
+    check_finite,
+    describe_mismatch,
+    named_tensors,
+    read_mapping,
+    shapes_of,
 )
-from texvent.simulate.v2ce.weights import read_weights
+
+Shape: TypeAlias = tuple[int, ...]
+
+FRAMES = 2
+"""Channels that go in: the frames at both ends of an interval."""
+POLARITIES = 2
+NODES = 10
+"""Voxel nodes per polarity and interval."""
+BASE_CHANNELS = 32
+"""Channels after the head in the published network."""
+LEVELS = 4
+"""Encoders, and as many decoders."""
+RESIDUAL_BLOCKS = 2
+
+HEAD, PREDICTION = "UNet.head.conv3d", "UNet.pred.conv3d"
+ENCODERS = tuple(f"UNet.encoders.{level}" for level in range(LEVELS))
+MIDDLE = tuple(f"UNet.resblocks.{block}" for block in range(RESIDUAL_BLOCKS))
+DECODERS = tuple(f"UNet.decoders.{level}" for level in range(LEVELS))
+
+SPECTRAL = "module.weight_bar"
+"""Name of the direction of a spectrally normalised convolution's weight."""
+SPECTRAL_LEFT, SPECTRAL_RIGHT = "module.weight_u", "module.weight_v"
+"""Power-iteration estimate of its first singular vectors, as stored in the checkpoint."""
+BATCH_COUNTER = "num_batches_tracked"
+"""A counter that only training reads."""
+
+
+def tensor_shapes(base_channels: int = BASE_CHANNELS) -> dict[str, Shape]:
+    """Name → shape of every tensor of a network whose head gives `base_channels` channels.
+
+    Example:
+        >>> shapes = tensor_shapes()
+        >>> len(shapes), shapes["UNet.pred.conv3d.weight"]
+        (218, (20, 32, 1, 1, 1))
+    """
+    return dict(_tensors(base_channels))
+
+
+def _tensors(base: int) -> Iterator[tuple[str, Shape]]:
+    yield f"{HEAD}.weight", (base, FRAMES, 3, 3, 3)
+    yield f"{HEAD}.bias", (base,)
+    for level, name in enumerate(ENCODERS):
+        yield from _block(name, base << level, base << (level + 1), is_spectral=False)
+    for name in MIDDLE:
+        yield from _block(name, base << LEVELS, base << LEVELS, is_spectral=True)
+    for level, name in enumerate(DECODERS):
+        channels = base << (LEVELS - level)
+        # A decoder reads the level below and, beside it, the encoder's input of its own level.
+        yield from _block(name, channels + channels // 2, channels // 2, is_spectral=True)
+    yield f"{PREDICTION}.weight", (POLARITIES * NODES, base, 1, 1, 1)
+    yield f"{PREDICTION}.bias", (POLARITIES * NODES,)
+
+
+def _block(name: str, before: int, after: int, *, is_spectral: bool) -> Iterator[tuple[str, Shape]]:
+    """A residual block: two convolutions, and one of a single pixel around them."""
+    for number, channels in ((1, before), (2, after)):
+        if is_spectral:
+            yield f"{name}.conv{number}.{SPECTRAL_LEFT}", (after,)
+            yield f"{name}.conv{number}.{SPECTRAL_RIGHT}", (channels * 27,)
+            yield f"{name}.conv{number}.{SPECTRAL}", (after, channels, 3, 3, 3)
+        else:
+            yield f"{name}.conv{number}.weight", (after, channels, 3, 3, 3)
+        yield from _batch_norm(f"{name}.bn{number}", after)
+    yield f"{name}.downsample.0.weight", (after, before, 1, 1, 1)
+    yield f"{name}.downsample.0.bias", (after,)
+    yield from _batch_norm(f"{name}.downsample.1", after)
+
+
+def _batch_norm(name: str, channels: int) -> Iterator[tuple[str, Shape]]:
+    for part in ("weight", "bias", "running_mean", "running_var"):
+        yield f"{name}.{part}", (channels,)
+    yield f"{name}.{BATCH_COUNTER}", ()
+
+
+FILE_NAME = "v2ce_3d.pt"
+WHERE_FROM = (
+    f"the published file is {FILE_NAME}; its authors' project V2CE-Toolbox "
+    "(github.com/ucsd-hdsi-dvs/V2CE-Toolbox) links to it"
+)
+FIRST_TENSOR = f"{HEAD}.weight"
+
+
+def check_weights_path(path: Path | None) -> Path:
+    """The path of a weights file that exists.
+
+    Raises:
+        ConfigError: no file was named.
+        InputError: there is no such file.
+    """
+    if path is None:
+        raise ConfigError(
+            f"simulator v2ce needs its network's weights and downloads nothing; {WHERE_FROM}. "
+            "Then pass --weights PATH"
+        )
+    if not path.is_file():
+        raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
+    return path
+
+
+def read_weights(path: Path, device: str) -> dict[str, Tensor]:
+    """Tensors of a weights file, ready for inference.
+
+    A plain state dict is read, one saved from several GPUs (`module.` before every name), and a
+    training checkpoint that holds one beside other things. The network's width is taken from the
+    file; the published one has 32 channels.
+
+    Args:
+        path: the file.
+        device: "cpu" or "cuda".
+
+    Returns:
+        Name → tensor, float32, on `device`, spectral normalisation applied, without counters.
+
+    Raises:
+        FileFormatError: it is no such file, is damaged, or a tensor is missing, unknown or of
+            another shape.
+        MissingDependencyError: torch is not installed.
+    """
+    tensors = named_tensors(_strip_prefix(_read_state(path), path), extra="v2ce")
+    expected = tensor_shapes(tensors[FIRST_TENSOR].shape[0])
+    needed = [name for name in expected if not name.endswith(BATCH_COUNTER)]
+    wanted = {name: expected[name] for name in expected if name in needed or name in tensors}
+    problem = describe_mismatch(shapes_of(tensors), wanted)
+    if problem is not None:
+        raise FileFormatError(f"{path} {problem}; it is not the layout of {FILE_NAME}")
+    used = {name: tensors[name].to(device) for name in needed}
+    check_finite(used, path)
+    return apply_spectral_norm(used)
+
+
+def _read_state(path: Path) -> Mapping[str, Any]:
+    content = read_mapping(path, WHERE_FROM, extra="v2ce")
+    state = content.get("state_dict", content)
+    if not isinstance(state, Mapping) or not all(isinstance(name, str) for name in state):
+        raise FileFormatError(
+            f"{path} holds {type(state).__name__}, not named tensors; {WHERE_FROM}"
+        )
+    return state
+
+
+def _strip_prefix(state: Mapping[str, Any], path: Path) -> dict[str, Any]:
+    """The network's tensors under their own names; what else a checkpoint holds is left out."""
+    for name in state:
+        if name.endswith(FIRST_TENSOR):
+            prefix = name.removesuffix(FIRST_TENSOR)
+            break
+    else:
+        raise FileFormatError(
+            f"{path} has no tensor {FIRST_TENSOR}; it holds other weights than V2CE's. {WHERE_FROM}"
+        )
+    return {
+        name.removeprefix(prefix): tensor
+        for name, tensor in state.items()
+        if name.startswith(prefix)
+    }
+
+
+def apply_spectral_norm(tensors: Mapping[str, Tensor]) -> dict[str, Tensor]:
+    """Spectrally normalised weights as plain ones: divided by their largest singular value.
+
+    The value is estimated as the original does before its first window, by one power iteration
+    from the stored vector.
+
+    Deviation: the original iterates again before every window, so that its weights drift a little
+        with the number of windows it has seen; here they stay.
+    """
+    torch = require("torch", extra="v2ce")
+    plain: dict[str, Tensor] = {}
+    for name, tensor in tensors.items():
+        layer = name.removesuffix(f".{SPECTRAL}")
+        if layer != name:
+            matrix = tensor.reshape(tensor.shape[0], -1)
+            left = tensors[f"{layer}.{SPECTRAL_LEFT}"]
+            right = torch.nn.functional.normalize(matrix.T @ left, dim=0)
+            left = torch.nn.functional.normalize(matrix @ right, dim=0)
+            plain[f"{layer}.weight"] = tensor / (left @ (matrix @ right))
+        elif ".module." not in name:
+            plain[name] = tensor
+    return plain
+
 
 Device: TypeAlias = Literal["auto", "cpu", "cuda"]
 Float32Array: TypeAlias = NDArray[np.float32]

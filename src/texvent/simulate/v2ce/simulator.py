@@ -8,22 +8,46 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
 
+from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.networks.weight_files import describe_file
 from texvent.pairs.frame_pair import FramePair
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import make_packet
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
+from texvent.simulate.packets import FrameInterval, UnsortedEvents, make_packet
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
-from texvent.simulate.v2ce import ldati, ldati_reference
-from texvent.simulate.v2ce.config import V2ceConfig
-from texvent.simulate.v2ce.network import Float32Array, load_network
-from texvent.simulate.v2ce.weights import check_weights_path
+from texvent.simulate.v2ce.ldati import Rounding, sample_events
+from texvent.simulate.v2ce.network import Device, Float32Array, check_weights_path, load_network
 from texvent.video import Frame
+
+
+@dataclass(frozen=True, kw_only=True)
+class V2ceConfig:
+    """Options of V2CE; the defaults are those of its program.
+
+    Raises:
+        ConfigError: an option is out of range.
+    """
+
+    weights: Path | None = None
+    """File with the network's weights, v2ce_3d.pt; it is never downloaded."""
+    device: Device = "auto"
+    """Device of the network: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one."""
+    sequence_length: int = 16
+    """Frame pairs that the network sees at once; it was trained on 16."""
+    rounding: Rounding = "published"
+    """Rounding of parts of an event: published rounds each pixel's number up or down by where
+    the part is; stochastic rounds it by chance, right on average."""
+    bidirectional: bool = False
+    """Infer times from both ends of the interval instead of from its start."""
+
+    def __post_init__(self) -> None:
+        check_range("sequence_length", self.sequence_length, 1, 1024)
+
 
 WHITE = 255.0
 MEAN, SPREAD = 0.153, 0.165
@@ -44,22 +68,19 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
     default_interpolate: ClassVar[str] = "none"
     """The network was made for the frames of the video itself."""
 
-    def __init__(
-        self, config: V2ceConfig | None = None, *, seed: int = 0, backend: str = "auto"
-    ) -> None:
+    def __init__(self, config: V2ceConfig | None = None, *, seed: int = 0) -> None:
         """Load the network; no frame is seen yet.
 
         Args:
             config: options; its `weights` must be given.
             seed: of the times that are drawn, 0..2⁶³−1.
-            backend: "reference" infers times pixel by pixel; the events are the same.
 
         Raises:
             ConfigError: no weights, no such device, or the seed out of range.
             InputError: there is no such file, or it does not hold this network.
             MissingDependencyError: torch is not installed.
         """
-        super().__init__(config, seed=seed, backend=backend)
+        super().__init__(config, seed=seed)
         path = check_weights_path(self.config.weights)
         self._network = load_network(path, self.config.device)
 
@@ -133,8 +154,6 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
         return self._network.predict(np.stack([recent[:-1], recent[1:]], axis=1))
 
     def _sample(self, grid: Float32Array, interval: FrameInterval) -> UnsortedEvents:
-        is_reference = self._backend == "reference"
-        sample_events = ldati_reference.sample_events if is_reference else ldati.sample_events
         config = self.config
         return sample_events(
             grid, interval, rounding=config.rounding, bidirectional=config.bidirectional

@@ -9,49 +9,101 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
+from dataclasses import dataclass
 from typing import ClassVar
 
-import numpy as np
-from numpy.typing import NDArray
-
-from texvent.simulate.packets.interval import FrameInterval
-from texvent.simulate.packets.sorting import SortedEvents
-from texvent.simulate.packets.unsorted_events import UnsortedEvents
-from texvent.simulate.random.draws import Purpose
+from texvent.config import check_range
+from texvent.errors import ConfigError
+from texvent.simulate.packets import FrameInterval, SortedEvents
 from texvent.simulate.random.mismatch import (
-    LONG_AGO_US,
-    Float64Array,
-    PixelMismatch,
-    draw_rate_factors,
-    draw_threshold_pair,
-    sensor_key,
+    check_nominal_thresholds,
     smaller_threshold,
 )
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
-from texvent.simulate.v2e.config import PRESETS, V2eConfig
-from texvent.simulate.v2e.emit_and_reset import EMIT_AND_RESET, EmissionRules, LastEvents
-from texvent.simulate.v2e.low_pass import (
-    APPLY_LOW_PASS,
-    CrossingPixels,
-    LowPassInput,
-    new_state,
-)
-from texvent.simulate.v2e.reference import lin_log
-from texvent.simulate.v2e.shot_noise import (
-    ShotNoise,
-    next_photoreceptor_noise,
-    photoreceptor_noise_rms,
-    relative_intensity,
-)
-from texvent.video import MICROSECONDS
+
+NOISE_FIT_RANGE = (1e-5, 1.0)
+"""ON rate / bandwidth over which `pixels.NOISE_FIT` was made."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class V2eConfig:
+    """Options of the v2e pixel model; the defaults are those of its command line.
+
+    Raises:
+        ConfigError: an option is out of range, or two contradict each other.
+    """
+
+    contrast_threshold_on: float = 0.2
+    """Rise of the lin-log brightness that fires an ON event: the mean over pixels."""
+    contrast_threshold_off: float = 0.2
+    """Fall of the lin-log brightness that fires an OFF event: the mean over pixels."""
+    threshold_sigma: float = 0.03
+    """Standard deviation of both thresholds between pixels, log units; none is below 0.01."""
+    linear_below: float = 20.0
+    """Intensity, in levels of 0..255, below which brightness is linear instead of logarithmic."""
+    cutoff_hz: float = 300.0
+    """Bandwidth of the photoreceptor at white; less at lower intensity. 0 is unlimited."""
+    leak_rate_hz: float = 0.01
+    """ON events per pixel and second from junction leakage."""
+    leak_rate_decades: float = 0.1
+    """Standard deviation of log10 of the leak rate between pixels."""
+    shot_noise_rate_hz: float = 0.001
+    """Noise events per pixel and second in the dark; a quarter of it at white."""
+    photoreceptor_noise: bool = False
+    """Make shot noise as Gaussian noise of the photoreceptor within its bandwidth, which
+    alternates ON and OFF, instead of as independent events."""
+    refractory_period_us: int = 500
+    """Time after an event in which the pixel cannot fire; the change is kept for later."""
+
+    def __post_init__(self) -> None:
+        check_nominal_thresholds(self)
+        check_range("linear_below", self.linear_below, 2.0, 255.0)
+        check_range("cutoff_hz", self.cutoff_hz, 0.0, 1e6)
+        check_range("leak_rate_hz", self.leak_rate_hz, 0.0, 1e3)
+        check_range("leak_rate_decades", self.leak_rate_decades, 0.0, 1.0)
+        check_range("shot_noise_rate_hz", self.shot_noise_rate_hz, 0.0, 1e3)
+        check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
+        if self.photoreceptor_noise:
+            self._check_photoreceptor_noise()
+
+    def _check_photoreceptor_noise(self) -> None:
+        low, high = NOISE_FIT_RANGE
+        ratio = self.shot_noise_rate_hz / 2 / self.cutoff_hz if self.cutoff_hz else 0.0
+        if not low <= ratio <= high:
+            raise ConfigError(
+                f"photoreceptor_noise needs shot_noise_rate_hz / 2 between {low:g} and {high:g} "
+                f"times cutoff_hz; it is {self.shot_noise_rate_hz:g} Hz at "
+                f"{self.cutoff_hz:g} Hz: change one of them, or leave photoreceptor_noise off"
+            )
+
+
+PRESETS: Mapping[str, V2eConfig] = {
+    "default": V2eConfig(),
+    "noisy": V2eConfig(
+        threshold_sigma=0.05,
+        cutoff_hz=30.0,
+        leak_rate_hz=0.1,
+        shot_noise_rate_hz=5.0,
+        refractory_period_us=0,
+    ),
+    "peer-common": V2eConfig(
+        threshold_sigma=0.0,
+        cutoff_hz=0.0,
+        leak_rate_hz=0.0,
+        shot_noise_rate_hz=0.0,
+        refractory_period_us=0,
+    ),
+}
+"""Name → options."""
 
 
 class V2eSimulator(StreamingSimulator[V2eConfig]):
     """v2e on video frames; see `simulate.protocol.Simulator`.
 
     Example:
+        >>> import numpy as np
         >>> from texvent.video import Frame
-        >>> simulator = V2eSimulator(V2eSimulator.presets["peer-common"], backend="reference")
+        >>> simulator = V2eSimulator(V2eSimulator.presets["peer-common"])
         >>> len(simulator.step(Frame(np.array([[40]], np.uint8), t_us=0)))
         0
         >>> events = simulator.step(Frame(np.array([[60]], np.uint8), t_us=1000))
@@ -62,7 +114,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
     config_type: ClassVar[type] = V2eConfig
     takes_linear: ClassVar[bool] = True
     bytes_per_pixel: ClassVar[int] = 190
-    gains_from_frames: ClassVar[bool] = True
+    benefits_from_denser_frames: ClassVar[bool] = True
     presets: ClassVar[Mapping[str, V2eConfig]] = PRESETS
     frame_bound_presets: ClassVar[frozenset[str]] = frozenset({"noisy"})
 
@@ -77,86 +129,9 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
         return self.config.linear_below / math.log(self.config.linear_below)
 
     def _begin(self, intensity: IntensityArray) -> None:
-        config, shape = self.config, intensity.shape
-        key = sensor_key(self._seed)
-        on, off = draw_threshold_pair(shape, key, config)
-        self._mismatch = PixelMismatch(
-            on.reshape(-1).astype(np.float32),
-            off.reshape(-1).astype(np.float32),
-            self._draw_leak(shape, key, on.reshape(-1)),
-        )
-        rate_hz = 0.0 if config.photoreceptor_noise else config.shot_noise_rate_hz
-        self._shot_noise = ShotNoise(rate_hz, config, (on, off), backend=self._backend)
-        levels = np.arange(256.0)
-        self._table = np.stack([lin_log(levels, config.linear_below), relative_intensity(levels)])
-        flat = intensity.reshape(-1).astype(np.float64)
-        brightness = lin_log(flat, config.linear_below)
-        self._state = new_state(brightness, has_noise=config.photoreceptor_noise)
-        self._seen = intensity.reshape(-1).copy()
-        self._start_us = self._last_us
-        self._last = LastEvents(
-            np.full(flat.size, LONG_AGO_US),
-            np.full(flat.size, self._start_us),
-            self._state.noise[0].copy(),
-        )
+        from texvent.simulate.v2e.pixels import V2ePixels  # brings Numba
 
-    def _draw_leak(
-        self, shape: tuple[int, ...], key: np.uint64, threshold_on: Float64Array
-    ) -> NDArray[np.float32]:
-        """By how much references sink, log units per µs; [0] if they do not."""
-        config = self.config
-        if config.leak_rate_hz == 0:
-            return np.empty(0, np.float32)
-        factor = draw_rate_factors(shape, key, Purpose.LEAK_RATE, decades=config.leak_rate_decades)
-        leak = factor.reshape(-1) * (config.leak_rate_hz / MICROSECONDS) * threshold_on
-        return leak.astype(np.float32)
+        self._pixels = V2ePixels(self.config, self._seed, intensity, self._last_us)
 
-    def _advance(
-        self, intensity: IntensityArray, interval: FrameInterval
-    ) -> UnsortedEvents | SortedEvents:
-        if self.config.photoreceptor_noise:
-            self._move_photoreceptor_noise(intensity.shape, interval)
-        crossing = self._apply_low_pass(intensity.reshape(-1), interval)
-        noise = self._shot_noise.draw(intensity.reshape(-1), interval)
-        events = EMIT_AND_RESET.load(self._backend)(
-            crossing,
-            (self._mismatch, self._state),
-            self._last,
-            noise,
-            EmissionRules(interval, self.config.refractory_period_us, intensity.shape),
-        )
-        self._reset_noisy(noise.pixel, interval)
-        return events
-
-    def _apply_low_pass(self, luma: IntensityArray, interval: FrameInterval) -> CrossingPixels:
-        """Move the photoreceptors to the end of the interval; which pixels reach a threshold."""
-        if luma.dtype != self._seen.dtype:
-            # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
-            self._seen, luma = self._seen.astype(np.float32), luma.astype(np.float32)
-        angle = 2 * math.pi * self.config.cutoff_hz * interval.duration_s or math.inf
-        table = self._table if luma.dtype == np.uint8 else None
-        start_us, stop_us = interval.start_us - self._start_us, interval.stop_us - self._start_us
-        elapsed_us = float(start_us), float(stop_us)
-        return APPLY_LOW_PASS.load(self._backend)(
-            LowPassInput(self._seen, luma, table, self.config.linear_below, angle, elapsed_us),
-            self._mismatch,
-            self._state,
-        )
-
-    def _move_photoreceptor_noise(self, shape: tuple[int, ...], interval: FrameInterval) -> None:
-        """Move the noise of the photoreceptors to the end of the interval."""
-        config, before = self.config, self._state.noise[1]
-        rms = photoreceptor_noise_rms(
-            config.shot_noise_rate_hz, config.cutoff_hz, self.contrast_threshold
-        )
-        now = next_photoreceptor_noise(before, shape, interval, cutoff_hz=config.cutoff_hz, rms=rms)
-        self._state = self._state._replace(noise=(before, now))
-
-    def _reset_noisy(self, pixel: NDArray[np.int64], interval: FrameInterval) -> None:
-        """A noise event resets its pixel to the present brightness."""
-        leaked, leak = np.zeros(len(pixel)), self._mismatch.leak
-        if leak.size:
-            leaked = leak[pixel].astype(np.float64) * (interval.stop_us - self._start_us)
-        self._state.reference[pixel] = self._state.brightness[pixel] + leaked
-        self._state.end_quiescence(pixel)
-        self._last.interval_us[pixel] = interval.stop_us
+    def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> SortedEvents:
+        return self._pixels.advance(intensity, interval)

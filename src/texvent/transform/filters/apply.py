@@ -1,19 +1,59 @@
-"""Filters by name, and what they leave of a recording."""
+"""Interface of event filters, and filtering of recordings."""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any
+from typing import Any, NamedTuple, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent._registry import FILTERS
 from texvent.errors import ConfigError, InputError, shown
+from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.options.parts import make_part
-from texvent.transform.filters.protocol import EventFilter
 from texvent.transform.packets import Recording, map_in_order, note_edit
+
+NEVER = -(2**62)
+"""Stands for the time of a pixel that has not fired, µs; no event is that early."""
+UInt16Array = NDArray[np.uint16]
+Int64Array = NDArray[np.int64]
+BLOCK = 4
+"""Side of the blocks of pixels in which flicker is found, as in the IMX636."""
+MOST_BURSTS = 7
+"""Where the count of periodic bursts stops: 3 bits."""
+
+
+class FlickerLimits(NamedTuple):
+    """Limits of flicker."""
+
+    shortest_us: int
+    """Period of the highest frequency, µs."""
+    longest_us: int
+    """Period of the lowest frequency, µs."""
+    hold_us: int
+    """Time after the start of a burst in which no other one starts, µs."""
+    begin: int
+    """Periodic bursts from which a block flickers."""
+    end: int
+    """Periodic bursts below which it no longer does."""
+
+
+Keep: TypeAlias = Callable[[EventStream], NDArray[np.bool_]]
+"""Says which events of the next packet stay, [n] bool; it remembers the packets before."""
+
+
+class EventFilter(Protocol):
+    """A frozen dataclass; its fields are its options."""
+
+    def start(self, events: EventStream | EventPackets) -> Keep:
+        """Begin a pass over a recording, from its first packet.
+
+        Raises:
+            InputError: the filter does not fit the recording.
+        """
+        ...
 
 
 def filter_events(events: Recording, which: str | EventFilter, **options: Any) -> Recording:
@@ -56,7 +96,7 @@ def filter_events(events: Recording, which: str | EventFilter, **options: Any) -
 
 
 def _checked(mask: Any, packet: EventStream, which: str | EventFilter) -> NDArray[np.bool_]:
-    """What a filter gave, if it is a mask.
+    """Result of a filter, if it is a mask.
 
     Raises:
         InputError: see above, with the filter's name.

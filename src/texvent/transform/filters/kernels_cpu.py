@@ -1,4 +1,4 @@
-"""The loops of `reference`, compiled; the results are equal."""
+"""Compiled loops of the event filters."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.transform.filters.reference import (
+from texvent.transform.filters.apply import (
     BLOCK,
     MOST_BURSTS,
     NEVER,
@@ -27,7 +27,18 @@ def find_supported(
     support: int,
     radius: int,
 ) -> NDArray[np.bool_]:
-    """As `reference.find_supported`."""
+    """Mask of the events that enough neighbours support, [n].
+
+    Args:
+        x: columns, [n].
+        y: rows, [n].
+        t: times, µs, [n], non-decreasing.
+        plane: which plane of `last_us` an event is in, [n].
+        last_us: time of the last event of each pixel, [planes, H, W]; changed.
+        window_us: how long an event supports its neighbours, µs.
+        support: neighbours that must have fired.
+        radius: of the neighbourhood, pixels.
+    """
     supported = np.zeros(len(t), np.bool_)
     _, height, width = last_us.shape
     for event in range(len(t)):
@@ -48,7 +59,15 @@ def find_supported(
 def find_rested(
     x: UInt16Array, y: UInt16Array, t: Int64Array, kept_us: Int64Array, period_us: int
 ) -> NDArray[np.bool_]:
-    """As `reference.find_rested`."""
+    """Mask of the events at least a period after the last kept one of their pixel, [n].
+
+    Args:
+        x: columns, [n].
+        y: rows, [n].
+        t: times, µs, [n], non-decreasing.
+        kept_us: time of the last event of each pixel that was kept, [H, W]; changed.
+        period_us: the refractory period, µs.
+    """
     rested = np.zeros(len(t), np.bool_)
     for event in range(len(t)):
         before = kept_us[y[event], x[event]]
@@ -68,7 +87,20 @@ def find_places_in_bursts(
     burst: NDArray[np.uint8],
     threshold_us: int,
 ) -> NDArray[np.uint8]:
-    """As `reference.find_places_in_bursts`."""
+    """Number of each event in its burst, [n]: 1, 2, or 3 for all later ones.
+
+    A burst is a series of events of one pixel and one polarity, each less than the threshold after
+    the one before.
+
+    Args:
+        x: columns, [n].
+        y: rows, [n].
+        t: times, µs, [n], non-decreasing.
+        p: polarities, [n].
+        last_us: time of the last event of each pixel, [H, W]; changed.
+        burst: its polarity and its place in its burst, [2, H, W]; changed.
+        threshold_us: time without an event after which a burst is over, µs.
+    """
     places = np.zeros(len(t), np.uint8)
     for event in range(len(t)):
         row, column = y[event], x[event]
@@ -94,7 +126,22 @@ def find_flicker(
     state: NDArray[np.uint8],
     limits: FlickerLimits,
 ) -> NDArray[np.bool_]:
-    """As `reference.find_flicker`."""
+    """Mask of the events in a flickering block of pixels, [n].
+
+    A burst of a block starts at an ON event that follows an OFF event of the block. A burst that
+    starts within the band's periods after the one before counts up, an earlier one counts down,
+    and a later one starts again.
+
+    Args:
+        x: columns, [n].
+        y: rows, [n].
+        t: times, µs, [n], non-decreasing.
+        p: polarities, [n].
+        start_us: when the last burst of each block started, [H, W] in blocks; changed.
+        state: whether its last event was ON, its count, and whether it flickers, [3, H, W];
+            changed.
+        limits: limits of flicker.
+    """
     found = np.zeros(len(t), np.bool_)
     for event in range(len(t)):
         row, column = y[event] // BLOCK, x[event] // BLOCK

@@ -1,1 +1,1 @@
-"""What values show of themselves in a notebook: stills, event rates, facts, a cloud to turn."""
+"""Notebook displays of values: stills, event rates, facts, a cloud to turn."""

@@ -8,7 +8,7 @@ from collections.abc import Callable, Collection, Mapping
 from typing import Any
 
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
-from texvent.view.page.template import palette_properties, viewer_file
+from texvent.view.page.html_parts import palette_properties, viewer_file
 
 DARK_HOSTS = (
     'body[data-jp-theme-light="false"]',
@@ -18,7 +18,7 @@ DARK_HOSTS = (
     'html[data-theme="dark"]',
     'body[data-theme="dark"]',
 )
-"""How JupyterLab, nbconvert, VS Code, Colab and documentation sites mark their dark theme."""
+"""Selectors of the dark theme in JupyterLab, nbconvert, VS Code, Colab and documentation sites."""
 AUTO_HOSTS = ('html[data-theme="auto"]', 'body[data-theme="auto"]')
 """Those that follow the system."""
 
@@ -29,7 +29,7 @@ def mime_bundle(
     include: Collection[str] | None = None,
     exclude: Collection[str] | None = None,
 ) -> dict[str, str]:
-    """What `_repr_mimebundle_` gives: text always, HTML where it can be seen.
+    """Result of `_repr_mimebundle_`: text always, HTML where it can be seen.
 
     Args:
         shown: the value.

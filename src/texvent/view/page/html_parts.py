@@ -1,11 +1,13 @@
-"""Parts of the page as HTML: rate curve, table of facts, escaped data."""
+"""HTML pages from templates, and the parts they share: tables, facts, rate curves, cloud data."""
 
 from __future__ import annotations
 
 import base64
 import html
 import json
+import re
 from collections.abc import Iterable, Mapping, Sequence
+from importlib import resources
 from typing import Any
 
 import numpy as np
@@ -15,9 +17,59 @@ from texvent.events import EventStream
 from texvent.options.values import plain
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.palettes import Colour, Palette
-from texvent.view.page.frame_strip import FrameStrip
-from texvent.view.page.sample import RateCurve
-from texvent.view.page.template import PALETTE_PARTS
+from texvent.view.page.sample import FrameStrip, RateCurve
+
+SCRIPTS = ("state.js", "cloud.js", "plane.js", "rate.js", "controls.js")
+"""Parts of the viewer, in the order in which they build on one another."""
+PALETTE_PARTS = ("on", "off", "background", "ink")
+DARK_BY_SYSTEM = "@media (prefers-color-scheme: dark) {\n  :root { %s }\n}"
+DARK_BY_CLASS = ":root.dark { %s }"
+"""Rules for the colours of dark mode: where the system asks for it, or the page around this one."""
+
+
+def fill_template(
+    name: str,
+    parts: Mapping[str, str],
+    *,
+    palette: Palette,
+    style: str = "page.css",
+    scripts: Sequence[str] = SCRIPTS,
+    dark: str = DARK_BY_SYSTEM,
+) -> str:
+    """The page with every `{{name}}` replaced, in one pass: inserted text is never read again.
+
+    Args:
+        name: file in viewer/.
+        parts: HTML to insert.
+        palette: the colours; in dark mode those of its dark twin.
+        style: file in viewer/, for `{{style}}`.
+        scripts: files in viewer/, for `{{script}}`.
+        dark: the rule for dark mode.
+    """
+    known = {
+        "style": f"{viewer_file(style)}\n{_palette_css(palette, dark)}",
+        "script": "\n".join(map(viewer_file, scripts)),
+        **parts,
+    }
+    return re.sub(r"\{\{(\w+)\}\}", lambda match: known[match[1]], viewer_file(name))
+
+
+def viewer_file(name: str) -> str:
+    """The text of a file in viewer/."""
+    return resources.files("texvent.view.page").joinpath("viewer", name).read_text("utf-8")
+
+
+def _palette_css(palette: Palette, dark: str) -> str:
+    return f":root {{ {palette_properties(palette)} }}\n{dark % palette_properties(palette.dark)}"
+
+
+def palette_properties(palette: Palette) -> str:
+    """The colours as CSS properties: `--on: rgb(0 0 255);` and its like."""
+    colours = {name: getattr(palette, name) for name in PALETTE_PARTS}
+    return " ".join(
+        f"--{name}: rgb({red} {green} {blue});" for name, (red, green, blue) in colours.items()
+    )
+
 
 LABELS = {
     "prompt": "Prompt",
@@ -212,7 +264,7 @@ def viewer_json(
 def cloud_data(
     sample: EventStream, extent: tuple[int, int], *, palette: Palette, seen: int
 ) -> dict[str, Any]:
-    """What the cloud is drawn from: events, size, times and colours.
+    """Data of the cloud: events, size, times and colours.
 
     Args:
         sample: the events of the cloud.

@@ -1,12 +1,79 @@
-"""A fair sample and a rate curve of any number of events, in flat memory."""
+"""Fair samples, rates and frames of a recording, with flat memory."""
 
 from __future__ import annotations
+
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
+from texvent.video import Frame
+from texvent.view.drawing.canvas import jpeg_bytes, shrink
+from texvent.view.drawing.event_image import frame_image
+
+
+def rate_counts(events: EventStream, extent: tuple[int, int], bins: int) -> NDArray[np.int64]:
+    """OFF and ON events in equal bins of a range of time, [2, bins].
+
+    Event times are ordered, so that only the places of the edges are searched.
+
+    Args:
+        events: any number.
+        extent: where the first bin begins and the last one ends, µs; events outside are left out.
+        bins: how many, 1 or more.
+
+    Example:
+        >>> from texvent.sensor import SensorSize
+        >>> events = EventStream([0, 1, 2], [0, 0, 0], [0, 5, 9], [1, 0, 1], SensorSize(3, 1))
+        >>> rate_counts(events, (0, 10), 2).tolist()
+        [[0, 1], [1, 1]]
+    """
+    start_us, stop_us = extent
+    edges = start_us - np.arange(bins + 1) * (start_us - stop_us) // bins  # rounded up
+    places = np.searchsorted(events.t, edges)
+    is_on = events.p.view(np.bool_)
+    on = [np.count_nonzero(is_on[first:last]) for first, last in pairwise(places.tolist())]
+    on_counts = np.array(on, dtype=np.int64)
+    return np.stack([np.diff(places) - on_counts, on_counts])
+
+
+STRIP_FRAMES = 64
+STRIP_WIDTH = 360
+JPEG_QUALITY = 78
+
+
+class FrameStrip:
+    """At most `limit` frames of a video of any length: every one, else every second, fourth, ...
+
+    Memory holds their JPEG files only.
+    """
+
+    def __init__(self, *, limit: int = STRIP_FRAMES) -> None:
+        self._limit = limit
+        self._stride = 1
+        self.seen = 0
+        """Source frames offered so far."""
+        self.images: list[tuple[int, bytes]] = []
+        """Time, µs, and JPEG file of the frames kept, in time order."""
+
+    def append(self, frame: Frame) -> None:
+        """Offer a frame; interpolated ones are left out."""
+        if not frame.is_source:
+            return
+        index = self.seen
+        self.seen += 1
+        if index % self._stride:
+            return
+        if len(self.images) == self._limit:
+            self.images = self.images[::2]
+            self._stride *= 2
+            if index % self._stride:
+                return
+        small = shrink(frame_image(frame), STRIP_WIDTH)
+        self.images.append((frame.t_us, jpeg_bytes(small, quality=JPEG_QUALITY)))
+
 
 SAMPLE_EVENTS = 200_000
 RATE_BINS = 160

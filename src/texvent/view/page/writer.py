@@ -17,13 +17,12 @@ from texvent.io.atomic import atomic_file, check_output
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame
 from texvent.view.atomic_output import AtomicOutput
-from texvent.view.drawing.caption import title_of
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
+from texvent.view.drawing.panels import title_of
 from texvent.view.page import html_parts
-from texvent.view.page.frame_strip import FrameStrip
-from texvent.view.page.sample import SAMPLE_EVENTS, RateCurve, UniformSample
-from texvent.view.page.template import fill_template
-from texvent.view.stills.busiest_window import busiest_window_png
+from texvent.view.page.html_parts import fill_template
+from texvent.view.page.sample import SAMPLE_EVENTS, FrameStrip, RateCurve, UniformSample
+from texvent.view.stills import busiest_window_png
 
 
 class PageWriter(AtomicOutput):
@@ -166,7 +165,7 @@ def show(
     """Make the page of a recording and, unless a path is given, open it in the browser.
 
     Args:
-        events: what to show.
+        events: events to show.
         path: where to save the page; then nothing is opened. Default: a temporary file.
         overwrite: whether an existing file may be replaced.
 

@@ -25,7 +25,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.arrays.n_imagenet import load_stream
 from texvent.io.files import event_extensions
-from texvent.represent.binary_event_image import binary_event_image
+from texvent.represent.event_frame import binary_event_image
 from texvent_lab.bench.progress import Progress, no_progress
 
 Classifier: TypeAlias = Callable[[NDArray[np.float32]], NDArray[np.float32]]

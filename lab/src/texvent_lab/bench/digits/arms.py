@@ -11,7 +11,7 @@ from typing import Any, Literal, TypeAlias, get_args
 from texvent.errors import ConfigError, shown
 from texvent.extending import suggest
 from texvent.run.settings import Settings, resolve
-from texvent.simulate.thresholds import with_contrast_threshold
+from texvent.simulate.model_options import with_contrast_threshold
 
 Way: TypeAlias = Literal["exact", "flow", "frames"]
 """What a model is given: true frames, 1,020 per second; 60 frames per second and what the pipeline

@@ -15,7 +15,7 @@ from texvent.errors import FileFormatError
 from texvent.run.prepare import prepare_video
 from texvent.run.settings import Settings
 from texvent.runtime.cache_folder import make_folder
-from texvent.simulate.thresholds import contrast_threshold_of
+from texvent.simulate.model_options import contrast_threshold_of
 from texvent_lab.bench.digits.arms import Cell, find_arm
 from texvent_lab.bench.digits.data.idx import Mnist, read_mnist
 from texvent_lab.bench.digits.data.inputs import InputSet, join_inputs, represent_all

@@ -8,13 +8,10 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, NamedTuple
 
+import numpy as np
+
 from texvent.metrics.summary import summarise
-from texvent.metrics.uncertainty.bootstrap import LEAST_WINDOWS
-from texvent.metrics.uncertainty.difference import (
-    Difference,
-    PairedDifferences,
-    differences_from,
-)
+from texvent.metrics.uncertainty import LEAST_WINDOWS, Mean, paired_differences
 
 ALIKE = "≈"
 """Marks a difference that cannot be told from none."""
@@ -25,7 +22,7 @@ class Behind(NamedTuple):
 
     best: str
     """The best entry."""
-    difference: Difference
+    difference: Mean
     """The best one minus this one."""
 
 
@@ -55,9 +52,14 @@ class Comparison:
         """Mean of the windows where it is defined; NaN if there are none."""
         return summarise(self.values[entry]).mean
 
-    def differences(self, baseline: str) -> PairedDifferences[str]:
-        """All other entries minus one, tested together."""
-        return differences_from(baseline, self.values, is_in_sequence=self.is_in_sequence)
+    def differences(self, baseline: str) -> dict[str, Mean]:
+        """All other entries minus one."""
+        return self._differences(baseline, self.values)
+
+    def _differences(self, baseline: str, values: Mapping[str, Sequence[float]]) -> dict[str, Mean]:
+        known = {name: np.asarray(one, np.float64) for name, one in values.items()}
+        columns = {name: one - known[baseline] for name, one in known.items() if name != baseline}
+        return paired_differences(columns, is_in_sequence=self.is_in_sequence)
 
     @cached_property
     def behind_best(self) -> Mapping[str, Behind]:
@@ -68,7 +70,7 @@ class Comparison:
             if best is None:
                 continue
             values = {name: self.values[name] for name in self._candidates(track)}
-            against = differences_from(best, values, is_in_sequence=self.is_in_sequence)
+            against = self._differences(best, values)
             for entry in values:
                 if entry != best:
                     found[entry] = Behind(best, against[entry].reversed())
@@ -85,7 +87,10 @@ class Comparison:
     def document(self, entry: str) -> dict[str, Any] | None:
         """How far an entry is behind, as plain values; None for the best and for no candidate."""
         behind = self.behind_best.get(entry)
-        return behind and {"best": behind.best, **behind.difference.document()}
+        if behind is None:
+            return None
+        verdict = {"is_significant": behind.difference.is_significant}
+        return {"best": behind.best, **behind.difference.document(), **verdict}
 
     def behind_text(self, entry: str) -> str:
         """Cell of a table: how far an entry is behind the best; empty for what is no candidate."""
@@ -104,10 +109,10 @@ class Comparison:
             return "(best)" if is_best and len(self.tracks) > 1 else ""
         if not behind.difference.is_enough:
             return "(?)"
-        return "" if behind.difference.is_told else f"({ALIKE})"
+        return "" if behind.difference.is_significant else f"({ALIKE})"
 
 
-def difference_text(difference: Difference, *, sign: str = "") -> str:
+def difference_text(difference: Mean, *, sign: str = "") -> str:
     """A cell: difference, 95 % interval, and `≈` where it may be none.
 
     Args:
@@ -119,7 +124,7 @@ def difference_text(difference: Difference, *, sign: str = "") -> str:
     mean, low, high = (f"{one:{sign}.3f}" for one in (difference.mean, *difference.interval))
     if not difference.is_enough:
         return f"{mean} (too few)"
-    return f"{mean} [{low}, {high}]{'' if difference.is_told else f' {ALIKE}'}"
+    return f"{mean} [{low}, {high}]{'' if difference.is_significant else f' {ALIKE}'}"
 
 
 def comparison_note(windows: int, kind: str) -> str:
@@ -136,7 +141,7 @@ def comparison_note(windows: int, kind: str) -> str:
         )
     return (
         f"Behind the best: of the entries that get the same frames. [ ]: 95 % interval over "
-        f"{windows} {kind}. {ALIKE}: cannot be told apart (p > .05, adjusted for all that are "
-        "compared with the same entry). (too few): too few are defined, or independent of their "
-        "neighbours.\n"
+        f"{windows} {kind}. {ALIKE}: no significant difference (the intervals of all that are "
+        "compared with the same entry hold together). (too few): too few are defined, or "
+        "independent of their neighbours.\n"
     )

@@ -10,10 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.metrics.motion.contrast_maximisation import estimate_velocities
-from texvent.metrics.motion.flow_warp import flow_warp_sharpness
-from texvent.metrics.spike_trains.nearest import time_to_nearest
-from texvent.metrics.spike_trains.trains import Trains
+from texvent.metrics.event_sharpness import estimate_velocities, flow_warp_sharpness
+from texvent.metrics.spike_trains import Trains, time_to_nearest
 from texvent.metrics.stpp import Stpp
 
 CAP_US = 10_000

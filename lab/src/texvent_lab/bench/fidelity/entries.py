@@ -13,7 +13,7 @@ from texvent.events import EventStream
 from texvent.extending import SIMULATORS, suggest
 from texvent.run.prepare import prepare_video
 from texvent.run.settings import Settings, resolve
-from texvent.simulate.thresholds import contrast_threshold_of, with_contrast_threshold
+from texvent.simulate.model_options import contrast_threshold_of, with_contrast_threshold
 from texvent.video import FrameStream
 from texvent_lab.bench.oracle.recording import TrueFrames, render_video
 from texvent_lab.bench.oracle.scenes import Scene

@@ -8,8 +8,7 @@ from dataclasses import asdict, dataclass, field, fields
 from typing import Any
 
 from texvent.errors import FileFormatError, shown
-from texvent.metrics.compare import load_metric
-from texvent.metrics.scores import plain_values
+from texvent.metrics.compare import load_metric, plain_values
 from texvent.metrics.summary import Summary, normalise, summarise
 from texvent_lab.bench.document import restore_nan
 from texvent_lab.bench.document_types import check_record

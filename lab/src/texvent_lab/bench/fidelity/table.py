@@ -18,7 +18,6 @@ BASELINE = "texvent paper, blend"
 COLUMNS = {
     "ef_mse": "EF MSE",
     "ef_ssim": "EF SSIM ↑",
-    "isi": "ISI",
     "nearest": "NN ms",
     "van_rossum": "vR",
     "stpp": "STPP ↑",

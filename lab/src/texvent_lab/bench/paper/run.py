@@ -7,7 +7,7 @@ from pathlib import Path
 
 from texvent.data.pull import find_pulled
 from texvent.errors import InputError, MissingDependencyError
-from texvent.metrics.rvt.eqs import load_eqs
+from texvent.metrics.latent_similarity import load_eqs
 from texvent_lab.bench.paper.network_tables import accuracy_figures, noise_figures
 from texvent_lab.bench.paper.published_tables import OurFigures, join_figures
 from texvent_lab.bench.paper.simulator_tables import (

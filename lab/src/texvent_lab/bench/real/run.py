@@ -16,7 +16,7 @@ from texvent.errors import ConfigError, TexventError
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
 from texvent.metrics.controls import split_halves
-from texvent.metrics.motion.contrast_maximisation import estimate_patch_flow
+from texvent.metrics.event_sharpness import estimate_patch_flow
 from texvent.metrics.protocol import Metric
 from texvent.options.fields import option_names
 from texvent.run.settings import Settings, apply_options
@@ -54,7 +54,6 @@ class RealPlan:
         "stpp",
         "van_rossum",
         "nearest",
-        "isi",
         "ef_mse",
         "ef_ssim",
         "on_difference",

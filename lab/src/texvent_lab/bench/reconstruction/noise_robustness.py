@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.config import check_range
 from texvent.events import EventStream
-from texvent.represent.packet_slices import slice_between
+from texvent.represent.slices import slice_between
 from texvent_lab.bench.real.frame_recording import FrameRecording
 from texvent_lab.bench.reconstruction.image_scores import GreyImage, ImageScores, true_image
 from texvent_lab.bench.reconstruction.run import ReconstructionPlan, ReconstructionScorer

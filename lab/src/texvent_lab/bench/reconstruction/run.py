@@ -22,8 +22,8 @@ from texvent.events import EventStream
 from texvent.metrics.image_measures import Measures
 from texvent.options.fields import option_names
 from texvent.pipeline import Simulation, video_to_events
-from texvent.represent.packet_slices import slice_between
-from texvent.simulate.thresholds import contrast_threshold_of
+from texvent.represent.slices import slice_between
+from texvent.simulate.model_options import contrast_threshold_of
 from texvent.video import MICROSECONDS
 from texvent_lab.bench.fidelity.entries import Entry
 from texvent_lab.bench.markdown import MarkdownReport

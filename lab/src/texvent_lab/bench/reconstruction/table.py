@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
-from texvent.metrics.scores import plain_values
+from texvent.metrics.compare import plain_values
 from texvent_lab.bench.fidelity.comparison import Comparison
 from texvent_lab.bench.machine import describe_environment
 from texvent_lab.bench.markdown import markdown_table, without_tags
@@ -20,9 +20,9 @@ COLUMNS = {"mse": "MSE ↓", "psnr": "PSNR, dB ↑", "ssim": "SSIM ↑", "lpips"
 DIGITS = {"mse": 4, "psnr": 2, "ssim": 3, "lpips": 3}
 ALL = "all recordings"
 MARK_NOTE = (
-    "(best): of the simulated events, on average. (≈): cannot be told apart from it (p > .05, "
-    "adjusted for the column). (?): too few independent frames to tell. Neighbouring frames are "
-    "alike and count by blocks.\n"
+    "(best): of the simulated events, on average. (≈): no significant difference from it (the "
+    "intervals of a column hold together). (?): too few independent frames. Neighbouring frames "
+    "are alike and count by blocks.\n"
 )
 
 

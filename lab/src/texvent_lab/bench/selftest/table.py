@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import FileFormatError, shown
-from texvent.metrics.scores import plain_values
+from texvent.metrics.compare import plain_values
 from texvent_lab.bench.document import read_document, restore_nan
 from texvent_lab.bench.document_types import check_record
 from texvent_lab.bench.machine import describe_environment

@@ -18,7 +18,6 @@ BENCHMARKS: Mapping[str, str] = {
     "real": "which simulator comes closest to a real sensor?",
     "reconstruction": "whose events give a network the best images?",
     "selftest": "20 perturbations of a recording: which does a metric see?",
-    "unpaired": "do simulated streams have the statistics of recorded ones?",
 }
 """Name, which is its module beside this one → the question that it answers."""
 

@@ -38,7 +38,7 @@ from texvent_lab.measure.blender.fast_object import is_passed, passed_pixels
 
 RUN: Mapping[str, Any] = {"simulator": "esim"}
 """A pixel that forgets nothing at source frames, whose number differs here."""
-METRICS = ("stpp", "nearest", "voxel", "count_ratio")
+METRICS = ("stpp", "nearest", "van_rossum", "count_ratio")
 COMPARED_BY_PLACE = ("dense", "dense, halved", "flow", "motion")
 """Rows that are also given for the fastest object and the rest; the first is the reference."""
 ENLARGED, TEXT_PX, WINDOW_US = 2, 9, 20_000

@@ -55,7 +55,7 @@ def measure_prompt(
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", TexventWarning)
         video = generator.generate(prompt)
-        times = [round(t) for t in np.linspace(0, DURATION_S * MICROSECONDS, STILLS)]
+        times = still_times_us()
         frames = [np.asarray(video.at(t).pixels, np.float32) for t in times]
         in_view = measure_view(video, times)
         facts: dict[str, Any] = {
@@ -75,6 +75,18 @@ def measure_prompt(
             facts["events"] = {name: _simulate(video, options) for name, options in PRESETS.items()}
     facts["seconds"] = round(time.perf_counter() - started, 2)
     return [np.clip(np.rint(frame), 0, 255).astype(np.uint8) for frame in frames], facts
+
+
+def still_times_us() -> list[int]:
+    """Instants of the stills: uneven, so that what repeats at a round rate is not at rest in them.
+
+    Example:
+        >>> still_times_us()
+        [0, 430902, 811803, 1242705, 1623607, 2000000]
+    """
+    step_us = DURATION_S * MICROSECONDS / (STILLS - 1)
+    early = [round(k * step_us + 50_000 * (0.618034 * k % 1.0)) for k in range(STILLS - 1)]
+    return [*early, round(DURATION_S * MICROSECONDS)]
 
 
 def measure_view(video: ProceduralVideo, times_us: list[int]) -> dict[str, float]:

@@ -21,7 +21,7 @@ from texvent.pairs.frame_pair import FramePair
 from texvent.pipeline import video_to_events
 from texvent.run.settings import Settings, resolve
 from texvent.runtime.background_writer import BackgroundWriter
-from texvent.simulate.build import build_simulator, gains_from_frames
+from texvent.simulate.build import benefits_from_denser_frames, build_simulator
 from texvent.video import Frame, FrameStream
 from texvent_lab.measure.speed.timing import Quartiles, rounded
 
@@ -165,7 +165,7 @@ def _run_alone(
         inner,
         balance=simulator.balance,
         contrast_threshold=simulator.contrast_threshold,
-        counts_motion=gains_from_frames(simulator),
+        counts_motion=benefits_from_denser_frames(simulator),
     )
     frames = _with_luma(clock.each("decode", video), clock)
     interpolator = _TimedInterpolator(inner, clock)

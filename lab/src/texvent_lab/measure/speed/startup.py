@@ -24,7 +24,7 @@ CLIP_FRAMES = 50
 WATCHED_RUN = """
 import os, sys, time
 from texvent.cli.app import main
-from texvent.io.hdf5.writer import Hdf5Writer
+from texvent.io.hdf5.storage import Hdf5Writer
 append = Hdf5Writer.append
 def watched(self, packet):
     append(self, packet)

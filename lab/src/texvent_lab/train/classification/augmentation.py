@@ -9,9 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from texvent.events import EventStream
-from texvent.transform.orientation import flip, shift
-from texvent.transform.reversal import reverse_time
-from texvent.transform.window import start_at_zero
+from texvent.transform.edits import flip, reverse_time, shift, start_at_zero
 from texvent_lab.train.classification.config import Augmentation
 
 

@@ -15,7 +15,7 @@ from texvent.extending import require
 from texvent.networks.weight_files import Tensor, read_mapping, state_tensors, trained_with
 from texvent.options.values import plain
 from texvent.represent.named import represent_window
-from texvent.transform.region import resize
+from texvent.transform.edits import resize
 from texvent_lab.train.batches import Batches
 from texvent_lab.train.classification.augmentation import augment, take_run
 from texvent_lab.train.classification.config import Augmentation, ClassificationConfig

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from texvent.metrics.pixelwise.depth_error import FARTHEST_M
+from texvent.metrics.dense_errors import FARTHEST_M
 from texvent.networks.weight_files import Tensor
 
 LOG_RANGE = 3.70378

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar, Final
 
-from texvent.metrics.pixelwise.depth_error import FARTHEST_M, DepthError
+from texvent.metrics.dense_errors import FARTHEST_M, DepthError
 from texvent.networks.weight_files import STATE, Tensor
 from texvent_lab.train.batches import Batches
 from texvent_lab.train.depth.config import DepthConfig

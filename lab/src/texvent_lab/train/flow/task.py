@@ -8,7 +8,7 @@ from typing import Any, ClassVar, Final
 
 from texvent.errors import ConfigError
 from texvent.extending import require
-from texvent.metrics.pixelwise.flow_error import FlowError
+from texvent.metrics.dense_errors import FlowError
 from texvent.networks.weight_files import STATE, Tensor
 from texvent_lab.train.batches import Batches
 from texvent_lab.train.flow.config import FlowConfig

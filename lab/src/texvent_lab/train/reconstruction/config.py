@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Literal
 
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
-from texvent.metrics.lpips.layout import LpipsNet
+from texvent.metrics.lpips import LpipsNet
 from texvent_lab.train.schedule import Schedule
 from texvent_lab.train.sequences.config import SequenceData
 

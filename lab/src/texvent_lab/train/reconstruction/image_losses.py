@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from texvent.extending import require
-from texvent.metrics.structural_similarity import CONTRAST, LUMINANCE, gaussian_window
+from texvent.metrics.image_measures import CONTRAST, LUMINANCE, gaussian_window
 from texvent.networks.weight_files import Tensor
 from texvent_lab.train.schedule import EXTRA
 
@@ -24,7 +24,7 @@ def dissimilarity(images: Tensor, true: Tensor) -> Tensor:
 
 
 def ssim(a: Tensor, b: Tensor) -> Tensor:
-    """See `texvent.metrics.structural_similarity.structural_similarity`.
+    """See `texvent.metrics.image_measures.structural_similarity`.
 
     Args:
         a: [n, 1, H, W], 0..1, sides of 11 px or more.

@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, TypeAlias
 
-from texvent.metrics.lpips.weights import LpipsWeights
-from texvent.metrics.structural_similarity import RADIUS_PX
+from texvent.metrics.image_measures import RADIUS_PX
+from texvent.metrics.lpips import Lpips, LpipsWeights
 from texvent.networks.weight_files import Tensor
 from texvent_lab.train.reconstruction.config import ReconstructionLoss
 from texvent_lab.train.reconstruction.image_losses import dissimilarity, inconsistency, l1
-from texvent_lab.train.reconstruction.lpips import LpipsLoss
 
 Comparison: TypeAlias = Callable[[Tensor, Tensor], Tensor]
 """Images and true images, [n, 1, H, W], to [n]."""
@@ -27,7 +26,7 @@ class SequenceLoss:
             weights: those of LPIPS; None: it has no part.
         """
         self._options = options
-        self._lpips = None if weights is None else LpipsLoss(weights)
+        self._lpips = None if weights is None else Lpips(weights)
         parts: list[tuple[float, Comparison]] = [
             (options.l1, l1),
             (options.ssim, dissimilarity),

@@ -15,7 +15,7 @@ from texvent.dataset.targets import Target
 from texvent.errors import ConfigError
 from texvent.extending import require
 from texvent.metrics.image_measures import Float64Array, load_measures
-from texvent.metrics.lpips.weights import find_lpips_weights, read_lpips_weights
+from texvent.metrics.lpips import find_lpips_weights, read_lpips_weights
 from texvent.networks.weight_files import STATE, Tensor
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.reconstruct.checkpoint import Checkpoint

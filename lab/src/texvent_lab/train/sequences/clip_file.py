@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from texvent.dataset.targets import Clip, Target, target_of
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
-from texvent.io.hdf5.damage import open_hdf5
+from texvent.io.hdf5.storage import open_hdf5
 from texvent.sensor import SensorSize
 
 COLUMNS = "xytp"

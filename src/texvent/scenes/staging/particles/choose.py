@@ -39,6 +39,8 @@ class Staged:
     effects: tuple[ParticleEffect, ...]
     ends_s: dict[int, float]
     """Instance of an object → when it is gone, s."""
+    kinds: tuple[str, ...] = ()
+    """Weather or kind of effect of each particle system."""
 
 
 def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
@@ -53,15 +55,17 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
         if kind is not None and one.is_lit is not False and (kind, index) not in named:
             said.append(Effect(kind, index))
     effects = _weather(description, setting)
+    kinds: list[str] = [description.surroundings.weather or ""] * len(effects)
     ends: dict[int, float] = {}
     for number, effect in enumerate(said):
         copies = [one for one in setting.actors if one.object_index == effect.source]
         for copy, actor in enumerate(copies or [None]):
             rng = seeded(setting.seed, "effect", effect.kind, number, copy)
             effects += _make(effect, actor, setting, rng)
+            kinds += [effect.kind] * (len(effects) - len(kinds))
             if actor is not None and EFFECTS[effect.kind].ends_source:
                 ends[actor.instance] = _start(effect, actor, setting)
-    return Staged(tuple(effects), ends)
+    return Staged(tuple(effects), ends, tuple(kinds))
 
 
 def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEffect]:

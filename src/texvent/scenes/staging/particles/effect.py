@@ -168,8 +168,8 @@ class Fall:
 
 
 FALLS = {
-    "rain": Fall(130, (0.0011, 0.0011, 0.022), (0.66, 0.72, 0.80), Shape.CYLINDER, 8.0),
-    "snow": Fall(170, (0.0028,) * 3, (0.95, 0.96, 1.0), Shape.ELLIPSOID, 0.0, 0.09, 0.015),
+    "rain": Fall(170, (0.0018, 0.0018, 0.032), (0.66, 0.72, 0.80), Shape.CYLINDER, 8.0),
+    "snow": Fall(220, (0.0052,) * 3, (0.95, 0.96, 1.0), Shape.ELLIPSOID, 0.0, 0.09, 0.015),
 }
 """Weather that falls."""
 

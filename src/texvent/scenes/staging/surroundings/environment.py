@@ -36,8 +36,11 @@ NO_ROOM_M = 9.0
 """Half the side of a room where there is none, m; nothing shows it."""
 _BLACK: Colour = (0.0, 0.0, 0.0)
 SNOW: Colour = (0.78, 0.82, 0.88)
-_SNOWED_OVER = (Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD, Ground.RIVER, Ground.LAKE)
-"""Grounds whose grass is white when snow lies on it."""
+_SNOWED_OVER = (
+    Ground.GRASS, Ground.ROAD, Ground.DIRT_ROAD, Ground.RIVER, Ground.LAKE, Ground.CITY,
+    Ground.PLAIN, Ground.SAND,
+)  # fmt: skip
+"""Grounds whose grass or paving is white when snow lies on it."""
 _WATER_COLOUR: Colour = (0.05, 0.28, 0.42)
 _UNDERWATER_SIGHT_M = 16.0
 _FOG_SIGHT = 3.0

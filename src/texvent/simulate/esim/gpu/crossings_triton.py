@@ -1,15 +1,17 @@
-"""ESIM's pixel model as Triton kernels; `pixels` launches them.
+"""ESIM on the GPU: its options as numbers and maps, and threshold crossings as Triton kernels.
 
 As with Texvent, a program owns a block of pixels and goes through all intervals of a call, once to
-count the events and once to write them; `stamp_crossings` then gives them their times.
+count the events and once to write them.
 """
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import triton
 import triton.language as tl
 
-from texvent.simulate.esim.gpu import rules
+from texvent.simulate.esim.simulator import WHITE
 from texvent.simulate.gpu.blocks_triton import (
     count_bad,
     find_cell,
@@ -23,11 +25,40 @@ from texvent.simulate.gpu.blocks_triton import (
     skip_frames,
     write_events,
 )
+from texvent.simulate.gpu.kernel_types import Tensor
 
-_THRESHOLD_ON = tl.constexpr(rules.THRESHOLD_ON)
-_THRESHOLD_OFF = tl.constexpr(rules.THRESHOLD_OFF)
-_LOG_EPS = tl.constexpr(rules.LOG_EPS)
-_WHITE = tl.constexpr(rules.WHITE)
+THRESHOLD_ON, THRESHOLD_OFF, LOG_EPS = range(3)
+"""Places in `EsimRules.numbers`."""
+
+
+class EsimRules(NamedTuple):
+    """The options of the model, on the device."""
+
+    numbers: Tensor
+    """[3] float64, because Triton rounds a plain number to float32."""
+    logs: Tensor
+    """[256] float64: log intensity of a byte."""
+    threshold_on: Tensor
+    """[B, area] float64 thresholds of every pixel, or None where all have the nominal one."""
+    threshold_off: Tensor
+    """[B, area] alike."""
+    rests: Tensor
+    """[1] int64, time after an event in which the pixel cannot fire, µs; None without one."""
+
+
+class State(NamedTuple):
+    """State of the pixels."""
+
+    level: Tensor
+    """[B, area] float64, reference log intensity."""
+    fired_us: Tensor
+    """[B, area] int64, time of its last event, µs; None without a refractory period."""
+
+
+_THRESHOLD_ON = tl.constexpr(THRESHOLD_ON)
+_THRESHOLD_OFF = tl.constexpr(THRESHOLD_OFF)
+_LOG_EPS = tl.constexpr(LOG_EPS)
+_WHITE = tl.constexpr(WHITE)
 
 
 @triton.jit
@@ -44,9 +75,9 @@ def scan_ramp(
     """Find every threshold that a straight line of log intensity crosses in every interval.
 
     Arguments as for `texvent.gpu.scan_triton.scan_levels`, but `rules` are `EsimRules`, and
-    `state`, an `rules.State`, is brought up to date in pass 2.
+    `state`, a `State`, is brought up to date in pass 2.
 
-    Source: as `crossing.ramp_reference.cross_ramp`, whose events these are.
+    Source: as `crossing.ramp`, whose events these are.
     """
     clip, at, inside, home, pixels = own_pixels(frames, ALIGN, BLOCK)
     threshold_on, threshold_off = _thresholds_of(rules, home, inside)

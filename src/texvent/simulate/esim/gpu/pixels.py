@@ -9,22 +9,28 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import ConfigError
-from texvent.simulate.esim.gpu import crossings_triton, rules
+from texvent.simulate.esim.gpu import crossings_triton
+from texvent.simulate.esim.gpu.crossings_triton import (
+    LOG_EPS,
+    THRESHOLD_OFF,
+    THRESHOLD_ON,
+    EsimRules,
+    State,
+)
 from texvent.simulate.esim.simulator import EsimConfig, log_intensity
-from texvent.simulate.gpu.device import EXTRA, LAUNCH
 from texvent.simulate.gpu.intervals import Float64Array, Int64Array, Span
 from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
 from texvent.simulate.gpu.launch import (
-    LaunchSize,
+    EXTRA,
+    LAUNCH,
+    RAMP_LAUNCH,
+    RECORD_BLOCK,
     make_records,
     segment_grid,
     to_device,
 )
-from texvent.simulate.gpu.pixels import GpuPixels
+from texvent.simulate.gpu.passes import GpuPixels
 from texvent.simulate.random.mismatch import LONG_AGO_US, draw_threshold_pair, sensor_key
-
-_BLOCK = 512
-RAMP_LAUNCH = LaunchSize(512, 4)
 
 
 class EsimPixels(GpuPixels[EsimConfig]):
@@ -38,7 +44,7 @@ class EsimPixels(GpuPixels[EsimConfig]):
             seeds: one per clip.
 
         Raises:
-            ConfigError: thresholds that are drawn anew for every frame.
+            ConfigError: thresholds that are drawn for every frame.
         """
         if config.threshold_sigma > 0 and config.threshold_redraw == "frame":
             raise ConfigError(
@@ -52,7 +58,7 @@ class EsimPixels(GpuPixels[EsimConfig]):
         torch = require("torch", extra=EXTRA)
         config, device, shape = self.config, frames.device, frames.shape
         rests = config.refractory_period_us > 0
-        self._state = rules.State(
+        self._state = State(
             # What it holds does not matter: the first interval begins at its own start.
             torch.zeros(shape, dtype=torch.float64, device=device),
             torch.full(shape, LONG_AGO_US, dtype=torch.int64, device=device) if rests else None,
@@ -65,11 +71,11 @@ class EsimPixels(GpuPixels[EsimConfig]):
             on, off = (to_device(np.stack(one), device) for one in zip(*pairs, strict=True))
             maps = on, off
         numbers = np.empty(3)
-        numbers[rules.THRESHOLD_ON] = config.contrast_threshold_on
-        numbers[rules.THRESHOLD_OFF] = config.contrast_threshold_off
-        numbers[rules.LOG_EPS] = config.log_eps
+        numbers[THRESHOLD_ON] = config.contrast_threshold_on
+        numbers[THRESHOLD_OFF] = config.contrast_threshold_off
+        numbers[LOG_EPS] = config.log_eps
         logs = log_intensity(np.arange(256, dtype=np.uint8), config.log_eps)
-        self._rules = rules.EsimRules(
+        self._rules = EsimRules(
             to_device(numbers, device),
             to_device(logs, device),
             *maps,
@@ -96,13 +102,13 @@ class EsimPixels(GpuPixels[EsimConfig]):
 
     def timestamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
         """Give every record its time; see `crossings_triton.stamp_crossings`."""
-        crossings_triton.stamp_crossings[segment_grid(call, len(records.pixel), _BLOCK)](
+        crossings_triton.stamp_crossings[segment_grid(call, len(records.pixel), RECORD_BLOCK)](
             call.frames,
             call.intervals,
             self._rules,
             records,
             ends,
             words,
-            BLOCK=_BLOCK,
+            BLOCK=RECORD_BLOCK,
             **LAUNCH,
         )

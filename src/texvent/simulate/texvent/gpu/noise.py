@@ -1,4 +1,4 @@
-"""Noise addition (Eq. 6) on the GPU: Poisson tables from the host, draws on the device."""
+"""Noise addition (Eq. 6) on the GPU: Poisson tables from the host, draws by blocks of pixels."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 import triton
+import triton.language as tl
 
 from texvent._require import require
-from texvent.simulate.gpu.device import EXTRA, LAUNCH
+from texvent.simulate.gpu import kernel_types
+from texvent.simulate.gpu.blocks_triton import draw_word, pack_event, place_in, read_now, to_uniform
 from texvent.simulate.gpu.intervals import Int64Array, Span
 from texvent.simulate.gpu.kernel_types import (
     DARK_BELOW,
@@ -18,11 +20,116 @@ from texvent.simulate.gpu.kernel_types import (
     NoiseRules,
     Tensor,
 )
-from texvent.simulate.gpu.launch import to_device
+from texvent.simulate.gpu.launch import EXTRA, LAUNCH, to_device
+from texvent.simulate.random.draws import Purpose
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.gpu.noise_triton import draw_noise
-from texvent.simulate.texvent.kernels.scan import NOISE_BLOCK
-from texvent.simulate.texvent.noise import poisson_cumulative
+from texvent.simulate.texvent.noise import (
+    NOISE_BLOCK,
+    NOISE_PLACE_SHIFT,
+    poisson_cumulative,
+)
+
+_BLOCK = tl.constexpr(NOISE_BLOCK)
+_PLACE_SHIFT = tl.constexpr(NOISE_PLACE_SHIFT)
+_TIME_MASK = tl.constexpr((1 << NOISE_PLACE_SHIFT) - 1)
+_TIME_UNIT = tl.constexpr(2.0**-NOISE_PLACE_SHIFT)
+_COUNT_DRAW = tl.constexpr(Purpose.NOISE_COUNT.draw())
+_PLACE_DRAW = tl.constexpr(Purpose.NOISE_PLACE.draw())
+_POLARITY_DRAW = tl.constexpr(Purpose.NOISE_POLARITY.draw())
+_PER_MARK = tl.constexpr(kernel_types.PIXELS_PER_MARK)
+_ON_FRACTION = tl.constexpr(kernel_types.ON_FRACTION)
+_DARK_BELOW = tl.constexpr(kernel_types.DARK_BELOW)
+
+
+@triton.jit
+def draw_noise(
+    frames: tl.tuple,
+    intervals: tl.tuple,
+    rules: tl.tuple,
+    fired: tl.tensor,
+    tally: tl.tensor,
+    words: tl.tensor,
+    LANES: tl.constexpr,
+    DRAWS: tl.constexpr,
+) -> None:
+    """Draw the noise of every segment: once to count it, once to write it down.
+
+    Args:
+        frames: `kernel_types.Frames`.
+        intervals: `kernel_types.Intervals`.
+        rules: `kernel_types.NoiseRules`.
+        fired: `PassCounts.fired`, or None where noise is not on dark, resting pixels only.
+        tally: [S, noise blocks]: pass 1 leaves the number of events here, int32; pass 2 finds where
+            the block's events begin among all words, int64.
+        words: [n] int64, see `blocks_triton.pack_event`; None in pass 1.
+        LANES: noise blocks of a program.
+        DRAWS: events of a block that are drawn at once.
+
+    Equation: (6), section 3.2.2, drawn as `texvent.simulate.texvent.noise` says.
+    """
+    segment = tl.program_id(1).to(tl.int64)
+    lane = tl.program_id(0) * LANES + tl.arange(0, LANES)
+    blocks = (frames.area + _BLOCK - 1) // _BLOCK
+    inside = lane < blocks
+    key = tl.load(intervals.key + segment).to(tl.uint64, bitcast=True)
+    first = tl.full([LANES], _COUNT_DRAW, tl.int64)
+    chance = to_uniform(draw_word(key, lane >> 16, lane & 0xFFFF, first))
+    count = tl.where(inside, _count_below(chance, intervals, segment, rules), 0)
+    cell = tally + segment * blocks + lane
+    place = tl.zeros([LANES], tl.int64)
+    if words is not None:
+        place = tl.load(cell, mask=inside, other=0)
+    block = lane[:, None]
+    y, x = block >> 16, block & 0xFFFF
+    for start in range(0, tl.max(count), DRAWS):
+        k = (start + tl.arange(0, DRAWS)).to(tl.int64)[None, :]
+        word = draw_word(key, y, x, k + _PLACE_DRAW)
+        pixel = block * _BLOCK + (word >> _PLACE_SHIFT).to(tl.int32)
+        falls = (k < count[:, None]) & (pixel < frames.area)
+        if fired is not None:
+            falls &= _is_resting(frames, segment, pixel, falls, (fired, rules))
+        number = falls.to(tl.int32)
+        if words is not None:
+            share = (word & _TIME_MASK).to(tl.float64) * _TIME_UNIT
+            coin = to_uniform(draw_word(key, y, x, k + _POLARITY_DRAW))
+            is_on = (coin < tl.load(rules.numbers + _ON_FRACTION)).to(tl.int64)
+            t = place_in(intervals, segment, share)
+            at = place[:, None] + tl.cumsum(number, 1) - number
+            tl.store(words + at, pack_event(t, pixel, is_on, 1, frames.area), mask=falls)
+        place += tl.sum(number, axis=1)
+    if words is None:
+        tl.store(cell, place, mask=inside)
+
+
+@triton.jit
+def _count_below(
+    chance: tl.tensor, intervals: tl.tuple, segment: tl.tensor, rules: tl.tuple
+) -> tl.tensor:
+    """Number of entries of the segment's cumulative Poisson table up to `chance`."""
+    row = rules.cumulative + tl.load(intervals.table + segment) * rules.length
+    low = tl.zeros(chance.shape, tl.int32)
+    high = tl.full(chance.shape, 0, tl.int32) + rules.length
+    while tl.max(high - low) > 0:
+        middle = (low + high) // 2
+        open_ = low < high
+        is_above = tl.load(row + middle, mask=open_, other=2.0) > chance
+        high = tl.where(open_ & is_above, middle, high)
+        low = tl.where(open_ & (is_above == 0), middle + 1, low)
+    return low
+
+
+@triton.jit
+def _is_resting(
+    frames: tl.tuple, segment: tl.tensor, pixel: tl.tensor, where: tl.tensor, mask: tl.tuple
+) -> tl.tensor:
+    """The mask M of Eq. 6 at single pixels: darker than σ, and not fired."""
+    fired, rules = mask
+    intensity = read_now(frames, segment, pixel, where).to(tl.float64)
+    marks = fired + segment * ((frames.area + _PER_MARK - 1) // _PER_MARK)
+    byte = tl.load(marks + pixel // _PER_MARK, mask=where, other=0)
+    bit = (byte.to(tl.int32) >> (pixel % _PER_MARK)) & 1
+    return (intensity < tl.load(rules.numbers + _DARK_BELOW)) & (bit == 0)
+
 
 _CELLS = 512
 """Draws of a program at a time."""
@@ -32,7 +139,7 @@ _NEVER = 2.0
 
 
 def noise_rules(config: TexventConfig, span: Span, frames: Tensor) -> tuple[NoiseRules, Int64Array]:
-    """How noise is drawn in the intervals of a span.
+    """Noise rules of the intervals of a span.
 
     Args:
         config: options of the model.

@@ -10,25 +10,23 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import ConfigError
-from texvent.simulate.gpu.device import EXTRA, LAUNCH
 from texvent.simulate.gpu.intervals import Float64Array, Int64Array, Span
 from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
 from texvent.simulate.gpu.launch import (
-    LaunchSize,
+    BRIGHTNESS_LAUNCH,
+    EXTRA,
+    LAUNCH,
+    LEVELS_LAUNCH,
+    RECORD_BLOCK,
     make_records,
     segment_grid,
     to_device,
 )
-from texvent.simulate.gpu.pixels import GpuPixels
+from texvent.simulate.gpu.passes import GpuPixels
 from texvent.simulate.random.draws import frame_keys
-from texvent.simulate.texvent.brightness_cache import CacheSchedule
 from texvent.simulate.texvent.config import TexventConfig
+from texvent.simulate.texvent.event_frame import CacheSchedule
 from texvent.simulate.texvent.gpu import rules, scan_triton
-
-_BLOCK = 512
-LEVELS_LAUNCH = LaunchSize(128, 1)
-"""One warp: nothing waits at a barrier, and a quiet one has little to do."""
-BRIGHTNESS_LAUNCH = LaunchSize(512, 4)
 
 
 class TexventPixels(GpuPixels[TexventConfig]):
@@ -111,13 +109,13 @@ class TexventPixels(GpuPixels[TexventConfig]):
     def timestamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
         """Give every record its time; see `scan_triton.timestamp_events`."""
         torch = require("torch", extra=EXTRA)
-        grid = segment_grid(call, len(records.pixel), _BLOCK)
+        grid = segment_grid(call, len(records.pixel), RECORD_BLOCK)
         extremes = None
         if self.config.timestamp_rule == "eq7":
             extremes = torch.empty(call.segments, 2, dtype=torch.float64, device=words.device)
             extremes[:, 0], extremes[:, 1] = torch.inf, -torch.inf
             scan_triton.find_extremes[grid](
-                call.frames, self._rules, records, ends, extremes, BLOCK=_BLOCK, **LAUNCH
+                call.frames, self._rules, records, ends, extremes, BLOCK=RECORD_BLOCK, **LAUNCH
             )
         scan_triton.timestamp_events[grid](
             call.frames,
@@ -127,7 +125,7 @@ class TexventPixels(GpuPixels[TexventConfig]):
             (ends, extremes),
             words,
             TIMESTAMP_RULE=rules.TIMESTAMP_RULES[self.config.timestamp_rule],
-            BLOCK=_BLOCK,
+            BLOCK=RECORD_BLOCK,
             **LAUNCH,
         )
 

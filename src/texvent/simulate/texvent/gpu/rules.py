@@ -12,12 +12,12 @@ from texvent.simulate.crossing.trigger_levels import trigger_factors
 from texvent.simulate.gpu.kernel_types import Tensor
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.pixel_state import needs_levels
+from texvent.simulate.texvent.pixel_memory import needs_levels
 
 BALANCE, THRESHOLD, UP, DOWN, SCALE = range(5)
-"""Where each number lies in `TexventRules.numbers`."""
+"""Places in `TexventRules.numbers`."""
 TIMESTAMP_RULES = {"eq7": 0, "random": 1, "linear": 2, "hyperbolic": 3, "even": 4, "end": 5}
-"""How the kernels are told the rule for times."""
+"""Numbers of the rules for times in the kernels."""
 TIMESTAMP_DRAW = Purpose.TIMESTAMP.draw()
 LEVELS = 256
 

@@ -12,6 +12,7 @@ import triton.language as tl
 
 from texvent.simulate.gpu.blocks_triton import (
     count_bad,
+    draw_word,
     find_cell,
     mark_fired,
     own_pixels,
@@ -23,9 +24,9 @@ from texvent.simulate.gpu.blocks_triton import (
     read_order,
     read_share,
     skip_frames,
+    to_uniform,
     write_events,
 )
-from texvent.simulate.gpu.draws_triton import draw_word, to_uniform
 from texvent.simulate.texvent.gpu import rules
 
 _BALANCE = tl.constexpr(rules.BALANCE)
@@ -212,7 +213,7 @@ def brightness_of(intensity: tl.tensor, rules: tl.tuple) -> tl.tensor:
 
 @triton.jit
 def count_events(size: tl.tensor, threshold: tl.tensor, rules: tl.tuple) -> tl.tensor:
-    """How many events a change of `size` ≥ δ makes, int32."""
+    """Number of events of a change of `size` ≥ δ, int32."""
     if rules.multi_event:
         # Of intensities that are refused after the pass, the size may be NaN or infinite.
         number = tl.floor(tl.where(size < _LARGEST, size, 0.0) / threshold).to(tl.int32)

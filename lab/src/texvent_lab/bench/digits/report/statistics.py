@@ -12,6 +12,9 @@ from numpy.typing import NDArray
 
 from texvent_lab.bench.digits.data.idx import CLASSES
 
+SIGNIFICANCE = 0.05
+"""Classifiers differ where p is not above it."""
+
 
 class McNemar(NamedTuple):
     """Two classifiers on the same recordings."""
@@ -62,6 +65,27 @@ def difference_interval(only_first: int, only_second: int, count: int) -> tuple[
     error = math.sqrt(first + second - (first - second) ** 2 / total) / total
     reach = NormalDist().inv_cdf(0.975) * error
     return difference - reach, difference + reach
+
+
+def holm(p_values: Sequence[float]) -> list[float]:
+    """p-values of several tests, adjusted so that all together err in at most their share of cases.
+
+    Args:
+        p_values: of tests that need not be independent.
+
+    Source: S. Holm, "A simple sequentially rejective multiple test procedure", 1979.
+
+    Example:
+        >>> holm([0.01, 0.04, 0.03])
+        [0.03, 0.06, 0.06]
+    """
+    order = sorted(range(len(p_values)), key=p_values.__getitem__)
+    adjusted = [0.0] * len(p_values)
+    largest = 0.0
+    for rank, index in enumerate(order):
+        largest = max(largest, min(1.0, p_values[index] * (len(p_values) - rank)))
+        adjusted[index] = largest
+    return adjusted
 
 
 def vote(predictions: Sequence[NDArray[np.int64]]) -> NDArray[np.int64]:

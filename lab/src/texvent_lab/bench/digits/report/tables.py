@@ -5,11 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from texvent.metrics.summary import summarise
-from texvent.metrics.uncertainty.difference import SIGNIFICANCE
-from texvent.metrics.uncertainty.permutation import holm
 from texvent_lab.bench.classification.classify import binomial_error
 from texvent_lab.bench.digits.report.results import DigitsReport, SetScore
-from texvent_lab.bench.digits.report.statistics import difference_interval
+from texvent_lab.bench.digits.report.statistics import SIGNIFICANCE, difference_interval, holm
 from texvent_lab.bench.markdown import markdown_table
 
 REPRESENTATION_TITLES = {

@@ -1,1 +1,0 @@
-"""What the interpolation networks share: devices, weight files, tiles, warping."""

@@ -1,0 +1,280 @@
+"""HDF5 files on disk: opening, checks of hostile files, packed chunks, notice of a full disk."""
+
+from __future__ import annotations
+
+import io
+import math
+import os
+import zlib
+from abc import ABC, abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import TracebackType
+from typing import TYPE_CHECKING, Any, ClassVar, Self
+
+import h5py
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent._require import require
+from texvent.errors import FileFormatError, MissingDependencyError
+from texvent.io.block_codec import BlockCodec
+from texvent.io.block_writer import BlockWriter, FileTarget, FormatLimits, WriteBlock
+from texvent.io.input_checks import reporting_damage
+from texvent.io.protocol import Columns
+from texvent.runtime.interrupts import delay_interrupts
+
+if TYPE_CHECKING:
+    from _typeshed import ReadableBuffer, WriteableBuffer
+
+
+HDF5_DAMAGE = (
+    *(OSError, RuntimeError, KeyError, ValueError, TypeError, AttributeError, MemoryError),
+    OverflowError,
+)
+"""h5py raises any of these on a damaged file."""
+MAX_CHUNK_BYTES = 256 * 2**20
+"""HDF5 unpacks whole chunks: larger ones would fill the memory."""
+
+
+@contextmanager
+def open_hdf5(path: Path) -> Iterator[Any]:
+    """An HDF5 file to read; what h5py raises inside the block names the file.
+
+    Raises:
+        FileFormatError: the file is damaged.
+    """
+    with (
+        reporting_damage(path, "an HDF5 event file", HDF5_DAMAGE),
+        h5py.File(path, "r") as file,
+    ):
+        yield file
+
+
+def check_claims(dataset: Any, path: Path) -> None:
+    """Refuse a dataset that would take too long to read, or more memory than there is.
+
+    HDF5 gives zeros where nothing is stored, so a file of 4 kB can claim 10^18 events; and a chunk
+    of zeros shrinks to a thousandth.
+
+    Raises:
+        FileFormatError: more values are claimed than stored, or chunks are too large.
+    """
+    if dataset.chunks is None:
+        stored = dataset.id.get_storage_size() // dataset.dtype.itemsize
+    else:
+        length = math.prod(dataset.chunks)
+        if length * dataset.dtype.itemsize > MAX_CHUNK_BYTES:
+            raise FileFormatError(
+                f"{path}: {dataset.name} has chunks of {length * dataset.dtype.itemsize} bytes; "
+                f"at most {MAX_CHUNK_BYTES}. If the file is sound, h5repack makes them smaller"
+            )
+        stored = dataset.id.get_num_chunks() * length
+    if stored < dataset.size:
+        raise FileFormatError(
+            f"{path} is damaged: {dataset.name} claims {dataset.size} values and stores at most "
+            f"{stored}"
+        )
+
+
+def check_filters(dataset: Any, path: Path) -> None:
+    """Load hdf5plugin where a file, such as DSEC's, is compressed with a foreign filter.
+
+    Raises:
+        MissingDependencyError: it is not installed.
+    """
+    properties = dataset.id.get_create_plist()
+    filters = [properties.get_filter(index)[0] for index in range(properties.get_nfilters())]
+    if all(h5py.h5z.filter_avail(code) for code in filters):
+        return
+    try:
+        require("hdf5plugin")
+    except MissingDependencyError as error:
+        raise MissingDependencyError(
+            f"{path} is compressed with an HDF5 filter that h5py does not bring (blosc in DSEC "
+            "files); install it with: pip install hdf5plugin"
+        ) from error
+
+
+LEVEL = 1
+WINDOW_BITS = 15
+MEMORY_LEVEL = 9
+
+
+def append_chunks(dataset: Any, values: NDArray[Any]) -> None:
+    """Append to a dataset that has whole chunks, and the filters shuffle and gzip.
+
+    Args:
+        dataset: one-dimensional h5py dataset; its length is a multiple of its chunks'.
+        values: values to append; the last chunk is filled up with zeros beyond the dataset's end.
+    """
+    known, chunk = dataset.shape[0], dataset.chunks[0]
+    dataset.resize((known + len(values),))
+    for start in range(0, len(values), chunk):
+        full = np.zeros(chunk, dataset.dtype)
+        part = values[start : start + chunk]
+        full[: len(part)] = part
+        dataset.id.write_direct_chunk((known + start,), pack(full))
+
+
+def pack(values: NDArray[Any]) -> bytes:
+    """Values as HDF5's shuffle and deflate filters store them.
+
+    Args:
+        values: [n] contiguous, any type.
+
+    Returns:
+        A zlib stream of all first bytes, then all second bytes, and so on.
+    """
+    shuffled = np.ascontiguousarray(values.view(np.uint8).reshape(-1, values.itemsize).T)
+    packer = zlib.compressobj(LEVEL, zlib.DEFLATED, WINDOW_BITS, MEMORY_LEVEL, zlib.Z_RLE)
+    return packer.compress(shuffled.data) + packer.flush()
+
+
+class DeferredErrorFile(io.FileIO):
+    """An existing file that remembers the first failed write instead of raising it.
+
+    HDF5 cannot be told that the disk is full: it keeps retrying when the file is closed, prints
+    pages of errors and then crashes the process. Behind this file it never learns; the writer asks
+    for `failure` after each batch and throws the file away. After a failure nothing more is
+    written, and missing parts read as zeros.
+    """
+
+    def __init__(self, path: Path) -> None:
+        super().__init__(path, "r+")
+        self._length = os.fstat(self.fileno()).st_size
+        self.failure: OSError | None = None
+        """The first write that failed, if any."""
+
+    def raise_failure(self) -> None:
+        """Raise the failure so far.
+
+        Raises:
+            OSError: a write failed.
+        """
+        if self.failure is not None:
+            raise self.failure
+
+    def seek(self, offset: int, whence: int = os.SEEK_SET) -> int:
+        """Move to an offset from the start, the current position or the end."""
+        if whence == os.SEEK_END:
+            return super().seek(self._length + offset)
+        return super().seek(offset, whence)
+
+    def readinto(self, buffer: WriteableBuffer) -> int:
+        """Fill the buffer from the current position."""
+        view = memoryview(buffer).cast("B")
+        start = self.tell()
+        wanted = max(0, min(len(view), self._length - start))
+        found = super().readinto(view[:wanted])
+        view[found:wanted] = bytes(wanted - found)
+        super().seek(start + wanted)
+        return wanted
+
+    def write(self, buffer: ReadableBuffer) -> int:
+        """Write all bytes at the current position; a failure is remembered, not raised."""
+        view = memoryview(buffer).cast("B")
+        end, written = self.tell() + len(view), 0
+        try:
+            while self.failure is None and written < len(view):
+                written += os.write(self.fileno(), view[written:])
+        except OSError as error:
+            self.failure = error
+        self._length = max(self._length, end)
+        super().seek(end)
+        return len(view)
+
+    def truncate(self, size: int | None = None) -> int:
+        """Set the file's length, by default to the current position."""
+        self._length = self.tell() if size is None else size
+        try:
+            if self.failure is None:
+                super().truncate(self._length)
+        except OSError as error:
+            self.failure = error
+        return self._length
+
+
+class Hdf5Writer(BlockWriter):
+    """Keeps Ctrl-C out of HDF5's callbacks; see `delay_interrupts`."""
+
+    def __enter__(self) -> Self:
+        with delay_interrupts():
+            return super().__enter__()
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        with delay_interrupts():
+            super().__exit__(kind, error, trace)
+
+    def _write_pending(self, write: WriteBlock, *, final: bool) -> None:
+        with delay_interrupts():
+            super()._write_pending(write, final=final)
+
+
+class Hdf5BlockCodec(BlockCodec):
+    """An HDF5 layout; its sink says how blocks are stored."""
+
+    extensions: ClassVar[tuple[str, ...]] = (".h5", ".hdf5")
+    writer: ClassVar[type[BlockWriter]] = Hdf5Writer
+    sink: ClassVar[type[Hdf5Sink]]
+
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
+        """Create the empty data sets; what HDF5 holds back is written at the end."""
+        # v110: object headers and chunk indexes then carry checksums.
+        with (
+            DeferredErrorFile(part) as disk,
+            h5py.File(disk, "w", libver=("v110", "v110")) as file,
+        ):
+            sink = self.sink(file, target, self.limits)
+
+            def write(columns: Columns) -> None:
+                sink.store(columns)
+                disk.raise_failure()
+                sink.written += len(columns["t"])
+
+            yield write
+            sink.complete()
+            file.close()
+            disk.raise_failure()
+
+
+class Hdf5Sink(ABC):
+    """Stores blocks in an HDF5 file. They hold whole chunks, except the last.
+
+    Args:
+        file: h5py's, new and open.
+        target: the file to write.
+        limits: of the format.
+    """
+
+    def __init__(self, file: Any, target: FileTarget, limits: FormatLimits) -> None:
+        self._file = file
+        self._limits = limits
+        self.written = 0
+        """Events stored so far."""
+        self._create_layout(target)
+
+    @abstractmethod
+    def store(self, columns: Columns) -> None:
+        """Write events behind the `written` ones."""
+
+    def complete(self) -> None:  # noqa: B027  # some layouts have nothing to add
+        """Write what is known only at the end."""
+
+    @abstractmethod
+    def _create_layout(self, target: FileTarget) -> None:
+        """Create the data sets and attributes of an empty file."""
+
+    def _extend(self, name: str, values: Any) -> None:
+        """Append to a data set along its first axis."""
+        dataset = self._file[name]
+        known = dataset.shape[0]
+        dataset.resize(known + len(values), axis=0)
+        dataset[known:] = values

@@ -1,1 +1,0 @@
-"""Both streams smoothed by a kernel in time and space."""

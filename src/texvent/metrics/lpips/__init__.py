@@ -1,1 +1,0 @@
-"""LPIPS: how different two images look to a trained network."""

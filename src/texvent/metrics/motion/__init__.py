@@ -1,1 +1,0 @@
-"""Metrics of motion: contrast maximisation, flow-warp sharpness, structure."""

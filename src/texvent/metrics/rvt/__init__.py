@@ -1,1 +1,0 @@
-"""EQS and LFS: similarity of the features of a detection network."""

@@ -1,1 +1,0 @@
-"""Metrics that compare the ON and OFF events of each pixel as trains."""

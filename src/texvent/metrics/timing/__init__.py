@@ -1,1 +1,0 @@
-"""Metrics of event times: batches, cadence, soundness of a recording."""

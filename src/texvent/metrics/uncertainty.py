@@ -1,0 +1,362 @@
+"""Confidence intervals over windows of time: of a metric's mean, and of paired differences."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Hashable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+from statistics import NormalDist
+from typing import Any, NamedTuple, TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from texvent.errors import ConfigError
+from texvent.events import EventStream
+from texvent.metrics.protocol import Better, Metric
+from texvent.runtime.progress import NO_PROGRESS, Progress
+from texvent.video import MICROSECONDS
+
+LEVEL = 0.95
+"""Share of repeated experiments whose interval holds the true mean."""
+RESAMPLES = 9999
+LEAST_WINDOWS = 6
+"""Fewer windows get no interval: five differences of one sign are chance in 1 of 16 cases."""
+DEPENDENT = 1.645
+"""Standard errors of a correlation above which neighbouring windows count as dependent."""
+EDGE_US = 50_000
+"""Windows begin at multiples of it and are multiples of it long, as the windows of STPP, µs."""
+SHORTEST_US = 100_000
+"""Default length of a window, µs."""
+MOST_WINDOWS = 50
+"""Longer recordings get longer windows by default."""
+
+Key = TypeVar("Key", bound=Hashable)
+
+
+class Interval(NamedTuple):
+    """Ends of a 95 % interval; NaN where there are too few windows."""
+
+    low: float
+    high: float
+
+
+def average_blocks(values: ArrayLike, size: int) -> NDArray[np.float64]:
+    """Means of consecutive windows.
+
+    Args:
+        values: [n], in time order; NaN where a window is undefined.
+        size: windows per block; where n is no multiple, the first blocks have one more.
+
+    Returns:
+        [n // size] float64: mean of the defined windows of each block, NaN if it has none.
+    """
+    every = np.asarray(values, dtype=np.float64)
+    if size == 1 or len(every) < size:
+        return every[: len(every) // size]
+    return np.array([_mean_of_defined(one) for one in np.array_split(every, len(every) // size)])
+
+
+def _mean_of_defined(values: NDArray[np.float64]) -> float:
+    defined = values[~np.isnan(values)]
+    return float(defined.mean()) if len(defined) else math.nan
+
+
+def independent_block_size(values: ArrayLike) -> int:
+    """Windows to average so that neighbouring means are uncorrelated.
+
+    The size is doubled while the correlation of neighbours is above its 5 % limit for independent
+    values, 1.645 / √n, or until fewer than `LEAST_WINDOWS` blocks are left: then there are too few.
+
+    Args:
+        values: one per window, in time order; NaN is left out.
+
+    Source: batch means, G. Fishman, "Grouping observations in digital simulation", 1978.
+    """
+    size = 1
+    while True:
+        blocks = average_blocks(values, size)
+        defined = blocks[~np.isnan(blocks)]
+        if len(defined) < LEAST_WINDOWS or not _is_correlated(defined):
+            return size
+        size *= 2
+
+
+def _is_correlated(values: NDArray[np.float64]) -> bool:
+    deviation = values - values.mean()
+    total = float(deviation @ deviation)
+    # Rounding of equal values is no correlation.
+    if total <= len(values) * (1e-12 * float(np.abs(values).max())) ** 2:
+        return False
+    return float(deviation[:-1] @ deviation[1:]) / total > DEPENDENT / math.sqrt(len(values))
+
+
+def bootstrap_interval(values: ArrayLike, *, comparisons: int = 1, seed: int = 0) -> Interval:
+    """95 % interval of the mean of independent windows.
+
+    Args:
+        values: one per window; NaN is left out.
+        comparisons: number of intervals that are to hold together (Bonferroni's correction).
+        seed: of the resampling: the same values and seed give the same interval.
+
+    Returns:
+        The interval; NaN below `LEAST_WINDOWS` defined values.
+
+    Source: the expanded percentile interval, T. Hesterberg, "What teachers should know about the
+        bootstrap", The American Statistician 2015, section 4.3. The plain percentile interval of 8
+        windows holds the true mean in 89 % of experiments, this one in 94 %.
+    """
+    every = np.asarray(values, dtype=np.float64)
+    defined = every[~np.isnan(every)]
+    count = len(defined)
+    if count < LEAST_WINDOWS:
+        return Interval(math.nan, math.nan)
+    drawn = np.random.default_rng(seed).integers(0, count, (RESAMPLES, count))
+    quantile = _t_quantile(count - 1, 1 - (1 - LEVEL) / (2 * comparisons))
+    tail = NormalDist().cdf(-math.sqrt(count / (count - 1)) * quantile)
+    low, high = np.quantile(defined[drawn].mean(axis=1), [tail, 1 - tail])
+    return Interval(float(low), float(high))
+
+
+def _t_quantile(freedom: int, share: float) -> float:
+    """Quantile of Student's t; at .975 to 4 digits above 4 degrees of freedom.
+
+    Source: Abramowitz and Stegun, 26.7.5.
+    """
+    z = NormalDist().inv_cdf(share)
+    terms = (
+        (z**3 + z) / 4,
+        (5 * z**5 + 16 * z**3 + 3 * z) / 96,
+        (3 * z**7 + 19 * z**5 + 17 * z**3 - 15 * z) / 384,
+        (79 * z**9 + 776 * z**7 + 1482 * z**5 - 1920 * z**3 - 945 * z) / 92160,
+    )
+    return float(z + sum(term / freedom**power for power, term in enumerate(terms, start=1)))
+
+
+@dataclass(frozen=True)
+class Mean:
+    """A mean over windows, of values or of paired differences, with its interval."""
+
+    mean: float
+    """NaN without a defined window."""
+    interval: Interval
+    """95 %; NaN where there are too few windows."""
+    windows: int
+    """Independent means: windows, or blocks of them."""
+    block: int = 1
+    """Windows in each."""
+
+    @classmethod
+    def of(cls, values: ArrayLike, *, is_in_sequence: bool, comparisons: int = 1) -> Mean:
+        """Mean of one value per window.
+
+        Args:
+            values: [n]; NaN is left out.
+            is_in_sequence: the windows follow each other in time: correlated neighbours are
+                averaged (`independent_block_size`). False: seeds, scenes or recordings.
+            comparisons: as in `bootstrap_interval`.
+        """
+        every = np.asarray(values, dtype=np.float64)
+        size = independent_block_size(every) if is_in_sequence else 1
+        blocks = average_blocks(every, size)
+        interval = bootstrap_interval(blocks, comparisons=comparisons)
+        return cls(_mean_of_defined(every), interval, int((~np.isnan(blocks)).sum()), size)
+
+    @property
+    def is_enough(self) -> bool:
+        """Whether there are enough windows for an interval."""
+        return self.windows >= LEAST_WINDOWS
+
+    @property
+    def is_significant(self) -> bool:
+        """Whether the interval excludes 0."""
+        return self.interval.low > 0 or self.interval.high < 0
+
+    def reversed(self) -> Mean:
+        """The same with the opposite sign."""
+        low, high = self.interval
+        return Mean(-self.mean, Interval(-high, -low), self.windows, self.block)
+
+    def document(self) -> dict[str, Any]:
+        """Plain values, NaN where undefined."""
+        low, high = self.interval
+        counts = {"windows": self.windows, "windows_per_block": self.block}
+        return {"mean": self.mean, "low": low, "high": high, **counts}
+
+
+def paired_differences(
+    columns: Mapping[Key, ArrayLike], *, is_in_sequence: bool
+) -> dict[Key, Mean]:
+    """Means of paired differences whose intervals hold together.
+
+    Args:
+        columns: key → [n] differences, one per window; NaN where one candidate is undefined.
+        is_in_sequence: as in `Mean.of`.
+    """
+    return {
+        key: Mean.of(one, is_in_sequence=is_in_sequence, comparisons=len(columns))
+        for key, one in columns.items()
+    }
+
+
+def describe_difference(
+    first: str, second: str, difference: Mean, *, better: Better = "lower", unit: str = ""
+) -> str:
+    """A sentence on which of two candidates is closer to the reference.
+
+    Args:
+        first: name of the one candidate.
+        second: name of the other.
+        difference: of their values, first minus second.
+        better: "higher" where larger values are closer.
+        unit: of the values.
+
+    Example:
+        >>> found = Mean(0.036, Interval(0.031, 0.042), 8)
+        >>> describe_difference("A", "B", found, better="higher")
+        'A is closer than B by 0.036 (95 % interval 0.031 to 0.042, 8 windows)'
+    """
+    if not difference.is_enough:
+        kind = "windows" if difference.block == 1 else "independent windows"
+        return (
+            f"{first} and {second}: too few {kind} to compare (n = {difference.windows}; "
+            f"{LEAST_WINDOWS} are needed)"
+        )
+    is_first = (difference.mean > 0) == (better == "higher")
+    if difference.is_significant and difference.mean < 0:
+        difference = difference.reversed()
+    largest = max(map(abs, (difference.mean, *difference.interval)))
+    # Two digits that count of the larger end, at least three, at most six.
+    digits = min(max(1 - math.floor(math.log10(largest)), 3), 6) if largest > 0 else 3
+    mean, low, high = (f"{one:.{digits}f}" for one in (difference.mean, *difference.interval))
+    blocks = "windows" if difference.block == 1 else f"blocks of {difference.block} windows"
+    where = f"95 % interval {low} to {high}, {difference.windows} {blocks}"
+    if not difference.is_significant:
+        return f"{first} and {second} do not differ significantly (difference {mean}, {where})"
+    closer, other = (first, second) if is_first else (second, first)
+    return f"{closer} is closer than {other} by {f'{mean} {unit}'.strip()} ({where})"
+
+
+class Verdict(NamedTuple):
+    """Comparison of two candidates by one metric."""
+
+    metric: str
+    first: str
+    second: str
+    difference: Mean
+    """First minus second, of values; of metrics that are good near 1, of distances from 1."""
+    better: Better
+    """Whether low or high values are closer."""
+    unit: str
+
+    @property
+    def closer(self) -> str | None:
+        """The candidate that is closer to the reference; None without a significant difference."""
+        if not self.difference.is_significant:
+            return None
+        is_first = (self.difference.mean > 0) == (self.better == "higher")
+        return self.first if is_first else self.second
+
+    @property
+    def sentence(self) -> str:
+        """See `describe_difference`."""
+        return describe_difference(*self[1:4], better=self.better, unit=self.unit)
+
+    def document(self) -> dict[str, Any]:
+        """Plain values, NaN where undefined."""
+        names = {"metric": self.metric, "first": self.first, "second": self.second}
+        verdict = {"closer": self.closer, "sentence": self.sentence}
+        return {**names, **self.difference.document(), **verdict}
+
+
+@dataclass(frozen=True)
+class WindowScores:
+    """Metrics window by window."""
+
+    window_us: int
+    """Length of a window, µs."""
+    starts_us: Sequence[int]
+    """Start of each, µs."""
+    metrics: Sequence[Metric]
+    values: Mapping[tuple[str, str], NDArray[np.float64]]
+    """(metric, candidate) → [n], NaN where undefined or infinite."""
+
+    def mean(self, metric: str, candidate: str) -> Mean:
+        """Mean over the windows, with its interval."""
+        return Mean.of(self.values[metric, candidate], is_in_sequence=True)
+
+    def verdicts(self) -> list[Verdict]:
+        """Every two candidates by every metric; the intervals hold together."""
+        candidates = dict.fromkeys(candidate for _, candidate in self.values)
+        known = {metric.name: metric for metric in self.metrics}
+        columns = {
+            (name, *pair): self._errors(metric, pair[0]) - self._errors(metric, pair[1])
+            for name, metric in known.items()
+            for pair in combinations(candidates, 2)
+        }
+        found = []
+        for key, difference in paired_differences(columns, is_in_sequence=True).items():
+            metric = known[key[0]]
+            better: Better = "higher" if metric.better == "higher" else "lower"
+            found.append(Verdict(*key, difference, better, metric.unit))
+        return found
+
+    def _errors(self, metric: Metric, candidate: str) -> NDArray[np.float64]:
+        values = self.values[metric.name, candidate]
+        return np.abs(values - 1) if metric.better == "one" else values
+
+
+def score_windows(
+    candidates: Mapping[str, EventStream],
+    reference: EventStream,
+    metrics: Sequence[Metric],
+    *,
+    window_us: int | None = None,
+    progress: Progress = NO_PROGRESS,
+) -> WindowScores:
+    """Score every candidate in every whole window of the reference.
+
+    Args:
+        candidates: name → stream to judge, of the reference's sensor.
+        reference: the true stream.
+        metrics: metrics to compute.
+        window_us: length of a window, a multiple of 50,000 µs; default: 100,000, more where the
+            reference has more than 50 of these.
+        progress: receives the number of each window.
+
+    Raises:
+        ConfigError: the length is no such multiple.
+        InputError: the sensors differ in size.
+    """
+    check_window(window_us)
+    start, stop = reference.time_range or (0, 0)
+    if window_us is None:
+        window_us = max(SHORTEST_US, -(-(stop - start) // (MOST_WINDOWS * EDGE_US)) * EDGE_US)
+    starts = range(-(-start // EDGE_US) * EDGE_US, stop - window_us + 1, window_us)
+    values = {
+        (metric.name, name): np.empty(len(starts)) for metric in metrics for name in candidates
+    }
+    for number, first in enumerate(starts):
+        progress.advance("windows", number, len(starts))
+        truth = reference.cut(first, first + window_us)
+        for name, events in candidates.items():
+            part = events.cut(first, first + window_us)
+            for metric in metrics:
+                value = metric(part, truth)
+                # PSNR of equal frames is infinite, which has no mean.
+                values[metric.name, name][number] = value if math.isfinite(value) else math.nan
+    return WindowScores(window_us, list(starts), list(metrics), values)
+
+
+def check_window(window_us: int | None) -> None:
+    """Refuse a length that no windows can have.
+
+    Raises:
+        ConfigError: it is no positive multiple of 50,000 µs.
+    """
+    if window_us is not None and (window_us <= 0 or window_us % EDGE_US):
+        raise ConfigError(
+            f"window is {window_us / MICROSECONDS:g} s; it must be a multiple of "
+            f"{EDGE_US / MICROSECONDS:g} s, the window of stpp"
+        )

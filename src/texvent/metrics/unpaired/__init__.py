@@ -1,1 +1,0 @@
-"""Metrics for streams of different scenes."""

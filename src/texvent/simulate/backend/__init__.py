@@ -1,1 +1,0 @@
-"""Which kernels compute, and the elementary functions that all of them share."""

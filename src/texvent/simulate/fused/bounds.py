@@ -1,0 +1,372 @@
+"""Bounds of the luma of a pixel between two frames, and the types of the fused pass.
+
+**Candidates.** A pixel compares its brightness ln(α + I) with a reference ln(A). It fires where the
+two differ by θ_on upwards or θ_off downwards: where α + I ≥ A·e^θ_on or α + I ≤ A·e^−θ_off. So two
+multiplications decide where a pixel may fire, without a logarithm. `candidates` evaluates the
+pixels of one pair of frames at every intermediate instant and lists each place where this is so,
+with a margin (`trigger_levels.MARGIN`). The simulator then decides in NumPy, with its own
+logarithm. Where the margin leaves open whether a pixel fired, all its later instants are listed.
+
+**Segments.** K intermediate instants divide the time between the two frames into K + 1 segments.
+
+**Bounds.** Every intermediate frame is, pixel by pixel, a mean of samples of both frames, at most
+the length of the flow away (`pairs`: the displacement to a frame is τ or 1 − τ times a mean of one
+flow and the other reversed). A sample stays in the range of the four pixels around it. So the luma
+of a pixel is between the darkest and the brightest that both frames have within that distance.
+
+* Up to 1 px of flow, a sample differs from the pixel itself by less than `|dx|` times the steps to
+  its left and right neighbours (in the rows it may touch) plus `|dy|` times those up and down, plus
+  the bends of the cubic sampling along x and y times at most `|dx|`, `|dy|` and 1/4.
+* Further out, the extremes over cells of `CELL` pixels that the flow of the pixel's cell reaches.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.runtime.jit import jit
+from texvent.runtime.read_only import read_only
+from texvent.simulate.crossing.trigger_levels import MARGIN
+
+Float32Array: TypeAlias = NDArray[np.float32]
+Float64Array: TypeAlias = NDArray[np.float64]
+Int64Array: TypeAlias = NDArray[np.int64]
+LumaBounds: TypeAlias = Float32Array
+"""Darkest and brightest luma that each cell of a pair can reach; see `bound_cells`."""
+
+PREVIOUS_FRAME, RESET_TO_CURRENT, RESET_BY_THRESHOLD_ONCE, RESET_BY_THRESHOLD = range(4)
+"""Rules by which a reference moves: it becomes the level at every instant; where the pixel fires it
+becomes the level there; it moves by one threshold; it moves by as many as were passed."""
+
+
+class PairArrays(NamedTuple):
+    """Two frames and the flow between them, read-only; see `MotionInterpolation`."""
+
+    earlier: Float32Array
+    """[H, W] luma."""
+    later: Float32Array
+    """[H, W] luma."""
+    forward: Float32Array
+    """[H, W, 2] flow, px."""
+    backward: Float32Array
+    """[H, W, 2] flow, px."""
+
+
+def with_sweep(arrays: PairArrays, sweep: Float32Array) -> PairArrays:
+    """The arrays, with the longer of forward flow and sweep along each axis: for bounds.
+
+    Args:
+        arrays: of a pair.
+        sweep: [H, W, 2] px, or empty; see `pairs.paths_cpu`.
+    """
+    if sweep.size == 0:
+        return arrays
+    longer = np.where(np.abs(sweep) > np.abs(arrays.forward), sweep, arrays.forward)
+    return arrays._replace(forward=read_only(longer))
+
+
+class PreparedPair(NamedTuple):
+    """A pair, prepared for the search of candidates."""
+
+    pair: Any
+    """`pairs.warp_cpu.WarpPair` of its frames."""
+    bounds: LumaBounds
+
+
+class ReferenceLevels(NamedTuple):
+    """References of the pixels, and the rule by which they move."""
+
+    reference: Float64Array
+    """[H, W] A of every pixel at the start, a balanced level; [0, 0]: the earlier frame's own."""
+    balance: float
+    """α."""
+    up: float
+    """e^θ_on."""
+    down: float
+    """e^−θ_off."""
+    rule: int
+    """One of the four rules above."""
+
+
+class CrossingCandidates(NamedTuple):
+    """Places where a pixel may have fired, by pixel, then in time."""
+
+    pixel: Int64Array
+    """[n] flat index y · W + x."""
+    segment: NDArray[np.int16]
+    """[n] which segment, from 0."""
+    before: Float32Array
+    """[n] luma at the start of the segment."""
+    now: Float32Array
+    """[n] luma at its end."""
+
+    def take(self, rows: Int64Array | slice) -> CrossingCandidates:
+        """Some of the candidates, by number."""
+        return CrossingCandidates(
+            self.pixel[rows], self.segment[rows], self.before[rows], self.now[rows]
+        )
+
+
+CELL = 8
+"""Side of a cell, px."""
+FARTHEST = 8
+"""A flow that leads further than this many cells leaves its cell without bounds."""
+SLACK = 8.0 * MARGIN
+"""Relative margin of trigger levels for rounding."""
+_QUARTER, _1 = np.float32(0.25), np.float32(1.0)
+ROUNDING = np.float32(1e-6)
+"""Largest excess of a rounded mean over its terms, as a share of the brightest; ten times the
+error of mixing float32."""
+
+Rows = tuple[
+    NDArray[np.float32],
+    NDArray[np.float32],
+    NDArray[np.float32],
+    NDArray[np.float32],
+    NDArray[np.float32],
+]
+"""A row, in the middle, and the two on each side; at the border of the image the last one again."""
+
+
+@jit
+def bound_cells(arrays: PairArrays) -> NDArray[np.float32]:
+    """Darkest and brightest luma that the pixels of each cell can reach.
+
+    Returns:
+        [2, rows, W] float32: the lowest and the highest of each cell, for each of its columns.
+    """
+    earlier, later, forward, backward = arrays
+    height, width = earlier.shape
+    down, across = (height + CELL - 1) // CELL, (width + CELL - 1) // CELL
+    reachable = np.empty((2, down, width), np.float32)
+    own = np.empty((down, across, 2), np.float32)
+    reach = np.empty((down, across, 2), np.int64)
+    for i in range(down):
+        rows = slice(i * CELL, min((i + 1) * CELL, height))
+        flows = forward[rows], backward[rows]
+        _find_cell_extremes(earlier[rows], later[rows], flows, own[i], reach[i])
+    for i in range(down):
+        for j in range(across):
+            aside, above = reach[i, j]
+            low, high = own[i, j, 0], own[i, j, 1]
+            if max(aside, above) > FARTHEST:
+                low, high, aside, above = np.float32(0.0), np.float32(np.inf), 0, 0
+            for y in range(max(i - above, 0), min(i + above + 1, down)):
+                for x in range(max(j - aside, 0), min(j + aside + 1, across)):
+                    low, high = min(low, own[y, x, 0]), max(high, own[y, x, 1])
+            for column in range(j * CELL, min((j + 1) * CELL, width)):
+                reachable[0, i, column], reachable[1, i, column] = low, high
+    return reachable
+
+
+@jit
+def _find_cell_extremes(
+    earlier: NDArray[np.float32],
+    later: NDArray[np.float32],
+    flows: tuple[NDArray[np.float32], NDArray[np.float32]],
+    own: NDArray[np.float32],
+    reach: NDArray[np.int64],
+) -> None:
+    """Extremes of one row of cells, and how many cells away their flow leads along x and y."""
+    forward, backward = flows
+    height, width = earlier.shape
+    low, high = np.minimum(earlier[0], later[0]), np.maximum(earlier[0], later[0])
+    farthest = np.zeros(2 * width, np.float32)
+    for y in range(height):
+        first, second = earlier[y], later[y]
+        for x in range(width):
+            low[x] = min(low[x], min(first[x], second[x]))
+            high[x] = max(high[x], max(first[x], second[x]))
+        ahead, back = forward[y].reshape(-1), backward[y].reshape(-1)
+        for x in range(2 * width):
+            farthest[x] = max(farthest[x], max(abs(ahead[x]), abs(back[x])))
+    for j in range(len(own)):
+        start, stop = j * CELL, min((j + 1) * CELL, width)
+        own[j, 0], own[j, 1] = low[start], high[start]
+        aside, above = farthest[2 * start], farthest[2 * start + 1]
+        for x in range(start + 1, stop):
+            own[j, 0], own[j, 1] = min(own[j, 0], low[x]), max(own[j, 1], high[x])
+            aside, above = max(aside, farthest[2 * x]), max(above, farthest[2 * x + 1])
+        reach[j, 0], reach[j, 1] = _count_cells(aside), _count_cells(above)
+
+
+@jit
+def _count_cells(length: np.float32) -> int:
+    """Length of a flow, in cells."""
+    if length > CELL * FARTHEST:
+        return FARTHEST + 1
+    # A bilinear sample touches the pixel behind its position too.
+    return (math.ceil(length) + CELL) // CELL
+
+
+@jit
+def list_active(
+    arrays: PairArrays,
+    levels: ReferenceLevels,
+    bounds: NDArray[np.float32],
+    row: int,
+    active: NDArray[np.int64],
+) -> int:
+    """Find the pixels of a row that may fire; the others cannot.
+
+    Args:
+        arrays: the pair.
+        levels: what the pixels are compared with.
+        bounds: of `bound_cells`.
+        row: which row.
+        active: [W], filled in with their columns.
+
+    Returns:
+        How many there are.
+    """
+    earlier, later, forward, backward = arrays
+    width = earlier.shape[1]
+    low, high = np.empty(width, np.float32), np.empty(width, np.float32)
+    first, second = _rows_around(earlier, row), _rows_around(later, row)
+    reachable = bounds[0, row // CELL], bounds[1, row // CELL]
+    _bound_row(first, second, (forward[row], backward[row]), reachable, low, high)
+    level = levels.reference[row] if levels.reference.size else earlier[row] + levels.balance
+    marks = np.empty(width, np.uint8)
+    _mark(low, high, level, levels, marks)
+    number = 0
+    for x in range(width):
+        active[number] = x
+        number += marks[x]
+    return number
+
+
+@jit(inline="always")
+def _rows_around(image: NDArray[np.float32], row: int) -> Rows:
+    last = len(image) - 1
+    above, below = max(row - 1, 0), min(row + 1, last)
+    outer = image[max(row - 2, 0)], image[min(row + 2, last)]
+    return outer[0], image[above], image[row], image[below], outer[1]
+
+
+@jit
+def _mark(
+    low: NDArray[np.float32],
+    high: NDArray[np.float32],
+    level: NDArray[np.float64],
+    levels: ReferenceLevels,
+    marks: NDArray[np.uint8],
+) -> None:
+    """Set 1 where a pixel may fire, else 0."""
+    balance, up, down = levels.balance, levels.up * (1.0 - SLACK), levels.down * (1.0 + SLACK)
+    for x in range(low.size):
+        room = ROUNDING * high[x]
+        is_up = high[x] + room + balance >= level[x] * up
+        is_down = low[x] - room + balance <= level[x] * down
+        marks[x] = is_up | is_down
+
+
+@jit
+def _bound_row(
+    first: Rows,
+    second: Rows,
+    flows: tuple[NDArray[np.float32], NDArray[np.float32]],
+    reachable: tuple[NDArray[np.float32], NDArray[np.float32]],
+    low: NDArray[np.float32],
+    high: NDArray[np.float32],
+) -> None:
+    """Fill in bounds of a row: near ones where the flow is at most a pixel, else the cell's."""
+    width = low.size
+    work = np.empty((4, width), np.float32)
+    dx, dy, room_first, room_second = work[0], work[1], work[2], work[3]
+    turns = np.zeros((2, width + 2), np.float32)
+    ahead, back = flows[0].reshape(-1), flows[1].reshape(-1)
+    least, most = reachable
+    for x in range(width):
+        dx[x] = max(abs(ahead[2 * x]), abs(back[2 * x]))
+        dy[x] = max(abs(ahead[2 * x + 1]), abs(back[2 * x + 1]))
+    _find_room(first[1:4], dx, dy, room_first)
+    _find_room(second[1:4], dx, dy, room_second)
+    _add_bends(first, dx, dy, turns, room_first)
+    _add_bends(second, dx, dy, turns, room_second)
+    a, b = first[2], second[2]
+    for x in range(width):
+        is_near = (dx[x] <= _1) & (dy[x] <= _1)
+        near = min(a[x] - room_first[x], b[x] - room_second[x])
+        far = max(a[x] + room_first[x], b[x] + room_second[x])
+        low[x] = near if is_near else least[x]
+        high[x] = far if is_near else most[x]
+
+
+@jit
+def _find_room(
+    rows: tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]],
+    dx: NDArray[np.float32],
+    dy: NDArray[np.float32],
+    room: NDArray[np.float32],
+) -> None:
+    """Largest difference between a row's pixels and bilinear samples at most (dx, dy) away."""
+    above, here, below = rows
+    last = here.size - 1
+    for x in range(0, last + 1, max(last, 1)):  # the edges
+        left, right = max(x - 1, 0), min(x + 1, last)
+        aside = _step(above[left], above[x], above[right])
+        aside = max(aside, _step(here[left], here[x], here[right]))
+        aside = max(aside, _step(below[left], below[x], below[right]))
+        room[x] = dx[x] * aside + dy[x] * _step(above[x], here[x], below[x])
+    # Arrays that begin where they are read: Numba takes other indices for possibly negative.
+    above_1, here_1, below_1 = above[1:], here[1:], below[1:]
+    above_2, here_2, below_2 = above[2:], here[2:], below[2:]
+    dx, dy, room = dx[1:], dy[1:], room[1:]
+    for x in range(last - 1):
+        aside = _step(above[x], above_1[x], above_2[x])
+        aside = max(aside, _step(here[x], here_1[x], here_2[x]))
+        aside = max(aside, _step(below[x], below_1[x], below_2[x]))
+        room[x] = dx[x] * aside + dy[x] * _step(above_1[x], here_1[x], below_1[x])
+
+
+@jit(inline="always")
+def _step(before: np.float32, here: np.float32, after: np.float32) -> np.float32:
+    """The larger step from a pixel to its neighbours."""
+    return max(abs(before - here), abs(after - here))
+
+
+@jit
+def _add_bends(
+    rows: Rows,
+    dx: NDArray[np.float32],
+    dy: NDArray[np.float32],
+    turns: NDArray[np.float32],
+    room: NDArray[np.float32],
+) -> None:
+    """Add by how much a sample at most (dx, dy) away differs from the bilinear one, at most.
+
+    Args:
+        rows: rows of the image, [W] each.
+        dx: [W] px.
+        dy: [W] px.
+        turns: [2, W + 2] scratch memory; the first and last column are 0.
+        room: [W], added to.
+    """
+    above_2, above, here, below, below_2 = rows
+    along, across = turns[0, 1:], turns[1, 1:]
+    before_1, before_2, before_3 = above[1:], here[1:], below[1:]
+    after_1, after_2, after_3 = above[2:], here[2:], below[2:]
+    inner = along[1:]
+    for x in range(after_1.size):
+        # By how much the slope changes: at pixels of all three rows, along x.
+        upper = abs((above[x] - before_1[x]) + (after_1[x] - before_1[x]))
+        middle = abs((here[x] - before_2[x]) + (after_2[x] - before_2[x]))
+        lower = abs((below[x] - before_3[x]) + (after_3[x] - before_3[x]))
+        inner[x] = max(max(upper, lower), middle)
+    for x in range(here.size):
+        # Along y: in the middle row, plus that above or below.
+        upper = abs((above_2[x] - above[x]) + (here[x] - above[x]))
+        middle = abs((above[x] - here[x]) + (below[x] - here[x]))
+        lower = abs((here[x] - below[x]) + (below_2[x] - below[x]))
+        across[x] = middle + max(upper, lower)
+    left, right = turns[0], along[1:]
+    left_2, right_2 = turns[1], across[1:]
+    for x in range(room.size):
+        bend = along[x] + max(left[x], right[x])
+        bend_2 = max(max(left_2[x], right_2[x]), across[x])
+        share, share_2 = min(dx[x], _QUARTER), min(dy[x], _QUARTER)
+        room[x] += _QUARTER * (share * bend + share_2 * bend_2)

@@ -1,1 +1,0 @@
-"""Events of one interval, from unsorted columns to a sorted packet."""

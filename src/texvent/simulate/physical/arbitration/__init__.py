@@ -1,1 +1,0 @@
-"""When events are read out: pixels wait for their row or for a scan."""

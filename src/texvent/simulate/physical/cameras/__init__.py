@@ -1,1 +1,0 @@
-"""Cameras that people have: their constants with sources, and their biases."""

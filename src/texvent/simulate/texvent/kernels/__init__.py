@@ -1,1 +1,0 @@
-"""Kernels of the Texvent model: scan, noise, time stamps."""

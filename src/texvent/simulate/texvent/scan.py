@@ -1,0 +1,351 @@
+"""The scan for pixels that fire (Eq. 5), compiled: one pass over the frame.
+
+Tile by tile the frame is compared with trigger levels (`kernels.active_pixels` skips runs of
+pixels that cannot fire). Candidates are then decided by the exact logarithms of the definition:
+from a table for integers, from NumPy for floats, in a pass of their own.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.brightness import Float64Array
+from texvent.runtime.jit import jit
+from texvent.runtime.read_only import read_only
+from texvent.simulate.kernels.active_pixels import (
+    RUN,
+    ByteArray,
+    MarkedRuns,
+    as_bits,
+    list_marked_runs,
+    make_flags,
+    number_of,
+)
+from texvent.simulate.random.draws_cpu import allow_wrap_around
+from texvent.simulate.texvent.pixel_memory import (
+    FiredPixels,
+    FireRule,
+    Intensity,
+    Memory,
+    ScanLevels,
+)
+from texvent.video import HIGHEST_INTENSITY, is_intensity
+
+LARGEST_FLOAT = np.float32(HIGHEST_INTENSITY).view(np.uint32)
+"""Bits of the largest float that a frame may hold."""
+FEW = 6
+"""Up to so many candidates of a run are looked up one by one; of more, trigger levels first leave
+out those that cannot fire, as in moving texture most cannot."""
+_0, _RUN, _BYTE = np.uint64(0), np.uint64(RUN), np.dtype(np.uint8)
+
+
+@jit
+def mark_pixels(frame: Intensity, reference: Intensity, levels: ScanLevels) -> MarkedRuns:
+    """Mark pixels at or beyond their trigger levels, and other bytes that differ enough.
+
+    Bytes are marked that differ by `levels.least` or more, as long as they are few of a run.
+    """
+    is_marked, is_bytes = make_flags(frame.size), frame.dtype == _BYTE
+    for number in range(frame.size // RUN):
+        first, is_any = number * RUN, np.uint8(0)
+        for i in range(first, first + RUN):
+            # The type is known when this is compiled, so there is no branch.
+            if is_bytes:
+                is_any |= _differs(frame[i], reference[i], levels.least)
+            else:
+                is_any |= _is_beyond(frame[i], reference[i], levels)
+        is_marked[number] = is_any
+    run = list_marked_runs(is_marked)
+    bits, word = np.empty(run.size, np.uint64), np.empty(RUN // 8, np.uint64)
+    mark = word.view(np.uint8)
+    for k in range(run.size):
+        if (run[k] + 1) * RUN > frame.size:
+            bits[k] = _bits_of_rest(frame, reference, levels)
+            continue
+        first_pixel = np.uint64(run[k]) * _RUN
+        if not is_bytes or _mark_bytes(frame, reference, first_pixel, levels.least, mark) > FEW:
+            _mark_levels(frame, reference, first_pixel, levels, mark)
+        bits[k] = as_bits(word)
+    return MarkedRuns(run, bits)
+
+
+@jit(inline="always")
+def _differs(intensity: Any, reference: Any, least: np.uint8) -> Any:
+    larger, smaller = max(intensity, reference), min(intensity, reference)
+    return np.uint8(np.uint8(larger - smaller) >= least)
+
+
+@jit(inline="always")
+def _is_beyond(intensity: Any, reference: Any, levels: ScanLevels) -> Any:
+    value, level = np.float32(intensity), np.float32(reference)
+    is_on = value >= level * levels.up + levels.up_offset
+    return np.uint8(is_on | (value <= level * levels.down + levels.down_offset))
+
+
+@jit
+def _mark_bytes(
+    frame: ByteArray, reference: ByteArray, first: np.uint64, least: np.uint8, mark: ByteArray
+) -> np.uint8:
+    """Mark the pixels of a run that differ; how many do."""
+    count = np.uint8(0)
+    for i in range(_RUN):
+        is_other = _differs(frame[first + i], reference[first + i], least)
+        mark[i] = is_other
+        count = np.uint8(count + is_other)
+    return count
+
+
+@jit
+def _mark_levels(
+    frame: Intensity, reference: Intensity, first: np.uint64, levels: ScanLevels, mark: ByteArray
+) -> None:
+    for i in range(_RUN):
+        mark[i] = _is_beyond(frame[first + i], reference[first + i], levels)
+
+
+@jit
+def _bits_of_rest(frame: Intensity, reference: Intensity, levels: ScanLevels) -> np.uint64:
+    """Bits of the pixels after the last whole run that are at or beyond their trigger levels."""
+    bits, first = _0, frame.size // RUN * RUN
+    for i in range(first, frame.size):
+        bits |= np.uint64(_is_beyond(frame[i], reference[i], levels)) << np.uint64(i - first)
+    return bits
+
+
+@jit
+def largest_word(words: NDArray[np.uint32]) -> np.uint32:
+    """The bits of floats as integers, whose order is theirs: 0, ..., infinity, NaN, negative."""
+    largest = np.uint32(0)
+    # By number: a loop over the array itself does not become vector instructions.
+    for i in range(words.size):
+        largest = max(largest, words[i])
+    return largest
+
+
+Int64Array = NDArray[np.int64]
+_0, _1 = np.uint64(0), np.uint64(1)
+_CHUNK = 1 << 14
+"""Pixels of float frames that are looked at together, twice: they stay in a near cache."""
+
+
+class ScanArrays(NamedTuple):
+    """All arrays as large as a frame."""
+
+    frame: Intensity
+    reference: Intensity
+    renewed: Intensity
+    """[0] unless all references are renewed."""
+    previous: Intensity
+    """[0] unless events need it."""
+
+
+class _Logs(NamedTuple):
+    """Balanced intensities of the candidates of float frames, [n], and their logarithms."""
+
+    balanced: Float64Array
+    now: Float64Array
+    then: Float64Array
+    before: Float64Array
+    """[0] unless events need it."""
+
+
+class _Work(NamedTuple):
+    """Room for the worst case, all pixels; the system gives memory only to what is used."""
+
+    fired: FiredPixels
+    candidates: Int64Array
+    """[n], or [0] where tables serve; so are the logarithms."""
+    logs: _Logs
+
+
+def detect_events(
+    frame: Intensity, memory: Memory, levels: ScanLevels, rule: FireRule
+) -> FiredPixels | None:
+    """Pixels that fire in a sub-interval; changes what the pixels remember.
+
+    Args:
+        frame: intensity at its end, [n].
+        memory: what the pixels remember of the frames before.
+        levels: for the scan.
+        rule: what firing is, and what it does.
+
+    Returns:
+        None where an intensity is NaN, infinite or negative; then nothing was changed.
+
+    Equation: (5), section 3.2.2, as `pixel_memory` explains it.
+    """
+    work: _Work = memory.work or _make_room(memory)
+    memory.work = work
+    renewed = memory.renewed if rule.is_renewed else memory.renewed[:0]
+    arrays = ScanArrays(frame, memory.reference, renewed, memory.previous)
+    if not memory.table.size:
+        return _find_fired_floats(arrays, memory, levels, rule)
+    table, fired = memory.table, work.fired
+    if table.flags.writeable:
+        # Of a copied simulator; Numba would compile for it again.
+        table = memory.table = read_only(table)
+    with allow_wrap_around():
+        found = _fire_integers(arrays, table, levels, rule.threshold, fired)
+    if rule.is_renewed:
+        memory.reference, memory.renewed = memory.renewed, memory.reference
+    return fired.first(found)
+
+
+def _find_fired_floats(
+    arrays: ScanArrays, memory: Memory, levels: ScanLevels, rule: FireRule
+) -> FiredPixels | None:
+    work: _Work = memory.work
+    fired, candidates, logs = work
+    with allow_wrap_around():
+        count = _find_candidates(arrays, levels, candidates)
+    if count < 0:
+        if not is_intensity(arrays.frame):
+            return None
+        # −0 is allowed; as 0 it passes.
+        return _find_fired_floats(
+            arrays._replace(frame=read_only(arrays.frame + np.float32(0.0))), memory, levels, rule
+        )
+    candidates = candidates[:count]
+    _take_logs(arrays.frame, candidates, rule, logs.balanced, logs.now)
+    if memory.level.size == 0:
+        _take_logs(memory.reference, candidates, rule, logs.balanced, logs.then)
+    if rule.has_line:
+        _take_logs(memory.previous, candidates, rule, logs.balanced, logs.before)
+    found = _settle_floats(arrays, candidates, logs, memory.level, rule, fired)
+    if rule.has_line:
+        memory.previous[:] = arrays.frame
+    if rule.is_renewed:
+        memory.reference, memory.renewed = memory.renewed, memory.reference
+    return fired.first(found)
+
+
+def _take_logs(
+    intensity: Intensity,
+    pixel: Int64Array,
+    rule: FireRule,
+    balanced: Float64Array,
+    brightness: Float64Array,
+) -> None:
+    """Brightness of some pixels as `balanced_log` computes it, by NumPy's own logarithm."""
+    _add_balance(read_only(intensity), pixel, rule.balance, balanced)
+    np.log(balanced[: pixel.size], out=brightness[: pixel.size])
+
+
+def _make_room(memory: Memory) -> _Work:
+    pixels, lines = memory.reference.size, memory.previous.size
+    start, stop, reference = (np.empty(lines) for _ in range(3))
+    places, change = np.empty(pixels, np.int64), np.empty(pixels)
+    fired = FiredPixels(places, change, start, stop, reference)
+    floats = 0 if memory.table.size else pixels
+    logs = (np.empty(size) for size in (floats, floats, floats, lines))
+    return _Work(fired, np.empty(floats, np.int64), _Logs(*logs))
+
+
+@jit
+def _add_balance(
+    intensity: Intensity, pixel: Int64Array, balance: float, balanced: Float64Array
+) -> None:
+    for k in range(pixel.size):
+        balanced[k] = np.float64(intensity[pixel[k]]) + balance
+
+
+@jit
+def _settle_floats(
+    arrays: ScanArrays,
+    candidates: Int64Array,
+    logs: _Logs,
+    level: Float64Array,
+    rule: FireRule,
+    out: FiredPixels,
+) -> int:
+    """List the candidates that fire, and move what those pixels remember; how many there are."""
+    # Arrays are taken out of their tuples once: counting references to them in the loop is slow.
+    frame, reference, _, _ = arrays
+    _, nows, thens, befores = logs
+    pixel, changes, start, stop, at_start = out
+    found = 0
+    for k in range(candidates.size):
+        i, now = candidates[k], nows[k]
+        then = level[i] if level.size else thens[k]
+        change = now - then
+        if abs(change) < rule.threshold:
+            continue
+        pixel[found], changes[found] = i, change
+        if rule.has_line:
+            start[found], stop[found], at_start[found] = befores[k], now, then
+        found += 1
+        if level.size:
+            level[i] = now if not rule.is_step else _step(then, change, rule)
+            reference[i] = np.float32(math.exp(level[i]))
+        elif not rule.is_renewed:
+            reference[i] = frame[i]
+    return found
+
+
+@jit(inline="always")
+def _step(level: float, change: float, rule: FireRule) -> float:
+    """The reference after its events: a threshold further for each."""
+    number = math.floor(abs(change) / rule.threshold) if rule.multi_event else 1.0
+    moved = number * rule.threshold
+    return level + moved if change > 0 else level - moved
+
+
+@jit
+def _find_candidates(arrays: ScanArrays, levels: ScanLevels, pixel: Int64Array) -> int:
+    """List the pixels of float frames that may fire; −1 if an intensity has a sign or no end."""
+    found = 0
+    for first in range(0, arrays.frame.size, _CHUNK):
+        last = first + _CHUNK
+        frame, reference = arrays.frame[first:last], arrays.reference[first:last]
+        if largest_word(frame.view(np.uint32)) > LARGEST_FLOAT:
+            return -1
+        runs, words = mark_pixels(frame, reference, levels)
+        for k in range(runs.size):
+            bits = words[k]
+            while bits != _0:
+                bit = bits & (~bits + _1)
+                bits ^= bit
+                pixel[found] = first + runs[k] * RUN + number_of(bit)
+                found += 1
+    _copy(arrays.frame, arrays.renewed)
+    return found
+
+
+@jit
+def _fire_integers(
+    arrays: ScanArrays, table: Float64Array, levels: ScanLevels, threshold: float, out: FiredPixels
+) -> int:
+    """Let the pixels of uint8 or uint16 frames fire; how many did."""
+    frame, reference, renewed, previous = arrays
+    pixel, change, start, stop, at_start = out
+    runs, words = mark_pixels(frame, reference, levels)
+    is_renewed, has_line, found = renewed.size > 0, previous.size > 0, 0
+    for k in range(runs.size):
+        bits = words[k]
+        while bits != _0:
+            bit = bits & (~bits + _1)
+            bits ^= bit
+            i = runs[k] * RUN + number_of(bit)
+            now, then = table[frame[i]], table[reference[i]]
+            # Written always, kept if it fires: without a branch that cannot be foreseen.
+            pixel[found], change[found] = i, now - then
+            if has_line:
+                start[found], stop[found], at_start[found] = table[previous[i]], now, then
+            fires = abs(now - then) >= threshold
+            if fires and not is_renewed:
+                reference[i] = frame[i]
+            found += int(fires)
+    _copy(frame, renewed)
+    _copy(frame, previous)
+    return found
+
+
+@jit
+def _copy(source: Intensity, target: Intensity) -> None:
+    """Copy a frame, if there is anything to copy it to."""
+    for i in range(target.size):
+        target[i] = source[i]

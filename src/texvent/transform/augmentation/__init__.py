@@ -1,1 +1,0 @@
-"""Augmentations: changed copies of a sample, drawn by a seed."""

@@ -1,1 +1,0 @@
-"""Still images: the busiest window, the contact sheet."""

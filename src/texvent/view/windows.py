@@ -1,0 +1,358 @@
+"""Windows of events: cut by time, by count or fading, with their source frame and ground truth."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import ConfigError, InputError
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
+from texvent.represent.event_frame import count_events
+from texvent.sensor import SensorSize
+from texvent.video import MICROSECONDS, Frame, FrameStream
+from texvent.view.drawing.canvas import Image
+from texvent.view.drawing.event_image import draw_events, draw_fading, frame_image
+from texvent.view.drawing.palettes import Palette
+from texvent.view.drawing.panels import (
+    Annotations,
+    GroundTruthStream,
+    Overlay,
+    PanelLayout,
+    annotations_at,
+)
+
+
+@dataclass(frozen=True, eq=False)
+class EventWindow:
+    """The events of `[start_us, stop_us)` and the frame that the video shows during it."""
+
+    start_us: int
+    stop_us: int
+    counts: NDArray[np.int32]
+    """OFF and ON events per pixel, [2, H, W]."""
+    image: Image | None = None
+    """The frame at `start_us`, [H, W, 3] RGB, or None if there are only events."""
+    fading: NDArray[np.float32] | None = None
+    """Strength 0..1 of the last OFF and ON event per pixel at the end, [2, H, W], where events
+    fade instead of being counted."""
+    annotations: Annotations | None = None
+    """Boxes and arrows drawn over the panels."""
+
+    @property
+    def event_count(self) -> int:
+        """Number of events."""
+        return int(self.counts.sum())
+
+    @property
+    def caption(self) -> str:
+        """Time and number of events.
+
+        Example:
+            >>> EventWindow(1_500_000, 1_540_000, np.ones((2, 1, 3), dtype=np.int32)).caption
+            '1.500 s  6 events in 40.0 ms'
+        """
+        length_ms = (self.stop_us - self.start_us) / 1000
+        return (
+            f"{self.start_us / MICROSECONDS:.3f} s  "
+            f"{self.event_count:,} events in {length_ms:.1f} ms"
+        )
+
+
+class WindowCollector:
+    """Gathers the packets of a dense stream into one window per source frame.
+
+    Memory holds one source frame and the events since.
+    """
+
+    def __init__(self, size: SensorSize) -> None:
+        self._size = size
+        self._image: Image | None = None
+        self._start_us: int | None = None
+        self._packets: list[EventStream] = []
+
+    def append(self, frame: Frame, packet: EventStream) -> EventWindow | None:
+        """Add the events before `frame`.
+
+        Args:
+            frame: a source or intermediate frame.
+            packet: events in `[time of the frame before, frame.t_us)`.
+
+        Returns:
+            The window that ends at `frame`, if it is a source frame and not the first.
+        """
+        if len(packet):
+            self._packets.append(packet)
+        if not frame.is_source:
+            return None
+        ended = None
+        if self._start_us is not None:
+            counts = count_events(
+                EventStream.concat([EventStream.empty(self._size), *self._packets])
+            )
+            ended = EventWindow(self._start_us, frame.t_us, counts, self._image)
+        self._start_us, self._image = frame.t_us, frame_image(frame)
+        self._packets = []
+        return ended
+
+    def single_frame(self) -> EventWindow | None:
+        """The last source frame, without events: for an input of one frame."""
+        if self._start_us is None:
+            return None
+        counts = np.zeros((2, *self._size.shape), dtype=np.int32)
+        return EventWindow(self._start_us, self._start_us + 1, counts, self._image)
+
+
+NEVER = np.iinfo(np.int64).min // 2
+"""Time of the last event where there was none; half, so that ages do not overflow."""
+BUSIEST_WINDOWS = 50
+"""A recording is cut into this many windows to find the busiest one ..."""
+LONGEST_STILL_US = 40_000
+"""... but none is longer than this, so that moving edges stay sharp."""
+
+
+def cut_windows(
+    packets: Iterable[EventStream], *, size: SensorSize, step_us: Fraction, window_us: int
+) -> Iterator[EventWindow]:
+    """Windows `[s, s + window_us)` for s = first event, + step, + 2 steps, ...
+
+    Memory holds the events of one window and one packet. Step times are rounded to whole µs,
+    never accumulated.
+
+    Args:
+        packets: events in time order.
+        size: sensor size, pixels.
+        step_us: from one window's start to the next, µs; may be shorter than the window
+            (windows overlap) or a fraction.
+        window_us: length of each window, µs.
+
+    Raises:
+        ConfigError: step or window is not above 0.
+    """
+    for start_us, part in cut_streams(packets, size, step_us, window_us):
+        yield EventWindow(start_us, start_us + window_us, count_events(part))
+
+
+def cut_fading(
+    packets: Iterable[EventStream], *, size: SensorSize, step_us: Fraction, tau_us: int
+) -> Iterator[EventWindow]:
+    """One window per step with the exponential time surface at its end.
+
+    As `texvent.represent.time_surface`: exp(−age / τ) of the last event of each polarity at each
+    pixel. Memory holds one time per pixel and polarity besides the events of one step.
+
+    Args:
+        packets: events in time order.
+        size: sensor size, pixels.
+        step_us: from one image to the next, µs.
+        tau_us: decay time τ, µs.
+
+    Raises:
+        ConfigError: the step is not above 0.
+    """
+    latest = np.full((2, *size.shape), NEVER, dtype=np.int64)
+    # Rounded up, so that no event falls between two steps.
+    window_us = max(1, -int(-step_us // 1))
+    for start_us, part in cut_streams(packets, size, step_us, window_us):
+        stop_us = start_us + window_us
+        np.maximum.at(latest, (part.p, part.y, part.x), part.t)
+        fading = _strength(latest, stop_us, tau_us)
+        yield EventWindow(start_us, stop_us, count_events(part), fading=fading)
+
+
+def with_fading(
+    window: EventWindow, packets: Iterable[EventStream], *, size: SensorSize, tau_us: int
+) -> EventWindow:
+    """A window with the exponential time surface at its end, as `cut_fading` gives it."""
+    latest = np.full((2, *size.shape), NEVER, dtype=np.int64)
+    for packet in packets:
+        part = packet[: int(np.searchsorted(packet.t, window.stop_us))]
+        np.maximum.at(latest, (part.p, part.y, part.x), part.t)
+        if len(part) < len(packet):
+            break
+    return replace(window, fading=_strength(latest, window.stop_us, tau_us))
+
+
+def _strength(latest: NDArray[np.int64], stop_us: int, tau_us: int) -> NDArray[np.float32]:
+    """exp(−age / τ) of the last events, 0 where there was none."""
+    age = (stop_us - 1 - latest).astype(np.float32) / tau_us
+    return np.where(latest == NEVER, np.float32(0), np.exp(-age))
+
+
+def cut_counts(
+    packets: Iterable[EventStream], *, size: SensorSize, count: int
+) -> Iterator[EventWindow]:
+    """Windows of `count` events each, however long they take; the last may have fewer.
+
+    Args:
+        packets: events in time order.
+        size: sensor size, pixels.
+        count: events per window.
+    """
+    held = EventStream.empty(size)
+    for packet in packets:
+        held = EventStream.concat([held, packet])
+        # A window lasts until the event after it, so one more must be known.
+        while len(held) > count:
+            part, held = held[:count], held[count:]
+            stop_us = max(int(held.t[0]), int(part.t[0]) + 1)
+            yield EventWindow(int(part.t[0]), stop_us, count_events(part))
+    if len(held):
+        yield EventWindow(int(held.t[0]), int(held.t[-1]) + 1, count_events(held))
+
+
+def cut_streams(
+    packets: Iterable[EventStream], size: SensorSize, step_us: Fraction, window_us: int
+) -> Iterator[tuple[int, EventStream]]:
+    """Start and events of every window of `cut_windows`; arguments and errors as there."""
+    if step_us <= 0 or window_us <= 0:
+        raise ConfigError(
+            f"window {window_us} µs, step {float(step_us):g} µs; both must be above 0"
+        )
+    held = EventStream.empty(size)
+    first_us: int | None = None
+    index = 0
+    for packet in packets:
+        if len(packet) == 0:
+            continue
+        first_us = int(packet.t[0]) if first_us is None else first_us
+        held = EventStream.concat([held, packet])
+        # A window is complete once an event at or after its end is known.
+        while (start_us := first_us + round(index * step_us)) + window_us <= int(held.t[-1]):
+            yield start_us, held.cut(start_us, start_us + window_us)
+            index += 1
+        held = held[int(np.searchsorted(held.t, start_us)) :]
+    while first_us is not None and len(held):
+        start_us = first_us + round(index * step_us)
+        held = held[int(np.searchsorted(held.t, start_us)) :]
+        if len(held):
+            yield start_us, held.cut(start_us, start_us + window_us)
+        index += 1
+
+
+def time_range(packets: EventPackets) -> tuple[int, int] | None:
+    """Half-open range of the event times, µs, from one pass; None without events."""
+    first: int | None = None
+    stop = 0
+    for packet in packets:
+        if len(packet):
+            first = int(packet.t[0]) if first is None else first
+            stop = int(packet.t[-1]) + 1
+    return None if first is None else (first, stop)
+
+
+def still_window_us(extent: tuple[int, int]) -> int:
+    """A window short enough that moving edges stay sharp, µs."""
+    return max(1, min(LONGEST_STILL_US, (extent[1] - extent[0]) // BUSIEST_WINDOWS))
+
+
+def draw_window(window: EventWindow, palette: Palette, *, ceiling: float | None = None) -> Image:
+    """The events of a window, faded by age if it has `fading`, else counted.
+
+    Args:
+        window: events to draw.
+        palette: the colours.
+        ceiling: events per pixel at full strength, for counts; default: from the window.
+
+    Returns:
+        [H, W, 3] uint8.
+    """
+    if window.fading is not None:
+        return draw_fading(window.fading, palette)
+    return draw_events(window.counts, palette, ceiling=ceiling)
+
+
+def compose_window(
+    window: EventWindow,
+    layout: PanelLayout,
+    *,
+    title: str,
+    facts: str,
+    ceiling: float | None = None,
+) -> Image:
+    """Frame, events and caption of a window, with its annotations on both panels."""
+    return layout.compose(
+        window.image,
+        draw_window(window, layout.palette, ceiling=ceiling),
+        title=title,
+        facts=facts,
+        annotations=window.annotations,
+    )
+
+
+class SourceOverlay:
+    """Frames of the source video and its ground truth, shown beside and over the events.
+
+    Raises:
+        InputError: the video has another size than the events.
+        ConfigError: the video has no ground truth for the overlay.
+    """
+
+    def __init__(self, frames: FrameStream | None, overlay: Overlay, *, size: SensorSize) -> None:
+        if frames is not None and frames.size != size:
+            raise InputError(
+                f"the video is {frames.size}, the events are {size}; give a video of the same size"
+            )
+        if overlay != "none" and not isinstance(frames, GroundTruthStream):
+            raise ConfigError(
+                f"overlay is {overlay!r}, but boxes and flow are only known where the embedded "
+                "generator renders the scene again: show a file that `texvent generate` of this "
+                "version wrote, or leave the overlay out"
+            )
+        self.frames = frames
+        self._overlay: Overlay = overlay
+
+    def add_frames(self, windows: Iterable[EventWindow]) -> Iterator[EventWindow]:
+        """The windows, each with the last frame that is not after its start.
+
+        Before the first frame it is the first, after the end the last. Frames are read once, as
+        the windows come.
+        """
+        if self.frames is None:
+            yield from windows
+            return
+        coming = iter(self.frames)
+        shown = next(coming, None)
+        following = next(coming, None)
+        image = _image(shown)
+        for window in windows:
+            while following is not None and following.t_us <= window.start_us:
+                shown, following = following, next(coming, None)
+                image = None
+            image = _image(shown) if image is None else image
+            yield replace(window, image=image)
+
+    def frames_during(self, extent: tuple[int, int] | None) -> Iterator[Frame]:
+        """The frames shown from start to stop, µs; a video may be longer than the events.
+
+        The first is the last frame that is not after the start. Without an extent, all frames.
+        """
+        earlier: Frame | None = None
+        for frame in self.frames or ():
+            if extent is not None and frame.t_us >= extent[1]:
+                break
+            if extent is not None and frame.t_us <= extent[0]:
+                earlier = frame
+                continue
+            if earlier is not None:
+                yield earlier
+                earlier = None
+            yield frame
+        if earlier is not None:
+            yield earlier
+
+    def add_annotations(self, window: EventWindow) -> EventWindow:
+        """The window with its boxes and arrows."""
+        if self._overlay == "none" or not isinstance(self.frames, GroundTruthStream):
+            return window
+        return replace(
+            window, annotations=annotations_at(self.frames, window.start_us, self._overlay)
+        )
+
+
+def _image(frame: Frame | None) -> Image | None:
+    return None if frame is None else frame_image(frame)

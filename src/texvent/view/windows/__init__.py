@@ -1,1 +1,0 @@
-"""Windows of events, their source frame and ground truth, and how they are drawn."""

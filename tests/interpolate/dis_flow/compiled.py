@@ -1,0 +1,17 @@
+"""The compiled kernels, under the names of the functions in `reference`."""
+
+from texvent.interpolate.dis_flow.pyramid_cpu import double, halve, make_level
+from texvent.interpolate.dis_flow.refine_cpu import change_along, refine, unconfirmed
+from texvent.interpolate.dis_flow.search_cpu import join, search, try_vectors
+
+__all__ = [
+    "change_along",
+    "double",
+    "halve",
+    "join",
+    "make_level",
+    "refine",
+    "search",
+    "try_vectors",
+    "unconfirmed",
+]

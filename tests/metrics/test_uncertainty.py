@@ -1,0 +1,171 @@
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from hypothesis.extra import numpy as arrays
+
+from texvent.metrics.uncertainty import (
+    LEAST_WINDOWS,
+    Interval,
+    Mean,
+    average_blocks,
+    bootstrap_interval,
+    describe_difference,
+    independent_block_size,
+    paired_differences,
+)
+
+VALUES = arrays.arrays(np.float64, st.integers(6, 20), elements=st.floats(-5, 5, width=32))
+
+
+def test_the_interval_of_equal_values_has_no_width():
+    assert bootstrap_interval([0.25] * 8) == (0.25, 0.25)
+
+
+def test_the_interval_of_many_values_is_that_of_the_normal_distribution():
+    values = np.random.default_rng(3).normal(2.0, 1.0, 400)
+    low, high = bootstrap_interval(values)
+    error = values.std(ddof=1) / 20
+    assert low == pytest.approx(values.mean() - 1.966 * error, abs=0.1 * error)
+    assert high == pytest.approx(values.mean() + 1.966 * error, abs=0.1 * error)
+    assert bootstrap_interval(values, seed=1) != (low, high)
+
+
+@pytest.mark.parametrize("count", [6, 8, 16])
+def test_95_of_100_intervals_hold_the_true_mean_of_few_normal_values(count):
+    rng = np.random.default_rng(5)
+    intervals = [bootstrap_interval(rng.normal(1.0, 2.0, count), seed=seed) for seed in range(300)]
+    held = np.mean([low <= 1.0 <= high for low, high in intervals])
+    # Three standard errors of 300 experiments are 0.038.
+    assert 0.91 <= held <= 0.985
+
+
+@given(VALUES, st.floats(-3, 3))
+def test_the_interval_moves_with_the_values_and_holds_their_mean(values, shift):
+    low, high = bootstrap_interval(values)
+    assert low - 1e-9 <= values.mean() <= high + 1e-9
+    assert bootstrap_interval(values) == (low, high)
+    assert bootstrap_interval(values + shift) == pytest.approx((low + shift, high + shift))
+    assert bootstrap_interval(-values) == pytest.approx((-high, -low))
+
+
+def test_too_few_windows_have_no_interval():
+    few = [1.0, 2.0, 3.0, 4.0, 5.0]
+    assert len(few) == LEAST_WINDOWS - 1
+    assert all(map(math.isnan, bootstrap_interval([*few, math.nan])))
+    assert not math.isnan(bootstrap_interval([*few, 6.0]).low)
+
+
+def test_blocks_are_means_of_the_windows_that_are_defined():
+    blocks = average_blocks([1.0, 3.0, math.nan, 5.0, 7.0, math.nan, math.nan], 2)
+    # Seven windows make three blocks, the first of three.
+    assert blocks[:2].tolist() == [2.0, 6.0]
+    assert math.isnan(blocks[2])
+    assert len(blocks) == 3
+    assert average_blocks([1.0, math.nan], 1)[0] == 1.0
+    assert len(average_blocks([1.0, 2.0, 3.0], 4)) == 0
+
+
+def test_windows_that_follow_each_other_are_averaged_and_others_are_not():
+    rng = np.random.default_rng(1)
+    assert independent_block_size(rng.normal(size=64)) == 1
+    assert independent_block_size([0.1] * 64) == 1
+    # Each value four times: neighbours are equal until four make one block.
+    assert independent_block_size(np.repeat(rng.normal(size=32), 4)) == 4
+    # A drift never ends: the blocks run out.
+    assert 16 // independent_block_size(np.arange(16.0)) < LEAST_WINDOWS
+
+
+def test_intervals_of_dependent_windows_hold_the_mean_only_by_blocks():
+    """An autoregressive series: neighbours correlate by 0.7."""
+    rng = np.random.default_rng(2)
+    held = {"windows": 0, "blocks": 0}
+    for seed in range(60):
+        series = [0.0]
+        for noise in rng.normal(size=200):
+            series.append(0.7 * series[-1] + noise)
+        values = np.array(series[73:])
+        blocks = average_blocks(values, independent_block_size(values))
+        for name, one in (("windows", values), ("blocks", blocks)):
+            low, high = bootstrap_interval(one, seed=seed)
+            held[name] += low <= 0 <= high
+    assert held["windows"] <= 45
+    assert held["blocks"] >= 51
+
+
+PAIRS = arrays.arrays(
+    np.float64, st.tuples(st.just(2), st.integers(6, 10)), elements=st.floats(0, 1, width=16)
+)
+
+
+def difference(first, second, **options):
+    column = np.subtract(first, second)
+    return paired_differences({"it": column}, **{"is_in_sequence": False, **options})["it"]
+
+
+def test_identical_candidates_do_not_differ():
+    found = difference([0.5, 0.6, 0.7, 0.5, 0.4, 0.6], [0.5, 0.6, 0.7, 0.5, 0.4, 0.6])
+    assert (found.mean, found.interval) == (0.0, (0.0, 0.0))
+    assert describe_difference("A", "B", found) == (
+        "A and B do not differ significantly (difference 0.000, 95 % interval 0.000 to 0.000, "
+        "6 windows)"
+    )
+
+
+def test_a_constant_advantage_over_eight_windows_is_significant():
+    found = difference([0.75] * 8, [0.5] * 8)
+    assert (found.mean, found.interval) == (0.25, (0.25, 0.25))
+    text = "is closer than {} by 0.250 ms (95 % interval 0.250 to 0.250, 8 windows)"
+    higher = describe_difference("A", "B", found, better="higher", unit="ms")
+    assert higher == f"A {text.format('B')}"
+    assert describe_difference("A", "B", found, unit="ms") == f"B {text.format('A')}"
+
+
+@given(PAIRS)
+def test_the_order_of_candidates_only_flips_signs(pair):
+    found, other = difference(*pair), difference(*pair[::-1])
+    assert other.mean == pytest.approx(-found.mean)
+    assert other.interval == pytest.approx(found.reversed().interval)
+    assert found.is_significant == other.is_significant
+    if found.is_significant:
+        assert describe_difference("A", "B", found) == describe_difference("B", "A", other)
+
+
+def test_more_comparisons_widen_the_interval_and_equals_rarely_differ():
+    rng = np.random.default_rng(4)
+    tables = rng.normal(size=(100, 20, 16))
+    alone = wrong = 0
+    for table in tables:
+        columns = dict(enumerate(table))
+        found = paired_differences(columns, is_in_sequence=False)
+        wrong += any(one.is_significant for one in found.values())
+        single = bootstrap_interval(table[0])
+        alone += single.low > 0 or single.high < 0
+        assert found[0].interval.low <= single.low <= single.high <= found[0].interval.high
+    assert alone <= 12
+    assert wrong <= 12
+
+
+def test_windows_that_drift_count_by_blocks_of_which_too_few_are_left():
+    drift = np.arange(16.0)
+    assert difference(drift, 0 * drift).is_significant
+    found = difference(drift, 0 * drift, is_in_sequence=True)
+    assert (found.windows, found.block, found.is_significant) == (4, 4, False)
+    assert "too few independent windows to compare (n = 4;" in describe_difference("A", "B", found)
+
+
+def test_undefined_windows_are_left_out():
+    found = difference([1.0, math.nan, 3, 4, 5, 6, 7], [0.0] * 7)
+    assert (found.mean, found.windows) == (26 / 6, 6)
+    nothing = difference([math.nan] * 7, [0.0] * 7)
+    assert math.isnan(nothing.mean)
+    assert not nothing.is_enough
+
+
+def test_numbers_have_the_digits_that_count():
+    small = describe_difference("A", "B", Mean(0.00042, Interval(0.00031, 0.00052), 8))
+    assert "by 0.00042 (95 % interval 0.00031 to 0.00052" in small
+    large = describe_difference("A", "B", Mean(-12.5, Interval(-20.25, -4.75), 8))
+    assert "by 12.500 (95 % interval 4.750 to 20.250" in large

@@ -1,0 +1,89 @@
+import math
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.metrics.compare import load_metric
+from texvent.metrics.uncertainty import score_windows
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(8, 6)
+
+
+def stream(times_us):
+    times_us = np.asarray(times_us)
+    return EventStream(times_us % 8, times_us % 6, times_us, times_us % 2, SIZE)
+
+
+TRUTH = stream(np.arange(70_000, 1_010_000, 1_000))
+
+
+def windows_of(candidates, *metrics, reference=TRUTH, **options):
+    return score_windows(candidates, reference, list(map(load_metric, metrics)), **options)
+
+
+def test_windows_are_whole_and_begin_at_multiples_of_stpps_window():
+    scores = windows_of({"a": TRUTH}, "stpp")
+    assert scores.window_us == 100_000
+    assert scores.starts_us == list(range(100_000, 900_001, 100_000))
+    assert scores.values["stpp", "a"].tolist() == [1.0] * 9
+
+
+def test_long_recordings_get_longer_windows():
+    scores = windows_of({"a": TRUTH}, "count_ratio", reference=stream(range(0, 20_000_000, 10_000)))
+    assert scores.window_us == 400_000
+    assert len(scores.starts_us) <= 50
+
+
+def test_a_window_is_scored_as_if_it_were_all():
+    late = stream(TRUTH.t + 3_000)
+    scores = windows_of({"late": late}, "nearest", window_us=200_000)
+    nearest = load_metric("nearest")
+    for start, value in zip(scores.starts_us, scores.values["nearest", "late"], strict=True):
+        stop = start + 200_000
+        assert value == nearest(late.between(start, stop), TRUTH.between(start, stop))
+
+
+def test_metrics_that_are_good_near_one_are_compared_by_their_distance_from_one():
+    half, double = TRUTH[::2], stream(np.repeat(TRUTH.t, 2))
+    (verdict,) = windows_of({"half": half, "double": double}, "count_ratio").verdicts()
+    assert verdict.difference.mean == pytest.approx(0.5 - 1.0)
+    assert verdict.closer == "half"
+    assert verdict.sentence.startswith("half is closer than double by 0.500 (")
+
+
+def test_higher_is_closer_where_the_metric_says_so():
+    far = EventStream(TRUTH.x, TRUTH.y, TRUTH.t, 1 - TRUTH.p, SIZE)
+    (verdict,) = windows_of({"far": far, "same": TRUTH}, "stpp").verdicts()
+    assert verdict.difference.mean < 0
+    assert verdict.closer == "same"
+
+
+def test_every_two_candidates_are_compared_by_every_metric():
+    candidates = {"a": TRUTH, "b": stream(TRUTH.t + 500), "c": TRUTH[::2]}
+    verdicts = windows_of(candidates, "nearest", "stpp").verdicts()
+    assert [(one.metric, one.first, one.second) for one in verdicts] == [
+        (metric, *pair) for metric in ("nearest", "stpp") for pair in ("ab", "ac", "bc")
+    ]
+
+
+def test_infinite_and_undefined_windows_are_left_out():
+    scores = windows_of({"a": TRUTH}, "ef_psnr", "fwl")
+    assert np.isnan(scores.values["ef_psnr", "a"]).all()  # equal frames: infinite
+    assert scores.mean("fwl", "a").windows == 0
+
+
+def test_a_reference_without_events_has_no_windows():
+    scores = windows_of({"a": TRUTH}, "stpp", reference=EventStream.empty(SIZE))
+    assert scores.starts_us == []
+    assert math.isnan(scores.mean("stpp", "a").mean)
+
+
+def test_other_sensors_and_lengths_are_refused():
+    with pytest.raises(InputError, match="sensor"):
+        windows_of({"a": EventStream.empty(SensorSize(9, 6))}, "stpp")
+    for length in (0, -50_000, 70_000):
+        with pytest.raises(ConfigError, match="multiple of"):
+            windows_of({"a": TRUTH}, "stpp", window_us=length)

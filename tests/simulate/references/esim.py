@@ -1,0 +1,45 @@
+"""The definition of ESIM's crossing times, in NumPy float64."""
+
+from __future__ import annotations
+
+import numpy as np
+from tests.simulate.references.ramp import Ramp, cross_ramp
+from tests.simulate.references.sorting import sort_events
+
+from texvent.events import SIGNAL
+from texvent.simulate.crossing.ramp import RefractoryPeriod
+from texvent.simulate.esim.crossings import CrossingState, RampPixels
+from texvent.simulate.packets import SortedEvents, UnsortedEvents
+
+
+def cross_thresholds(
+    pixels: RampPixels,
+    references: CrossingState,
+    span_us: tuple[int, int],
+    refractory: RefractoryPeriod,
+    shape: tuple[int, int],
+) -> SortedEvents:
+    """As `cross_ramp`, from the brightness at both ends; moves the references.
+
+    Args:
+        pixels: those that may fire, and their brightness at both ends.
+        references: what they compare with; changed in place.
+        span_us: as for `cross_ramp`.
+        refractory: as for `cross_ramp`.
+        shape: (height, width) of the sensor.
+
+    Returns:
+        The events in the order of a packet, all of them signal.
+    """
+    pixel, before, now, table, thresholds = pixels
+    if table is not None:
+        before, now = table[before], table[now]
+    reference = references.reference[pixel]
+    on, off = (np.broadcast_to(one, pixel.shape) for one in thresholds)
+    ramp = Ramp(pixel, before - reference, now - reference, on, off)
+    crossings = cross_ramp(ramp, references.fired_us, span_us, refractory)
+    steps = crossings.steps
+    references.reference[pixel] = reference + steps * np.where(steps > 0, on, off)
+    fired, t, p, _ = crossings
+    label = np.full(len(t), SIGNAL, np.uint8)
+    return sort_events(UnsortedEvents(fired, t, p, label), span_us, shape)

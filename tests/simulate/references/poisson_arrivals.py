@@ -1,0 +1,51 @@
+"""The definition of Poisson arrivals by gaps, in NumPy float64: all rows at once."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.simulate.kernels.elementary import natural_log
+from texvent.simulate.random.draws import draw_uniforms
+from texvent.simulate.random.poisson_noise import FIRST_DRAW, MOST_FRACTION, Arrivals
+
+
+def draw_arrivals(
+    cumulative_hz: NDArray[np.float64], duration_s: float, key: np.uint64, stream: int
+) -> Arrivals:
+    """Arrivals of a Poisson process of one rate per pixel.
+
+    The rates of a row are laid end to end on one line. Exponential gaps, `−ln(1 − u) / duration`,
+    give points on it: the stretch that a point falls on is its pixel, the place on the stretch is
+    its time. So the draws are per arrival, not per pixel.
+
+    Args:
+        cumulative_hz: rate of each pixel plus those of its row before it, 1/s, [H, W].
+        duration_s: length of the interval, s, above 0.
+        key: of `draws.frame_key`.
+        stream: 0..65535, a different one for each process of an interval.
+
+    Returns:
+        Poisson in number, uniform in time; independent between pixels and rows.
+    """
+    height, width = cumulative_hz.shape
+    ends = cumulative_hz[:, -1]
+    per_s = 1.0 / duration_s
+    mean = float(ends.max()) * duration_s
+    count = int(mean + 6.0 * np.sqrt(mean)) + 8
+    rows = np.arange(height)[:, None]
+    while True:
+        chance = draw_uniforms(key, rows, stream, FIRST_DRAW + np.arange(count))
+        place = np.cumsum(-natural_log(1.0 - chance) * per_s, axis=1)
+        if (place[:, -1] >= ends).all():
+            break
+        count *= 2
+    row, order = np.nonzero(place < ends[:, None])
+    place = place[row, order]
+    column = np.empty(len(row), np.int64)
+    for y in range(height):
+        own = slice(*np.searchsorted(row, [y, y + 1]))
+        column[own] = np.searchsorted(cumulative_hz[y], place[own], side="right")
+    start = np.where(column > 0, cumulative_hz[row, column - 1], 0.0)
+    fraction = (place - start) / (cumulative_hz[row, column] - start)
+    return Arrivals(row * width + column, np.minimum(fraction, MOST_FRACTION), order)

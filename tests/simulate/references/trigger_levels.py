@@ -1,0 +1,80 @@
+"""The definition of how trigger levels are set and scanned, in NumPy; see `trigger_levels`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.simulate.crossing.trigger_levels import (
+    BRIGHTNESS_SLACK,
+    MARGIN,
+    BrightnessCurve,
+    Float64Array,
+    Luma,
+    OutsidePixels,
+)
+from texvent.simulate.random.mismatch import Thresholds
+
+MOST_LOG = 80.0
+"""Brightness whose intensity float32 still holds; no frame is as bright."""
+
+
+def find_outside_levels(luma: Luma, seen: Luma, low: Luma, high: Luma) -> OutsidePixels:
+    """Pixels that may fire: those not between their two levels.
+
+    Args:
+        luma: [n].
+        seen: luma of the frame before, [n], of the same type as `luma`; becomes `luma`.
+        low: lowest luma at which each pixel cannot fire, [n], of the same type.
+        high: highest such luma, [n]; below `low` where a pixel may fire at any luma.
+    """
+    pixel = np.flatnonzero((luma < low) | (luma > high))
+    before, now = seen[pixel], luma[pixel]
+    seen[:] = luma
+    return OutsidePixels(pixel, before, now)
+
+
+def set_levels(
+    pixel: NDArray[np.int64],
+    reference: Float64Array,
+    thresholds: Thresholds,
+    curve: BrightnessCurve,
+    low: Luma,
+    high: Luma,
+) -> None:
+    """Set the trigger levels of some pixels, between which they cannot fire.
+
+    Args:
+        pixel: flat index, [n].
+        reference: brightness that all pixels compare with, log units.
+        thresholds: of the chosen pixels.
+        curve: brightness and intensity.
+        low: lowest luma at which a pixel cannot fire, of all pixels; changed in place.
+        high: highest such luma, of all pixels; changed in place.
+    """
+    centre = reference[pixel]
+    ends = centre - thresholds.off, centre + thresholds.on
+    off, on = (curve.scale * np.exp(np.minimum(end, MOST_LOG)) + curve.offset for end in ends)
+    lowest = off + MARGIN * (1.0 + np.abs(off))
+    lowest[ends[0] < curve.darkest - BRIGHTNESS_SLACK] = 0.0
+    highest = on - MARGIN * (1.0 + np.abs(on))
+    if low.dtype == np.uint8:
+        lowest, highest = np.ceil(np.maximum(lowest, 0.0)), np.floor(np.minimum(highest, 255.0))
+        is_empty = lowest > highest
+        lowest, highest = np.where(is_empty, 255.0, lowest), np.where(is_empty, 0.0, highest)
+    low[pixel], high[pixel] = lowest, highest
+
+
+def look_up(table: NDArray[Any], luma: NDArray[np.uint8]) -> NDArray[Any]:
+    """What a table has for each pixel.
+
+    Args:
+        table: [256] float64 or uint8.
+        luma: [n].
+
+    Returns:
+        [n] of the table's type.
+    """
+    return np.asarray(table[luma])

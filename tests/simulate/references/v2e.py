@@ -1,0 +1,100 @@
+"""The definition of v2e's pixels, in NumPy float64: low-pass, then emit and reset."""
+
+from __future__ import annotations
+
+import numpy as np
+from tests.simulate.references.ramp import Ramp, cross_ramp
+
+from texvent.events import NOISE, SIGNAL
+from texvent.simulate.crossing.ramp import RefractoryPeriod
+from texvent.simulate.packets import UnsortedEvents
+from texvent.simulate.random.mismatch import PixelMismatch
+from texvent.simulate.v2e.emit_and_reset import EmissionRules, LastEvents
+from texvent.simulate.v2e.low_pass import (
+    SETTLED,
+    CrossingPixels,
+    LowPassInput,
+    V2ePixelState,
+)
+from texvent.simulate.v2e.pixels import lin_log, relative_intensity
+
+
+def apply_low_pass(
+    light: LowPassInput, mismatch: PixelMismatch, state: V2ePixelState
+) -> CrossingPixels:
+    """Move the brightness through the low-pass, and find the pixels that reach a threshold.
+
+    Args:
+        light: the frames; `before` is overwritten with `now`.
+        mismatch: thresholds and leak.
+        state: at the start; its brightness is moved to the end.
+
+    Source: v2e (Hu, Liu and Delbruck, CVPRW 2021), section 4.2.
+    """
+    if light.table is None:
+        luma = light.now.astype(np.float64)
+        now, relative = lin_log(luma, light.linear_below), relative_intensity(luma)
+    else:
+        now, relative = light.table[0][light.now], light.table[1][light.now]
+    light.before[:] = light.now
+    before, weight = state.brightness.copy(), np.minimum(relative * light.angle, 1.0)
+    lag = now - before
+    lags = (weight < 1.0) & (np.abs(lag) >= SETTLED)
+    state.brightness[:] = np.where(lags, before + weight * lag, now)
+    start, stop = before - state.reference, state.brightness - state.reference
+    if mismatch.leak.size:
+        leak, elapsed_us = mismatch.leak.astype(np.float64), light.elapsed_us
+        start, stop = start + leak * elapsed_us[0], stop + leak * elapsed_us[1]
+    if state.noise[0].size:
+        start, stop = start + state.noise[0], stop + state.noise[1]
+    pixel = np.flatnonzero((stop >= mismatch.threshold_on) | (-stop >= mismatch.threshold_off))
+    return CrossingPixels(pixel, start[pixel], stop[pixel])
+
+
+def emit_and_reset(
+    crossing: CrossingPixels,
+    circuits: tuple[PixelMismatch, V2ePixelState],
+    last: LastEvents,
+    noise: UnsortedEvents,
+    rules: EmissionRules,
+) -> UnsortedEvents:
+    """Fire at every threshold that was crossed, and move the references by as many.
+
+    Events to which leak and noise of the photoreceptor contributed at least half are noise.
+
+    Args:
+        crossing: the pixels that have reached a threshold.
+        circuits: thresholds and leak, and the state, whose references are moved.
+        last: the last events; brought up to date here.
+        noise: further events of the interval.
+        rules: where in time, and the refractory period. What it holds back may fire later.
+
+    Returns:
+        All events, `noise` among them.
+    """
+    (pixel, start, stop), (mismatch, state), stop_us = crossing, circuits, rules.interval.stop_us
+    on, off = (
+        thresholds[pixel].astype(np.float64)
+        for thresholds in (mismatch.threshold_on, mismatch.threshold_off)
+    )
+    crossings = cross_ramp(
+        Ramp(pixel, start, stop, on, off),
+        last.fired_us,
+        (rules.interval.start_us, stop_us),
+        RefractoryPeriod(rules.refractory_us, is_level_lost=False),
+    )
+    steps, fired = crossings.steps, pixel[crossings.steps != 0]
+    moved = steps * np.where(steps > 0, on, off)
+    state.reference[pixel] += moved
+    by_noise = np.zeros(len(pixel))
+    if mismatch.leak.size:
+        by_noise += mismatch.leak[pixel].astype(np.float64) * (stop_us - last.interval_us[pixel])
+    if last.noise.size:
+        by_noise += state.noise[1][pixel] - last.noise[pixel]
+        last.noise[fired] = state.noise[1][fired]
+    last.interval_us[fired] = stop_us
+    is_noise = by_noise * np.sign(steps) >= 0.5 * np.abs(moved)
+    # Every step is an event here, and events come by pixel.
+    label = np.repeat(np.where(is_noise, NOISE, SIGNAL).astype(np.uint8), np.abs(steps))
+    fired = UnsortedEvents(crossings.pixel, crossings.t, crossings.p, label)
+    return UnsortedEvents.concat((fired, noise))

@@ -1,0 +1,153 @@
+"""Simulators of other packages: run as ours are, and checked on request."""
+
+from __future__ import annotations
+
+import sys
+import types
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent import _registry
+from texvent.errors import TexventError
+from texvent.events import EventStream
+from texvent.simulate.esim.simulator import EsimSimulator
+from texvent.simulate.streaming import SteppingSimulator
+
+from .pixel_frames import moving_texture
+
+SIMULATORS = [name for name in _registry.SIMULATORS.builtin if name != "v2ce"]  # needs weights
+
+
+class Plain(SteppingSimulator):
+    """A plug-in that is right; the others break it in one place."""
+
+    config_type = EsimSimulator.config_type
+    presets = EsimSimulator.presets
+    contrast_threshold = 0.2
+    balance = 0.255
+
+    def __init__(self, config, seed):
+        self.inner = EsimSimulator(config, seed=seed)
+
+    def reset(self):
+        self.inner.reset()
+
+    def step(self, frame):
+        return self.inner.step(frame)
+
+
+class GivesTuples(Plain):
+    def step(self, frame):
+        return np.zeros((3, 4))
+
+
+class Late(Plain):
+    """Its last events come at the time of the frame."""
+
+    def step(self, frame):
+        packet = self.inner.step(frame)
+        if not len(packet):
+            return packet
+        t = packet.t.copy()
+        t[-1] = frame.t_us
+        return EventStream(packet.x, packet.y, t, packet.p, packet.size)
+
+
+class FirstFrame(Plain):
+    def step(self, frame):
+        return EventStream.from_columns([0], [0], [frame.t_us], [1], size=frame.size)
+
+
+class Outside(Plain):
+    def step(self, frame):
+        packet = self.inner.step(frame)
+        columns = (packet.x + np.uint16(24), packet.y, packet.t.copy(), packet.p.copy())
+        return EventStream.unchecked(*columns, size=packet.size, label=None)
+
+
+class EachOther(Plain):
+    """Every one that is built gives other events, whatever its seed."""
+
+    built = 0
+
+    def __init__(self, config, seed):
+        super().__init__(config, seed)
+        EachOther.built += 1
+        self.left_out = EachOther.built
+
+    def step(self, frame):
+        return self.inner.step(frame)[self.left_out :]
+
+
+class Unsorted(Plain):
+    def step(self, frame):
+        packet = self.inner.step(frame)
+        t = np.full_like(packet.t, packet.t[0]) if len(packet) else packet.t
+        return EventStream(packet.x[::-1], packet.y[::-1], t, packet.p[::-1], packet.size)
+
+
+BROKEN = [
+    (GivesTuples, "gave ndarray; it must give an EventStream"),
+    (Late, "outside the interval that their frame ends"),
+    (FirstFrame, "events for the first frame"),
+    (Outside, "outside the sensor"),
+    (Unsorted, "they go by (t, y, x, p)"),
+    (EachOther, "other events for the same frames and seed"),
+]
+
+
+@pytest.fixture
+def install(tmp_path, monkeypatch):
+    """A function that makes a class the simulator "mine" of an installed package."""
+    info = tmp_path / "mine-1.0.dist-info"
+    info.mkdir()
+    (info / "METADATA").write_text("Metadata-Version: 2.1\nName: mine\nVersion: 1.0\n")
+    (info / "entry_points.txt").write_text("[texvent.simulators]\nmine = mine_module:Part\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    _registry._plugged_in.cache_clear()
+
+    def put(kind):
+        module = types.ModuleType("mine_module")
+        if kind is not None:
+            module.Part = kind
+        monkeypatch.setitem(sys.modules, "mine_module", module)
+
+    yield put
+    _registry._plugged_in.cache_clear()
+
+
+def simulate():
+    frames = np.stack([frame.luma for frame in moving_texture()])
+    return texvent.simulate(frames, fps=25, simulator="mine", interpolate="blend")
+
+
+@pytest.mark.parametrize("name", SIMULATORS)
+def test_our_simulators_keep_the_contract(name):
+    texvent.check_simulator(name)
+
+
+def test_a_plug_in_that_is_right_is_run_and_passes(install):
+    install(Plain)
+    frames = np.stack([frame.luma for frame in moving_texture()])
+    wanted = texvent.simulate(frames, fps=25, simulator="esim", interpolate="blend")
+    assert simulate().equals(wanted)
+    texvent.check_simulator("mine")
+    texvent.check_simulator(Plain)
+
+
+@pytest.mark.parametrize(("kind", "said"), BROKEN)
+def test_a_broken_simulator_is_named_by_the_check(kind, said):
+    with pytest.raises(TexventError) as caught:
+        texvent.check_simulator(kind)
+    assert said in str(caught.value)
+    assert str(caught.value).startswith(f"simulator {kind.__name__!r} ")
+    assert len(str(caught.value)) < 300
+
+
+def test_a_plug_in_that_cannot_be_imported_is_named(install):
+    install(None)
+    assert "mine" in texvent.simulators()
+    with pytest.raises(TexventError, match=r"simulator 'mine' of another package .*mine_module"):
+        texvent.presets("mine")

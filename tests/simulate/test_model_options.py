@@ -1,0 +1,60 @@
+import math
+
+import numpy as np
+import pytest
+
+from texvent.options.values import plain
+from texvent.simulate.esim.simulator import EsimConfig
+from texvent.simulate.model_options import NOISE, contrast_threshold_of, draw_training_config
+from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.texvent.simulator import TexventConfig
+
+SEEDS = range(400)
+
+
+def test_v2v_draws_thresholds_and_ratios_over_the_stated_ranges():
+    configs = [draw_training_config(PhysicalConfig(), "v2v", seed=seed) for seed in SEEDS]
+    thresholds = np.array([config.contrast_threshold for config in configs])
+    ratios = np.array([config.on_off_ratio for config in configs])
+    assert 0.05 <= thresholds.min() < 0.1
+    assert 1.9 < thresholds.max() <= 2.0
+    assert thresholds.mean() == pytest.approx(1.025, abs=5 * 1.95 / math.sqrt(12 * 400))
+    assert 1 / 1.5 <= ratios.min() < 0.7
+    assert 1.45 < ratios.max() <= 1.5
+
+
+def test_stoffregen_draws_one_threshold_near_the_other():
+    configs = [draw_training_config(PhysicalConfig(), "stoffregen", seed=seed) for seed in SEEDS]
+    thresholds = [config.contrast_threshold for config in configs]
+    assert min(thresholds) >= 0.1
+    assert max(thresholds) <= 1.5
+    logs = np.log([config.on_off_ratio for config in configs])
+    assert logs.mean() == pytest.approx(0, abs=0.03)
+    assert logs.std() == pytest.approx(0.1, rel=0.2)
+
+
+def test_noise_stays_in_its_ranges_and_varies():
+    configs = [draw_training_config(PhysicalConfig(), "v2v", seed=seed) for seed in SEEDS]
+    columns = [[config.contrast_threshold for config in configs]]
+    for name in ("noise_scale", "threshold_sigma", "leak_rate_hz", "hot_pixel_fraction"):
+        values = [getattr(config, name) for config in configs]
+        assert NOISE[name].low <= min(values) < max(values) <= NOISE[name].high
+        columns.append(values)
+    # Each option has a draw of its own.
+    assert np.abs(np.corrcoef(columns) - np.eye(5)).max() < 4 / math.sqrt(400)
+
+
+def test_the_same_seed_draws_the_same_whatever_was_set_before():
+    one = draw_training_config(PhysicalConfig(), "v2v", seed=7)
+    assert one == draw_training_config(one, "v2v", seed=7)
+    assert one != draw_training_config(PhysicalConfig(), "v2v", seed=8)
+    assert plain(one)["contrast_threshold"] == one.contrast_threshold
+
+
+def test_models_share_the_draws_of_the_options_they_share():
+    physical = draw_training_config(PhysicalConfig(), "v2v", seed=3)
+    texvent = draw_training_config(TexventConfig(), "v2v", seed=3)
+    esim = draw_training_config(EsimConfig(), "v2v", seed=3)
+    assert texvent.contrast_threshold == physical.contrast_threshold
+    assert contrast_threshold_of(esim) == pytest.approx(physical.contrast_threshold)
+    assert texvent.noise_scale == physical.noise_scale

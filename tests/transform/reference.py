@@ -1,0 +1,129 @@
+"""The rules of the event filters as plain loops: the compiled kernels must agree with them."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.transform.filters.apply import (
+    BLOCK,
+    MOST_BURSTS,
+    NEVER,
+    FlickerLimits,
+    Int64Array,
+    UInt16Array,
+)
+
+
+def find_supported(
+    x: UInt16Array,
+    y: UInt16Array,
+    t: Int64Array,
+    plane: NDArray[np.uint8],
+    last_us: Int64Array,
+    window_us: int,
+    support: int,
+    radius: int,
+) -> NDArray[np.bool_]:
+    """See the kernel of this name."""
+    supported = np.zeros(len(t), np.bool_)
+    for event in range(len(t)):
+        column, row, seen = int(x[event]), int(y[event]), last_us[plane[event]]
+        around = seen[
+            max(row - radius, 0) : row + radius + 1, max(column - radius, 0) : column + radius + 1
+        ]
+        is_recent = (around != NEVER) & (t[event] - around <= window_us)
+        own = seen[row, column]
+        is_own_recent = own != NEVER and t[event] - own <= window_us
+        supported[event] = is_recent.sum() - is_own_recent >= support
+        seen[row, column] = t[event]
+    return supported
+
+
+def find_rested(
+    x: UInt16Array, y: UInt16Array, t: Int64Array, kept_us: Int64Array, period_us: int
+) -> NDArray[np.bool_]:
+    """See the kernel of this name."""
+    rested = np.zeros(len(t), np.bool_)
+    for event in range(len(t)):
+        pixel = int(y[event]), int(x[event])
+        if kept_us[pixel] == NEVER or t[event] - kept_us[pixel] >= period_us:
+            rested[event] = True
+            kept_us[pixel] = t[event]
+    return rested
+
+
+def find_places_in_bursts(
+    x: UInt16Array,
+    y: UInt16Array,
+    t: Int64Array,
+    p: NDArray[np.uint8],
+    last_us: Int64Array,
+    burst: NDArray[np.uint8],
+    threshold_us: int,
+) -> NDArray[np.uint8]:
+    """See the kernel of this name."""
+    places = np.zeros(len(t), np.uint8)
+    polarity, place = burst
+    for event in range(len(t)):
+        pixel = int(y[event]), int(x[event])
+        is_first = (
+            last_us[pixel] == NEVER
+            or polarity[pixel] != p[event]
+            or t[event] - last_us[pixel] >= threshold_us
+        )
+        place[pixel] = 1 if is_first else min(int(place[pixel]) + 1, 3)
+        polarity[pixel], last_us[pixel] = p[event], t[event]
+        places[event] = place[pixel]
+    return places
+
+
+def find_flicker(
+    x: UInt16Array,
+    y: UInt16Array,
+    t: Int64Array,
+    p: NDArray[np.uint8],
+    start_us: Int64Array,
+    state: NDArray[np.uint8],
+    limits: FlickerLimits,
+) -> NDArray[np.bool_]:
+    """See the kernel of this name."""
+    found = np.zeros(len(t), np.bool_)
+    was_on, count, flickers = state
+    for event in range(len(t)):
+        block = int(y[event]) // BLOCK, int(x[event]) // BLOCK
+        is_new = start_us[block] == NEVER or t[event] - start_us[block] > limits.longest_us
+        if is_new:
+            count[block] = flickers[block] = 0
+        if p[event] == 1 and not was_on[block]:
+            if is_new:
+                start_us[block] = t[event]
+            elif t[event] - start_us[block] >= limits.hold_us:
+                is_periodic = t[event] - start_us[block] >= limits.shortest_us
+                step = 1 if is_periodic else -1
+                count[block] = min(max(int(count[block]) + step, 0), MOST_BURSTS)
+                if count[block] >= limits.begin:
+                    flickers[block] = 1
+                elif count[block] < limits.end:
+                    flickers[block] = 0
+                start_us[block] = t[event]
+        was_on[block] = p[event]
+        found[event] = flickers[block] == 1
+    return found
+
+
+def fire_blocks(
+    block: NDArray[np.int64],
+    p: NDArray[np.uint8],
+    pixels: NDArray[np.int64],
+    sums: NDArray[np.int64],
+) -> NDArray[np.int8]:
+    """See the kernel of this name."""
+    fired = np.full(len(block), -1, np.int8)
+    for event in range(len(block)):
+        one = block[event]
+        sums[one] += 1 if p[event] else -1
+        if abs(sums[one]) == pixels[one]:
+            fired[event] = 1 if sums[one] > 0 else 0
+            sums[one] = 0
+    return fired
