@@ -57,13 +57,12 @@ def test_links_lead_to_files_and_headings(page):
 def listed(page: Path) -> list[Path]:
     """The pages that a page links, or lists in its tables of contents."""
     text = page.read_text(encoding="utf-8")
-    found = [
-        link.partition("#")[0] for link in links(page) if link.partition("#")[0].endswith(".md")
-    ]
+    found = [link.partition("#")[0] for link in links(page) if ":" not in link]
+    found += INCLUDE.findall(text)
     for block in TOCTREE.findall(text):
         names = (line for line in block.splitlines() if line and not line.startswith(":"))
         found += [f"{name}.md" for name in names]
-    return [(page.parent / path).resolve() for path in found]
+    return [(page.parent / path).resolve() for path in found if path.endswith(".md")]
 
 
 def children() -> dict[Path, list[Path]]:
