@@ -2,7 +2,6 @@
 
 VENV := .venv
 TORCH_VENV := .venv-torch
-APP_VENV := .venv-app
 DATASET_VENV := .venv-dataset
 DOCS_VENV := .venv-docs
 GPL_VENV := .venv-gpl
@@ -43,14 +42,13 @@ COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version
 # Tests start many processes: without compiled modules each would compile texvent anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test fuzz test-torch test-app test-dataset test-docs test-gpl test-llm docs linkcheck dist lint lint-workflows licences sbom requirements format clean
+.PHONY: help demo test fuzz test-torch test-dataset test-docs test-gpl test-llm docs linkcheck dist lint lint-workflows licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
 	@echo "make test    the default test suite, of texvent and of lab/"
 	@echo "make fuzz    thousands of damaged inputs for every reader, and a table of what became of them"
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
-	@echo "make test-app     the tests of the web page, in $(APP_VENV)"
 	@echo "make test-dataset the tests of Ray, of data sets in other libraries, of Parquet and blosc, in $(DATASET_VENV)"
 	@echo "make test-docs     the snippets of README.md and docs/, displays and progress bars in a kernel, in $(DOCS_VENV)"
 	@echo "make test-gpl     the tests with readers under the GPL, in $(GPL_VENV)"
@@ -79,9 +77,6 @@ fuzz: $(VENV)/.dev
 
 test-torch: $(TORCH_VENV)/.torch
 	$(TORCH_VENV)/bin/python -m pytest -q -m torch
-
-test-app: $(APP_VENV)/.app
-	$(APP_VENV)/bin/python -m pytest -q -m app tests/view tests/web tests/cli
 
 test-dataset: $(DATASET_VENV)/.dataset
 	$(DATASET_VENV)/bin/python -m pytest -q -m dataset tests/dataset
@@ -121,7 +116,7 @@ dist: $(RELEASE_VENV)/.release
 lint-workflows: $(RELEASE_VENV)/.lint
 	$(RELEASE_VENV)/bin/zizmor --offline --quiet .github
 	$(RELEASE_VENV)/bin/check-jsonschema --builtin-schema vendor.github-workflows .github/workflows/*.yml
-	$(RELEASE_VENV)/bin/hadolint containers/*.Dockerfile containers/space/Dockerfile
+	$(RELEASE_VENV)/bin/hadolint containers/*.Dockerfile
 
 format: $(VENV)/.dev
 	$(VENV)/bin/ruff check --fix .
@@ -148,10 +143,10 @@ requirements: $(AUDIT_VENV)/.audit
 	printf '%s\n' $(AUDIT_TOOLS) | $(COMPILE) -o requirements/audit.txt -
 
 clean:
-	rm -rf $(VENV) $(TORCH_VENV) $(APP_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf $(VENV) $(TORCH_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
 # One rule makes every environment.
-$(VENV)/bin/python $(TORCH_VENV)/bin/python $(APP_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(LLM_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
+$(VENV)/bin/python $(TORCH_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(LLM_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
 	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 
@@ -191,11 +186,6 @@ $(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml lab/pyproject.toml
 	@$(TORCH_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,v2ce,rife,quantize,gpu]' -e 'lab[train]' || { \
 		echo "error: torch could not be installed, so the tests that need it did not run. Name a place that has a CPU build of the version in constraints.txt, with PIP_FIND_LINKS or PIP_EXTRA_INDEX_URL, and run make test-torch again"; \
 		exit 2; }
-	@touch $@
-
-$(APP_VENV)/.app: $(APP_VENV)/bin/python pyproject.toml constraints.txt
-	@echo "installing texvent and gradio into $(APP_VENV) (once; about 1 GB)"
-	$(APP_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,app]'
 	@touch $@
 
 $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.txt

@@ -181,3 +181,14 @@ def moving_texture() -> Callable[..., np.ndarray]:
         return np.clip(_texture(x - dx, y - dy), 0, 255).astype(np.float32)
 
     return render
+
+
+@pytest.fixture
+def held_back(monkeypatch) -> str:
+    """Name of a simulator whose events all come at the end; see held_back.py."""
+    from texvent import _registry
+
+    name = "held-back"
+    found = {"texvent.simulators": {name: "tests.held_back:HeldBack"}}
+    monkeypatch.setattr(_registry, "_plugged_in", lambda group: found.get(group, {}))
+    return name

@@ -16,7 +16,7 @@ import numpy as np
 from texvent.io.files import save
 from texvent.pipeline import video_to_events
 from texvent.sensor import SensorSize
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.video import Frame, frame_time_us
 
 class Long:
@@ -63,7 +63,7 @@ from pathlib import Path
 import numpy as np
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.sensor import SensorSize
 from texvent.video import Frame, Motion, frame_time_us
 

@@ -11,7 +11,7 @@ from texvent.errors import InputError
 from texvent.interpolate.densify import densify
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import select_events, video_to_events
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.simulate.build import benefits_from_denser_frames
 from texvent.video import Video, frame_time_us
 

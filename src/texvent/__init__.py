@@ -30,6 +30,7 @@ if TYPE_CHECKING:
         TexventError,
         TexventWarning,
     )
+    from texvent.event_camera import EventCamera
     from texvent.event_packets import EventPackets
     from texvent.events import EventStream
     from texvent.generate.scene_input import read
@@ -61,6 +62,7 @@ _HOMES = {
         "TexventError",
         "TexventWarning",
     ),
+    "event_camera": ("EventCamera",),
     "event_packets": ("EventPackets",),
     "events": ("EventStream",),
     "generate.scene_input": ("read",),
@@ -87,6 +89,7 @@ __all__ = [
     "SENSORS",
     "Augment",
     "ConfigError",
+    "EventCamera",
     "EventPackets",
     "EventStream",
     "FileFormatError",

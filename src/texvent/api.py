@@ -20,12 +20,12 @@ from texvent.options.keywords import GenerateOptions, SimulateOptions
 from texvent.options.signatures import naming_options
 from texvent.pipeline import Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
-from texvent.run.settings import Settings, resolve
-from texvent.run.silence import SignalTally
 from texvent.run.truth import TruthFolder, run_with_truth
 from texvent.runtime.progress import ProgressOption, open_progress
 from texvent.scenes.spec.scene import Scene
 from texvent.sensor import SizeLike
+from texvent.settings.resolution import Settings, resolve
+from texvent.simulate.signal_tally import SignalTally
 from texvent.truth.layout import check_generator
 from texvent.video import FrameStream
 
@@ -181,7 +181,7 @@ def simulate(
             motion vectors along.
         **options: those of `texvent simulate --help`, such as `fps="30000/1001"`,
             `interpolate="flow"`, `sensor="davis346"`, `contrast_threshold=0.2`, `noise="none"`;
-            of what a renderer knows, `flow` and `flow_back` are motion vectors from each frame to
+            of what a renderer knows, `motion` and `motion_back` are vectors from each frame to
             the next and to the previous one, [N, H, W, 2] or one less, px, x right and y down
             (`motion_convention` says where they are otherwise), `depth` is in m, [N, H, W], and
             `instances` are ids of objects: arrays, lists of arrays, or paths.
@@ -313,7 +313,7 @@ def compare(
 def _truth_output(
     folder: str | Path | TruthFolder | None, *, as_packets: bool
 ) -> TruthFolder | None:
-    """What a run writes of its truth, checked; None: nothing."""
+    """Truth folder of a run, checked; None without one."""
     if folder is None:
         return None
     if as_packets:
@@ -333,22 +333,14 @@ def _simulation(
 
     Args:
         source: the frames, which may bring motion along.
-        options: as given; `flow` and `flow_back` stand for `motion` and `motion_back`.
+        options: as given; vectors, depth and ids may be arrays.
         config: a file with options.
-
-    Raises:
-        InputError: the same is given by two names.
     """
     from texvent.capture.motion_vectors.attach import (
         find_motion_sidecar,  # brings the readers of frames
     )
 
     given: dict[str, Any] = dict(options)
-    for name, other in (("motion", "flow"), ("motion_back", "flow_back")):
-        field = given.pop(other, None)
-        if field is not None and given.get(name) is not None:
-            raise InputError(f"{other} and {name} are the same; give one")
-        given[name] = given.get(name) if field is None else field
     arrays = {
         name: given.pop(name)
         for name in ("motion", "motion_back", "depth", "instances")
@@ -368,7 +360,7 @@ def _collected(run: Simulation, progress: ProgressOption) -> EventStream:
     """The events of a run, with a warning if there is no signal or hardly any."""
     tally = SignalTally()
     events = replace(run, tally=tally).packets.collect(progress=progress)
-    doubt = tally.doubt(run.settings.run.events)
+    doubt = tally.doubt(run.settings.run.keep_events)
     if doubt is not None:
         warn(doubt)
     return events

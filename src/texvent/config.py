@@ -19,7 +19,6 @@ from typing import Any, ClassVar, Literal
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
-from texvent.runtime.memory import parse_memory
 
 UNITS = {
     "duration": " s",
@@ -28,7 +27,7 @@ UNITS = {
     "fps": " frames per second",
     "target_rate": " events per second",
 }
-"""What errors say after the numbers of options whose names do not have a unit."""
+"""Units in errors, of options whose names have none."""
 FPS_RANGE = 1e-9, 1e6
 """Frame rates, 1/s: from one frame in 32 years to one in a microsecond."""
 
@@ -87,7 +86,7 @@ def check_choices(config: object) -> None:
 
 @dataclass(frozen=True, kw_only=True)
 class RunConfig:
-    """What decides a run as a whole."""
+    """General options."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("sensor",)
 
@@ -107,15 +106,12 @@ class RunConfig:
     backend: Literal["cpu", "gpu"] = "cpu"
     """Where the pixels are simulated: on the CPU, or on a GPU (for texvent and esim, with
     texvent[gpu]). The events are the same."""
-    events: Literal["all", "signal", "noise"] = "all"
+    keep_events: Literal["all", "signal", "noise"] = "all"
     """Which events to keep: all, only those that a brightness change fired, or only noise."""
     label_noise: bool = False
     """Store beside every event whether it is signal (0) or noise (1), as an extra column."""
     target_rate: float | None = None
     """Events per second to aim for: the contrast threshold is adjusted on the first second."""
-    memory: str | None = None
-    """Memory that the run may take, such as 4GB or 512MiB; a run that needs more is refused before
-    it starts. Without it, 80 % of what the machine or its control group has."""
     randomize: Literal["none", "stoffregen", "v2v"] = "none"
     """Draw contrast thresholds and noise from the seed, for training sets: in the ranges of
     Stoffregen 2020 or of V2V. The drawn values replace those given and are stored."""
@@ -123,8 +119,6 @@ class RunConfig:
     def __post_init__(self) -> None:
         check_range("seed", self.seed, 0, 2**63 - 1)
         check_range("target_rate", self.target_rate, 1e-3, 1e12)
-        if self.memory is not None:
-            parse_memory(self.memory)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -199,7 +193,7 @@ class CaptureConfig:
 
 @dataclass(frozen=True, kw_only=True)
 class InterpolateConfig:
-    """How many intermediate frames there are, and what they show."""
+    """Intermediate frames: their number and their contents."""
 
     interpolate: str = "flow"
     """What fills the time between frames: none, blend, flow, rife, super-slomo, motion or
@@ -219,8 +213,8 @@ class InterpolateConfig:
     does; 0 is Eq. 4's count alone. Without it, models whose pixels may fire several times per
     frame get 1, up to twice Eq. 4's count."""
     max_frames_per_second: float | None = None
-    """Upper limit of frames per second after interpolation: a budget, whatever else asks for
-    more. Source frames always stay."""
+    """Upper limit of frames per second after interpolation: it overrides every other rule.
+    Source frames always stay."""
     deflicker: bool = False
     """Divide fast changes of the whole image's brightness out of the frames, before they are
     counted and simulated: generated video flickers. Fades stay, a little later."""

@@ -8,13 +8,12 @@
     └── MissingDependencyError   an optional package is not installed
 
 A message says what was wrong, the value, what is allowed and what to do. The command line
-prints it as one line and exits with `exit_code`; it never shows a traceback for these. Its text may
-write an option as a keyword or as a flag: the reader sees keywords in Python (`in_keywords`), flags
-on the command line (`texvent.cli.wording`). What a message echoes of a file or a caller goes
-through `shown`, what a library said through `one_line`: both are bounded, so that a hostile file
-cannot fill the terminal.
+prints it as one line and exits with `exit_code`; it never shows a traceback for these. An option
+has one name in messages, config files and Python: `white_level`; its flag is `--white-level`.
+Echoes of a file or a caller go through `shown`, those of a library's message through `one_line`:
+both are bounded, so that a hostile file cannot fill the terminal.
 
-A `TexventWarning` says that a result is there but is hardly what was meant.
+A `TexventWarning` is issued when a result is probably not what the user wanted.
 """
 
 from __future__ import annotations
@@ -84,52 +83,11 @@ def few(words: Sequence[str], most: int = MOST_WORDS) -> str:
 
 
 def one_line(error: BaseException) -> str:
-    """What a library's error says, as one short line; its type where it says nothing."""
+    """Message of a library's error as one short line; its type where it has none."""
     text = " ".join(str(error)[: 2 * MAX_REASON].split())
     return (text if len(text) <= MAX_REASON else f"{text[: MAX_REASON - 3]}...") or type(
         error
     ).__name__
-
-
-KEPT = r"`[^`]*`|(?<!\w)'[^']*'|\"[^\"]*\"|\b(?:texvent|hf) [a-z-]+(?:[^;:,.()]|\.\b)*"
-"""What no wording changes: values that a message echoes, and lines for a shell."""
-_FLAG = re.compile(
-    rf"{KEPT}|(?<![\w/.-])--(?P<no>no-)?(?P<name>[a-z][a-z0-9-]*)"
-    r"(?: (?P<value>[A-Z]{2,}|\d+(?:\.\d+)?)(?![\w/]))?"
-)
-
-
-def in_keywords(text: str) -> str:
-    """A message whose flags are written as the keywords of Python.
-
-    Example:
-        >>> in_keywords("a smaller --sensor, --fps 25 or --no-shadows; see texvent info --json")
-        'a smaller `sensor`, fps=25 or shadows=False; see texvent info --json'
-    """
-
-    def keyword(found: re.Match[str]) -> str:
-        if found["name"] is None:
-            return found[0]
-        name, value = found["name"].replace("-", "_"), "False" if found["no"] else found["value"]
-        return f"{name}={value}" if value else f"`{name}`"
-
-    return _FLAG.sub(keyword, text)
-
-
-_wordings: list[Callable[[str], str]] = [in_keywords]
-
-
-@contextlib.contextmanager
-def worded(wording: Callable[[str], str]) -> Iterator[None]:
-    """Give errors and warnings inside the block to their reader in another wording.
-
-    As `warnings_to`, this holds in all threads.
-    """
-    _wordings.append(wording)
-    try:
-        yield
-    finally:
-        _wordings.remove(wording)
 
 
 def _short_repr() -> reprlib.Repr:
@@ -150,10 +108,6 @@ class TexventError(Exception):
     def __init__(self, message: object = "", *more: Any, **facts: Any) -> None:
         """Keep the message, its line breaks as spaces."""
         super().__init__(" ".join(f"{message}".splitlines()), *more, **facts)
-
-    def __str__(self) -> str:
-        """The message, its options as the reader writes them."""
-        return _wordings[-1](super().__str__())
 
 
 class InputError(TexventError, ValueError):
@@ -183,7 +137,7 @@ class MissingDependencyError(TexventError, ImportError):
 
 
 class TexventWarning(UserWarning):
-    """The result is probably not what was meant: words without effect, no event in a range.
+    """Issued when a result was produced but is probably not what the user wanted.
 
     The command line shows it as one line; `warnings.simplefilter("error", texvent.TexventWarning)`
     makes it an error.
@@ -208,7 +162,6 @@ def warnings_to(listener: Callable[[str], None]) -> Iterator[None]:
 
 def warn(message: str) -> None:
     """Issue a `TexventWarning` that points at the first line outside texvent."""
-    message = _wordings[-1](message)
     if _listeners:
         _listeners[-1](message)
         return

@@ -35,13 +35,13 @@ class ReportingPackets(Protocol):
     """Packets that take long to make, and report how far they are."""
 
     def report_to(self, progress: Progress) -> Iterator[EventStream]:
-        """The packets; `progress` is told of each step."""
+        """The packets; `progress` receives each step."""
         ...
 
 
 @dataclass(frozen=True)
 class LazyPackets:
-    """Packets that a function makes anew for each pass."""
+    """Packets that a function makes again for each pass."""
 
     make: Callable[[], Iterator[EventStream]]
 
@@ -57,7 +57,7 @@ def _ignore(times: SeenTimes) -> None:
 class EventPackets(EventEdits):
     """Events packet by packet, for recordings that need not fit in memory.
 
-    Every pass reads or simulates them anew; of a generator or a camera there is one pass.
+    Every pass reads or simulates them again; of a generator or a camera there is one pass.
 
     Example:
         >>> size = SensorSize(8, 6)

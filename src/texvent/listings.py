@@ -1,4 +1,4 @@
-"""What there is to choose from: names for the options and formats of the Python API."""
+"""Names of parts, formats and sensors for the Python API."""
 
 from __future__ import annotations
 

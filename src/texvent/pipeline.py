@@ -17,19 +17,20 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent.capture.prepare import PreparedFrames
+from texvent.capture.transfer_adaptation import adapt_transfer
 from texvent.config import CaptureConfig, RunConfig
 from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.generate.scene_input import Subject, check_takes, prompt_of
 from texvent.interpolate.pairing import plan_pairs
-from texvent.pairs.frame_pair import OnSceneChange, notify_scene_change
-from texvent.run.light import suit_light
-from texvent.run.provenance import describe_run
-from texvent.run.settings import Settings
-from texvent.run.silence import SignalTally
+from texvent.pairs.frame_pair import FramePair, OnSceneChange, notify_scene_change
 from texvent.runtime.progress import Progress
+from texvent.settings.provenance import describe_run
+from texvent.settings.resolution import Settings
 from texvent.simulate.build import benefits_from_denser_frames, build_simulator
 from texvent.simulate.model_options import draw_training_config
+from texvent.simulate.protocol import Simulator
+from texvent.simulate.signal_tally import SignalTally
 from texvent.video import Frame, FrameStream
 
 
@@ -77,8 +78,8 @@ def video_to_events(
     if recipe != "none":
         drawn = draw_training_config(settings.simulate, recipe, seed=settings.run.seed)
         settings = replace(settings, simulate=drawn)
-    video, settings = suit_light(video, settings)
-    return Simulation(video=video, settings=settings, prompt=prompt)
+    video, config = adapt_transfer(video, settings.run.simulator, settings.simulate)
+    return Simulation(video=video, settings=replace(settings, simulate=config), prompt=prompt)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -102,18 +103,10 @@ class Simulation:
             on_scene_change: called at every cut and flash.
         """
         run = self.settings.run
-        simulator = build_simulator(run, self.settings.simulate)
         tally = self.tally or SignalTally()
-        tally.begin(simulator)
         with ExitStack() as threads:
-            pairs = plan_pairs(
-                self.video,
-                self.settings.interpolate,
-                threads,
-                balance=simulator.balance,
-                contrast_threshold=simulator.contrast_threshold,
-                counts_motion=benefits_from_denser_frames(simulator),
-            )
+            simulator, pairs = self.begin(threads)
+            tally.begin(simulator)
             for pair in pairs:
                 notify_scene_change(pair, on_scene_change)
                 tally.see(pair.second)
@@ -123,6 +116,23 @@ class Simulation:
             for frame, packet in simulator.finish():
                 tally.count(packet)
                 yield frame, select_events(packet, run)
+
+    def begin(self, threads: ExitStack) -> tuple[Simulator, Iterator[FramePair]]:
+        """A simulator at rest, and the pairs of frames that it advances through.
+
+        Args:
+            threads: ends the threads of the pairs when it is closed.
+        """
+        simulator = build_simulator(self.settings.run, self.settings.simulate)
+        pairs = plan_pairs(
+            self.video,
+            self.settings.interpolate,
+            threads,
+            balance=simulator.balance,
+            contrast_threshold=simulator.contrast_threshold,
+            counts_motion=benefits_from_denser_frames(simulator),
+        )
+        return simulator, pairs
 
     def __iter__(self) -> Iterator[EventStream]:
         return (packet for _, packet in self.steps())
@@ -137,17 +147,17 @@ class Simulation:
 
     @property
     def packets(self) -> EventPackets:
-        """The events alone, packet by packet; simulated anew for each pass."""
+        """The events alone, packet by packet; simulated again for each pass."""
         return EventPackets(self, self.video.size, self.provenance)
 
     @property
     def provenance(self) -> dict[str, Any]:
-        """What made these events: stored in every output, enough to make them again."""
+        """Provenance: stored in every output, enough to make the events again."""
         return describe_run(self.settings, prompt=self.prompt, source=self.video.metadata)
 
 
 def select_events(packet: EventStream, run: RunConfig) -> EventStream:
     """The events of a packet that a run keeps, with the label only if it is wanted."""
-    if packet.label is not None and run.events != "all":
-        packet = packet[packet.label == (SIGNAL if run.events == "signal" else NOISE)]
+    if packet.label is not None and run.keep_events != "all":
+        packet = packet[packet.label == (SIGNAL if run.keep_events == "signal" else NOISE)]
     return packet if run.label_noise else packet.without_label()

@@ -1,4 +1,4 @@
-"""How light is coded in pixels: transfer functions between signals and linear light.
+"""Transfer functions between signals and linear light.
 
 A signal is a share of full scale, 0..1; light is proportional to photons. Every function takes and
 returns arrays of one shape.

@@ -85,7 +85,7 @@ def test_damage_before_the_last_line_is_named(tmp_path: Path) -> None:
 def test_other_options_are_refused_with_the_difference(tmp_path: Path) -> None:
     with_car(tmp_path)
     other = {"settings": {"run": {"seed": 0}, "simulate": {"threshold": 0.3}}, "previews": []}
-    with pytest.raises(ConfigError, match=r"threshold` was 0\.2, is 0\.3; `previews` was png"):
+    with pytest.raises(ConfigError, match=r"threshold was 0\.2, is 0\.3; --previews was png"):
         Manifest(tmp_path).begin(other, overwrite=False)
     assert Manifest(tmp_path).is_done(CAR)
 

@@ -10,8 +10,8 @@ from texvent.calibrate.recording import Recording
 from texvent.config import InterpolateConfig
 from texvent.errors import OutputError
 from texvent.events import EventStream
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.simulator import PhysicalSimulator
 

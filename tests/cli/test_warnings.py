@@ -240,8 +240,8 @@ def test_texts_of_files_and_arguments_reach_the_terminal_written_out(capsys, fol
     assert r"\u001b[31mwug" in out
     assert "über 🦩" in out
     assert "not understood" in err
-    # Of the run and of info twice; none of the prompt's second line.
-    assert sum(line.startswith("events ") for line in out.splitlines()) == 3
+    # Of info twice; none of the prompt's second line.
+    assert sum(line.startswith("events ") for line in out.splitlines()) == 2
 
 
 def test_a_word_of_100_kb_gives_a_short_line(capsys, folder):

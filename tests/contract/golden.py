@@ -35,7 +35,7 @@ SIMULATORS: dict[str, list[dict[str, Any]]] = {
         {"noise": "random"},
         {"noise": "gaussian"},
         {"label_noise": True},
-        {"events": "noise", "noise_intensity": 255.0},
+        {"keep_events": "noise", "noise_intensity": 255.0},
         {"randomize": "stoffregen"},
         {"target_rate": 20_000.0},
         PAPER,

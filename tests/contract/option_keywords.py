@@ -91,8 +91,6 @@ def text() -> str:
         lines = [f"class {name}({bases}, total=False):", f'    """{about}"""', ""]
         if name == "GeneratorOptions":
             lines.append("    generator: str | None")
-        if name == "SimulateOptions":
-            lines += ["    flow: Field | None", "    flow_back: Field | None"]
         lines += [f"    {option}: {kind}" for option, kind in fields(configs).items()]
         parts.append("\n".join(lines).rstrip() + "\n")
     return "\n\n".join(parts)

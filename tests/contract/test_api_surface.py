@@ -9,6 +9,7 @@ PUBLIC = {
     "SENSORS",
     "Augment",
     "ConfigError",
+    "EventCamera",
     "EventPackets",
     "EventStream",
     "FileFormatError",

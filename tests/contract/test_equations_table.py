@@ -15,7 +15,7 @@ import pytest
 
 from texvent._registry import GENERATORS
 from texvent.pipeline import text_to_events, video_to_events
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.video import Video
 
 ROOT = Path(__file__).parents[2]

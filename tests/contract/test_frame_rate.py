@@ -16,7 +16,7 @@ import pytest
 import texvent
 from texvent._registry import SIMULATORS
 from texvent.options.fields import option_names
-from texvent.run.presets import frame_bound_presets
+from texvent.settings.presets import frame_bound_presets
 
 RATES = (30, 60, 240, 960)
 SECONDS = 0.8

@@ -9,7 +9,7 @@ from tests.contract import option_keywords
 from texvent.api import generate, simulate, video
 from texvent.options.fields import option_names
 from texvent.options.keywords import GenerateOptions, SimulateOptions
-from texvent.run.settings import default_settings
+from texvent.settings.resolution import default_settings
 
 
 def test_the_typed_keywords_are_up_to_date():

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import json
 import re
-import shlex
 import tomllib
 from pathlib import Path
 from typing import Any
@@ -14,15 +12,11 @@ import pytest
 import yaml
 
 import texvent
-from texvent.cli.options import parse_configs
-from texvent.cli.simulation.web import AppOptions
-from texvent.web.limits import Limits
 
 ROOT = Path(__file__).parents[2]
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
 WORKFLOWS = sorted((ROOT / ".github/workflows").glob("*.yml"))
 DOCKERFILES = sorted((ROOT / "containers").rglob("*Dockerfile"))
-SPACE = ROOT / "containers/space"
 
 
 def read(path: str) -> str:
@@ -32,9 +26,6 @@ def read(path: str) -> str:
 def test_the_version_is_the_same_everywhere() -> None:
     assert PROJECT["tool"]["hatch"]["version"]["path"] == "src/texvent/_version.py"
     assert yaml.safe_load(read("CITATION.cff"))["version"] == texvent.__version__
-    assert re.findall(r"texvent\[app\]==([\w.]+)", read("containers/space/Dockerfile")) == [
-        texvent.__version__
-    ]
     assert tomllib.loads(read("lab/pyproject.toml"))["project"]["version"] == texvent.__version__
     comfyui = tomllib.loads(read("comfyui/texvent_nodes/pyproject.toml"))
     assert comfyui["project"]["version"] == texvent.__version__
@@ -108,23 +99,3 @@ def test_images_are_pinned_constrained_and_not_roots(path: Path) -> None:
     assert re.fullmatch(r"python:3\.\d+-slim-\w+@sha256:[0-9a-f]{64}", bases[0])
     assert re.findall(r"^USER (.*)", text, flags=re.MULTILINE) == ["1000"]
     assert "constraints.txt" in text
-
-
-def test_the_bounds_of_the_space_are_those_of_its_page() -> None:
-    text = (SPACE / "Dockerfile").read_text(encoding="utf-8").replace("\\\n", "")
-    command = json.loads(re.findall(r"^CMD (\[.*\])$", text, flags=re.MULTILINE)[-1])
-    words = shlex.split(command[-1])
-    assert words[:3] == ["exec", "texvent", "app"]
-    options, limits = parse_configs(
-        words[3:], {"page": AppOptions(), "limits": Limits()}, prog="texvent app", description=""
-    )
-    assert (options.host, options.port, options.browser) == ("0.0.0.0", 7860, False)
-    said = (SPACE / "README.md").read_text(encoding="utf-8")
-    assert f"app_port: {options.port}" in said
-    assert f"{limits.max_seconds:.0f} s of video, 720 × 480 pixels" in said
-    assert limits.max_pixels == 720 * 480
-    assert (
-        f"{limits.max_upload_mb:.0f} MB per upload, {limits.max_events / 1e6:.0f} million" in said
-    )
-    assert f"{limits.max_memory_gb:.0f} GB of memory" in said
-    assert (limits.time_limit, limits.max_waiting) == (120, 10)

@@ -14,10 +14,10 @@ import pytest
 import texvent
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError, InputError, shown
-from texvent.run.memory import estimate_bytes
-from texvent.run.settings import resolve
-from texvent.runtime.memory import allow_memory, allowed_bytes, parse_memory
+from texvent.run.prepare import estimate_bytes
+from texvent.runtime.memory import usable_bytes
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 
 ROOT = Path(__file__).parents[2]
 IS_FULL = os.environ.get("TEXVENT_ATTACK") == "full"
@@ -80,23 +80,14 @@ def test_noise_of_a_gap_that_memory_cannot_hold_is_refused_before_it_is_drawn():
 
 def test_a_large_sensor_is_refused_before_a_frame_is_read():
     frames = iter([np.zeros((4, 4), np.uint8)] * 2)
-    with pytest.raises(InputError, match=r"65535x65535 pixels need about .* GB are allowed"):
+    with pytest.raises(InputError, match=r"65535x65535 pixels need about .* GB are usable"):
         texvent.simulate(frames, fps=10, sensor="65535x65535")
     assert len(list(frames)) == 2
 
 
-@pytest.mark.parametrize("text", ["", "4", "x", "1e400", "9" * 40, "-1GB", "4 PB"])
-def test_memory_that_is_no_size_is_refused(text):
-    with pytest.raises(ConfigError, match="give 1MB or more"):
-        parse_memory(text)
-
-
-def test_memory_allowed_is_what_was_asked_for_else_a_share_of_the_machine():
-    allow_memory("2GiB")
-    assert allowed_bytes() == 2**31
-    allow_memory(None)
+def test_a_share_of_the_machines_memory_is_usable():
     everything = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
-    assert 10**8 < allowed_bytes() <= 0.8 * everything
+    assert 10**8 < usable_bytes() <= 0.8 * everything
 
 
 MEASURE = """

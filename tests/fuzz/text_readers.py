@@ -25,11 +25,11 @@ from texvent.generate.scene_input import describe_scene, list_nouns
 from texvent.io.files import load
 from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask, write_pixel_mask
 from texvent.options.parts import make_part
-from texvent.run.settings import resolve
 from texvent.scenes.spec.data import scene_from_data
 from texvent.scenes.spec.files import load_scene, scene_text
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize, parse_sensor
+from texvent.settings.resolution import resolve
 from texvent.transform.undistort import read_calibration
 
 from .reader import Reader

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import texvent
+from texvent.capture.transfer_adaptation import gamma_coded
 from texvent.pipeline import text_to_video
-from texvent.run.light import gamma_coded
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.transfer import Transfer, decode_srgb
 from texvent.video import transfer_of
 from texvent.view.drawing.event_image import frame_image

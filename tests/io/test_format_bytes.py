@@ -110,7 +110,7 @@ def test_aedat2_of_other_programs_is_read_with_the_layout_named(tmp_path: Path) 
     special = struct.pack(">II", 1 << 31 | 5, 6) + struct.pack(">II", 1 << 10, 7)
     event = struct.pack(">II", 259 << 22 | 345 << 12, 8)
     path.write_bytes(b"#!AER-DAT2.0\r\n# made elsewhere\r\n" + special + event)
-    with pytest.raises(InputError, match="state the format: `format` aedat2-davis346, "):
+    with pytest.raises(InputError, match="state the format: --format aedat2-davis346, "):
         load(path)
     assert load(path, format="aedat2-davis346").equals(one(0, 0, 8, 0, DAVIS))
     chip = b"#!AER-DAT2.0\r\n# AEChip: eu.seebetter.ini.chips.davis.Davis346blue\r\n"

@@ -21,11 +21,11 @@ OS_NAMES = (
     *("O_CLOEXEC", "O_DIRECTORY", "O_NOFOLLOW", "O_NONBLOCK"),
 )
 SIGNALS = ("SIGALRM", "SIGHUP", "SIGKILL", "SIGQUIT", "SIGUSR1", "SIGUSR2", "SIGXCPU")
-FIRST = ("cv2", "h5py", "av", "numba", "lz4.frame", "yaml", "rich.console", "tyro", "requests",
+FIRST = ("cv2", "h5py", "av", "numba", "lz4.frame", "yaml", "rich.console", "requests",
          "tempfile", "shutil", "subprocess", "multiprocessing.pool", "asyncio", "pypi_simple",
          "concurrent.futures.process", "pandas", "rosbags.highlevel", "OpenEXR",
          "trimesh", "PIL.Image", "curses")  # fmt: skip
-OPTIONAL = ("torch", "triton", "gradio", "ray", "diffusers", "matplotlib", "safetensors")
+OPTIONAL = ("torch", "triton", "ray", "diffusers", "matplotlib", "safetensors")
 """Packages of extras: a module that needs one of them is passed over where it is missing."""
 
 

@@ -19,12 +19,12 @@ from texvent.rig.description import ImuNoise, Rig, RigCamera
 from texvent.rig.layouts.dsec import write_disparity
 from texvent.rig.recording import Recording
 from texvent.rig.rectify import raw_points, rectified_points, rectify
-from texvent.run.settings import resolve
 from texvent.runtime.progress import NO_PROGRESS
 from texvent.scenes.lens import Lens
 from texvent.scenes.projection import project
 from texvent.scenes.scene import Camera, Ground, Shape
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 
 SIZE = SensorSize(128, 76)
 LEVEL = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])

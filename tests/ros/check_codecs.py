@@ -12,9 +12,9 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+from texvent_ros.messages import PacketMaker
 
 from texvent.events import EventStream
-from texvent.ros.packet_messages import PacketMaker
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(640, 480)

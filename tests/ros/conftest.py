@@ -1,14 +1,6 @@
-"""What tests of the node share."""
+"""The ament package beside the sources."""
 
-import pytest
+import sys
+from pathlib import Path
 
-from texvent import _registry
-
-
-@pytest.fixture
-def held_back(monkeypatch) -> str:
-    """Name of a simulator whose events all come at the end; see held_back.py."""
-    name = "held-back"
-    found = {"texvent.simulators": {name: "tests.ros.held_back:HeldBack"}}
-    monkeypatch.setattr(_registry, "_plugged_in", lambda group: found.get(group, {}))
-    return name
+sys.path.insert(0, str(Path(__file__).parents[2] / "ros" / "texvent_ros"))

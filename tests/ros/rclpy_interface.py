@@ -12,6 +12,7 @@ from collections import defaultdict, deque
 from types import ModuleType, SimpleNamespace
 
 import numpy as np
+import yaml
 
 from texvent.io.ros.bags import message_types
 
@@ -80,6 +81,19 @@ class ExternalShutdownException(Exception):  # noqa: N818  (its name in rclpy)
 class Node:
     def __init__(self, world, name: str) -> None:
         self.world, self.name, self.is_destroyed = world, name, False
+        self.parameters = {"use_sim_time": False, "qos_overrides./tf.depth": 1}
+        words = iter(world.init_arguments or ())
+        for word in words:
+            if word == "-p":
+                key, _, value = next(words).partition(":=")
+                self.parameters[key] = yaml.safe_load(value)
+
+    def get_parameters_by_prefix(self, prefix):
+        return {
+            name.removeprefix(prefix): SimpleNamespace(name=name, value=value)
+            for name, value in self.parameters.items()
+            if name.startswith(prefix)
+        }
 
     def create_publisher(self, msg_type, topic, qos_profile):
         def publish(message):
@@ -128,7 +142,14 @@ class World:
         def init(*, args=None, signal_handler_options=None):
             self.is_up, self.init_arguments = True, args
 
-        def create_node(node_name):
+        def create_node(
+            node_name,
+            *,
+            allow_undeclared_parameters=False,
+            automatically_declare_parameters_from_overrides=False,
+        ):
+            assert allow_undeclared_parameters
+            assert automatically_declare_parameters_from_overrides
             self.nodes.append(Node(self, node_name))
             return self.nodes[-1]
 

@@ -5,17 +5,16 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from tests.ros.rclpy_interface import TYPES, EventPacket, image
+from texvent_ros.config import RosConfig
+from texvent_ros.image_events import ImageEvents
+from texvent_ros.messages import PacketMaker
+from texvent_ros.node import fill_packet
 
 import texvent
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.ros.messages import open_event_packet, pack_event_packet
-from texvent.ros.config import RosConfig
-from texvent.ros.image_events import ImageEvents
-from texvent.ros.node import fill_packet
-from texvent.ros.packet_messages import PacketMaker
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(16, 12)
@@ -28,8 +27,8 @@ KIND = "event_camera_msgs/msg/EventPacket"
 
 def make(**options) -> tuple[ImageEvents, list[str]]:
     warned: list[str] = []
-    settings = resolve("simulate", {"seed": 2, "simulator": "esim"})
-    return ImageEvents(settings, RosConfig(**options), warned.append), warned
+    chosen = {"seed": 2, "simulator": "esim"}
+    return ImageEvents(chosen, RosConfig(**options), warned.append), warned
 
 
 def decode(packets) -> dict:
@@ -104,7 +103,7 @@ def test_a_step_of_time_begins_a_new_recording_and_the_clock_of_the_words_goes_o
 
 
 def test_events_that_a_simulator_holds_back_come_before_a_restart_and_at_the_end(held_back):
-    settings = resolve("simulate", {"seed": 2, "simulator": held_back})
+    settings = {"seed": 2, "simulator": held_back}
     logic = ImageEvents(settings, RosConfig(), lambda _: None)
     assert logic.finish() is None
     second_ns, packets = START_NS + 60_000_000_000, []
@@ -151,7 +150,7 @@ def test_images_without_times_take_the_clock_of_the_node():
     logic.take(image(FRAMES[1], 0), 0)
     assert warned == [
         "dropped 1 image(s): the time 0 ns does not come after 0 ns; images without times need "
-        "--stamps arrival"
+        "stamps:=arrival"
     ]
     logic, warned = make(stamps="arrival")
     packets = []

@@ -5,9 +5,9 @@ import re
 import numpy as np
 import pytest
 from tests.ros.rclpy_interface import Image
+from texvent_ros.messages import ENCODINGS, read_image
 
 from texvent.errors import InputError
-from texvent.ros.image_message import ENCODINGS, read_image
 
 RED, GREEN, BLUE, ALPHA = 10, 20, 30, 99
 

@@ -6,9 +6,9 @@ import sys
 import numpy as np
 import pytest
 from tests.ros.rclpy_interface import ExternalShutdownException, Policy, World, image
+from texvent_ros.node import main
 
 import texvent
-from texvent.cli.app import main
 from texvent.io.prophesee.evt import Evt3Codec
 
 FRAMES = np.random.default_rng(3).integers(0, 256, (4, 12, 16), dtype=np.uint8)
@@ -38,39 +38,35 @@ def as_rows(events, shift_us: int = 0) -> np.ndarray:
     return np.stack([events.x, events.y, events.t + shift_us, events.p]).astype(np.int64)
 
 
-def test_images_of_a_topic_become_packets_on_another(world, capsys):
+def run(**parameters) -> int:
+    """The node with parameters, as `ros2 run texvent_ros event_camera --ros-args -p ...`."""
+    words = [word for pair in parameters.items() for word in ("-p", "{}:={}".format(*pair))]
+    return main(["--ros-args", *words])
+
+
+def test_images_of_a_topic_become_packets_on_another(world):
     for i, pixels in enumerate(FRAMES):
-        world.send("camera/image_raw", image(pixels, 10**9 + i * STEP_NS))
-    words = "--image-topic camera/image_raw --events-topic ev --view-topic view --queue 7"
-    options = "--seed 2 --simulator esim --ros-args -r __ns:=/left"
-    code = main(["ros", *words.split(), *options.split()])
-    assert code == 0
+        world.send("image_raw", image(pixels, 10**9 + i * STEP_NS))
+    assert run(view="true", queue=7, seed=2, simulator="esim", contrast_threshold=1) == 0
     truth = texvent.simulate(
-        FRAMES, t_us=[0, 20_000, 40_000, 60_000], seed=2, simulator="esim", progress=False
+        FRAMES, fps=50, seed=2, simulator="esim", contrast_threshold=1, progress=False
     )
-    assert (events_of(world.published["ev"]) == as_rows(truth, 10**6)).all()
-    views = world.published["view"]
+    assert (events_of(world.published["events"]) == as_rows(truth, 10**6)).all()
+    views = world.published["events_image"]
     assert [(view.width, view.height, view.encoding) for view in views] == [(16, 12, "rgb8")] * 3
     assert views[-1].header.stamp.nanosec == 3 * STEP_NS
     assert len(views[0].cdr()) > 16 * 12 * 3
-    assert world.init_arguments == ["--ros-args", "-r", "__ns:=/left"]
-    assert world.profiles["camera/image_raw"].reliability == Policy.BEST_EFFORT
-    assert world.profiles["ev"].reliability == Policy.RELIABLE
-    assert world.profiles["ev"].depth == 7
-    assert world.log == [
-        (
-            "info",
-            "camera/image_raw (sensor_msgs/Image) to ev (event_camera_msgs/EventPacket, evt3), "
-            "simulator esim",
-        )
-    ]
+    assert world.profiles["image_raw"].reliability == Policy.BEST_EFFORT
+    assert world.profiles["events"].reliability == Policy.RELIABLE
+    assert world.profiles["events"].depth == 7
+    assert [level for level, _ in world.log] == ["info"]
     assert world.nodes[0].is_destroyed
     assert not world.is_up
 
 
 def test_a_bad_image_ends_the_node_with_one_line(world, capsys):
     world.send("image_raw", image(FRAMES[0], 10**9, encoding="bayer_rggb8"))
-    assert main(["ros", "--quiet"]) == 2
+    assert run() == 2
     assert capsys.readouterr().err == (
         "error: an image is encoded as 'bayer_rggb8'; publish a demosaiced image, such as that of "
         "image_proc\n"
@@ -84,7 +80,7 @@ def test_ctrl_c_publishes_what_the_simulator_held_back(world, held_back, end, is
     for i, pixels in enumerate(FRAMES):
         world.send("image_raw", image(pixels, 10**9 + i * STEP_NS))
     world.ends_by = end and end()
-    assert main(["ros", "--quiet", "--simulator", held_back, "--interpolate", "none"]) == 0
+    assert run(simulator=held_back, interpolate="none") == 0
     assert bool(world.published["events"]) == is_given  # ROS that is down takes no message
     if is_given:
         truth = texvent.simulate(
@@ -96,49 +92,41 @@ def test_ctrl_c_publishes_what_the_simulator_held_back(world, held_back, end, is
 @pytest.mark.parametrize("end", [KeyboardInterrupt(), ExternalShutdownException()])
 def test_ctrl_c_and_a_shutdown_of_ros_end_the_node_quietly(world, capsys, end):
     world.ends_by = end
-    assert main(["ros", "--quiet"]) == 0
+    assert run() == 0
     assert capsys.readouterr().err == ""
     assert world.nodes[0].is_destroyed
 
 
 def test_a_prompt_is_published_on_the_clock_of_ros(world):
-    arguments = ["--duration", "0.1", "--sensor", "32x24", "--seed", "4", "--fps", "20"]
-    code = main(["ros", "--prompt", "a red ball bounces", "--rate", "0", "--quiet", *arguments])
-    assert code == 0
-    truth = texvent.generate(
-        "a red ball bounces", duration=0.1, sensor="32x24", seed=4, fps=20, progress=False
-    )
+    options = {"duration": 0.1, "sensor": "32x24", "seed": 4, "fps": 20}
+    assert run(prompt="a red ball bounces", rate=0, view="true", **options) == 0
+    truth = texvent.generate("a red ball bounces", progress=False, **options)
     assert len(truth)
     assert (events_of(world.published["events"]) == as_rows(truth, world.now_ns // 1000)).all()
+    assert world.published["events_image"]
 
 
-def test_a_folder_of_images_is_published(world, tmp_path):
+@pytest.fixture
+def folder(tmp_path):
     cv2 = pytest.importorskip("cv2")
     for i, pixels in enumerate(FRAMES):
         cv2.imwrite(str(tmp_path / f"{i}.png"), pixels)
-    words = f"ros {tmp_path} --fps 50 --rate 0 --seed 2 --simulator esim --quiet"
-    assert main(words.split()) == 0
-    truth = texvent.simulate(
-        FRAMES, t_us=[0, 20_000, 40_000, 60_000], seed=2, simulator="esim", progress=False
-    )
-    found = events_of(world.published["events"])
-    assert (found == as_rows(truth, world.now_ns // 1000)).all()
+    return tmp_path
 
 
-def test_a_loop_faster_than_its_times_has_stamps_that_never_step_back(world, tmp_path):
-    cv2 = pytest.importorskip("cv2")
-    for i, pixels in enumerate(FRAMES):
-        cv2.imwrite(str(tmp_path / f"{i}.png"), pixels)
-    words = f"ros {tmp_path} --fps 50 --rate 0 --seed 2 --simulator esim --quiet".split()
-    assert main(words) == 0
+def test_a_loop_faster_than_its_times_has_stamps_that_never_step_back(world, folder):
+    options = {"source": folder, "fps": 50, "rate": 0, "seed": 2, "simulator": "esim"}
+    assert run(**options) == 0
     first = world.published.pop("events")
+    truth = texvent.simulate(FRAMES, fps=50, seed=2, simulator="esim", progress=False)
+    assert (events_of(first) == as_rows(truth, world.now_ns // 1000)).all()
     messages = world.published["events"]
-    sys.modules["rclpy"].ok = lambda: len(messages) <= 2 * len(first)
-    assert main([*words, "--loop"]) == 0
+    sys.modules["rclpy"].ok = lambda: len(messages) <= 3 * len(first)
+    assert run(**options, loop="true") == 0
     stamps = [one.header.stamp.sec * 10**9 + one.header.stamp.nanosec for one in messages]
     assert stamps == sorted(stamps)
     once, found = events_of(first), events_of(messages)
-    count, pass_us = once.shape[1], 60_000 + 1
+    count, pass_us = once.shape[1], int(truth.t[-1]) + 1
     assert found.shape[1] > 2 * count
     for number in range(2):
         part = found[:, number * count : (number + 1) * count]
@@ -149,7 +137,7 @@ def test_a_loop_faster_than_its_times_has_stamps_that_never_step_back(world, tmp
 @pytest.mark.parametrize("missing", ["rclpy", "event_camera_msgs.msg"])
 def test_without_ros_one_line_says_what_to_do(world, monkeypatch, capsys, missing):
     monkeypatch.setitem(sys.modules, missing, None)
-    assert main(["ros"]) == 4
+    assert run() == 4
     error = capsys.readouterr().err
     assert error.count("\n") == 1
     assert re.match(
@@ -160,19 +148,17 @@ def test_without_ros_one_line_says_what_to_do(world, monkeypatch, capsys, missin
 
 
 @pytest.mark.parametrize(
-    ("words", "message"),
+    ("parameters", "message"),
     [
-        ("clip.mp4 --prompt x", "a video and --prompt are both given"),
-        ("--events-topic 1st", "--events-topic is '1st'; a topic has letters"),
-        ("--events-topic ~x", "--events-topic is '~x'; a topic has letters"),
-        ("--node a/b", "node is 'a/b'"),
-        ("--packet-ms 0", "--packet-ms is 0; it must be 0.001..1000"),
-        ("--stamps never", "stamps"),
-        ("--start 2", "start is for videos and files"),
+        ({"source": "clip.mp4", "prompt": "x"}, "source and prompt are both given"),
+        ({"packet_ms": 0}, "packet_ms is 0; it must be 0.001..1000"),
+        ({"stamps": "never"}, "stamps is 'never'"),
+        ({"start": 2}, "start is for videos and files"),
+        ({"sed": 2}, "unknown option 'sed'"),
     ],
 )
-def test_bad_options_are_one_line(world, capsys, words, message):
-    assert main(["ros", *words.split()]) == 2
+def test_bad_parameters_are_one_line(world, capsys, parameters, message):
+    assert run(**parameters) == 2
     error = capsys.readouterr().err
     assert message in error
     assert error.count("\n") == 1

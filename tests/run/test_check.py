@@ -11,8 +11,8 @@ from texvent.capture.array_frames import ArrayFrames
 from texvent.errors import ConfigError
 from texvent.interpolate.dis_flow.estimator import DisFlow
 from texvent.run.check import check_frames, check_source, moved_px, open_source
-from texvent.run.settings import resolve
 from texvent.runtime.progress import NoProgress
+from texvent.settings.resolution import resolve
 
 
 @pytest.fixture(scope="module")

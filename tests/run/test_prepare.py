@@ -12,11 +12,9 @@ from texvent.errors import ConfigError, InputError, MissingDependencyError
 from texvent.generate.procedural import ProceduralGenerator
 from texvent.generate.videos.stored_video import write_video
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source, prepare_video
-from texvent.run.settings import resolve
 from texvent.runtime.progress import CallbackProgress
+from texvent.settings.resolution import resolve
 from texvent.simulate.model_options import contrast_threshold_of
-from texvent.web.job import SimulateJob
-from texvent.web.worker import simulate
 from texvent_lab.bench.fidelity.entries import simulate_video
 
 PROMPT = "a red ball bounces"
@@ -37,10 +35,6 @@ def prompts(monkeypatch):
     return called
 
 
-def job(folder, **values):
-    return simulate(SimulateJob(folder=str(folder), **values), lambda answer: None)
-
-
 def words(options):
     return [word for name, value in options.items() for word in (f"--{name}", str(value))]
 
@@ -49,15 +43,11 @@ def of_api(folder, options):
     texvent.generate(PROMPT, **options)
 
 
-def of_web(folder, options):
-    job(folder, prompt=PROMPT, options=options)
-
-
 def of_samples(folder, options):
     SimulatedSamples(prompts=[PROMPT], simulation=options).make(0)
 
 
-@pytest.mark.parametrize("enter", [of_api, of_web, of_samples])
+@pytest.mark.parametrize("enter", [of_api, of_samples])
 def test_an_impossible_backend_is_refused_before_a_generator_starts(tmp_path, prompts, enter):
     with pytest.raises(ConfigError, match="simulator v2e has no backend gpu"):
         enter(tmp_path, IMPOSSIBLE)
@@ -83,24 +73,12 @@ def test_missing_weights_are_named_before_a_generator_starts(tmp_path, prompts):
     assert prompts == []
 
 
-def test_weights_that_nothing_reads_are_said_and_do_not_stop_a_replay(tmp_path, capsys):
+def test_weights_that_nothing_reads_are_a_warning(capsys, tmp_path):
     unread = ["--interpolate", "blend", "--interpolator-weights", "rife.pkl"]
-    words = ["generate", PROMPT, *unread, "--events-only"]
-    small = ["--sensor", "48x36", "--duration", "0.2"]
-    first, again = tmp_path / "first.h5", tmp_path / "again.h5"
-    for command in ([*words, *small, "-o", str(first)], ["replay", str(first), "-o", str(again)]):
-        assert main(command) == 0
-        said = capsys.readouterr().err
-        assert said.count("rife.pkl', and nothing reads it: interpolate is blend") == 1
-    np.testing.assert_array_equal(texvent.load(first).t, texvent.load(again).t)
-
-
-def test_a_web_job_reaches_its_target_rate(tmp_path):
-    options = {**SMALL, "noise": "none", "interpolate": "blend", "target_rate": 20_000.0}
-    done = job(tmp_path, prompt=PROMPT, options=options)
-    events = texvent.load(done.files["events"])
-    assert len(events) / 0.2 == pytest.approx(20_000, rel=0.3)
-    assert events.equals(texvent.generate(PROMPT, **options))
+    words = ["generate", PROMPT, *unread, "--sensor", "48x36", "--duration", "0.2", "--events-only"]
+    assert main([*words, "-o", str(tmp_path / "a.h5")]) == 0
+    said = capsys.readouterr().err
+    assert said.count("rife.pkl', and nothing reads it: interpolate is blend") == 1
 
 
 def test_the_search_for_a_target_rate_says_how_far_it_is():

@@ -29,7 +29,7 @@ import numpy as np
 
 COMMAND = [sys.executable, "-m", "texvent.cli.app"]
 SIGNALS = (signal.SIGKILL, signal.SIGTERM, signal.SIGINT)
-SMALL = ("--sensor", "64x48", "--no-video", "--noise", "none")
+SMALL = ("--sensor", "64x48", "--previews", "png,html", "--noise", "none")
 RUNS: Mapping[str, tuple[str, ...]] = {
     "simulate": ("simulate", "in/clip.npy", "--fps", "240", "-o", "out/a.h5", "--overwrite",
                  *SMALL),

@@ -15,11 +15,11 @@ import texvent
 from texvent.errors import ConfigError, InputError, OutputError
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run
-from texvent.run.settings import resolve
 from texvent.scenes.models.class_ids import CLASS_IDS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.video import Frame, Motion, Video
 
 from .hand_video import DEPTH_M, SPEED_PX_PER_FRAME, board_video, level
@@ -260,7 +260,7 @@ def test_a_folder_of_truth_is_motion_that_simulate_reads(written, tmp_path, by_p
 def test_a_folder_of_truth_without_flow_is_no_motion(tmp_path):
     (tmp_path / "truth.json").write_text("{}", encoding="utf-8")
     frames = np.stack([frame.pixels for frame in board_video()])
-    with pytest.raises(InputError, match="holds truth, but no flow; make it with `truth` flow"):
+    with pytest.raises(InputError, match="holds truth, but no flow; make it with --truth flow"):
         texvent.simulate(frames, fps=25, motion=str(tmp_path))
 
 
@@ -321,7 +321,7 @@ def test_only_folders_of_truth_are_replaced(tmp_path):
 
 def test_parts_that_were_not_written_are_named(tmp_path):
     truth = texvent.load_truth(texvent.save_truth(board_video(), tmp_path / "a.truth", "ids"))
-    with pytest.raises(InputError, match="holds no flow: it was written with `truth` ids"):
+    with pytest.raises(InputError, match="holds no flow: it was written with --truth ids"):
         truth.flow(0)
     with pytest.raises(InputError, match=r"frame 6 has no ids; there are those of 0\.\.5"):
         truth.instance(6)

@@ -5,8 +5,8 @@ import numpy as np
 import pytest
 
 from texvent.pipeline import video_to_events
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.video import Video
 from texvent_lab.bench.oracle.smooth_texture import ValueNoise
 

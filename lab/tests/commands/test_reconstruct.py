@@ -79,7 +79,7 @@ def test_events_become_a_film_by_count_and_in_a_range(events, weights, tmp_path,
     ("words", "message"),
     [
         (("--fps", "0"), "fps is 0"),
-        (("--events-per-image", "0"), "--events-per-image is 0"),
+        (("--events-per-image", "0"), "events_per_image is 0"),
         (("--network", "firenets"), "did you mean 'firenet'"),
     ],
 )

@@ -1,9 +1,7 @@
 """A simulated event camera beside a frame camera.
 
-ros2 launch texvent_ros event_camera.launch.py image:=/camera/image_raw options:="--seed 3"
+ros2 launch texvent_ros event_camera.launch.py image:=/camera/image_raw parameters:=camera.yaml
 """
-
-import shlex
 
 from launch import LaunchDescription
 from launch.actions import DeclareLaunchArgument, OpaqueFunction
@@ -14,21 +12,22 @@ ARGUMENTS = {
     "namespace": ("event_camera", "Namespace of the node and of its topics."),
     "image": ("/camera/image_raw", "Topic of sensor_msgs/Image to read."),
     "frame_id": ("event_camera", "Coordinate frame of images that state none."),
-    "options": ("", "More options of `texvent ros`, such as --contrast-threshold 0.2."),
+    "parameters": ("", "YAML file with parameters of the node, such as contrast_threshold."),
 }
 
 
 def make_nodes(context):
     """The node, with the values of the arguments."""
     value = {name: LaunchConfiguration(name).perform(context) for name in ARGUMENTS}
-    words = ["--image-topic", value["image"], "--frame-id", value["frame_id"]]
+    files = [value["parameters"]] if value["parameters"] else []
     return [
         Node(
             package="texvent_ros",
             executable="event_camera",
             name="texvent",
             namespace=value["namespace"],
-            arguments=[*words, *shlex.split(value["options"])],
+            remappings=[("image_raw", value["image"])],
+            parameters=[{"frame_id": value["frame_id"]}, *files],
             output="screen",
         )
     ]

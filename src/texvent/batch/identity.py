@@ -1,4 +1,4 @@
-"""What makes a sample itself: a digest of what it shows, and a seed derived from it."""
+"""Identity of a sample: a digest of its subject, and a seed derived from it."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ class ListEntry:
     where: str
     """File and line, for messages."""
     prompt: str | None = None
-    """What to show, or what the video shows."""
+    """Prompt, or description of the video."""
     video: Path | None = None
     """The video; None: one is generated."""
     scene: Scene | None = None

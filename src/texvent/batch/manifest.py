@@ -1,4 +1,4 @@
-"""What a batch was asked for and what is done, in its folder: `batch.json` and `samples.jsonl`.
+"""Manifest of a batch in its folder: options in `batch.json`, samples in `samples.jsonl`.
 
 `batch.json` holds the resolved options; a later run with others is refused. `samples.jsonl` gets a
 line when all files of a sample are complete, with their sizes and sha256.
@@ -161,7 +161,7 @@ def _read_done(path: Path) -> Iterator[Done]:
 
 
 def _describe_other_batch(old: Any, new: Any) -> str:
-    """What differs between the options of two batches, in the words of the command line."""
+    """Differences between the options of two batches, as flags."""
     kinds = [one.get(KIND) if isinstance(one, Mapping) else None for one in (old, new)]
     if kinds[0] != kinds[1]:
         return f"it holds a batch of {kinds[0]}, and this is one of {kinds[1]}"
@@ -174,7 +174,7 @@ def _flag(name: str) -> str:
 
 
 def describe_differences(old: Any, new: Any, *, name_of: Callable[[str], str] = str) -> str:
-    """What differs between two trees of options, as many as fit a line; empty if nothing does.
+    """Differences between two trees of options, as many as fit a line; empty if they are equal.
 
     Args:
         old: the tree that is stored.
@@ -194,7 +194,7 @@ def describe_differences(old: Any, new: Any, *, name_of: Callable[[str], str] = 
 def _differences(
     old: Any, new: Any, name_of: Callable[[str], str], name: str = ""
 ) -> Iterator[str]:
-    """What differs between two trees of options, as `name was this, is that`, leaf by leaf."""
+    """Differences between two trees of options, as `name was this, is that`, leaf by leaf."""
     if isinstance(old, Mapping) or isinstance(new, Mapping):
         before, now = (one if isinstance(one, Mapping) else {} for one in (old, new))
         for key in dict.fromkeys((*before, *now)):

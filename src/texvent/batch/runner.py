@@ -21,15 +21,14 @@ from texvent.errors import (
     TexventError,
     warn,
     warnings_to,
-    worded,
 )
 from texvent.io.files import open_events
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import is_strict, prepare_prompt, prepare_source, report_prompt
-from texvent.run.settings import Settings
-from texvent.run.silence import SignalTally
 from texvent.runtime.progress import NoProgress, Progress
 from texvent.scenes.report import PromptReport
+from texvent.settings.resolution import Settings
+from texvent.simulate.signal_tally import SignalTally
 from texvent.video import Frame
 
 BATCH_KEY = "batch_key"
@@ -40,7 +39,7 @@ ENDING_ALL = (ConfigError, OutputError, MissingDependencyError)
 
 @dataclass(frozen=True)
 class BatchPlan:
-    """What is the same for all samples."""
+    """Settings that all samples share."""
 
     settings: Settings
     folder: Path
@@ -60,7 +59,7 @@ class BatchPlan:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What became of a sample."""
+    """Result of a sample."""
 
     sample: Sample
     events: int = 0
@@ -168,7 +167,7 @@ def make_sample(
             files = replace(files, overwrite=overwrite)
             tally = SignalTally()
             write_run(replace(simulation, tally=tally), files, metadata=facts, on_step=count)
-            doubt = tally.doubt(settings.run.events)
+            doubt = tally.doubt(settings.run.keep_events)
             if doubt is not None:
                 warn(doubt)
     except ENDING_ALL:
@@ -190,5 +189,5 @@ def _is_own(path: Path, sample: Sample) -> bool:
 
 
 def _make_in_process(plan: BatchPlan, sample: Sample, is_replaceable: bool) -> Outcome:
-    with interruptible(), worded(str):  # the process that shows them words them
+    with interruptible():
         return make_sample(plan, sample, is_replaceable, NoProgress())

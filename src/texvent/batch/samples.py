@@ -132,7 +132,7 @@ def _folder_stills(folder: Path) -> Iterator[ListEntry]:
     inside = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
     images = [path for path in inside if _holds_images([path])]
     if not images:
-        raise InputError(f"{folder} holds no image, and --camera moves a camera over images")
+        raise InputError(f"{folder} holds no image, and `camera` moves a camera over images")
     for path in images:
         yield ListEntry(where=str(path), video=path)
 

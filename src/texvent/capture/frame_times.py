@@ -141,7 +141,7 @@ def read_timestamps(path: Path, unit: str) -> Timestamps:
         raise FileFormatError(
             f"{path}: {len(names)} of {len(times_us)} lines name a file; name all of them or none"
         )
-    hint = f" (times are read as {unit}; another unit: --timestamps-unit)"
+    hint = f" (times are read as {unit}; another unit: `timestamps_unit`)"
     check_increasing(times_us, str(path), hint)
     times = FrameTimes(listed_us=times_us, origin=path.name)
     return Timestamps(times, tuple(names) if names else None)
@@ -151,7 +151,7 @@ def _lines(path: Path) -> list[str]:
     try:
         return list(StringIO(usable_path(path).read_text(encoding="utf-8")))
     except FileNotFoundError:
-        raise InputError(f"timestamp file {path} does not exist; check --timestamps") from None
+        raise InputError(f"timestamp file {path} does not exist; check `timestamps`") from None
     except (OSError, UnicodeDecodeError) as error:
         raise FileFormatError(
             f"timestamp file {path} cannot be read ({one_line(error)}); it must be plain text"

@@ -175,5 +175,5 @@ def _named_images(listing: Timestamps, file: Path, folder: Path) -> list[Path]:
 def _refuse_without_times(folder: Path) -> FrameTimes:
     raise InputError(
         f"{folder} has no {' or '.join(TIMESTAMP_NAMES)}, so the times of its images are "
-        "unknown; give a frame rate (--fps 25) or a file of times (--timestamps FILE)"
+        "unknown; give a frame rate (fps=25) or a file of times (timestamps=FILE)"
     )

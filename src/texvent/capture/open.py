@@ -159,7 +159,7 @@ def _open_npy(address: _Address) -> FrameStream:
 
 def _refuse_still(address: _Address) -> FrameStream:
     raise InputError(
-        f"{address.path} is one image, so nothing changes; move a camera over it with --camera "
+        f"{address.path} is one image, so nothing changes; move a camera over it with `camera` "
         "saccade, shake, pan or FILE, or name a folder of images"
     )
 

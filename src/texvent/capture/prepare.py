@@ -137,5 +137,5 @@ def _too_few(count: int, config: CaptureConfig, last_us: int) -> str:
     stop = "the end" if config.stop is None else f"{config.stop:g} s"
     return (
         f"there is {found} between {config.start:g} s and {stop} (frames were read up to "
-        f"{last_us / MICROSECONDS:g} s); events need at least two, so widen --start and --stop"
+        f"{last_us / MICROSECONDS:g} s); events need at least two, so widen `start` and `stop`"
     )

@@ -161,7 +161,7 @@ class PresentationClock:
         elif t_us < self.last_us:
             raise FileFormatError(
                 f"{self.path}: time goes back from {self.last_us} to {t_us} µs at frame "
-                f"{self.count - 1}; give a frame rate that replaces the file's times (--fps)"
+                f"{self.count - 1}; give a frame rate that replaces the file's times (`fps`)"
             )
         self.last_us = t_us
         return t_us
@@ -180,7 +180,7 @@ class PresentationClock:
     def _nominal_time_us(self) -> int:
         if self.times is None and self.rate is None:
             raise FileFormatError(
-                f"{self.path} states neither frame times nor a frame rate; give one with --fps"
+                f"{self.path} states neither frame times nor a frame rate; give one with `fps`"
             )
         return frame_time_us(self.count, self.rate) if self.rate else 0
 
@@ -223,7 +223,7 @@ def _damaged(path: Path, clock: PresentationClock, problem: str) -> FileFormatEr
     shown_us = (clock.last_us or clock.first_us) - clock.first_us
     # Rounded down, so that the last whole frame is the one at which reading stops.
     stop = shown_us // 1000 / 1000
-    advice = f"keep what is whole with --stop {stop:g}, or repair the file" if stop else "repair it"
+    advice = f"keep what is whole with stop={stop:g}, or repair the file" if stop else "repair it"
     return FileFormatError(
         f"{path} {problem}; its frames end at {shown_us / MICROSECONDS:g} s "
         f"after {clock.count} frames; {advice}"

@@ -14,7 +14,6 @@ from importlib import metadata
 from texvent._registry import suggest
 from texvent._version import full_version
 from texvent.cli.notices import one_line_warnings, say, write_out
-from texvent.cli.wording import flags_in_messages
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError, shown
 from texvent.io.atomic import protected_inputs, remove_own_parts
 from texvent.runtime.interrupts import raise_interrupted
@@ -33,10 +32,6 @@ COMMANDS = {
     "rig": (
         "texvent.cli.simulation.rig",
         "Several cameras with lenses, frames and an IMU, from a prompt.",
-    ),
-    "ros": (
-        "texvent.cli.simulation.ros",
-        "A ROS 2 node: images of a topic in, event packets out.",
     ),
     "render": ("texvent.cli.event_files.render", "A video, image or page of an event file."),
     "view": (
@@ -58,10 +53,6 @@ COMMANDS = {
     "convert": (
         "texvent.cli.event_files.convert",
         "Another event format, a region, a time range, files merged.",
-    ),
-    "replay": (
-        "texvent.cli.event_files.replay",
-        "Make an event file again from what is stored in it, and compare.",
     ),
     "validate": (
         "texvent.cli.event_files.validate",
@@ -120,7 +111,6 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return _run(list(arguments))
 
 
-@flags_in_messages()
 def _run(words: list[str], *, is_process: bool = False) -> int:
     """Exit code of a command; every error becomes one line."""
     try:

@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from texvent._registry import SIMULATORS
-from texvent.cli.options import parse_options, peek_options
+from texvent.cli.options import parse_given, take_options, with_given
 from texvent.cli.outputs import OutputOptions
-from texvent.cli.wording import name_flags
-from texvent.config import RunConfig
-from texvent.errors import ConfigError
+from texvent.io.atomic import protect_inputs
 from texvent.options.fields import option_names
-from texvent.run.presets import preset_help
-from texvent.run.settings import DECIDING, Command, Settings, apply_options, base_settings
+from texvent.settings.config_files import Command
+from texvent.settings.presets import preset_help
+from texvent.settings.resolution import DECIDING, Settings, apply_options, base_settings
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,11 +33,12 @@ def resolve_command(
     description: str,
     prog: str | None = None,
     output: Any = None,
+    find_motion: Callable[[Any], Path | None] = lambda own: None,
 ) -> tuple[Settings, Any, Any]:
     """Settings, the command's own options and the output options from a command line.
 
-    The deciding options are read first, so that `--help` lists the flags of the simulator and
-    generator that were named, with the values of the preset and the config file as defaults.
+    The deciding options are taken first: the simulator and the generator that they name have
+    options of their own, and the preset and the config file are their defaults in `--help`.
 
     Args:
         command: "generate" or "simulate".
@@ -47,73 +47,64 @@ def resolve_command(
         description: first lines of its help.
         prog: how it is called, where that is not "texvent" and the command.
         output: the output options, where they are not `OutputOptions`.
+        find_motion: gives the motion vectors beside the frames that the command's own config
+            names, where no option names any.
 
     Raises:
         ConfigError: an unknown flag or name, or a value that does not fit.
         SystemExit: `--help` was asked for and shown.
     """
-    deciding: dict[str, Any] = peek_options(arguments, (*DECIDING, "config"))
-    if command == "simulate":
-        deciding.pop("generator")
-    name_flags((subject, RunConfig()))
-    defaults = base_settings(command, **deciding)
+    called = prog or f"texvent {command}"
     output = output or OutputOptions()
+    names = [name for name in DECIDING if (command, name) != ("simulate", "generator")]
+    deciding, rest = take_options(arguments, (*names, "config"), called)
+    protect_inputs(text for name, text in deciding.items() if name not in ("simulator", "preset"))
+    config = deciding.get("config")
+    named: dict[str, Any] = {name: text for name, text in deciding.items() if name != "config"}
+    defaults = base_settings(command, config=config, **named)
     groups = {"input": subject, "output": output, **defaults.groups()}
     if "contrast_threshold" not in option_names(type(defaults.simulate)):
         groups["threshold"] = OneThreshold()
-    _refuse_options_of_others(arguments, groups, defaults)
-    values = parse_options(
-        arguments,
+    given = parse_given(
+        rest,
         groups,
-        prog=prog or f"texvent {command}",
+        prog=called,
         description=description,
         names=dict if prog else lambda: {"preset": preset_help()},
+        explain=lambda flag: _option_of_others(flag, defaults),
     )
-    own, output = _take(subject, values), _take(output, values)
-    shown = {
-        name: getattr(group, name)
-        for title, group in groups.items()
-        if title not in ("input", "output")
-        for name in option_names(type(group))
-    }
-    given = {name: value for name, value in values.items() if value != shown[name]}
-    for name in DECIDING:  # they have had their effect; a sensor file is a size by now
-        given.pop(name, None)
-    return apply_options(defaults, given, where="options"), own, output
+    given.update(deciding)
+    if config is not None:
+        given["config"] = Path(config)
+    subject, output = with_given(subject, given), with_given(output, given)
+    own = {*option_names(type(subject)), *option_names(type(output)), *DECIDING}
+    options = {name: value for name, value in given.items() if name not in own}
+    settings = apply_options(defaults, options, where="options")
+    if command == "simulate" and settings.source.motion is None:
+        found = find_motion(subject)
+        if found is not None:  # it decides the defaults of other options
+            defaults = base_settings(command, config=config, **named, has_motion=True)
+            settings = apply_options(defaults, {**options, "motion": found}, where="options")
+    return settings, subject, output
 
 
-def _refuse_options_of_others(
-    arguments: Sequence[str], groups: Mapping[str, Any], settings: Settings
-) -> None:
-    """Refuse a flag that other simulators have, naming those and the like ones of the chosen one.
-
-    Raises:
-        ConfigError: there is such a flag.
-    """
-    known = {name for group in groups.values() for name in option_names(type(group))}
-    for word in arguments:
-        name = word.partition("=")[0].removeprefix("--").removeprefix("no-").replace("-", "_")
-        if not word.startswith("--") or name in known:
-            continue
-        owners = [one for one in SIMULATORS.builtin if name in _options_of_simulator(one)]
-        if owners:
-            chosen = settings.run.simulator
-            own, words = _options_of_simulator(chosen), {*name.split("_")}
-            like = [one.replace("_", "-") for one in own if words & {*one.split("_")}]
-            near = f"near: --{', --'.join(like[:3])}; " if like else ""
-            raise ConfigError(
-                f"{chosen} has no --{name.replace('_', '-')} ({', '.join(owners[:4])} "
-                f"{'have' if len(owners) > 1 else 'has'} it); {near}"
-                f"all of {chosen}: --simulator {chosen} --help simulate"
-            )
+def _option_of_others(flag: str, settings: Settings) -> str | None:
+    """Message for a flag of other simulators, with the similar ones of the chosen one."""
+    name = flag.removeprefix("--").removeprefix("no-").replace("-", "_")
+    owners = [one for one in SIMULATORS.builtin if name in _options_of_simulator(one)]
+    if not owners:
+        return None
+    chosen = settings.run.simulator
+    own, words = _options_of_simulator(chosen), {*name.split("_")}
+    like = [one.replace("_", "-") for one in own if words & {*one.split("_")}]
+    near = f"near: --{', --'.join(like[:3])}; " if like else ""
+    return (
+        f"{chosen} has no {flag} ({', '.join(owners[:4])} "
+        f"{'have' if len(owners) > 1 else 'has'} it); {near}"
+        f"all of {chosen}: --simulator {chosen} --help simulate"
+    )
 
 
 def _options_of_simulator(name: str) -> tuple[str, ...]:
     presets = SIMULATORS.load(name).presets
     return option_names(type(next(iter(presets.values()))))
-
-
-def _take(config: Any, values: dict[str, Any]) -> Any:
-    """A copy of `config` with its values, which are removed from `values`."""
-    names = [field.name for field in dataclasses.fields(config)]
-    return dataclasses.replace(config, **{name: values.pop(name) for name in names})

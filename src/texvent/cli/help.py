@@ -25,7 +25,7 @@ FLAG_COLUMNS = 30
 
 
 def asked_help(arguments: Sequence[str], sections: Iterable[str]) -> str | None:
-    """What `--help` asks for: "main", "all" or a section; None without `--help`.
+    """Section that `--help` asks for: "main", "all" or a title; None without `--help`.
 
     A section may be misspelt. A path or a sentence behind `--help` belongs to the command.
 

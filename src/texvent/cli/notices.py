@@ -9,7 +9,6 @@ import warnings
 from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING
 
-from texvent.cli.wording import in_flags
 from texvent.errors import visible, visible_lines, warnings_to
 
 if TYPE_CHECKING:
@@ -40,8 +39,8 @@ def one_line_warnings() -> Iterator[None]:
 
 
 def say(line: str) -> None:
-    """Write a line to stderr, its columns as they are; it names flags."""
-    sys.stderr.write(visible(in_flags(" ".join(line.splitlines()))) + "\n")
+    """Write a line to stderr, its columns as they are."""
+    sys.stderr.write(visible(" ".join(line.splitlines())) + "\n")
 
 
 def write_out(text: str) -> None:
@@ -69,8 +68,8 @@ def result_console() -> Iterator[Console]:
 
 
 def say_warning(message: str) -> None:
-    """Write a line to stderr that stands out; coloured in a terminal."""
-    text = visible(in_flags(" ".join(message.split())))
+    """Write a warning to stderr; coloured in a terminal."""
+    text = visible(" ".join(message.split()))
     has_colours = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
     first, last = (_BOLD_YELLOW, _PLAIN) if has_colours else ("", "")
     sys.stderr.write(f"{first}warning  {text}{last}\n")

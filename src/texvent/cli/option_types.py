@@ -36,7 +36,7 @@ def without_none(hint: Any) -> Any:
 
 
 def metavar(hint: Any) -> str:
-    """What help puts behind a flag for its value; nothing for a switch.
+    """Placeholder of a flag's value in help; empty for a switch.
 
     Example:
         >>> metavar(float | None), metavar(Literal["x", "y"]), metavar(tuple[int, ...])

@@ -1,4 +1,4 @@
-"""What a run writes and how it talks: options that `generate` and `simulate` share."""
+"""Output options of `generate` and `simulate`."""
 
 from __future__ import annotations
 
@@ -9,17 +9,21 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.errors import ConfigError
+from texvent._registry import suggest
+from texvent.errors import ConfigError, shown
 from texvent.io.atomic import check_outputs
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
 from texvent.truth.layout import check_truth_folder, parse_parts
 from texvent.view.drawing.palettes import get_palette
 
+PREVIEWS = ("mp4", "png", "html")
+"""Kinds of preview, by extension."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class OutputOptions:
-    """What is written, and where."""
+    """Output files and messages."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     repeated: ClassVar[tuple[str, ...]] = ("out", "format")
@@ -30,18 +34,16 @@ class OutputOptions:
     format: tuple[str, ...] = ()
     """Format to write, where the extension does not say which (docs/files.md lists them); for
     several files, one for each."""
-    video: bool = True
-    """Write a preview video (.events.mp4): source frames on the left, events on the right."""
-    still: bool = True
-    """Write an image of the busiest moment (.events.png)."""
-    page: bool = True
-    """Write a page (.events.html): x-y-t point cloud, event rate, facts of the run."""
+    previews: str = "mp4,png,html"
+    """Files beside the events, with commas between: a video of frames and events (.events.mp4), an
+    image of the busiest moment (.events.png), a page with point cloud, rate and facts
+    (.events.html)."""
     events_only: bool = False
-    """Event file only: no video, image or page."""
+    """Event file only, without previews."""
     palette: str = "paper"
     """Colours of events in video, image and page."""
     truth: str = ""
-    """Write what is true of the scene beside the events (out.h5: out.truth/): flow, flow-back,
+    """Write ground truth of the scene beside the events (out.h5: out.truth/): flow, flow-back,
     depth, ids, boxes, poses, events, overlay, with commas between, or all. See docs/truth.md."""
     overwrite: bool = False
     """Replace files that exist already."""
@@ -50,8 +52,7 @@ class OutputOptions:
     print_config: bool = False
     """Print all resolved options as TOML, ready for --config, and stop."""
     dry_run: bool = False
-    """Estimate events, time and memory, and stop. It tries up to three pairs of frames, for 10 s
-    at most."""
+    """Estimate events, time and memory, and stop. The first pairs of frames are simulated."""
     keep_partial: bool = False
     """If the run is stopped (Ctrl-C, SIGTERM) or the video ends in damage, keep what is done: the
     files end there and say so (complete = false). A second Ctrl-C discards them."""
@@ -59,12 +60,17 @@ class OutputOptions:
     """No progress and no summary; only warnings and errors."""
 
     @property
-    def previews(self) -> tuple[str, ...]:
-        """Kinds of preview to write, as file extensions without the dot."""
-        if self.events_only:
-            return ()
-        wanted = {"mp4": self.video, "png": self.still, "html": self.page}
-        return tuple(kind for kind, is_wanted in wanted.items() if is_wanted)
+    def preview_kinds(self) -> tuple[str, ...]:
+        """Kinds of preview to write, as file extensions without the dot.
+
+        Raises:
+            ConfigError: an unknown kind.
+        """
+        given = [kind.strip() for kind in self.previews.split(",") if kind.strip()]
+        for kind in given:
+            if kind not in PREVIEWS:
+                raise ConfigError(f"previews has {shown(kind)}; {suggest(kind, PREVIEWS)}")
+        return () if self.events_only else tuple(kind for kind in PREVIEWS if kind in given)
 
     @property
     def truth_parts(self) -> tuple[str, ...]:
@@ -93,7 +99,7 @@ class OutputOptions:
         files = RunFiles(
             events=events,
             formats=self.format,
-            previews=self.previews,
+            previews=self.preview_kinds,
             palette=self.palette,
             truth=self.truth_parts,
             overwrite=self.overwrite,

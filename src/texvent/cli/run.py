@@ -11,7 +11,7 @@ from typing import Any
 
 import tomli_w
 
-from texvent.cli.estimate import describe_estimate, estimate_run
+from texvent.cli.dry_run import measure_start
 from texvent.cli.notices import say, write_out
 from texvent.cli.outputs import OutputOptions
 from texvent.errors import few, warn
@@ -21,10 +21,10 @@ from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_source
-from texvent.run.settings import Settings, unmeasured_sensor
-from texvent.run.silence import SignalTally
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.report import PromptReport
+from texvent.settings.resolution import Settings, unmeasured_sensor
+from texvent.simulate.signal_tally import SignalTally
 from texvent.video import MICROSECONDS, Frame, FrameStream
 
 SIGNALLED = 128
@@ -39,7 +39,7 @@ def print_settings(settings: Settings) -> int:
 
 @dataclass
 class Tally:
-    """What a run made, counted while it runs."""
+    """Counters of a run."""
 
     events: int = 0
     on_events: int = 0
@@ -121,7 +121,7 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
     with progress, _saying_what_is_complete(files.outputs):
         early = write_run(simulation, files, on_step=count, on_scene_change=tally.add_scene_change)
     _announce(progress, _summary(tally, time.perf_counter() - started))
-    doubt = tally.kinds.doubt(simulation.settings.run.events)
+    doubt = tally.kinds.doubt(simulation.settings.run.keep_events)
     if doubt is not None:
         warn(doubt)
     if early is not None:
@@ -143,7 +143,7 @@ def _estimate(simulation: Simulation, options: OutputOptions, files: RunFiles) -
     if not options.quiet:
         for line in describe_scene(simulation.video.metadata, with_words=True):
             say(line)
-    write_out(describe_estimate(estimate_run(simulation, files)) + "\n")
+    write_out(measure_start(simulation).describe() + "\n")
     there = [str(path) for path in files.outputs if path.exists()]
     if there and not (options.overwrite or options.quiet):
         say(f"note     the run needs --overwrite: there is already {few(there)}")
@@ -169,7 +169,7 @@ def _saying_what_is_complete(paths: Sequence[Path]) -> Iterator[None]:
 
 
 def describe_scene(metadata: Mapping[str, Any], *, with_words: bool = False) -> Iterator[str]:
-    """What the generator made of a prompt; warnings have named what is not shown as it says.
+    """Lines on the scene of a prompt; warnings have named words that are not shown.
 
     Args:
         metadata: of the video.
@@ -206,7 +206,7 @@ def _duration(video: FrameStream) -> float | None:
 
 
 def _summary(tally: Tally, seconds: float) -> list[str]:
-    """What a run made in `seconds` of work, in a few lines."""
+    """Summary of a run that took `seconds`."""
     rate = tally.events / tally.seconds if tally.seconds else 0.0
     share = f", {tally.on_events / tally.events:.0%} ON" if tally.events else ""
     kinds = f": {tally.kinds.signal:,} signal, {tally.kinds.noise:,} noise"

@@ -1,4 +1,4 @@
-"""What commands are given to show: a sentence, or the name of a scene file."""
+"""Subjects of commands: a sentence, or the name of a scene file."""
 
 from __future__ import annotations
 
@@ -18,5 +18,5 @@ def read_subject(prompt: str) -> Subject:
 
 
 def subject_name(prompt: str) -> str:
-    """What files are named after: the words of a prompt, or the name of a scene file."""
+    """Base of file names: the words of a prompt, or the name of a scene file."""
     return Path(prompt).stem if is_scene_file(prompt) else prompt

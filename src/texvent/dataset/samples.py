@@ -17,7 +17,7 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.pipeline import Simulation
 from texvent.represent.named import represent_window
 from texvent.run.prepare import prepare_prompt, prepare_source
-from texvent.run.settings import Settings, resolve
+from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.random.draws import frame_key
 
 Sample: TypeAlias = dict[str, Any]

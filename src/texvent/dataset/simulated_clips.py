@@ -17,7 +17,7 @@ from texvent.dataset.specification.resolve import clip_settings, simulation_seed
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, shown
 from texvent.pipeline import Simulation
-from texvent.run.settings import Settings
+from texvent.settings.resolution import Settings
 
 
 class SimulatedClips:

@@ -125,7 +125,7 @@ def check_takes(subject: Subject, generator_class: type, name: str) -> None:
     """
     if isinstance(subject, Scene) and not getattr(generator_class, "takes_scenes", False):
         raise ConfigError(
-            f"generator {shown(name)} takes a prompt, not a scene; leave --generator out, or give "
+            f"generator {shown(name)} takes a prompt, not a scene; leave `generator` out, or give "
             "a sentence"
         )
 

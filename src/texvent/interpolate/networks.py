@@ -222,6 +222,6 @@ def _explain_memory(device: str) -> Iterator[None]:
         if "memory" in str(error):
             raise InputError(
                 f"a pair of frames does not fit into the memory of device {device}; choose a "
-                "smaller --sensor, or --interpolator-device cpu"
+                "smaller `sensor`, or interpolator_device='cpu'"
             ) from error
         raise

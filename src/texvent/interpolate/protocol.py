@@ -13,7 +13,7 @@ class Interpolator(Protocol):
 
     A class whose weights are a file of the user's may offer `provenance(config)`: facts about that
     file, to be stored with the events. One may also declare `bytes_per_pixel`, what it takes per
-    pair of frames; see `run.memory`.
+    pair of frames; see `run.prepare`.
     """
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterable[Frame]:

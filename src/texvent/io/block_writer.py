@@ -244,7 +244,7 @@ class BlockWriter:
             self._warn_of("instance and class of events, which are left out", "hold them")
             packet = packet.with_ids(None, None)
         if packet.label is not None:
-            silence = "hold it, and without_label() silences this"
+            silence = "hold it; without_label() or label_noise=False silences this"
             self._warn_of("signal/noise label, which is left out", silence)
             packet = packet.without_label()
         return packet

@@ -256,7 +256,7 @@ def stored_or_given_size(
         if given is None:
             raise InputError(
                 f"{path} does not store the sensor size; give it "
-                "(size='davis240c' or size='240x180')"
+                "(size='davis240c' or size='240x180' in Python, --sensor on the command line)"
             )
         return checked_size(*given)
     try:

@@ -31,10 +31,9 @@ class RunOptions(TypedDict, total=False):
     sensor: SensorName | None
     seed: int | None
     backend: Literal["cpu", "gpu"] | None
-    events: Literal["all", "signal", "noise"] | None
+    keep_events: Literal["all", "signal", "noise"] | None
     label_noise: bool | None
     target_rate: float | None
-    memory: str | None
     randomize: Literal["none", "stoffregen", "v2v"] | None
 
 
@@ -178,9 +177,6 @@ class SimulateOptions(
     RunOptions, CaptureOptions, InterpolateOptions, SimulatorOptions, total=False
 ):
     """Options of `texvent.simulate`."""
-
-    flow: Field | None
-    flow_back: Field | None
 
 
 class GenerateOptions(

@@ -38,9 +38,9 @@ import yaml
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown, warn
 from texvent.rig.description import NOISE_NAMES, Float64Array, ImuNoise, Rig, RigCamera
-from texvent.run.settings import read_document
 from texvent.scenes.lens import Distortion, Lens, lens_reach
 from texvent.sensor import SENSORS, SensorSize, checked_size, find_sensor
+from texvent.settings.config_files import read_document
 
 HALF_PIXEL = 0.5
 MOST_CAMERAS = 16

@@ -15,8 +15,8 @@ from texvent.rig.config import RigConfig
 from texvent.rig.layouts import bag, dsec, ecd, native
 from texvent.rig.layouts.parts import FACTS, Tally, write_facts
 from texvent.rig.recording import Recording, prepare_recording
-from texvent.run.settings import Settings, resolve
 from texvent.runtime.progress import Progress, ProgressOption, open_progress
+from texvent.settings.resolution import Settings, resolve
 
 
 class LayoutWriter(NamedTuple):

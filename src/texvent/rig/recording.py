@@ -32,12 +32,13 @@ from texvent.rig.kalibr import camera_entries, read_noise, read_rig, stereo_rig
 from texvent.rig.mount import MountedScene, body_poses, path_lens
 from texvent.rig.shutter import ExposedFrame, Shutter, expose_frames, frame_times_us, make_shutter
 from texvent.run.prepare import check_run, prepare_video
-from texvent.run.provenance import describe_run
-from texvent.run.settings import Settings, read_document, sensor_preset
 from texvent.runtime.progress import Progress
 from texvent.scenes.lens import lens_reach
 from texvent.scenes.scene import Scene
 from texvent.sensor import SensorSize
+from texvent.settings.config_files import read_document
+from texvent.settings.provenance import describe_run
+from texvent.settings.resolution import Settings, sensor_preset
 from texvent.video import MICROSECONDS, frame_time_us
 
 POSE_RATE_HZ = 200.0

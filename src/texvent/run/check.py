@@ -22,9 +22,9 @@ from texvent.options.keywords import SimulateOptions
 from texvent.pairs.instants import matching_luma
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
 from texvent.pipeline import Simulation, video_to_events
-from texvent.run.settings import Settings, resolve
 from texvent.runtime.progress import Progress, ProgressOption, open_progress
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import Settings, resolve
 from texvent.video import MICROSECONDS, Frame, FrameStream
 from texvent.video_check.checks import VideoReport, evaluate
 from texvent.video_check.measurements import VideoMeasurer
@@ -91,7 +91,7 @@ def check_frames(video: FrameStream, settings: Settings, progress: Progress) -> 
     Args:
         video: frames that are not fitted to the sensor yet.
         settings: all options of the simulation.
-        progress: told of every frame.
+        progress: receives every frame.
     """
     measurer, windows = VideoMeasurer(), _Windows(video, settings)
 

@@ -80,13 +80,13 @@ class EarlyStop:
     t_us: int
     """Time of the last frame, µs."""
     signal: int | None = None
-    """The signal that asked for it; or ..."""
+    """Signal that stopped the run, if any."""
     error: InputError | None = None
-    """... what is wrong with the input from there on."""
+    """Input error that stopped the run, if any."""
 
     @property
     def facts(self) -> Mapping[str, Any]:
-        """What the files say of it."""
+        """Facts that the files store of it."""
         reason = str(self.error) if self.signal is None else signal.Signals(self.signal).name
         return {"complete": False, "stopped_us": self.t_us, "stopped_by": reason}
 

@@ -10,20 +10,24 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
-from texvent._registry import GENERATORS, INTERPOLATORS
-from texvent.calibrate.rate import reach_target_rate
+from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError, shown, warn
 from texvent.generate.scene_input import Subject, check_takes, prompt_of, read
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
-from texvent.run.memory import check_memory
-from texvent.run.provenance import describe_weights
-from texvent.run.settings import Settings
+from texvent.run.rate_search import reach_target_rate
+from texvent.runtime.memory import usable_bytes
 from texvent.runtime.progress import Progress
 from texvent.scenes.report import PromptReport
 from texvent.scenes.spec.scene import Scene
+from texvent.sensor import SensorSize
+from texvent.settings.provenance import describe_weights
+from texvent.settings.resolution import Settings
 from texvent.simulate.build import build_simulator
 from texvent.video import FrameStream
+
+UNMEASURED = 200
+"""Bytes per pixel of a part that declares none."""
 
 
 def check_run(settings: Settings) -> None:
@@ -40,6 +44,35 @@ def check_run(settings: Settings) -> None:
         check_memory(settings, settings.size)
     if settings.run.backend == "gpu":
         build_simulator(settings.run, settings.simulate)
+
+
+def estimate_bytes(settings: Settings, size: SensorSize) -> int:
+    """Memory for the frames, the interpolator and the pixels of a run, bytes.
+
+    Simulators and interpolators declare `bytes_per_pixel`, measured on moving texture; the frames
+    in the queue count to the simulator. Memory does not grow with the length of a clip.
+    """
+    parts = (
+        SIMULATORS.load(settings.run.simulator),
+        INTERPOLATORS.load(settings.interpolate.interpolate),
+    )
+    per_pixel = sum(getattr(part, "bytes_per_pixel", UNMEASURED) for part in parts)
+    return size.width * size.height * per_pixel
+
+
+def check_memory(settings: Settings, size: SensorSize) -> None:
+    """Refuse frames that do not fit into the memory of the machine: the system would end the run.
+
+    Raises:
+        InputError: they do not fit.
+    """
+    needed, usable = estimate_bytes(settings, size), usable_bytes()
+    if needed > usable:
+        raise InputError(
+            f"frames of {size} pixels need about {needed / 1e9:.3g} GB of memory with "
+            f"{settings.run.simulator} and interpolator {settings.interpolate.interpolate}; "
+            f"{usable / 1e9:.3g} GB are usable here: give a smaller sensor"
+        )
 
 
 def warn_of_unread_weights(config: InterpolateConfig) -> None:
@@ -69,7 +102,7 @@ def prepare_prompt(
         prompt: what to show: a sentence, or a scene of the embedded generator; stored with the
             events as it is given here.
         settings: all options.
-        progress: told how the model and the search for the target rate get on.
+        progress: receives progress of video generation and of the rate search.
 
     Raises:
         ConfigError: the run is impossible, which is found before the model starts.
@@ -86,7 +119,7 @@ def prepare_prompt(
 def report_prompt(
     prompt: Subject, settings: Settings, *, is_staged: bool = True
 ) -> PromptReport | None:
-    """What would be shown of a prompt, without making its video.
+    """Report of the scene of a prompt, without its video.
 
     Args:
         prompt: what to show.
@@ -160,7 +193,7 @@ def prepare_source(
         prompt: what the video shows; stored with the events. A video that texvent generated and
             wrote brings the facts of its generation along.
         video_seed: of a camera that shakes over a still image; None: that of the run.
-        progress: told how the search for the target rate gets on.
+        progress: receives progress of the rate search.
 
     Raises:
         ConfigError: the run is impossible.

@@ -11,9 +11,9 @@ from typing import TYPE_CHECKING
 from texvent.errors import ConfigError, warn
 from texvent.events import EventStream
 from texvent.pipeline import Simulation
-from texvent.run.silence import SignalTally
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.progress import Progress
+from texvent.simulate.signal_tally import SignalTally
 from texvent.truth.layout import ALL, PARTS, check_truth_folder, parse_parts
 
 if TYPE_CHECKING:
@@ -68,7 +68,7 @@ def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> 
     Args:
         run: the run.
         folder: which truth, and where.
-        progress: told of each source frame.
+        progress: receives each source frame.
 
     Raises:
         ConfigError, InputError: the video does not know its truth.
@@ -89,7 +89,7 @@ def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> 
             done += frame.is_source
             progress.advance("simulate", done, run.video.frame_count)
     events = EventStream.concat(packets)
-    doubt = tally.doubt(run.settings.run.events)
+    doubt = tally.doubt(run.settings.run.keep_events)
     if doubt is not None:
         warn(doubt)
     return events.with_metadata(run.provenance)

@@ -7,14 +7,12 @@ import hashlib
 import importlib.util
 import re
 import sys
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any, TypeVar, overload
 
 import numba
 from numba import types
-from numba.core import event
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 
 Function = TypeVar("Function", bound=Callable[..., Any])
@@ -55,18 +53,6 @@ def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **o
         return kernel
 
     return decorate if function is None else decorate(function)
-
-
-@contextmanager
-def timed_compilation() -> Iterator[Callable[[], float]]:
-    """Time what compiles, or loads from disk, inside the block, in any thread.
-
-    Yields:
-        A function that gives the seconds until now, of what is complete.
-    """
-    listener = event.TimingListener()  # type: ignore[no-untyped-call]
-    with event.install_listener("numba:compiler_lock", listener):
-        yield lambda: listener.duration if listener.done else 0.0
 
 
 _type_of: Any = types.unliteral

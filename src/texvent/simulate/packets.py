@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.events import NOISE, SIGNAL, EventStream
-from texvent.runtime.memory import allowed_bytes
+from texvent.runtime.memory import usable_bytes
 from texvent.sensor import SensorSize
 
 
@@ -108,14 +108,14 @@ def check_event_number(number: float) -> None:
         number: events between two frames, counted or expected.
 
     Raises:
-        InputError: it is above what `allowed_bytes` holds.
+        InputError: it is above what `usable_bytes` holds.
     """
-    most = allowed_bytes() // BYTES_PER_EVENT
+    most = usable_bytes() // BYTES_PER_EVENT
     if not number <= most:
         raise InputError(
             f"about {number:.2g} events come between two frames, and memory holds {most:.2g}; give "
-            "frames closer together in time, lower the rates of noise and leak, raise the contrast "
-            "threshold, or allow more --memory"
+            "frames closer together in time, lower the rates of noise and leak, or raise the "
+            "contrast threshold"
         )
 
 

@@ -21,7 +21,7 @@ class Simulator(Protocol):
     may also declare `default_interpolate`, the interpolation it was made for. One whose weights are
     a file of the user's may offer `provenance(config)`: facts about that file, stored with the
     events. It may declare `bytes_per_pixel`: memory that its pixels, its packets and the frames
-    that wait for it take, measured on moving texture; `run.memory` adds it up. It may declare
+    that wait for it take, measured on moving texture; `run.prepare` adds it up. It may declare
     `takes_linear` as True: then frames of linear light reach it as they are, and are gamma-coded
     before otherwise. It may declare `benefits_from_denser_frames` as True: then a pair in which
     objects move fast gets more frames than Eq. 4 asks for (`interpolate.count_policy`). It may

@@ -217,7 +217,7 @@ def without_preparation(video: FrameStream) -> FrameStream:
     if video.source.size != video.size:
         raise ConfigError(
             f"truth is known of frames of {video.source.size}, and these were fitted to "
-            f"{video.size}; leave --sensor out, or give a generator this size"
+            f"{video.size}; leave `sensor` out, or give a generator this size"
         )
     return video.source
 

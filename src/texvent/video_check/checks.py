@@ -65,7 +65,7 @@ def _rate(one: Measurements) -> str:
     return f"{one['rate_hz']:.3g} ± {one['rate_error_hz']:.2g} per pixel and s"
 
 
-ANOTHER_SEED = "generate: another --seed, --on-failure retry"
+ANOTHER_SEED = "generate: another `seed`, on_failure='retry'"
 
 CHECKS = (
     Check(
@@ -77,7 +77,7 @@ CHECKS = (
         value=lambda one: f"{one['still_share']:.0%} of pairs still",
         limit=f"{FROZEN_SHARE:.0%}",
         effect="noise alone while it rests",
-        help=f"--start, --stop; {ANOTHER_SEED}",
+        help=f"`start`, `stop`; {ANOTHER_SEED}",
     ),
     Check(
         name="no motion",
@@ -107,7 +107,7 @@ CHECKS = (
         value=lambda one: f"{one['flash']:.1f} levels",
         limit=f"{FLASH_LEVELS:g}",
         effect="every pixel fires, up and down",
-        help="--detect-cuts (on unless switched off) keeps it at one instant; --start, --stop",
+        help="`detect_cuts` (on unless switched off) keeps it at one instant; `start`, `stop`",
     ),
     Check(
         name="cut",
@@ -117,7 +117,7 @@ CHECKS = (
         value=lambda one: f"{one['cuts']:.0f}",
         limit="0",
         effect="most pixels fire at one instant, which no camera sees",
-        help="--start, --stop: one shot; --detect-cuts (on) keeps it at one instant",
+        help="`start`, `stop`: one shot; `detect_cuts` (on) keeps it at one instant",
     ),
     Check(
         name="dark",
@@ -127,7 +127,7 @@ CHECKS = (
         value=lambda one: f"95 % below level {one['bright_end']:.0f}",
         limit=f"{DARK_LEVEL:g}",
         effect="few events of the scene, many of noise",
-        help="lower --balance, --contrast-threshold; --noise none",
+        help="lower `balance`, `contrast_threshold`; noise='none'",
     ),
     Check(
         name="saturated",
@@ -137,7 +137,7 @@ CHECKS = (
         value=lambda one: f"95 % above level {one['dark_end']:.0f}",
         limit=f"{BRIGHT_LEVEL:g}",
         effect="clipped: what moves in it fires nothing",
-        help=f"--white-level, if white is another value; {ANOTHER_SEED}",
+        help=f"`white_level`, if white is another value; {ANOTHER_SEED}",
     ),
     Check(
         name="noise",
@@ -147,7 +147,7 @@ CHECKS = (
         value=lambda one: f"correlation {one['correlation']:.2f}",
         limit=f"at least {NOISE_CORRELATION:g}",
         effect="every pixel fires by itself",
-        help=f"a smaller --sensor averages it; {ANOTHER_SEED}",
+        help=f"a smaller `sensor` averages it; {ANOTHER_SEED}",
     ),
     Check(
         name="repeated frames",
@@ -156,7 +156,7 @@ CHECKS = (
         value=_repeats,
         limit=f"{REPEAT_SHARE:.0%}",
         effect="silence, then twice the change: the rate beats, times are wrong",
-        help="drop them (ffmpeg -vf mpdecimate), then --fps with the true rate",
+        help="drop them (ffmpeg -vf mpdecimate), then `fps` with the true rate",
     ),
     Check(
         name="motion per frame",
@@ -165,7 +165,7 @@ CHECKS = (
         value=_motion,
         limit=f"{MOTION_SHARE:.0%} of the side",
         effect="interpolation loses motion this fast: ghosts instead of edges",
-        help="more frames per second; --motion of a renderer; generate: --interpolate exact",
+        help="more frames per second; `motion` of a renderer; generate: interpolate='exact'",
     ),
     Check(
         name="event rate",
@@ -174,7 +174,7 @@ CHECKS = (
         value=_rate,
         limit=f"{LOW_RATE_HZ:g} to {HIGH_RATE_HZ:g}",
         effect="below: little more than noise; above: more than sensors read out",
-        help="--contrast-threshold, or --target-rate",
+        help="`contrast_threshold`, or `target_rate`",
     ),
 )
 """In the order of the table."""

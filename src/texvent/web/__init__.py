@@ -1,1 +1,1 @@
-"""The web page: prompts and videos in the browser, events out."""
+"""Local web page: prompts and videos in, events out; only this machine can reach it."""

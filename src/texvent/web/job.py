@@ -1,90 +1,152 @@
-"""Jobs for a worker process and its answers, as lines of JSON."""
+"""Job of the page: one run in a thread, with its progress and its files."""
 
 from __future__ import annotations
 
-import json
+import shutil
+import threading
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass, field
-from typing import Any, Literal, TypeAlias
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, Literal
 
-from texvent.errors import InputError, one_line, shown
-from texvent.web.limits import Limits
+from texvent.errors import InputError, TexventError, warnings_to
+from texvent.events import EventStream
+from texvent.generate.scene_input import Subject
+from texvent.io.files import extension_of, open_events, save
+from texvent.pipeline import Simulation
+from texvent.run.files import RunFiles, write_run
+from texvent.run.prepare import prepare_prompt, prepare_source
+from texvent.scenes.report import PromptReport
+from texvent.scenes.spec.files import parse_scene
+from texvent.settings.resolution import resolve
+from texvent.video import Frame
 
-
-@dataclass(frozen=True, kw_only=True)
-class SimulateJob:
-    """Events, preview video and page of a prompt or of a video."""
-
-    folder: str
-    """Where the results go; it exists and is empty."""
-    prompt: str | None = None
-    """What to show; or ..."""
-    video: str | None = None
-    """... the path of a video file."""
-    options: Mapping[str, Any] = field(default_factory=dict)
-    """Options as in `texvent generate --help`, None meaning "as the preset has it"."""
-    limits: Limits = field(default_factory=Limits)
+SCENE_MARK = "[[objects]]"
+"""Text that no sentence contains, and nearly every scene file in TOML does."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class ConvertJob:
-    """The events of an earlier job in another format."""
-
-    source: str
-    """Event file."""
-    folder: str
-    """Where the result goes."""
-    format: str
-    """Name of a codec."""
+class _StoppedError(Exception):
+    """Raised inside a run that was given up."""
 
 
-Job: TypeAlias = SimulateJob | ConvertJob
-KINDS: dict[str, type[Job]] = {"simulate": SimulateJob, "convert": ConvertJob}
+@dataclass
+class Job:
+    """One run: of a prompt or the text of a scene file, or of a video.
 
-
-@dataclass(frozen=True, kw_only=True)
-class Answer:
-    """One line from a worker."""
-
-    kind: Literal["progress", "done", "failed", "stopped"]
-    share: float | None = None
-    """Of a progress line: how much is done, 0..1, or None where it is unknown."""
-    text: str = ""
-    """What the page shows."""
-    files: Mapping[str, str] = field(default_factory=dict)
-    """Of a done line: name → path, such as video, page, events, download."""
-
-
-def job_line(job: Job) -> str:
-    """The job as one line of JSON."""
-    kind = next(name for name, one in KINDS.items() if isinstance(job, one))
-    return json.dumps({"kind": kind, **asdict(job)})
-
-
-def read_job(line: str) -> Job:
-    """The job in a line that `job_line` wrote.
-
-    Raises:
-        InputError: it is no such line.
+    Args:
+        folder: an empty folder for its files.
+        options: options of `texvent.generate` or `texvent.simulate`.
+        prompt: what to show; or ...
+        video: ... a video file.
     """
-    try:
-        values = json.loads(line)
-        kind = KINDS[values.pop("kind")]
-        if "limits" in values:
-            values["limits"] = Limits(**values["limits"])
-        return kind(**values)
-    except (ValueError, KeyError, TypeError, AttributeError) as error:
-        raise InputError(f"not a job: {shown(line[:100])} ({one_line(error)})") from error
+
+    folder: Path
+    options: Mapping[str, Any]
+    prompt: str = ""
+    video: Path | None = None
+    state: Literal["running", "done", "failed", "stopped"] = "running"
+    text: str = "starting"
+    """Progress, summary or error."""
+    share: float | None = None
+    """Part that is done, 0..1; None where it is not known."""
+    _stop: threading.Event = field(default_factory=threading.Event)
+    _events: int = 0
+    _frames: int = 0
+
+    def start(self) -> None:
+        """Run in a thread."""
+        threading.Thread(target=self.run, daemon=True).start()
+
+    def stop(self) -> None:
+        """Give the run up at its next step."""
+        self._stop.set()
+
+    def run(self) -> None:
+        """Run; `state` and `text` are the outcome."""
+        warnings: list[str] = []
+        try:
+            with warnings_to(warnings.append):
+                simulation = self._prepare()
+                write_run(simulation, self._files(), on_step=lambda *step: self._count(*step))
+        except (TexventError, OSError) as error:
+            self.state, self.text = "failed", str(error)
+        except _StoppedError:
+            self.state, self.text = "stopped", "Stopped."
+        except MemoryError:
+            self.state, self.text = "failed", "memory ran out; choose a smaller sensor"
+        else:
+            self.state, self.text = "done", _summary(simulation, self._events, warnings)
+
+    def describe(self) -> dict[str, Any]:
+        """State, text and progress, JSON-ready."""
+        return {"state": self.state, "text": self.text, "share": self.share}
+
+    def file(self, name: str) -> Path | None:
+        """A result by name: events, video or page; None where there is none."""
+        path = dict(zip(RESULTS, self._files().paths, strict=True)).get(name)
+        return path if path is not None and self.state == "done" and path.is_file() else None
+
+    def converted(self, format: str) -> Path:
+        """The events in a format; folders are packed into one zip file.
+
+        Raises:
+            InputError: there are no events yet, or the format cannot hold them.
+            ConfigError: there is no such format.
+        """
+        if self.state != "done":
+            raise InputError("there are no events to download; make some first")
+        target = self.folder / f"download{extension_of(format)}"
+        save(target, open_events(self.folder / "events.h5"), format=format, overwrite=True)
+        if target.is_dir():
+            target = Path(shutil.make_archive(str(target), "zip", root_dir=target))
+        return target
+
+    def announce(self, line: str) -> None:
+        """Progress of a slow generator, as a line."""
+        self._say(line, None)
+
+    def advance(self, stage: str, done: int, total: int | None) -> None:
+        """Progress of a slow generator, in steps."""
+        self._say(stage, done / total if total else None)
+
+    def _prepare(self) -> Simulation:
+        if self.video is None:
+            settings = resolve("generate", self.options)
+            return prepare_prompt(_subject(self.prompt), settings, progress=self)
+        return prepare_source(str(self.video), resolve("simulate", self.options), progress=self)
+
+    def _files(self) -> RunFiles:
+        return RunFiles(events=(self.folder / "events.h5",), previews=("mp4", "html"))
+
+    def _count(self, frame: Frame, packet: EventStream) -> None:
+        self._events += len(packet)
+        self._frames += frame.is_source
+        self._say(f"frame {self._frames}, {self._events:,} events", None)
+
+    def _say(self, text: str, share: float | None) -> None:
+        if self._stop.is_set():
+            raise _StoppedError
+        self.text, self.share = text, share
 
 
-def answer_line(answer: Answer) -> str:
-    """The answer as one line of JSON."""
-    return json.dumps(asdict(answer))
+RESULTS = ("events", "video", "page")
+"""Names of the files that a run writes, in order."""
 
 
-def read_answer(line: str) -> Answer | None:
-    """The answer in a line; None where something else was printed."""
-    try:
-        return Answer(**json.loads(line))
-    except (ValueError, TypeError):
-        return None
+def _subject(text: str) -> Subject:
+    """The prompt, or the scene in a text that is written as a scene file."""
+    is_json = text.lstrip().startswith("{")
+    if not is_json and SCENE_MARK not in text:
+        return text
+    return parse_scene(text, ".json" if is_json else ".toml")
+
+
+def _summary(simulation: Simulation, count: int, warnings: list[str]) -> str:
+    run = simulation.settings.run
+    lines = [
+        f"{count:,} events on {simulation.video.size} pixels",
+        f"simulator {run.simulator}, preset {run.preset}",
+    ]
+    report = PromptReport.of_metadata(simulation.video.metadata)
+    lines += report.lines() if report is not None else []
+    return "\n".join(dict.fromkeys([*lines, *warnings]))

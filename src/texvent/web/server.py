@@ -1,132 +1,307 @@
-"""The web server: uvicorn in a thread, with bounds on connections that never finish a request."""
+"""Server of the page: HTTP on 127.0.0.1 by the standard library, for the user of this machine.
+
+Every address is one of a few names, so no request reaches another file. Requests that name another
+host (DNS rebinding) or come from another page are refused, and so are bodies above a bound.
+"""
 
 from __future__ import annotations
 
-import socket
+import json
+import shutil
+import tempfile
 import threading
-from typing import Any
+from http import HTTPStatus
+from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
+from importlib import resources
+from pathlib import Path
+from typing import Any, Self
+from urllib.parse import parse_qs, urlsplit
 
-from texvent._require import require
-from texvent.errors import InputError
+from texvent._registry import CODECS, GENERATORS, SIMULATORS
+from texvent.config import RunConfig
+from texvent.errors import InputError, TexventError
+from texvent.sensor import SENSORS
+from texvent.web.job import Job
 
-FIRST_PORT = 7860
-PORTS_TRIED = 100
-HEADER_S = 10.0
-"""Longest wait for the head of a request."""
-MAX_CONNECTIONS = 512
-START_S = 30.0
+HOST = "127.0.0.1"
+FIRST_PORT, PORTS_TRIED = 7860, 100
+CALL_BYTES = 2**16
+"""Largest request that is no upload."""
+SUFFIXES = frozenset((".mp4", ".avi", ".mov", ".mkv", ".webm", ".gif", ".npy", ".aedat4"))
+"""Kinds of uploads; the extension says how a file is read."""
+HEADERS = {
+    "Cache-Control": "no-store",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Referrer-Policy": "no-referrer",
+    "X-Content-Type-Options": "nosniff",
+}
+POLICY = (
+    "default-src 'self'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
+    "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+)
+VIEWER_POLICY = "sandbox allow-scripts; frame-ancestors 'self'"
 
 
-class Server:
-    """Serves an ASGI application until closed."""
+class PageServer:
+    """The page and its latest job, in a folder that is deleted at the end.
 
-    def __init__(self, application: Any, *, host: str, port: int) -> None:
+    Raises:
+        InputError: the port is taken.
+    """
+
+    def __init__(self, *, port: int = 0, upload_bytes: int = 200 * 2**20) -> None:
         """Listen at once.
 
         Args:
-            application: ASGI application.
-            host: address to listen on.
             port: TCP port; 0 takes the first free one from 7860 on.
-
-        Raises:
-            InputError: the port is taken or the address is not one of this machine's.
+            upload_bytes: largest video that is taken.
         """
-        uvicorn = require("uvicorn", extra="app")
-        self._socket = _listen(host, port)
-        config = uvicorn.Config(
-            application,
-            http=_impatient_protocol(),
-            ws="none",
-            log_level="critical",
-            access_log=False,
-            server_header=False,
-            proxy_headers=False,
-            limit_concurrency=MAX_CONNECTIONS,
-            timeout_graceful_shutdown=1,
-        )
-        self._server = uvicorn.Server(config)
-        self._thread = threading.Thread(
-            target=self._server.run, kwargs={"sockets": [self._socket]}, daemon=True
-        )
-        self._host = host
+        self.upload_bytes = upload_bytes
+        self.folder = Path(tempfile.mkdtemp(prefix="texvent-app-"))
+        self.job: Job | None = None
+        self._jobs = 0
+        self._lock = threading.Lock()
+        try:
+            self._server = _listen(port)
+        except InputError:
+            self.close()
+            raise
+        self._server.page = self  # type: ignore[attr-defined]
+        self.address = f"http://{HOST}:{self._server.server_port}/"
+        threading.Thread(target=self._server.serve_forever, daemon=True).start()
 
-    def start(self) -> str:
-        """Serve in a thread; returns the page's address.
-
-        Raises:
-            InputError: the server does not start.
-        """
-        self._thread.start()
-        waiting = threading.Event()
-        for _ in range(int(START_S / 0.05)):
-            if self._server.started:
-                break
-            if not self._thread.is_alive():
-                raise InputError("the web server ended while it started; is gradio complete?")
-            waiting.wait(0.05)
-        name = "127.0.0.1" if self._host in ("0.0.0.0", "") else self._host
-        name = f"[{name}]" if ":" in name else name
-        return f"http://{name}:{self._socket.getsockname()[1]}/"
+    def begin(self, options: dict[str, Any], *, prompt: str = "", video: Path | None = None) -> Job:
+        """Start a job, which takes the place of the one before."""
+        with self._lock:
+            before, self._jobs = self.job, self._jobs + 1
+            if before is not None:
+                before.stop()
+                shutil.rmtree(before.folder, ignore_errors=True)
+            folder = self.folder / f"job-{self._jobs}"
+            folder.mkdir()
+            self.job = Job(folder, options, prompt=prompt, video=video)
+            self.job.start()
+            return self.job
 
     def close(self) -> None:
-        """End all connections and stop."""
-        self._server.should_exit = True
-        self._thread.join(timeout=10)
-        self._socket.close()
+        """Stop the job and the server, and delete all files."""
+        if self.job is not None:
+            self.job.stop()
+        if hasattr(self, "_server"):
+            self._server.shutdown()
+            self._server.server_close()
+        shutil.rmtree(self.folder, ignore_errors=True)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
 
 
-def _listen(host: str, port: int) -> socket.socket:
-    family = socket.AF_INET6 if ":" in host else socket.AF_INET
-    ports = [port] if port else range(FIRST_PORT, FIRST_PORT + PORTS_TRIED)
+def _listen(port: int) -> ThreadingHTTPServer:
     reason: OSError | None = None
-    for one in ports:
-        listener = socket.socket(family)
-        listener.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    for one in [port] if port else range(FIRST_PORT, FIRST_PORT + PORTS_TRIED):
         try:
-            listener.bind((host.strip("[]"), one))
-            listener.listen(128)
+            return ThreadingHTTPServer((HOST, one), _Handler)
         except OSError as error:
-            listener.close()
             reason = error
-        else:
-            return listener
     raise InputError(
-        f"cannot listen on {host}, port {port or f'{FIRST_PORT} to {ports[-1]}'}: "
-        f"{reason.strerror if reason else 'no port'}; choose others by --host and --port"
+        f"cannot listen on port {port or FIRST_PORT}: "
+        f"{reason.strerror if reason else 'none is free'}; choose another --port"
     )
 
 
-def _impatient_protocol() -> type[Any]:
-    """HTTP/1.1 by uvicorn, ending connections whose request never gets a complete head."""
-    h11 = require("h11", extra="app")
-    base: Any = require("uvicorn.protocols.http.h11_impl", extra="app").H11Protocol
+class _Handler(BaseHTTPRequestHandler):
+    """Answers to the requests of the page."""
 
-    class ImpatientProtocol(base):  # type: ignore[misc]
-        """A connection that waits `HEADER_S` for a head, however slowly its bytes come."""
+    timeout = 20
+    """Longest silence of a connection, s."""
 
-        _timer: Any = None
+    @property
+    def page(self) -> PageServer:
+        page: PageServer = self.server.page  # type: ignore[attr-defined]
+        return page
 
-        def connection_made(self, transport: Any) -> None:
-            super().connection_made(transport)
-            self._wait()
+    def do_GET(self) -> None:
+        """The page, the state of the job, or one of its files."""
+        if self._is_refused():
+            return
+        address = urlsplit(self.path)
+        job = self.page.job
+        if address.path == "/":
+            self._send(page_html(), "text/html; charset=utf-8", policy=POLICY)
+        elif address.path == "/job":
+            facts = {"state": "none", "text": ""} if job is None else job.describe()
+            self._send(json.dumps(facts), "application/json")
+        elif address.path == "/download" and job is not None:
+            self._download(job, parse_qs(address.query).get("format", [""])[0])
+        elif address.path in ("/video", "/page") and job is not None:
+            self._result(job, address.path[1:])
+        else:
+            self._refuse(HTTPStatus.NOT_FOUND, "there is no such page")
 
-        def data_received(self, data: bytes) -> None:
-            super().data_received(data)
-            if self.conn.their_state is not h11.IDLE:
-                self._forget()
-            elif self._timer is None:
-                self._wait()
+    def do_POST(self) -> None:
+        """Start or stop a job."""
+        if self._is_refused():
+            return
+        address = urlsplit(self.path)
+        try:
+            if address.path == "/stop":
+                if self.page.job is not None:
+                    self.page.job.stop()
+            elif address.path == "/generate":
+                values = self._json()
+                self.page.begin(_options(values), prompt=str(values.get("prompt", "")))
+            elif address.path == "/simulate":
+                query = {name: values[0] for name, values in parse_qs(address.query).items()}
+                self.page.begin(_options(query), video=self._upload(query.get("name", "")))
+            else:
+                self._refuse(HTTPStatus.NOT_FOUND, "there is no such page")
+                return
+        except _RequestError as error:
+            self._refuse(error.status, str(error))
+            return
+        self._send("{}", "application/json")
 
-        def connection_lost(self, error: Exception | None) -> None:
-            self._forget()
-            super().connection_lost(error)
+    def _is_refused(self) -> bool:
+        """Refuse a request that names another host or comes from another page."""
+        own = self.page.address.removeprefix("http://").rstrip("/")
+        names = {own, own.replace(HOST, "localhost")}
+        host, origin = self.headers.get("Host", ""), self.headers.get("Origin")
+        site = self.headers.get("Sec-Fetch-Site", "none")
+        is_foreign = site not in ("none", "same-origin") and (
+            self.command != "GET" or self.headers.get("Sec-Fetch-Mode") != "navigate"
+        )
+        if host not in names:
+            self._refuse(HTTPStatus.MISDIRECTED_REQUEST, "this page answers to localhost only")
+        elif is_foreign or (origin is not None and origin.removeprefix("http://") not in names):
+            self._refuse(HTTPStatus.FORBIDDEN, "requests from other pages are refused")
+        else:
+            return False
+        return True
 
-        def _wait(self) -> None:
-            self._timer = self.loop.call_later(HEADER_S, self.transport.abort)
+    def _length(self, most: int) -> int:
+        text = self.headers.get("Content-Length", "")
+        if not (text.isascii() and text.isdigit()):
+            raise _RequestError(HTTPStatus.LENGTH_REQUIRED, "the length is missing")
+        if len(text) > 18 or int(text) > most:
+            message = f"the request is larger than {most:,} bytes"
+            raise _RequestError(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, message)
+        return int(text)
 
-        def _forget(self) -> None:
-            if self._timer is not None:
-                self._timer.cancel()
-                self._timer = None
+    def _json(self) -> dict[str, Any]:
+        try:
+            values = json.loads(self.rfile.read(self._length(CALL_BYTES)))
+        except ValueError as error:
+            raise _RequestError(HTTPStatus.BAD_REQUEST, "the request is no JSON") from error
+        if not isinstance(values, dict):
+            raise _RequestError(HTTPStatus.BAD_REQUEST, "the request is no JSON object")
+        return values
 
-    return ImpatientProtocol
+    def _upload(self, name: str) -> Path:
+        """The body as a file; of its name only the extension counts."""
+        left, suffix = self._length(self.page.upload_bytes), Path(name).suffix.lower()
+        if suffix not in SUFFIXES:
+            message = f"a video must end in one of {', '.join(sorted(SUFFIXES))}"
+            raise _RequestError(HTTPStatus.UNSUPPORTED_MEDIA_TYPE, message)
+        for old in self.page.folder.glob("upload.*"):
+            old.unlink(missing_ok=True)
+        path = self.page.folder / f"upload{suffix}"
+        with path.open("wb") as file:
+            while left:
+                part = self.rfile.read(min(left, 2**20))
+                if not part:
+                    raise _RequestError(HTTPStatus.BAD_REQUEST, "the upload broke off")
+                file.write(part)
+                left -= len(part)
+        return path
+
+    def _result(self, job: Job, name: str) -> None:
+        path = job.file(name)
+        if path is None:
+            self._refuse(HTTPStatus.NOT_FOUND, "there is no such result")
+        elif name == "video":
+            self._send(path.read_bytes(), "video/mp4")
+        else:
+            self._send(path.read_bytes(), "text/html; charset=utf-8", policy=VIEWER_POLICY)
+
+    def _download(self, job: Job, format: str) -> None:
+        try:
+            path = job.converted(format)
+        except TexventError as error:
+            self._refuse(HTTPStatus.BAD_REQUEST, str(error))
+            return
+        self._send(
+            path.read_bytes(),
+            "application/octet-stream",
+            disposition=f'attachment; filename="events{"".join(path.suffixes)}"',
+        )
+
+    def _refuse(self, status: int, text: str) -> None:
+        self.close_connection = True  # the body was not read
+        self._send(text, "text/plain; charset=utf-8", status=status)
+
+    def _send(
+        self,
+        content: str | bytes,
+        kind: str,
+        *,
+        status: int = HTTPStatus.OK,
+        policy: str = "default-src 'none'",
+        disposition: str | None = None,
+    ) -> None:
+        body = content.encode() if isinstance(content, str) else content
+        headers = {**HEADERS, "Content-Type": kind, "Content-Security-Policy": policy}
+        if disposition is not None:
+            headers["Content-Disposition"] = disposition
+        self.send_response(status)
+        for name, value in headers.items():
+            self.send_header(name, value)
+        self.send_header("Content-Length", str(len(body)))
+        self.end_headers()
+        self.wfile.write(body)
+
+    def log_message(self, format: str, *args: Any) -> None:
+        """Nothing: the terminal belongs to the command."""
+
+
+class _RequestError(Exception):
+    def __init__(self, status: int, message: str) -> None:
+        super().__init__(message)
+        self.status = status
+
+
+def _options(values: dict[str, Any]) -> dict[str, Any]:
+    """Options of a run from the fields of the page; empty fields are left to the defaults.
+
+    Raises:
+        _RequestError: a number is none.
+    """
+    options: dict[str, Any] = {}
+    for name, convert in (
+        ("generator", str), ("simulator", str), ("preset", str), ("sensor", str),
+        ("seed", int), ("duration", float),
+    ):  # fmt: skip
+        text = str(values.get(name, "")).strip()
+        if text:
+            try:
+                options[name] = convert(text)
+            except ValueError:
+                message = f"{name} is {text[:20]!r}; it must be a number"
+                raise _RequestError(HTTPStatus.BAD_REQUEST, message) from None
+    return options
+
+
+def page_html() -> str:
+    """The page, with the names to choose from."""
+    template = resources.files("texvent.web").joinpath("page.html").read_text(encoding="utf-8")
+    choices = {
+        "generators": GENERATORS.names(),
+        "simulators": SIMULATORS.names(),
+        "simulator": RunConfig.simulator,
+        "presets": {name: list(SIMULATORS.load(name).presets) for name in SIMULATORS.names()},
+        "sensors": list(SENSORS),
+        "formats": CODECS.names(),
+    }
+    return template.replace("{{choices}}", json.dumps(choices).replace("<", "\\u003c"))

@@ -84,7 +84,7 @@ RIFE = _rife(
         "b234ad8d0acfcb6d9eaf2791eb7ddebdaab58bd862b229c703f8073e56d99c29",
     ),
     (
-        "RIFE 4.0, frame interpolation at any instant; what --interpolate rife uses.",
+        "RIFE 4.0, frame interpolation at any instant; what interpolate='rife' uses.",
         "The package and Practical-RIFE, where the weights come from, are MIT.",
     ),
 )
@@ -104,7 +104,7 @@ RIFE_4_6 = _rife(
         "a222360fa1b3e794d2d5236a3b8513f4c9c09960b0742733546888930f383e56",
     ),
     (
-        "RIFE in the layout of 4.6: smaller and faster; pass its path with --interpolator-weights.",
+        "RIFE in the layout of 4.6: smaller and faster; pass its path with `interpolator_weights`.",
         "The package is MIT; which release the weights are is not stated.",
     ),
 )

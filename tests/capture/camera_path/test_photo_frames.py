@@ -9,9 +9,6 @@ from texvent.capture.camera_path.opening import open_photo
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError
-from texvent.io.files import open_events
-from texvent.run.replay import describe_differences, prepare_replay
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
 from texvent.video import RenderableStream
 
@@ -119,39 +116,6 @@ def test_enough_frames_are_rendered_that_nothing_moves_by_more_than_a_pixel():
     assert len(texvent.simulate(stripes, noise="none", **options)) > 20 * 60
 
 
-def test_a_run_is_replayed_with_its_files(photo, tmp_path):
-    (tmp_path / "path.txt").write_text("0 0 0\n0.05 3 1\n0.1 0 0\n")
-    np.save(tmp_path / "depth.npy", DEPTH)
-    events = texvent.simulate(
-        photo, camera=str(tmp_path / "path.txt"), depth=tmp_path / "depth.npy", sensor="40x30"
-    )
-    file = tmp_path / "events.h5"
-    events.save(file)
-    stored = open_events(file).metadata
-    again = prepare_replay(stored, path=file)
-    np.testing.assert_array_equal(again.packets.collect().t, events.t)
-    assert describe_differences(stored, again.provenance) == []
-    (tmp_path / "path.txt").write_text("0 0 0\n0.05 4 1\n0.1 0 0\n")
-    now = prepare_replay(stored, path=file).provenance
-    assert "its camera path or depth was changed" in describe_differences(stored, now)
-
-
-def test_a_shake_is_replayed_with_its_seed(photo):
-    settings = resolve("simulate", {"camera": "shake", "sensor": "16x12", "duration": 0.1})
-    from texvent.run.prepare import prepare_source
-
-    run = prepare_source(photo, settings, video_seed=77)
-    again = prepare_replay(run.provenance, path=photo)
-    assert again.video.metadata == run.video.metadata
-    assert again.video.metadata["camera_seed"] == 77
-
-
-def test_depth_in_memory_cannot_be_replayed(photo, tmp_path):
-    events = texvent.simulate(photo, camera="pan", depth=DEPTH, duration=0.1)
-    with pytest.raises(InputError, match="its depth came from memory"):
-        prepare_replay(events.metadata, path=tmp_path / "events.h5")
-
-
 POSES = "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n"
 
 
@@ -201,7 +165,7 @@ def test_what_is_no_image_gets_one_line(photo, tmp_path):
     with pytest.raises(ConfigError, match="t_us is for frames"):
         open_frames(PHOTO, CaptureConfig(camera="pan"), t_us=[0, 1])
     with pytest.raises(ConfigError, match="motion is for videos"):
-        texvent.simulate(PHOTO, camera="pan", flow=np.zeros((1, 60, 80, 2)))
+        texvent.simulate(PHOTO, camera="pan", motion=np.zeros((1, 60, 80, 2)))
     photo.write_bytes(photo.read_bytes()[:40])
     with pytest.raises(FileFormatError, match="cannot be decoded"):
         texvent.simulate(photo, camera="pan")

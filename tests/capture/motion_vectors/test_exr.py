@@ -111,7 +111,7 @@ def test_a_real_render_of_blender():
     assert np.hypot(*middle.forward.T).max() > 3.0  # the ball
     assert 3.0 < middle.depth.min() < middle.depth.max() < 30.0
     assert len(np.unique(middle.instance)) >= 5
-    with pytest.raises(InputError, match="`motion_convention` blender; give that"):
+    with pytest.raises(InputError, match="motion_convention=blender; give that"):
         open_frames(
             BLENDER, CaptureConfig(motion=BLENDER / "motion", motion_convention="blender,y-down")
         )
@@ -125,7 +125,6 @@ def test_simulate_takes_the_folder_that_the_script_makes(tmp_path, capsys):
     assert source["motion_convention"] == "blender"
     assert len(source["motion_fingerprint"]) == 64
     assert len(texvent.load(out)) == len(texvent.simulate(BLENDER, noise="none"))
-    assert main(["replay", str(out), "-o", str(tmp_path / "again.h5")]) == 0
 
 
 def test_the_script_can_be_found_and_belongs_to_blender(capsys):

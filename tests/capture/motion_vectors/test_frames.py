@@ -1,5 +1,4 @@
 from fractions import Fraction
-from pathlib import Path
 
 import cv2
 import numpy as np
@@ -11,7 +10,6 @@ from texvent.capture.motion_vectors.attach import find_motion_sidecar
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, TexventWarning
-from texvent.run.replay import prepare_replay
 from texvent.sensor import SensorSize
 from texvent.video import Frame, Motion, Video
 
@@ -116,7 +114,7 @@ def test_a_pattern_names_files_among_others(tmp_path):
     ],
 )
 def test_vectors_of_another_convention_are_refused_with_the_option_to_give(flow, option):
-    told = rf"differ by \d+\.\d grey levels, and by [0-3]\.\d .*`motion_convention` {option}; give"
+    told = rf"differ by \d+\.\d grey levels, and by [0-3]\.\d .*motion_convention={option}; give"
     with pytest.raises(InputError, match=told):
         opened({"motion": flow})
     option = option.strip("()").split("|")[0]
@@ -249,20 +247,18 @@ def test_simulate_takes_arrays_and_files(tmp_path):
     np.save(tmp_path / "flow.npy", FORWARD)
     np.save(tmp_path / "depth.npy", DEPTH)
     options = {"fps": 25, "noise": "none", "contrast_threshold": 0.15}
-    events = texvent.simulate(FILM, flow=FORWARD, depth=DEPTH, **options)
+    events = texvent.simulate(FILM, motion=FORWARD, depth=DEPTH, **options)
     assert len(events)
     assert events.metadata["source"]["motion"] == {"motion": "motion", "depth": "depth"}
     assert events.metadata["settings"]["interpolate"]["interpolate"] == "motion"
     by_file = texvent.simulate(
-        FILM, flow=tmp_path / "flow.npy", depth=str(tmp_path / "depth.npy"), **options
+        FILM, motion=tmp_path / "flow.npy", depth=str(tmp_path / "depth.npy"), **options
     )
     assert np.array_equal(events.t, by_file.t)
     assert by_file.metadata["settings"]["capture"]["motion"] == str(tmp_path / "flow.npy")
     assert len(by_file.metadata["source"]["motion_fingerprint"].split("-")) == 2
-    with pytest.raises(InputError, match="flow and motion are the same"):
-        texvent.simulate(FILM, flow=FORWARD, motion=Path("x"), **options)
     with pytest.raises(ConfigError, match="motion_convention has 'blendr'"):
-        texvent.simulate(FILM, flow=FORWARD, motion_convention="blendr", **options)
+        texvent.simulate(FILM, motion=FORWARD, motion_convention="blendr", **options)
 
 
 def test_following_the_vectors_is_the_default_unless_told_otherwise(tmp_path):
@@ -274,17 +270,11 @@ def test_following_the_vectors_is_the_default_unless_told_otherwise(tmp_path):
         return events.metadata["settings"]["interpolate"]["interpolate"]
 
     assert interpolation() == "flow"
-    assert interpolation(flow=FORWARD) == "motion"
-    assert interpolation(flow_back=BACKWARD) == "motion"
+    assert interpolation(motion=FORWARD) == "motion"
+    assert interpolation(motion_back=BACKWARD) == "motion"
     assert interpolation(depth=DEPTH) == "flow"
-    assert interpolation(flow=FORWARD, interpolate="none") == "none"
-    assert interpolation(flow=FORWARD, config=tmp_path / "run.toml") == "blend"
-
-
-def test_events_of_arrays_cannot_be_replayed_without_them(tmp_path):
-    events = texvent.simulate(FILM, flow=FORWARD, fps=25, stop=0.12, simulator="esim")
-    with pytest.raises(InputError, match="came from memory"):
-        prepare_replay(events.metadata, path=tmp_path / "a.h5")
+    assert interpolation(motion=FORWARD, interpolate="none") == "none"
+    assert interpolation(motion=FORWARD, config=tmp_path / "run.toml") == "blend"
 
 
 def test_a_stream_of_frames_that_carry_motion():
@@ -299,7 +289,9 @@ def test_a_stream_of_frames_that_carry_motion():
     options = {"simulator": "esim"}
     events = texvent.simulate(stream, **options)
     assert events.metadata["settings"]["interpolate"]["interpolate"] == "motion"
-    given = texvent.simulate(FILM, fps=25, flow=FORWARD, flow_back=BACKWARD, depth=DEPTH, **options)
+    given = texvent.simulate(
+        FILM, fps=25, motion=FORWARD, motion_back=BACKWARD, depth=DEPTH, **options
+    )
     assert np.array_equal(events.t, given.t)
 
 

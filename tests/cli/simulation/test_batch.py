@@ -117,11 +117,11 @@ def test_a_batch_goes_on_where_it_was(folder, capsys):
 def test_a_preview_that_is_missing_is_made_again(folder, capsys):
     (folder / "p.txt").write_text("a dog runs\n")
     words = ["batch", "p.txt", *(word for word in QUICK if word != "--events-only")]
-    assert run(*words, "--no-video", "--no-page") == 0
+    assert run(*words, "--previews", "png") == 0
     (image,) = (folder / "p").glob("*.png")
     image.unlink()
     before = recordings(folder / "p")
-    assert run(*words, "--no-video", "--no-page") == 0
+    assert run(*words, "--previews", "png") == 0
     assert image.exists()
     assert recordings(folder / "p") == before
 
@@ -215,7 +215,7 @@ def test_mistakes_are_one_line(folder, capsys):
 
 
 TREES = "\n".join(f"a red car drives left past {count} trees" for count in range(2, 6))
-SMALL = ("--sensor", "48x36", "--duration", "0.2", "--no-video", "--no-page")
+SMALL = ("--sensor", "48x36", "--duration", "0.2", "--previews", "png")
 
 
 @pytest.fixture(scope="module")

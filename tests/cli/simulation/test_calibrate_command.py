@@ -4,8 +4,8 @@ import pytest
 from texvent.calibrate.events_only.replay import replay_flicker, replay_static
 from texvent.cli.app import main
 from texvent.events import EventStream
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.physical.threshold_map import read_threshold_map
@@ -115,7 +115,7 @@ def test_events_alone_are_measured_one_scene_after_the_other(scenes, tmp_path, c
     [
         ((), "a moving scene needs --frames"),
         (("--scene", "flicker"), "needs --flicker-hz"),
-        (("--scene", "flicker", "--flicker-hz", "5", "--flicker-ratio", "1"), "flicker-ratio"),
+        (("--scene", "flicker", "--flicker-hz", "5", "--flicker-ratio", "1"), "flicker_ratio"),
         (("--scene", "still"), "--scene"),
         (("--scene", "static", "--threshold-map", "a.npz"), "is for --scene flicker"),
         (("--scene", "flicker", "--flicker-hz", "5", "--threshold-map", "a.h5"), "in .npz"),

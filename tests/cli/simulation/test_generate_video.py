@@ -1,9 +1,8 @@
-"""`--video-only`, `--from-video` and `texvent generators`, as a user meets them."""
+"""`--video-only` and `texvent generators`, as a user meets them."""
 
 import json
 from fractions import Fraction
 
-import av
 import h5py
 import numpy as np
 import pytest
@@ -14,7 +13,7 @@ from texvent.errors import FileFormatError
 from texvent.generate.video_models.known_models import MODELS
 from texvent.generate.videos.stored_video import reopen
 from texvent.pipeline import text_to_video
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 
 PROMPT = "a red ball bounces on the grass"
 SMALL = ["--sensor", "48x36", "--duration", "0.2", "--samples", "1", "--fps", "30000/1001"]
@@ -38,7 +37,7 @@ def test_a_video_written_once_gives_events_again_and_again(folder, capsys):
     assert (video.fps, video.size, video.frame_count) == (Fraction(30_000, 1001), (48, 36), 6)
     for name, threshold in (("a.h5", 0.3), ("b.h5", 0.1)):
         words = ("--contrast-threshold", threshold, "--noise", "none", "--events-only")
-        assert run("generate", "a ball", "--from-video", "ball.avi", *words, "-o", name) == 0
+        assert run("simulate", "ball.avi", "--prompt", "a ball", *words, "-o", name) == 0
     assert len(texvent.load("b.h5")) > len(texvent.load("a.h5")) > 0
     with h5py.File("a.h5") as file:
         stored = json.loads(file.attrs["texvent"])
@@ -56,48 +55,9 @@ def test_the_written_video_is_what_was_rendered_to_16_bits(folder):
         assert np.abs(stored.pixels / 257.0 - ours.pixels).max() <= 0.5 / 257 + 1e-4
 
 
-def test_any_other_video_can_stand_for_the_prompts_video(folder):
-    with av.open("clip.mp4", "w") as container:
-        stream = container.add_stream("libx264", rate=25)
-        stream.width, stream.height, stream.pix_fmt = 32, 24, "yuv420p"
-        for level in (20, 200, 20):
-            pixels = np.full((24, 32, 3), level, np.uint8)
-            container.mux(stream.encode(av.VideoFrame.from_ndarray(pixels, format="rgb24")))
-        container.mux(stream.encode())
-    assert reopen(folder / "clip.mp4") is None
-    assert run("generate", "blinks", "--from-video", "clip.mp4", "--events-only") == 0
-    assert len(texvent.load("blinks.h5")) > 0
-
-
-@pytest.mark.parametrize("flag", ["--duration", "--generator", "--video-only"])
-def test_a_flag_that_makes_a_video_is_refused_beside_a_ready_one(folder, capsys, flag):
-    value = [] if flag == "--video-only" else ["procedural" if flag == "--generator" else "3"]
-    assert run("generate", "a ball", "--from-video", "ball.avi", flag, *value) == 2
-    said = capsys.readouterr().err
-    assert f"{flag} says how to make a video, but --from-video takes one that is ready" in said
-
-
-def test_a_wrong_flag_beside_a_ready_video_points_to_the_options_of_simulate(folder, capsys):
-    assert run("generate", "a ball", "--from-video", "ball.avi", "--contrast-treshold", "1") == 2
-    said = capsys.readouterr().err
-    assert "did you mean --contrast-threshold?" in said
-    assert "(see texvent simulate --help)" in said
-
-
-def test_simulate_with_a_prompt_does_what_from_video_does(folder):
-    assert run("generate", PROMPT, *SMALL, "--video-only", "-o", "ball.avi") == 0
-    assert run("generate", "a ball", "--from-video", "ball.avi", "--events-only", "-o", "a.h5") == 0
-    assert run("simulate", "ball.avi", "--prompt", "a ball", "--events-only", "-o", "b.h5") == 0
-    first, second = texvent.load("a.h5"), texvent.load("b.h5")
-    assert first.equals(second)
-    assert first.metadata["prompt"] == second.metadata["prompt"] == "a ball"
-    assert first.metadata["source"] == second.metadata["source"]
-
-
 @pytest.mark.parametrize(
     ("words", "code", "why"),
     [
-        (("--from-video", "none.avi"), 2, "no such video: none.avi"),
         (("--video-only", "-o", "x.mp4"), 2, "must end in .avi"),
         (("--video-only", "-o", "taken.avi"), 3, "exists already"),
         (("--generator", "wan-1.3b", "-o", "taken.h5"), 3, "exists already"),

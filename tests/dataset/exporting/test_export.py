@@ -17,7 +17,6 @@ from texvent.dataset.contents.made_set import MadeSet
 from texvent.dataset.contents.stored_events import read_events
 from texvent.dataset.exporting.export import export
 from texvent.dataset.exporting.layouts import LAYOUTS, folder_name
-from texvent.dataset.generation.tar_shard import read_members
 from texvent.errors import ConfigError, InputError, OutputError
 from texvent.events import EventStream
 
@@ -88,10 +87,6 @@ def test_hdf5_holds_everything_and_is_made_again_from_itself(
         assert_same(loaded.columns(), events)
         assert loaded.metadata["label"] == label
         assert loaded.metadata["settings"]
-        # Two samples of a video: the second has another seed than its video.
-        again = tmp_path / f"{key}.h5"
-        assert main(["replay", str(path), "-o", str(again)]) == 0
-        assert_same(texvent.load(again).columns(), events)
     capsys.readouterr()
 
 
@@ -132,29 +127,6 @@ def test_a_second_run_goes_on_and_another_export_is_refused(cars: Path, tmp_path
         export(made, "hdf5", tmp_path / "other")
     with pytest.raises(ConfigError, match=f"unknown format 'zarr'; allowed: {', '.join(LAYOUTS)}"):
         export(made, "zarr", tmp_path / "other")
-
-
-def test_a_sample_of_a_stored_video_is_made_again_from_it(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    stored = make_set(
-        tmp_path / "stored",
-        splits={"train": 1.0},
-        sources=[{"prompts": ["a dog runs right"]}],
-        variants={"esim": {"simulator": "esim", "seeds": 2}},
-        store_videos=True,
-    )
-    (videos,) = MadeSet.open(stored).shards("videos")
-    (video,) = videos.samples
-    clip = tmp_path / "clip.avi"
-    clip.write_bytes(read_members(videos.path, video.members)["avi"])
-    export(MadeSet.open(stored), "hdf5", tmp_path / "h")
-    for key, (split, _, events) in samples_of(stored, "esim").items():
-        again, path = tmp_path / f"{key}.h5", tmp_path / "h" / split / f"{key}.h5"
-        assert main(["replay", str(path), "--source", str(clip), "-o", str(again)]) == 0
-        assert_same(texvent.load(again).columns(), events)
-    assert main(["replay", str(path), "--source", str(path), "-o", str(tmp_path / "x.h5")]) == 2
-    capsys.readouterr()
 
 
 def test_a_layout_of_classes_needs_classes(tmp_path: Path) -> None:

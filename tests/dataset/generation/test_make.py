@@ -27,7 +27,7 @@ from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Filters
 from texvent.errors import ConfigError, FileFormatError, OutputError
 from texvent.pipeline import text_to_events
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 
 SMALL = {"duration": 0.1, "sensor": "32x24"}
 CARS = {

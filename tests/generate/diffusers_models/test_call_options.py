@@ -196,5 +196,5 @@ def test_wrong_images_are_one_line_before_any_work(command, models, start, tmp_p
         assert message in lines[0]
     code, lines = run(command(models("wan"), start, out), capsys)
     assert code != 0
-    assert lines == ["error: --image is set, but WanPipeline starts from text alone"]
+    assert lines == ["error: image is set, but WanPipeline starts from text alone"]
     assert not out.exists()

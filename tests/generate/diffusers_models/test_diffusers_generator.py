@@ -38,7 +38,7 @@ from texvent.generate.video_models.known_models import MODELS  # noqa: E402
 from texvent.generate.videos.clip_model import measure_clip_score  # noqa: E402
 from texvent.generate.videos.stored_video import write_video  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
-from texvent.run.settings import resolve  # noqa: E402
+from texvent.settings.resolution import resolve  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
 from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
@@ -289,7 +289,7 @@ def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(caps
     generator = part(part.config_type(), seed=0, size=None)
     with pytest.raises(TexventError, match=r"model_index.json and .*put them into") as caught:
         generator.generate(PROMPT, progress=watcher)
-    assert "`generator` ./FOLDER" in str(caught.value)
+    assert "generator=./FOLDER" in str(caught.value)
     read = "licence: Apache-2.0 (read in github.com/Wan-Video/Wan2.1: README.md;"
     assert read in watcher.lines[0]
     with pytest.raises(TexventError):

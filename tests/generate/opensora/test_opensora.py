@@ -16,7 +16,7 @@ from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.generate.opensora.external_program import run_program
 from texvent.generate.opensora.generator import WEIGHTS, OpenSoraConfig, OpenSoraGenerator
-from texvent.run.settings import default_settings
+from texvent.settings.resolution import default_settings
 
 PROMPT = 'a red car, "fast", drives left'
 TORCHRUN = """

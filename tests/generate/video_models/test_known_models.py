@@ -11,7 +11,7 @@ from texvent.errors import ConfigError, TexventWarning
 from texvent.generate.video_models import known_models
 from texvent.generate.video_models.known_models import MODELS
 from texvent.generate.video_models.model_files import describe_terms
-from texvent.run.settings import default_settings, resolve
+from texvent.settings.resolution import default_settings, resolve
 
 
 def test_every_row_says_where_what_how_fast_and_under_which_licence():

@@ -10,8 +10,8 @@ from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.interpolate.motion.interpolator import MotionInterpolator
 from texvent.metrics.compare import compare
 from texvent.pipeline import Simulation
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 
 SIZE = SensorSize(80, 60)
 

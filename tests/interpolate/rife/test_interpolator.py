@@ -16,7 +16,7 @@ from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
 from texvent.pairs.instants import matching_levels
 from texvent.pipeline import video_to_events
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.transfer import Transfer
 from texvent.video import Frame, Video
 

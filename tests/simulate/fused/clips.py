@@ -9,7 +9,7 @@ import numpy as np
 from texvent._registry import INTERPOLATORS
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.simulate.build import build_simulator
 from texvent.video import Video
 

@@ -56,7 +56,7 @@ def test_a_run_names_its_map_and_refuses_frames_of_another_size(path):
     frames = np.array([[[50] * 4], [[200] * 4]], np.uint8)
     events = texvent.simulate(frames, fps=24, simulator="physical", threshold_map=path)
     assert events.metadata["weights"]["simulator"]["file"] == "pixels.npz"
-    with pytest.raises(InputError, match="of 4x1 pixels, the frames have 5x2; use `sensor` 4x1"):
+    with pytest.raises(InputError, match="of 4x1 pixels, the frames have 5x2; use sensor=4x1"):
         texvent.simulate(
             np.zeros((2, 2, 5), np.uint8), fps=24, simulator="physical", threshold_map=path
         )

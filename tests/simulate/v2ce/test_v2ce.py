@@ -18,7 +18,7 @@ from texvent.events import SIGNAL, EventStream
 from texvent.options.fields import option_help, option_names
 from texvent.options.values import with_options
 from texvent.pipeline import video_to_events
-from texvent.run.settings import default_settings, resolve
+from texvent.settings.resolution import default_settings, resolve
 from texvent.simulate.packets import FrameInterval, make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati

@@ -27,7 +27,7 @@ from texvent.extending import INTERPOLATORS
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.pairing import pair_frames
 from texvent.pairs.frame_pair import FramePair
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.simulate.build import build_simulator
 from texvent.video import Frame, Video
 from texvent_lab.measure.interpolation_scenes import moving_scene

@@ -22,8 +22,8 @@ import numpy as np
 from texvent.events import EventStream
 from texvent.interpolate.protocol import Interpolator
 from texvent.metrics.compare import compare
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.video import Video
 from texvent_lab.bench.fidelity.entries import simulate_video
 from texvent_lab.bench.oracle.camera import radiance_of

@@ -32,8 +32,8 @@ from texvent.events import EventStream
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.metrics.compare import compare
 from texvent.pipeline import Simulation
-from texvent.run.settings import resolve
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.video import MICROSECONDS, Frame, Motion, frame_time_us
 from texvent_lab.bench.oracle import scenes as oracle
 from texvent_lab.bench.oracle.camera import radiance_of

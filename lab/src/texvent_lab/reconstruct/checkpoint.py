@@ -59,7 +59,7 @@ def find_weights(published: PublishedNetwork, path: Path | None = None) -> Path:
     what = f"there is no weights file {chosen}" if path else f"{published.name} needs its weights"
     raise InputError(
         f"{what}; texvent neither carries nor downloads them: {published.where_from}. Pass its "
-        f"path with --weights, or put it at {usual}"
+        f"path with `weights`, or put it at {usual}"
     )
 
 

@@ -51,7 +51,7 @@ def load_reconstructor(
     torch = require("torch", extra=EXTRA)
     has_gpu = torch.cuda.is_available()
     if device == "cuda" and not has_gpu:
-        raise ConfigError("device is cuda, but torch finds no GPU here; use --device cpu or auto")
+        raise ConfigError("device is cuda, but torch finds no GPU here; use device='cpu' or auto")
     chosen = ("cuda" if has_gpu else "cpu") if device == "auto" else device
     return Reconstructor(published, read_checkpoint(published, path), device=chosen)
 

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 from texvent.errors import ConfigError, shown
 from texvent.options.values import with_options
-from texvent.run.settings import read_document
+from texvent.settings.config_files import read_document
 
 Config = TypeVar("Config")
 

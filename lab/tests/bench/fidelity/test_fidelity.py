@@ -12,7 +12,7 @@ from texvent.events import EventStream
 from texvent.extending import SIMULATORS
 from texvent.metrics.compare import compare
 from texvent.pipeline import video_to_events
-from texvent.run.settings import resolve
+from texvent.settings.resolution import resolve
 from texvent.simulate.physical.threshold_map import read_threshold_map
 from texvent_lab.bench.fidelity.details import BINS, describe
 from texvent_lab.bench.fidelity.entries import INTERPOLATIONS, Entry, choose_entries

@@ -89,7 +89,7 @@ def open_photo(
     if isinstance(path, PoseFile) and path.moves and metres is None:
         raise InputError(
             f"the camera of {config.camera} changes its position, which needs the depth of the "
-            "image; give --depth FILE, or poses that only turn"
+            "image; give depth=FILE, or poses that only turn"
         )
     return PhotoFrames(
         levels,
@@ -108,9 +108,9 @@ def _refuse_options_of_videos(config: CaptureConfig) -> None:
     default = CaptureConfig()
     for name in OF_VIDEOS:
         if getattr(config, name) != getattr(default, name):
-            hint = "; --duration says how long it lasts" if name in ("start", "stop") else ""
+            hint = "; `duration` says how long it lasts" if name in ("start", "stop") else ""
             raise ConfigError(
-                f"{name} is for videos, and --camera makes one of an image{hint}; leave {name} out"
+                f"{name} is for videos, and `camera` makes one of an image{hint}; leave {name} out"
             )
 
 
@@ -122,9 +122,9 @@ def check_no_camera(config: CaptureConfig) -> None:
     """
     for name in OF_CAMERA:
         if getattr(config, name) is not None:
-            hint = "; --stop ends a video" if name == "duration" else ""
+            hint = "; `stop` ends a video" if name == "duration" else ""
             raise ConfigError(
-                f"{name} is for a camera that moves over a still image (--camera){hint}; leave it "
+                f"{name} is for a camera that moves over a still image (`camera`){hint}; leave it "
                 "out"
             )
 
@@ -160,8 +160,8 @@ def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], di
             raise InputError(f"no such image: {path}")
         if not is_still(path):
             raise InputError(
-                f"{path} is no still image (.png, .jpg, .exr, ...), and --camera moves a camera "
-                "over one; leave --camera out for a video, or name images one by one or in "
+                f"{path} is no still image (.png, .jpg, .exr, ...), and `camera` moves a camera "
+                "over one; leave `camera` out for a video, or name images one by one or in "
                 "texvent batch FOLDER"
             )
         pixels, where, kind = read_image(path), str(path), "still image"
@@ -217,7 +217,7 @@ def _focal_px(config: CaptureConfig, path: CameraPath, width: int) -> float | No
     if config.camera_fov is None:
         raise InputError(
             f"{config.camera} holds poses, whose effect depends on the field of view of the image; "
-            "give --camera-fov: the angle that it spans horizontally, degrees"
+            "give `camera_fov`: the angle that it spans horizontally, degrees"
         )
     return width / 2 / math.tan(math.radians(config.camera_fov) / 2)
 

@@ -192,7 +192,7 @@ def _lines(path: Path) -> list[str]:
     try:
         lines = list(StringIO(usable_path(path).read_text(encoding="utf-8-sig")))
     except FileNotFoundError:
-        raise InputError(f"no such camera path: {path}; check --camera") from None
+        raise InputError(f"no such camera path: {path}; check `camera`") from None
     except (OSError, UnicodeDecodeError) as error:
         raise FileFormatError(
             f"camera path {path} cannot be read ({one_line(error)}); it must be a text of rows of "

@@ -116,17 +116,17 @@ class MotionFrames(FrameSource):
         if verdict.better is not None:
             given = replace(self._convention, direction=field.direction)
             words = changes(given, verdict.better, field.direction)
-            advice = f"as --motion-convention {with_words(self._text, words)}; give that"
+            advice = f"as motion_convention={with_words(self._text, words)}; give that"
             is_named = field.kind != "vectors" or len(self._vectors) > 1
             if is_named and verdict.better.direction != field.direction:
                 words = tuple(word for word in words if word not in ("forward", "backward"))
                 advice = f"{verdict.better.direction}; exchange the two"
                 if words:
-                    advice += f" and give --motion-convention {with_words(self._text, words)}"
+                    advice += f" and give motion_convention={with_words(self._text, words)}"
             raise InputError(
                 f"{what} do not fit the frames: warped by them, frames differ by "
                 f"{verdict.error:.1f} grey levels, and by {verdict.better_error:.1f} if the "
-                f"vectors are meant {advice}, or --no-check-motion if they are right"
+                f"vectors are meant {advice}, or check_motion=False if they are right"
             )
         if verdict.is_high:
             warn(

@@ -79,7 +79,7 @@ def metric_depth(
     stored = _plane(stored, size, where)
     if scale is None and stored.dtype.kind in "iu":
         raise InputError(
-            f"{where} is in whole numbers, whose unit is not known; give --depth-scale: metres per "
+            f"{where} is in whole numbers, whose unit is not known; give `depth_scale`: metres per "
             "step, such as 0.001 for mm, 0.00390625 for KITTI's PNG"
         )
     depth = stored.astype(np.float32) * np.float32(1.0 if scale is None else scale)
@@ -100,7 +100,7 @@ def warn_of_unit(depth: NDArray[np.float32], where: str) -> None:
     if middle > FAR_M:
         warn(
             f"{where} has a median of {middle:.0f} m, so it is probably in another unit; give "
-            "--depth-scale: 0.001 for mm, 0.01 for Unreal's cm (events do not change: depth says "
+            "`depth_scale`: 0.001 for mm, 0.01 for Unreal's cm (events do not change: depth says "
             "which surface is in front)"
         )
 

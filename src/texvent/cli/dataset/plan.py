@@ -11,7 +11,7 @@ from typing import ClassVar
 from rich.table import Table
 
 from texvent.cli.dataset.live_table import time_text
-from texvent.cli.estimate import size_text
+from texvent.cli.dry_run import size_text
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs

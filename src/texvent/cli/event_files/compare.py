@@ -103,13 +103,13 @@ def run(arguments: Sequence[str]) -> int:
 
 
 class _Inputs(NamedTuple):
-    """What is compared."""
+    """Recordings that are compared."""
 
     predicted: dict[str, EventStream]
     """Name → stream to judge."""
     reference: EventStream
     span_us: tuple[int, int] | None
-    """What all are cut to, µs."""
+    """Range that all are cut to, µs."""
     metrics: list[Metric]
     left_out: dict[str, str]
     """Metric → what it lacks."""
@@ -157,7 +157,7 @@ def _judge(options: CompareOptions, inputs: _Inputs) -> Findings:
 
 
 def _names(paths: Sequence[Path]) -> list[str]:
-    """What tables call the files: their names, or paths where names are equal.
+    """Labels of the files in tables: their names, or paths where names are equal.
 
     Raises:
         ConfigError: a file is given twice.

@@ -1,4 +1,4 @@
-"""What `texvent compare` prints: tables, sentences, JSON."""
+"""Output of `texvent compare`: tables, sentences, JSON."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class Findings:
         return [] if self.windows is None else self.windows.verdicts()
 
     def document(self) -> dict[str, Any]:
-        """What `--json` prints: for one candidate its scores, for several a list of them."""
+        """Document for `--json`: for one candidate its scores, for several a list of them."""
         every = [self._candidate_document(name) for name in self.candidates]
         judged = every[0] if len(every) == 1 else {"candidates": every}
         document = {

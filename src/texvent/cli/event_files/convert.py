@@ -48,7 +48,7 @@ TEXT_FILTERS = replace(
 
 @dataclass(frozen=True, kw_only=True)
 class ConvertOptions:
-    """What is read, what is written, and what happens in between."""
+    """Input, edits and output."""
 
     positional: ClassVar[tuple[str, ...]] = ("path", "to")
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "crop": "--roi", "quiet": "-q"}

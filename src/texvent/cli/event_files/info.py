@@ -32,7 +32,7 @@ MEASURED = (
     "sensor", "size", "events", "frames", "fps", "on_share", "first_us", "last_us", "seconds",
     "events_per_second", "pixels",
 )  # fmt: skip
-"""What was counted."""
+"""Counts and sums of the events."""
 ORIGIN = (
     "complete",
     "prompt",
@@ -43,9 +43,9 @@ ORIGIN = (
     "generator",
     "texvent_version",
 )
-"""What is said first of how a file was made."""
+"""Facts of the provenance that are shown first."""
 EDITS = "edits"
-"""What was done to the events since: never left out."""
+"""Edits since the run; always shown."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -8,7 +8,7 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
 from texvent.event_packets import EventPackets
-from texvent.run.replay import render_again
+from texvent.run.regeneration import render_again
 from texvent.video import FrameStream
 
 AUTOMATIC = "auto"

@@ -19,7 +19,7 @@ the cache. `texvent data list` shows the names."""
 
 @dataclass(frozen=True, kw_only=True)
 class PullOptions:
-    """What to fetch."""
+    """Archive to fetch."""
 
     positional: ClassVar[tuple[str, ...]] = ("name",)
     short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}

@@ -30,7 +30,6 @@ BASE = {
     "h5py": "HDF5 event files",
     "av": "reading and writing video",
     "opencv-python-headless": "images, resizing",
-    "tyro": "command line",
     "rich": "progress and tables",
     "pyyaml": "YAML config files",
     "tomli-w": "--print-config",
@@ -48,7 +47,6 @@ EXTRAS = {
     "v2ce": ("torch", "the V2CE simulator"),
     "plot": ("matplotlib", "events.plot()"),
     "gpu": ("triton", "texvent and esim on a GPU: --backend gpu"),
-    "app": ("gradio", "the web page: texvent app"),
     "assets": ("trimesh", "OBJ and PLY models in --assets folders"),
     "exr": ("OpenEXR", "OpenEXR frames and passes of a renderer"),
     "bags": ("rosbags", "ROS bags and mcap"),
@@ -118,7 +116,7 @@ def _package(name: str, purpose: str) -> Finding:
 
 
 def _extra(name: str, module: str, purpose: str) -> Finding:
-    """An optional part: fine either way, but told how to get."""
+    """Row of an optional part, with how to install it."""
     try:
         is_here = importlib.util.find_spec(module) is not None
     except ModuleNotFoundError:

@@ -28,7 +28,7 @@ class Downloads:
     command: str
     """Such as "data"."""
     purpose: str
-    """What the entries are, in one sentence."""
+    """Description of the entries, one sentence."""
     pull_description: str
     """First lines of the help of `pull`."""
     options: Any

@@ -35,7 +35,7 @@ diffusers pipeline, or any repository of the model hub.
 
 @dataclass(frozen=True, kw_only=True)
 class GeneratorsOptions:
-    """How to list them."""
+    """Format of the list."""
 
     json: bool = False
     """Print JSON, with the source of every licence and time."""
@@ -64,7 +64,7 @@ def _part_facts(name: str) -> dict[str, Any]:
 
 
 def _model_facts(model: VideoModel) -> dict[str, Any]:
-    """What `--json` prints of a row; null: not known, or the pipeline's own default."""
+    """Row for `--json`; null: not known, or the pipeline's own default."""
     facts = dataclasses.asdict(model)
     del facts["folder"]  # rows have none
     rate = {

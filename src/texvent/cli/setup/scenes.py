@@ -42,7 +42,7 @@ class ListOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class ShowOptions:
-    """What to draw."""
+    """Noun and its image."""
 
     positional: ClassVar[tuple[str, ...]] = ("noun",)
     short_flags: ClassVar[Mapping[str, str]] = {"output": "-o"}

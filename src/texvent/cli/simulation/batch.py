@@ -14,7 +14,7 @@ from texvent.batch.manifest import Manifest
 from texvent.batch.runner import BatchPlan, check_scenes, find_refused, run_batch
 from texvent.batch.samples import Sample, are_videos, read_samples
 from texvent.cli.command import resolve_command
-from texvent.cli.estimate import describe_estimate, estimate_run
+from texvent.cli.dry_run import measure_start
 from texvent.cli.notices import say, say_warning, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
@@ -25,9 +25,9 @@ from texvent.generate.video_models.known_models import warn_low_fps
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
 from texvent.run.prepare import check_run, prepare_prompt, prepare_source, report_prompt
-from texvent.run.settings import Settings
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.report import ReportTally
+from texvent.settings.resolution import Settings
 from texvent.truth.layout import check_generator
 
 DESCRIPTION = """Events for many prompts, scene files or videos. A list is a .txt (one prompt or
@@ -41,7 +41,7 @@ noted in the folder: the same command goes on where it was stopped.
 
 @dataclass(frozen=True, kw_only=True)
 class BatchOptions:
-    """What to make, and how many at once."""
+    """Samples, and processes that make them."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("sources", "generator")
     positional: ClassVar[tuple[str, ...]] = ("sources",)
@@ -63,7 +63,7 @@ class BatchOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class PromptBatchOptions(BatchOptions):
-    """What to make, and how many at once."""
+    """Samples, and processes that make them."""
 
     generator: str = next(iter(GENERATORS.builtin))
     """Text-to-video generator, as in texvent generate."""
@@ -71,7 +71,7 @@ class PromptBatchOptions(BatchOptions):
 
 @dataclass(frozen=True, kw_only=True)
 class BatchOutputOptions(OutputOptions):
-    """What is written, and where."""
+    """Output folder, formats and messages."""
 
     out: tuple[Path, ...] = ()
     """Folder for the event files, previews and batch.json. Without it: a name made from the first
@@ -136,7 +136,7 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
     files = RunFiles(
         events=(),
         formats=output.format,
-        previews=output.previews,
+        previews=output.preview_kinds,
         palette=output.palette,
         truth=output.truth_parts,
         overwrite=output.overwrite,
@@ -159,7 +159,7 @@ def _refuse_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> None:
 
 
 def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
-    """What must be the same when the batch goes on."""
+    """Options that must be the same when the batch goes on."""
     truth = {"truth": list(plan.files.truth)} if plan.files.truth else {}
     return {
         **truth,
@@ -173,7 +173,7 @@ def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
 
 
 def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) -> int:
-    """How much is to do, and what the first sample of it takes."""
+    """Print the number of samples left and an estimate of the first."""
     todo = [sample for sample in samples if not manifest.is_done(sample)]
     write_out(f"{len(samples)} samples, {len(samples) - len(todo)} done already\n")
     write_out("".join(f"prompts  {line}\n" for line in _read_prompts(plan, samples)))
@@ -185,12 +185,12 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
         else:
             simulation = prepare_prompt(first.subject, settings)
         write_out(f"the first, {first.name}:\n")
-        write_out(describe_estimate(estimate_run(simulation, plan.files_of(first))) + "\n")
+        write_out(measure_start(simulation).describe() + "\n")
     return 0
 
 
 def _read_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> Iterator[str]:
-    """How many prompts are understood word for word; a line, or none."""
+    """Count of prompts understood word for word; a line, or none."""
     tally = ReportTally()
     if samples[0].video is None:
         for sample in samples:
@@ -254,7 +254,7 @@ def _make_all(
 
 
 def _count_reports(manifest: Manifest, samples: Sequence[Sample]) -> Iterator[str]:
-    """How many of the complete samples show their prompt as it says; a line, or none."""
+    """Count of complete samples that show their whole prompt; a line, or none."""
     tally = ReportTally()
     for sample in samples:
         report = manifest.report_of(sample)

@@ -26,9 +26,9 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.io.atomic import check_outputs
 from texvent.io.files import load
-from texvent.run.settings import resolve
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.sensor import parse_sensor
+from texvent.settings.resolution import resolve
 from texvent.simulate.physical.cameras import PRESETS
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.threshold_map import write_threshold_map
@@ -63,12 +63,12 @@ class CalibrateOptions:
     events: Path = REQUIRED
     """Event file."""
     scene: Literal["moving", "static", "flicker"] = "moving"
-    """What the sensor saw: anything that moves; nothing that does, under steady light; or a flat
+    """Recorded scene: anything that moves; nothing that does, under steady light; or a flat
     field whose light switches between two brightnesses."""
     flicker_hz: float | None = None
     """Cycles of that light per second, within 2 %."""
     flicker_ratio: float | None = None
-    """How many times as bright the bright half of a cycle is as the dark one. Without it,
+    """Brightness of the bright half of a cycle over that of the dark one. Without it,
     thresholds are only compared with one another."""
     out: Path = REQUIRED
     """Config file to write, .toml."""

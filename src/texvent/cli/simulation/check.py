@@ -48,7 +48,7 @@ class CheckOptions:
 
 @dataclass(frozen=True, kw_only=True)
 class CheckOutput:
-    """How to say it."""
+    """Output of the report."""
 
     short_flags: ClassVar[dict[str, str]] = {"quiet": "-q"}
     outputs: ClassVar[tuple[str, ...]] = ()
@@ -97,7 +97,7 @@ def describe_check(found: VideoCheckResult) -> dict[str, Any]:
 
 
 def _print_check(found: VideoCheckResult, *, is_whole: bool) -> None:
-    """What was found with advice, then the other checks; a summary last."""
+    """Print findings with advice, then the other checks and a summary."""
     findings = found.report.findings
     full = [one for one in findings if one.is_found or is_whole]
     rest = [one for one in findings if one not in full]

@@ -11,23 +11,20 @@ from texvent._registry import GENERATORS
 from texvent.cli.command import resolve_command
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import peek_options
 from texvent.cli.outputs import OutputOptions, default_event_file
-from texvent.cli.run import execute, print_settings, run_source
+from texvent.cli.run import execute, print_settings
 from texvent.cli.simulation.preview import check_preview, write_preview
 from texvent.cli.subject import read_subject, subject_name
-from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, warn
 from texvent.generate.scene_input import Subject, check_takes
 from texvent.generate.video_models.known_models import warn_low_fps
 from texvent.io.atomic import check_output
-from texvent.options.fields import option_names
 from texvent.run.prepare import check_run, is_strict, make_scene, make_video, prepare_prompt
-from texvent.run.settings import Settings, default_settings
 from texvent.run.truth import TruthFolder
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.spec.files import is_scene_file, save_scene
 from texvent.scenes.spec.scene import Scene
+from texvent.settings.resolution import Settings
 from texvent.truth.layout import ALL, check_generator, truth_folder
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
@@ -40,7 +37,7 @@ VIDEO_EXTENSION = ".avi"
 
 @dataclass(frozen=True, kw_only=True)
 class PromptOptions:
-    """What to show."""
+    """Scene."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("generator",)
     outputs: ClassVar[tuple[str, ...]] = ("out", "preview", "write_scene")
@@ -52,7 +49,7 @@ class PromptOptions:
     )  # fmt: skip
 
     prompt: str = REQUIRED
-    """What to show: a quoted sentence, or a scene file. See docs/scenes.md."""
+    """Scene: a quoted sentence, or a scene file. See docs/scenes.md."""
     generator: str = next(iter(GENERATORS.builtin))
     """Text-to-video generator: see texvent generators, ./folder or hub:org/name. A folder holds a
     saved diffusers pipeline; hub: names a repository of the model hub."""
@@ -64,33 +61,16 @@ class PromptOptions:
     write_scene: Path | None = None
     """Write the scene of the prompt as a file (.toml, .json) instead of events, and stop."""
     reader: Literal["words", "llm"] = "words"
-    """What makes a scene of the prompt: the embedded reader's words, or a language model behind
+    """Reader of the prompt: the embedded one (words), or a language model behind
     --llm-url. See docs/scenes.md."""
     llm_url: str | None = None
     """OpenAI-compatible server of the language model, such as http://localhost:8080/v1."""
     llm_model: str | None = None
     """Name of the model on that server."""
-    from_video: Path | None = None
-    """Take this video for the prompt's instead of generating one; all further options are then
-    those of texvent simulate, which does the same: texvent simulate VIDEO --prompt TEXT."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class FromVideoOptions:
-    """A prompt and its video."""
-
-    positional: ClassVar[tuple[str, ...]] = ("prompt",)
-
-    prompt: str = REQUIRED
-    """What the video shows; stored with the events."""
-    from_video: Path = REQUIRED
-    """The video: one that --video-only wrote, or any other."""
 
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    if peek_options(arguments, ("from_video",))["from_video"]:
-        return _run_from_video(arguments)
     settings, own, output = resolve_command(
         "generate", arguments, PromptOptions(), description=DESCRIPTION
     )
@@ -129,7 +109,7 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
     """The scene that a language model writes for the prompt.
 
     Raises:
-        InputError: `strict`, and there are words of the prompt that nothing stands for.
+        InputError: `strict`, and the scene shows some words of the prompt by nothing.
 
     Warns:
         TexventWarning: there are such words, or the model added something.
@@ -153,43 +133,11 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
 
 
 def _plan(prompt: Subject, settings: Settings) -> str | None:
-    """What a learned generator would have to do first; None if the video is at hand."""
+    """Work that a learned generator has to do first; None if the video is stored."""
     part = GENERATORS.load(str(settings.generator))
     generator = part(settings.source, seed=settings.run.seed, size=settings.size)
     plan = getattr(generator, "plan", None)
     return None if plan is None else plan(prompt)
-
-
-def _run_from_video(arguments: Sequence[str]) -> int:
-    _refuse_generation(arguments)
-    settings, own, output = resolve_command(
-        "simulate", arguments, FromVideoOptions(), description=DESCRIPTION
-    )
-    if output.print_config:
-        return print_settings(settings)
-    if not own.from_video.is_file():
-        raise InputError(f"no such video: {own.from_video}")
-    return run_source(own.from_video, settings, output, prompt=own.prompt, subject=own.prompt)
-
-
-def _refuse_generation(arguments: Sequence[str]) -> None:
-    """Refuse flags that say how a video is made when one is given.
-
-    Raises:
-        ConfigError: there is such a flag.
-    """
-    generator = peek_options(arguments, ("generator",))["generator"]
-    source = default_settings("generate", generator=generator).source
-    making = {*option_names(PromptOptions), *option_names(type(source))}
-    taken = {*option_names(FromVideoOptions), *option_names(CaptureConfig)} - {"duration"}
-    for word in arguments:
-        flag = word.partition("=")[0]
-        name = flag.removeprefix("--").removeprefix("no-").replace("-", "_")
-        if flag.startswith("--") and name in making - taken:
-            raise ConfigError(
-                f"{flag} says how to make a video, but --from-video takes one that is ready; leave "
-                "one of them out"
-            )
 
 
 def _write_scene(

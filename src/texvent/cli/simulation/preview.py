@@ -12,8 +12,8 @@ from texvent.generate.procedural import ProceduralGenerator, ProceduralVideo
 from texvent.generate.scene_input import Subject
 from texvent.io.atomic import atomic_file, check_output
 from texvent.run.prepare import make_video
-from texvent.run.settings import Settings
 from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.settings.resolution import Settings
 from texvent.video import frame_time_us
 
 EXTENSION = ".png"

@@ -10,7 +10,6 @@ from typing import Any, ClassVar
 from texvent.cli.command import resolve_command
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
-from texvent.cli.options import peek_options
 from texvent.cli.outputs import default_event_file
 from texvent.cli.run import print_settings
 from texvent.cli.subject import read_subject, subject_name
@@ -18,8 +17,8 @@ from texvent.errors import ConfigError
 from texvent.options.fields import option_names
 from texvent.options.values import plain
 from texvent.rig.config import RigConfig, check_generator
-from texvent.run.settings import Settings, base_settings
 from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.settings.resolution import Settings
 
 DESCRIPTION = """Record an embedded scene with a rig: event cameras with lenses, frames beside their
 events, an IMU; one clock, true poses, calibration as Kalibr writes it.
@@ -30,7 +29,7 @@ events, an IMU; one clock, true poses, calibration as Kalibr writes it.
 
 @dataclass(frozen=True, kw_only=True)
 class RigOptions(RigConfig):
-    """What to show, and what records it."""
+    """Scene and rig."""
 
     positional: ClassVar[tuple[str, ...]] = ("prompt",)
     input_texts: ClassVar[tuple[str, ...]] = ("imu_noise",)
@@ -40,7 +39,7 @@ class RigOptions(RigConfig):
     )  # fmt: skip
 
     prompt: str = REQUIRED
-    """What to show: a quoted sentence ("handheld camera" makes it move), or a scene file."""
+    """Scene: a quoted sentence ("handheld camera" makes it move), or a scene file."""
 
     @property
     def config(self) -> RigConfig:
@@ -50,7 +49,7 @@ class RigOptions(RigConfig):
 
 @dataclass(frozen=True, kw_only=True)
 class RigOutputOptions:
-    """What is written, and where."""
+    """Output folder and messages."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 
@@ -68,7 +67,6 @@ class RigOutputOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    _refuse_generator(arguments)
     settings, own, output = resolve_command(
         "generate",
         arguments,
@@ -77,6 +75,7 @@ def run(arguments: Sequence[str]) -> int:
         prog="texvent rig",
         output=RigOutputOptions(),
     )
+    check_generator(settings.generator)
     if output.print_config:
         return print_settings(settings)
     _refuse_sensor(settings, own, arguments)
@@ -94,17 +93,6 @@ def run(arguments: Sequence[str]) -> int:
     if not output.quiet:
         write_out(f"{out}\n")
     return 0
-
-
-def _refuse_generator(arguments: Sequence[str]) -> None:
-    """Refuse generators whose videos are seen from one place only.
-
-    Raises:
-        ConfigError: a flag or the config file names one.
-    """
-    named = peek_options(arguments, ("generator", "config"))
-    settings = base_settings("generate", config=named["config"], generator=named["generator"])
-    check_generator(settings.generator)
 
 
 def _refuse_sensor(settings: Settings, own: RigOptions, arguments: Sequence[str]) -> None:

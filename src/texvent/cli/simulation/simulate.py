@@ -20,7 +20,7 @@ DESCRIPTION = """Turn a video into the events that an event camera would have re
 
 @dataclass(frozen=True, kw_only=True)
 class VideoOptions:
-    """Which frames."""
+    """Source of the frames."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("source",)
     positional: ClassVar[tuple[str, ...]] = ("source",)
@@ -34,22 +34,18 @@ class VideoOptions:
     """Video, image folder, camera, stream, or -. A camera is /dev/video0, a stream rtsp://...; - is
     standard input. With --camera: a still image."""
     prompt: str | None = None
-    """What the video shows; stored with the events."""
+    """Description of the video; stored with the events."""
 
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
     settings, own, output = resolve_command(
-        "simulate", arguments, VideoOptions(), description=DESCRIPTION
+        "simulate",
+        arguments,
+        VideoOptions(),
+        description=DESCRIPTION,
+        find_motion=lambda own: find_motion_sidecar(own.source),
     )
-    found = None if settings.source.motion else find_motion_sidecar(own.source)
-    if found is not None:  # it decides the defaults of other options
-        settings, own, output = resolve_command(
-            "simulate",
-            [*arguments, "--motion", str(found)],
-            VideoOptions(),
-            description=DESCRIPTION,
-        )
     if output.print_config:
         return print_settings(settings)
     subject = "standard input" if own.source == "-" else Path(own.source).stem

@@ -8,7 +8,7 @@ from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.clips import Clip
 from texvent.pipeline import Simulation, text_to_video
 from texvent.run.prepare import prepare_source, prepare_video
-from texvent.run.settings import Settings
+from texvent.settings.resolution import Settings
 
 
 def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings) -> Simulation:

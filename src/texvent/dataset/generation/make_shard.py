@@ -39,8 +39,8 @@ from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
 from texvent.io.atomic import atomic_file
 from texvent.pipeline import Simulation, fit_to_sensor
 from texvent.run.prepare import make_video, prepare_video
-from texvent.run.settings import Settings
 from texvent.scenes.report import REPORT_KEY
+from texvent.settings.resolution import Settings
 from texvent.video import FrameStream
 
 OnSample = Callable[[SampleRecord], None]

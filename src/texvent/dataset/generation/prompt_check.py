@@ -11,8 +11,8 @@ from texvent.dataset.specification.items import Item
 from texvent.dataset.specification.option_ranges import is_range
 from texvent.errors import InputError, shown
 from texvent.run.prepare import is_strict, report_prompt
-from texvent.run.settings import Settings, resolve
 from texvent.scenes.report import PromptReport, ReportTally
+from texvent.settings.resolution import Settings, resolve
 
 MOST_READ = 2_000
 """Prompts that a plan reads, drawn by chance from more; 2,000 take a few seconds."""

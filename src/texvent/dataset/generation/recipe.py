@@ -23,7 +23,7 @@ from texvent.dataset.specification.specification import Specification, Variant
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, one_line
 from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file, is_hidden_part
-from texvent.run.settings import Command
+from texvent.settings.config_files import Command
 
 SPECIFICATION_FILE, ITEMS_FILE = "specification.json", "items.jsonl"
 VIDEOS = "videos"

@@ -44,7 +44,7 @@ def simulate_sample(simulation: Simulation, filters: Filters) -> MadeEvents:
         TexventError: the video cannot be read or made.
     """
     run = simulation.settings.run
-    told_apart = replace(run, events="all", label_noise=True)
+    told_apart = replace(run, keep_events="all", label_noise=True)
     labelled = replace(simulation, settings=replace(simulation.settings, run=told_apart))
     measurer = VideoMeasurer() if filters.failed_videos else None
     packets, count, signal, times = [], 0, 0, []

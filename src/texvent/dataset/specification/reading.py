@@ -17,7 +17,7 @@ from texvent.dataset.specification.specification import (
 )
 from texvent.errors import ConfigError, InputError, shown
 from texvent.options.values import with_options
-from texvent.run.settings import read_document
+from texvent.settings.config_files import read_document
 
 _SCALARS = ("name", "description", "license", "seed", "repeats", "samples_per_shard", "previews",
             "store_videos")  # fmt: skip

@@ -14,7 +14,8 @@ from texvent.dataset.specification.specification import Specification, Variant
 from texvent.errors import ConfigError
 from texvent.options.fields import option_names
 from texvent.run.prepare import check_run
-from texvent.run.settings import Command, Settings, resolve
+from texvent.settings.config_files import Command
+from texvent.settings.resolution import Settings, resolve
 
 
 def check_options(specification: Specification, command: Command, *, is_stored: bool) -> None:

@@ -163,7 +163,7 @@ class DiffusersGenerator:
         if rate is None:
             raise ConfigError(
                 f"the frame rate of {self.model.name} is not known, and it is nowhere in the "
-                "weights; say it, for example --fps 16"
+                "weights; say it, for example fps=16"
             )
         return Fraction(rate)
 
@@ -173,7 +173,7 @@ class DiffusersGenerator:
         if self.config.image is not None:
             read_image(self.config.image)
         elif self.model.needs_image:
-            raise InputError(f"{self.model.name} starts from an image; give --image PATH")
+            raise InputError(f"{self.model.name} starts from an image; give image=PATH")
         for lora in self._loras:
             lora.check_file()
         self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)

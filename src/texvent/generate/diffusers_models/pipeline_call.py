@@ -114,7 +114,7 @@ def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str,
     if config.image is not None and image is None:
         raise ConfigError(f"image is set, but {name} starts from text alone")
     if config.image is None and image is not None and image.default is inspect.Parameter.empty:
-        raise ConfigError(f"{name} starts from an image; give --image PATH")
+        raise ConfigError(f"{name} starts from an image; give image=PATH")
     return accepted
 
 
@@ -184,8 +184,8 @@ def _run(pipe: Any, arguments: Mapping[str, Any]) -> Any:
         ) from error
     except torch.OutOfMemoryError as error:
         raise TexventError(
-            f"{type(pipe).__name__} does not fit into the GPU's memory; try --offload model or "
-            "--offload sequential, --quantize 8bit, a smaller --width and --height, or fewer "
+            f"{type(pipe).__name__} does not fit into the GPU's memory; try offload='model' or "
+            "offload='sequential', quantize='8bit', a smaller `width` and `height`, or fewer "
             "--frames"
         ) from error
     finally:

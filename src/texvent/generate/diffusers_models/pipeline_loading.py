@@ -249,7 +249,7 @@ def _quantization(request: LoadRequest) -> Any:
     if not parts:
         raise ConfigError(
             f"quantize is {request.placement.quantize!r}, but {request.folder} has no video "
-            "transformer, the only part that is quantised; give --quantize none"
+            "transformer, the only part that is quantised; give quantize='none'"
         )
     diffusers = require("diffusers", extra=EXTRA)
     require("bitsandbytes", extra="quantize")

@@ -52,7 +52,7 @@ class Lora:
             return
         if not path.is_file() or path.suffix != SAFETENSORS:
             raise InputError(
-                f"there is no LoRA {shown(str(path))}; give --lora FILE{SAFETENSORS}[:WEIGHT] or "
+                f"there is no LoRA {shown(str(path))}; give lora=FILE{SAFETENSORS}[:WEIGHT] or "
                 f"{HUB}organisation/name[/FILE{SAFETENSORS}]"
             )
         check_safetensors(path)

@@ -180,7 +180,7 @@ def _missing_text(model: VideoModel, error: BaseException) -> str:
         f"{INDEX} and the weights of {model.source} are not on this machine and the model hub "
         f"cannot be reached{offline}: {reason}. Fetch them elsewhere (hf download "
         f"{model.repo}) and put them into the hub's cache {constants.HF_HUB_CACHE}, "
-        "or into any folder and pass --generator ./FOLDER"
+        "or into any folder and pass generator=./FOLDER"
     )
 
 

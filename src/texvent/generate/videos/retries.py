@@ -102,5 +102,5 @@ def _refusal(report: VideoReport, tries: int) -> str:
     seeds = "the video" if tries == 1 else f"all {tries} videos, each of another seed,"
     return (
         f"{seeds} failed the check of generated videos: {report.summary}. Reword the prompt, try "
-        "another --seed, or accept it with --on-failure warn"
+        "another `seed`, or accept it with on_failure='warn'"
     )

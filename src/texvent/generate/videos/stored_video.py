@@ -125,7 +125,7 @@ def write_stream(video: FrameStream, path: Path, *, overwrite: bool) -> StoredVi
         InputError: the stream has no frame rate.
     """
     if video.fps is None:
-        raise InputError("the video has no frame rate, so it cannot be written; give --fps")
+        raise InputError("the video has no frame rate, so it cannot be written; give `fps`")
     frames = (_full_scale(frame) for frame in video)
     return write_video(frames, path, video.fps, video.metadata, overwrite=overwrite)
 
@@ -200,7 +200,7 @@ def to_16_bits(pixels: PixelArray, transfer: Transfer = Transfer.GAMMA) -> Pixel
         return np.ascontiguousarray(pixels)
     if not np.isfinite(pixels).all():
         raise InputError(
-            "the generator made a frame with NaN or infinite values; try --dtype float32 or "
+            "the generator made a frame with NaN or infinite values; try dtype='float32' or "
             "another seed"
         )
     if transfer is Transfer.LINEAR:

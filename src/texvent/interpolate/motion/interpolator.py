@@ -143,7 +143,7 @@ class MotionPair:
         if start.forward is None and stop.backward is None:
             raise InputError(
                 f"interpolate is 'motion', but the frames at {first.t_us} and {second.t_us} µs "
-                "have no motion vectors to each other; give --motion, or use interpolate flow"
+                "have no motion vectors to each other; give `motion`, or use interpolate flow"
             )
         levels = _coded(first), _coded(second)
         orders = _order(start, start.forward, first), _order(stop, stop.backward, second)

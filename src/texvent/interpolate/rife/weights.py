@@ -20,7 +20,7 @@ DEFAULT_FILE = "rife.safetensors"
 """Name, in the weights folder, of the file that `texvent weights pull rife` writes."""
 WHERE_FROM = (
     "fetch version 4.0 with: texvent weights pull rife; or pass the flownet.pkl of "
-    "Practical-RIFE 4.0, 4.6, 4.25 or 4.26 with --interpolator-weights PATH"
+    "Practical-RIFE 4.0, 4.6, 4.25 or 4.26 with interpolator_weights=PATH"
 )
 
 

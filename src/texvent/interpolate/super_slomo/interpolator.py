@@ -108,7 +108,7 @@ def _find_checkpoint(path: Path | None) -> Path:
     if path is None:
         raise ConfigError(
             "super-slomo needs its network's weights, which no package carries: SuperSloMo.ckpt of "
-            "the project avinashpaliwal/Super-SloMo on GitHub. Pass --interpolator-weights PATH"
+            "the project avinashpaliwal/Super-SloMo on GitHub. Pass interpolator_weights=PATH"
         )
     if not path.is_file():
         raise InputError(f"there is no weights file {path}; pass SuperSloMo.ckpt")

@@ -43,7 +43,7 @@ class ThresholdMap(NamedTuple):
             (height, width), (high, wide) = self.on.shape, drawn[0].shape
             raise InputError(
                 f"the threshold map is of {width}x{height} pixels, the frames have {wide}x{high}; "
-                f"use --sensor {width}x{height}, or leave out threshold_map"
+                f"use sensor={width}x{height}, or leave out threshold_map"
             )
         means = nominal.contrast_threshold_on, nominal.contrast_threshold_off
         on, off = (
@@ -63,7 +63,7 @@ def read_threshold_map(path: Path) -> ThresholdMap:
     path = usable_path(path)
     if not path.is_file():
         raise InputError(f"there is no threshold map {path}; texvent calibrate --scene flicker "
-                         "--threshold-map FILE writes one")  # fmt: skip
+                         "threshold_map=FILE writes one")  # fmt: skip
     try:
         with np.load(path, allow_pickle=False) as arrays:
             on, off = (np.asarray(arrays[name], np.float64) for name in ThresholdMap._fields)

@@ -117,7 +117,7 @@ def check_weights_path(path: Path | None) -> Path:
     if path is None:
         raise ConfigError(
             f"simulator v2ce needs its network's weights and downloads nothing; {WHERE_FROM}. "
-            "Then pass --weights PATH"
+            "Then pass weights=PATH"
         )
     if not path.is_file():
         raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
@@ -226,7 +226,7 @@ def load_network(path: Path, device: Device = "auto") -> V2ceNetwork:
     torch = require("torch", extra="v2ce")
     has_gpu = torch.cuda.is_available()
     if device == "cuda" and not has_gpu:
-        raise ConfigError("device is cuda, but torch finds no GPU here; use --device cpu or auto")
+        raise ConfigError("device is cuda, but torch finds no GPU here; use device='cpu' or auto")
     chosen = ("cuda" if has_gpu else "cpu") if device == "auto" else device
     return V2ceNetwork(read_weights(path, chosen), chosen, name=str(path))
 
@@ -281,7 +281,7 @@ class V2ceNetwork:
                 raise
             raise InputError(
                 f"{count} pairs of {width}x{height} frames do not fit into the memory of device "
-                f"{self._device}; lower --sequence-length or choose a smaller --sensor"
+                f"{self._device}; lower `sequence_length` or choose a smaller `sensor`"
             ) from error
         if not np.isfinite(grids).all():
             raise FileFormatError(f"{self._name}: the network's output is NaN or infinite")

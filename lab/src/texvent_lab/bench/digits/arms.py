@@ -10,7 +10,7 @@ from typing import Any, Literal, TypeAlias, get_args
 
 from texvent.errors import ConfigError, shown
 from texvent.extending import suggest
-from texvent.run.settings import Settings, resolve
+from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.model_options import with_contrast_threshold
 
 Way: TypeAlias = Literal["exact", "flow", "frames"]

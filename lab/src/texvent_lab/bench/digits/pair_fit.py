@@ -17,7 +17,7 @@ import numpy as np
 from texvent.calibrate.distance import Distance, measure_distance
 from texvent.events import EventStream
 from texvent.run.prepare import prepare_video
-from texvent.run.settings import Settings
+from texvent.settings.resolution import Settings
 from texvent_lab.bench.digits.data.sheet import DigitSheet
 
 COORDINATES: Mapping[str, tuple[float, ...]] = {

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError, shown
 from texvent.extending import suggest
-from texvent.run.settings import Settings
+from texvent.settings.resolution import Settings
 from texvent_lab.bench.digits.arms import CHOICES, WAYS, Arm, Cell, Choice, Way, find_arm
 from texvent_lab.bench.digits.data.inputs import REPRESENTATIONS, InputSet
 from texvent_lab.bench.digits.pair_fit import COORDINATES

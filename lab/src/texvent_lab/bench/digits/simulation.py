@@ -9,12 +9,11 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.calibrate.rate import UNREACHED
-from texvent.calibrate.threshold_search import find_threshold
 from texvent.errors import FileFormatError
 from texvent.run.prepare import prepare_video
-from texvent.run.settings import Settings
+from texvent.run.rate_search import UNREACHED, find_threshold
 from texvent.runtime.cache_folder import make_folder
+from texvent.settings.resolution import Settings
 from texvent.simulate.model_options import contrast_threshold_of
 from texvent_lab.bench.digits.arms import Cell, find_arm
 from texvent_lab.bench.digits.data.idx import Mnist, read_mnist

@@ -12,7 +12,7 @@ from texvent.errors import ConfigError, shown
 from texvent.events import EventStream
 from texvent.extending import SIMULATORS, suggest
 from texvent.run.prepare import prepare_video
-from texvent.run.settings import Settings, resolve
+from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.model_options import contrast_threshold_of, with_contrast_threshold
 from texvent.video import FrameStream
 from texvent_lab.bench.oracle.recording import TrueFrames, render_video

@@ -10,12 +10,12 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from texvent.calibrate.threshold_search import ThresholdMatch, find_threshold
 from texvent.config import check_range
 from texvent.errors import ConfigError, TexventError
 from texvent.events import EventStream
 from texvent.metrics.compare import compare, load_metric
 from texvent.metrics.protocol import Metric
+from texvent.run.rate_search import ThresholdMatch, find_threshold
 from texvent_lab.bench.fidelity.details import describe
 from texvent_lab.bench.fidelity.entries import Entry, choose_entries
 from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from texvent.errors import InputError
-from texvent.run.settings import Settings, resolve
+from texvent.settings.resolution import Settings, resolve
 from texvent_lab.bench.fidelity.entries import Entry
 
 

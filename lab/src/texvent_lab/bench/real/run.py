@@ -19,7 +19,7 @@ from texvent.metrics.controls import split_halves
 from texvent.metrics.event_sharpness import estimate_patch_flow
 from texvent.metrics.protocol import Metric
 from texvent.options.fields import option_names
-from texvent.run.settings import Settings, apply_options
+from texvent.settings.resolution import Settings, apply_options
 from texvent_lab.bench.fidelity.details import Details, describe
 from texvent_lab.bench.fidelity.entries import Entry, simulate_video, simulators_to_compare
 from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score

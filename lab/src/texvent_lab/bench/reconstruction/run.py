@@ -15,7 +15,6 @@ from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any, TypeAlias
 
-from texvent.calibrate.rate import match_rate
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.events import EventStream
@@ -23,6 +22,7 @@ from texvent.metrics.image_measures import Measures
 from texvent.options.fields import option_names
 from texvent.pipeline import Simulation, video_to_events
 from texvent.represent.slices import slice_between
+from texvent.run.rate_search import match_rate
 from texvent.simulate.model_options import contrast_threshold_of
 from texvent.video import MICROSECONDS
 from texvent_lab.bench.fidelity.entries import Entry

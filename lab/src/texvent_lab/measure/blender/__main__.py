@@ -132,8 +132,8 @@ def variants(film: Path) -> dict[str, dict[str, Any]]:
         "flow": {"interpolate": "flow", "frames_per_pixel": 0.0},
         "flow, a frame per px": {"interpolate": "flow", "frames_per_pixel": 1.0},
         "motion": {"motion": passes},
-        "motion, backward only": {"flow_back": backward, "depth": depth},
-        "motion, backward, no depth": {"flow_back": backward},
+        "motion, backward only": {"motion_back": backward, "depth": depth},
+        "motion, backward, no depth": {"motion_back": backward},
     }
 
 

@@ -15,9 +15,9 @@ from texvent.errors import TexventWarning
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator, ProceduralVideo
 from texvent.generate.scene_input import list_nouns, understand
 from texvent.pipeline import video_to_events
-from texvent.run.settings import resolve
 from texvent.scenes.report import REPORT_KEY
 from texvent.sensor import SensorSize
+from texvent.settings.resolution import resolve
 from texvent.video import MICROSECONDS
 
 SIZE = SensorSize(173, 130)

@@ -19,8 +19,8 @@ from texvent.interpolate.pairing import pair_frames
 from texvent.io.files import open_writer
 from texvent.pairs.frame_pair import FramePair
 from texvent.pipeline import video_to_events
-from texvent.run.settings import Settings, resolve
 from texvent.runtime.background_writer import BackgroundWriter
+from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.build import benefits_from_denser_frames, build_simulator
 from texvent.video import Frame, FrameStream
 from texvent_lab.measure.speed.timing import Quartiles, rounded

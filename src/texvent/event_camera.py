@@ -1,0 +1,195 @@
+"""Event camera: frames one by one, the events of each at once.
+
+For callbacks, live input and closed loops, where the next frame may depend on the events. The path
+is that of `texvent.pipeline`: the frames are a live stream, of which one frame is there when one is
+asked for.
+"""
+
+from __future__ import annotations
+
+from collections import deque
+from collections.abc import Iterator
+from contextlib import ExitStack
+from fractions import Fraction
+from pathlib import Path
+from typing import Any, Self, Unpack
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from texvent.capture.linear_light import decode_light
+from texvent.config import CaptureConfig
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+from texvent.options.keywords import SimulateOptions
+from texvent.options.signatures import naming_options
+from texvent.pairs.frame_pair import FramePair
+from texvent.pipeline import select_events, video_to_events
+from texvent.run.prepare import check_memory, check_run, warn_of_unread_weights
+from texvent.sensor import SensorSize, SizeLike, as_size
+from texvent.settings.resolution import Settings, resolve
+from texvent.simulate.protocol import Simulator
+from texvent.video import Frame, FrameStream
+
+USED_CAPTURE = ("white_level", "fit", "transfer")
+"""Options of recorded frames that have a meaning for single ones."""
+
+
+class EventCamera:
+    """Simulated event camera that takes frames one by one.
+
+    The events of all steps are those of `texvent.simulate` for the same frames and options.
+
+    Args:
+        size: size of the frames, as (width, height), "346x260" or the name of a sensor.
+        config: a TOML or YAML file with options.
+        **options: those of `texvent.simulate`, such as `seed=3` or `contrast_threshold=0.2`, but
+            for those that need a whole recording. `sensor` gives the camera another size than the
+            frames.
+
+    Raises:
+        ConfigError: an unknown option, a value out of range, or an option that needs later frames.
+        InputError: weights are missing, or the pixels do not fit into memory.
+
+    Example:
+        >>> import numpy as np
+        >>> with EventCamera((2, 1), noise="none") as camera:
+        ...     first = camera.step(np.full((1, 2), 50, np.uint8), 0)
+        ...     second = camera.step(np.full((1, 2), 200, np.uint8), 10_000)
+        >>> len(first), len(second) > 0
+        (0, True)
+    """
+
+    @naming_options(SimulateOptions)
+    def __init__(
+        self,
+        size: SizeLike,
+        *,
+        config: str | Path | None = None,
+        **options: Unpack[SimulateOptions],
+    ) -> None:
+        self.frame_size: SensorSize = as_size(size)
+        """Size of the frames, pixels."""
+        self.settings: Settings = resolve("simulate", options, config=config)
+        """All options, resolved."""
+        check_steps(self.settings)
+        self._threads = ExitStack()
+        self._frames: deque[Frame] = deque()
+        self._simulator: Simulator
+        self._pairs: Iterator[FramePair]
+        self.size: SensorSize = self._start()
+        """Size of the sensor, pixels."""
+        self._stopped: str | None = None
+
+    def step(self, frame: ArrayLike, t_us: int) -> EventStream:
+        """Events between the previous frame and this one; none for the first frame.
+
+        A model that needs later frames gives its events later, the last ones in `finish`.
+
+        Args:
+            frame: [H, W] or [H, W, 3], uint8, uint16 or float on the 0..255 scale.
+            t_us: its time, µs.
+
+        Raises:
+            InputError: another size, a time that does not increase, an intensity out of range, or
+                a camera that was stopped by such an error, `finish` or `close`; `reset` starts it
+                again.
+        """
+        if self._stopped is not None:
+            raise InputError(f"the event camera {self._stopped}; reset() starts it again")
+        source = Frame(np.asarray(frame), t_us)
+        if source.size != self.frame_size:
+            raise InputError(
+                f"the frame is {source.size}; this event camera takes {self.frame_size}"
+            )
+        self._stopped = "stopped at an error"
+        self._frames.append(source)
+        events = self._joined(self._simulator.advance(next(self._pairs)))
+        self._stopped = None
+        return events
+
+    def finish(self) -> EventStream:
+        """Events that the model held back; they end the recording."""
+        if self._stopped is not None:
+            return EventStream.empty(self.size)
+        events = self._joined(self._simulator.finish())
+        self._stopped = "was finished"
+        return events
+
+    def reset(self) -> None:
+        """Begin a new recording with the same options, as if no frame had been given."""
+        self._threads.close()
+        self._frames.clear()
+        self.size = self._start()
+        self._stopped = None
+
+    def close(self) -> None:
+        """Free what the camera holds; nothing happens if it is closed already."""
+        self._threads.close()
+        self._stopped = "was closed"
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+    def _start(self) -> SensorSize:
+        stream: FrameStream = _SteppedFrames(self.frame_size, self._frames)
+        video, capture = decode_light(stream, self.settings.source)
+        if self.settings.size is not None or capture.white_level is not None:
+            from texvent.capture.prepare import PreparedFrames  # may bring OpenCV
+
+            is_coded = video is stream
+            video = PreparedFrames(video, capture, size=self.settings.size, check_scale=is_coded)
+        check_memory(self.settings, video.size)
+        simulation = video_to_events(video, self.settings)
+        self._simulator, self._pairs = simulation.begin(self._threads)
+        return video.size
+
+    def _joined(self, packets: Iterator[tuple[Frame, EventStream]]) -> EventStream:
+        kept = [select_events(packet, self.settings.run) for _, packet in packets]
+        return EventStream.concat([EventStream.empty(self.size), *kept])
+
+
+def check_steps(settings: Settings) -> None:
+    """Refuse options that need more than the frames so far.
+
+    Raises:
+        ConfigError: there is one; or as `check_run`.
+    """
+    plain = CaptureConfig(**{name: getattr(settings.source, name) for name in USED_CAPTURE})
+    for name, value in vars(settings.source).items():
+        if value != getattr(plain, name):
+            raise ConfigError(
+                f"{name} is for videos and files, and here frames arrive one by one; leave it out"
+            )
+    if settings.run.target_rate is not None:
+        raise ConfigError(
+            "target_rate reads the first second of a video twice, and here frames arrive one by "
+            "one; set contrast_threshold"
+        )
+    if settings.interpolate.interpolate in ("motion", "exact"):
+        raise ConfigError(
+            f"interpolate is {settings.interpolate.interpolate}, which needs more than frames; "
+            "choose flow, blend, rife or none"
+        )
+    check_run(settings)
+    warn_of_unread_weights(settings.interpolate)
+
+
+class _SteppedFrames:
+    """Stream of the frames that were given so far."""
+
+    fps: Fraction | None = None
+    frame_count: int | None = None
+    is_live = True
+
+    def __init__(self, size: SensorSize, waiting: deque[Frame]) -> None:
+        self.size = size
+        self.metadata: dict[str, Any] = {"kind": "stepped"}
+        self._waiting = waiting
+
+    def __iter__(self) -> Iterator[Frame]:
+        while self._waiting:
+            yield self._waiting.popleft()

@@ -1,1 +1,0 @@
-"""ROS 2: images of a topic become packets of events on another one."""

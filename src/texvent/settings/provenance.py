@@ -1,0 +1,120 @@
+"""Provenance of a recording: stored in every output, enough to make it again."""
+
+from __future__ import annotations
+
+import functools
+import glob
+import hashlib
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from texvent._registry import INTERPOLATORS, SIMULATORS
+from texvent._version import full_version
+from texvent.generate.scene_input import SCENE_KEY
+from texvent.scenes.report import REPORT_KEY
+from texvent.settings.resolution import Settings
+
+END_BYTES = 8 * 2**20
+"""Of a larger file, this much of its beginning and of its end is read."""
+
+
+def describe_run(
+    settings: Settings, *, prompt: str | None, source: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Prompt or scene, report, source, models, seed, options, version and weight files of a run.
+
+    Args:
+        settings: all options.
+        prompt: what the video shows, if it was said.
+        source: metadata of the video.
+    """
+    run = settings.run
+    facts = describe_source(source)
+    made_of = {key: facts.pop(key) for key in (SCENE_KEY, REPORT_KEY) if key in facts}
+    return {
+        "prompt": prompt,
+        **made_of,
+        "source": facts,
+        "generator": settings.generator,
+        "simulator": run.simulator,
+        "preset": run.preset,
+        "seed": run.seed,
+        "settings": settings.as_tables(),
+        "texvent_version": full_version(),
+        **describe_weights(settings),
+    }
+
+
+def describe_weights(settings: Settings) -> dict[str, Any]:
+    """Which files the models of a run read, such as network weights, under "weights".
+
+    Nothing where they read none.
+
+    Raises:
+        InputError: such a file is missing.
+    """
+    interpolator = INTERPOLATORS.load(settings.interpolate.interpolate)
+    simulator = SIMULATORS.load(settings.run.simulator)
+    parts = {
+        "interpolator": (interpolator, settings.interpolate),
+        "simulator": (simulator, settings.simulate),
+    }
+    files = {
+        role: facts
+        for role, (part, config) in parts.items()
+        if hasattr(part, "provenance") and (facts := part.provenance(config))
+    }
+    return {"weights": files} if files else {}
+
+
+def describe_source(metadata: Mapping[str, Any]) -> dict[str, Any]:
+    """Metadata of a video with a fingerprint of its file or folder, under "fingerprint".
+
+    Args:
+        metadata: of a video; `source` names what it was read from, `motion` the files of its
+            motion vectors, `camera_files` those of a camera's path and of the image's depth; they
+            get theirs under "motion_fingerprint" and "camera_fingerprint".
+    """
+    found = {"fingerprint": fingerprint(metadata.get("source"))}
+    for name, key in (("motion", "motion_fingerprint"), ("camera_files", "camera_fingerprint")):
+        files = metadata.get(name)
+        if isinstance(files, Mapping):
+            prints = [one for one in map(fingerprint, files.values()) if one is not None]
+            found[key] = "-".join(prints) or None
+    return {**metadata, **{name: text for name, text in found.items() if text is not None}}
+
+
+def fingerprint(source: Any) -> str | None:
+    """A digest of a file, or of the names and sizes in a folder or of a pattern; else None.
+
+    Of a file, the size and the first and last `END_BYTES` count.
+    """
+    if not isinstance(source, str):
+        return None
+    try:
+        path = Path(source)
+        files = sorted(map(Path, glob.glob(source))) if glob.has_magic(source) else []
+        if path.is_dir() or files:
+            inside = files or path.iterdir()
+            listing = sorted((one.name, one.stat().st_size) for one in inside)
+            return hashlib.sha256(repr(listing).encode()).hexdigest()
+        if not path.is_file():
+            return None
+        status = path.stat()
+        return _file_fingerprint(str(path.absolute()), status.st_size, status.st_mtime_ns)
+    except (OSError, ValueError):
+        return None
+
+
+@functools.lru_cache(maxsize=64)
+def _file_fingerprint(path: str, size: int, changed_ns: int) -> str:
+    """As `fingerprint`; read once for each state of a file."""
+    del changed_ns
+    digest = hashlib.sha256(str(size).encode())
+    with open(path, "rb") as file:
+        digest.update(file.read(END_BYTES))
+        if size > END_BYTES:
+            file.seek(max(END_BYTES, size - END_BYTES))
+            digest.update(file.read(END_BYTES))
+    return digest.hexdigest()

@@ -1,0 +1,312 @@
+"""From names and single options to the resolved settings of a run.
+
+Precedence, weakest first: the parts' defaults, the preset, a sensor file, the config file, single
+options. The command line and the Python API both come through here, so they cannot disagree.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
+from texvent.config import CaptureConfig, InterpolateConfig, RunConfig, check_range
+from texvent.errors import ConfigError, shown
+from texvent.options.fields import option_names
+from texvent.options.values import plain, with_options
+from texvent.sensor import SENSORS, Sensor, SensorSize, find_sensor, parse_sensor
+from texvent.settings.config_files import Command, read_config
+from texvent.settings.presets import find_preset
+from texvent.simulate.model_options import with_contrast_threshold
+
+DEFAULT_SENSOR = "davis346"
+"""Size of a generated scene when no sensor is named and the generator has no wish of its own."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Settings:
+    """Everything that decides a run's events; it is stored in every output."""
+
+    run: RunConfig
+    source: Any
+    """The generator's config, or a CaptureConfig for recorded frames."""
+    interpolate: InterpolateConfig
+    simulate: Any
+    """The simulator's config."""
+    generator: str | None = None
+    """Name of the generator; None when frames were recorded."""
+
+    @property
+    def size(self) -> SensorSize | None:
+        """Size of the sensor asked for, or None to keep the size of the frames."""
+        return parse_sensor(self.run.sensor) if self.run.sensor else None
+
+    def groups(self) -> dict[str, Any]:
+        """Table name (as in config files) → config."""
+        source = "generate" if self.generator else "capture"
+        return {
+            "run": self.run,
+            source: self.source,
+            "interpolate": self.interpolate,
+            "simulate": self.simulate,
+        }
+
+    def as_tables(self) -> dict[str, Any]:
+        """Nested plain values, ready for TOML and JSON; reading them back gives these settings."""
+        tables: dict[str, Any] = plain(self.groups())
+        if self.generator:
+            tables["generate"] = {"generator": self.generator, **tables["generate"]}
+        return tables
+
+
+def default_settings(
+    command: Command,
+    *,
+    generator: str | None = None,
+    simulator: str | None = None,
+    preset: str | None = None,
+    has_motion: bool = False,
+    has_camera: bool = False,
+) -> Settings:
+    """Settings before any single option: the defaults of the named parts and preset.
+
+    Args:
+        command: "generate" (from a prompt) or "simulate" (from frames).
+        generator: name of the generator, or None for the default.
+        simulator: name of the simulator, or None for the default, or that which has the preset.
+        preset: name of the preset, or None for the simulator's first.
+        has_motion: whether the frames come with motion vectors.
+        has_camera: whether they are made by a camera that moves over a still image.
+
+    Raises:
+        ConfigError: a part or preset of that name does not exist.
+    """
+    simulator_name, preset_name = find_preset(simulator, preset)
+    simulator_class = SIMULATORS.load(simulator_name)
+    presets = simulator_class.presets
+    run = RunConfig(simulator=simulator_name, preset=preset_name)
+    if command == "simulate":
+        return Settings(
+            run=run,
+            source=CaptureConfig(),
+            interpolate=_interpolation(
+                simulator_class, has_motion=has_motion, has_camera=has_camera
+            ),
+            simulate=presets[preset_name],
+        )
+    generator_name = generator or next(iter(GENERATORS.builtin))
+    generator_class = GENERATORS.load(generator_name)
+    return Settings(
+        run=dataclasses.replace(
+            run, sensor=getattr(generator_class, "default_sensor", DEFAULT_SENSOR)
+        ),
+        source=generator_class.config_type(),
+        interpolate=_interpolation(simulator_class, generator_class),
+        simulate=presets[preset_name],
+        generator=generator_name,
+    )
+
+
+def _interpolation(
+    *parts: Any, has_motion: bool = False, has_camera: bool = False
+) -> InterpolateConfig:
+    """Interpolation as the first of the parts that has a wish wants it, else as the frames do."""
+    for part in parts:
+        wish = getattr(part, "default_interpolate", None)
+        if wish is not None:
+            return InterpolateConfig(interpolate=wish)
+    if has_camera:
+        return InterpolateConfig(interpolate=RENDERED)
+    if has_motion:
+        return InterpolateConfig(interpolate=ALONG_MOTION)
+    return InterpolateConfig()
+
+
+ALONG_MOTION = "motion"
+"""The interpolator of frames that come with motion vectors."""
+RENDERED = "exact"
+"""The interpolator of what is known at any instant."""
+"""Tables of options in a config file."""
+DECIDING = ("generator", "simulator", "preset", "sensor", "motion", "motion_back", "camera")
+"""Options that decide which other options there are, or their defaults."""
+
+
+def base_settings(
+    command: Command,
+    *,
+    config: str | Path | None = None,
+    has_motion: bool = False,
+    **deciding: Any,
+) -> Settings:
+    """Settings before single options: defaults, preset, sensor file, config file.
+
+    Args:
+        command: "generate" (from a prompt) or "simulate" (from frames).
+        config: a TOML or YAML file with options, or an event file with those of its run.
+        has_motion: whether the frames come with motion vectors that no option names.
+        **deciding: those of `DECIDING` that were given. A sensor may be a preset file, such as
+            `texvent calibrate` writes; a sensor whose constants the simulator knows chooses the
+            preset of that name, unless a preset is given.
+
+    Raises:
+        ConfigError: an unknown name, a wrong type, a value out of range.
+        InputError: a file cannot be read.
+    """
+    file_options = read_config(config, command) if config is not None else {}
+    given = {name: value for name, value in deciding.items() if value is not None}
+    chosen = {**file_options, **given}
+    sensor = chosen.get("sensor")
+    if isinstance(sensor, str) and sensor.lower().endswith((".toml", ".yaml", ".yml")):
+        chosen = {**read_config(chosen.pop("sensor")), **chosen}
+    parts = {name: chosen.pop(name, None) for name in ("generator", "simulator", "preset")}
+    if command == "simulate" and parts["generator"] is not None:
+        where = "generator is set"
+        if file_options.get("generator") is not None:
+            where = f"config file {config} is for texvent generate: it sets generator"
+        raise ConfigError(f"{where}, but frames are simulated, not generated; leave it out")
+    if parts["preset"] is None:
+        parts["preset"] = sensor_preset(parts["simulator"], chosen.get("sensor"))
+    where = f"config file {config}" if config is not None else "options"
+    named = chosen.get("motion"), chosen.get("motion_back")
+    has_motion = has_motion or any(one is not None for one in named)
+    has_camera = command == "simulate" and chosen.get("camera") is not None
+    defaults = default_settings(command, **parts, has_motion=has_motion, has_camera=has_camera)
+    try:
+        return apply_options(defaults, chosen, where=where)
+    except ConfigError as error:
+        message = str(error.args[0])
+        if config is None or message.startswith(where):
+            raise
+        raise ConfigError(f"{where}: {message}") from None
+
+
+def sensor_preset(simulator: str | None, sensor: str | None) -> str | None:
+    """The simulator's preset with the measured constants of a sensor, or None if it has none.
+
+    Example:
+        >>> sensor_preset("physical", "davis346"), sensor_preset("texvent", "davis346")
+        ('davis346', None)
+        >>> sensor_preset("physical", "imx636")
+        'evk4'
+    """
+    if not isinstance(sensor, str):
+        return None
+    presets = SIMULATORS.load(simulator or RunConfig.simulator).presets
+    known = find_sensor(sensor)
+    name = known.name if known else sensor.lower()
+    # A model may have constants for a family: voltmeter's "davis240" is for "davis240c".
+    return next((preset for preset in presets if name.startswith(preset)), None)
+
+
+def unmeasured_sensor(run: RunConfig) -> str | None:
+    """Say which constants of the chosen sensor the simulator knows, if it knows some of sensors."""
+    simulator = SIMULATORS.load(run.simulator)
+    sensor = None if run.sensor is None else find_sensor(run.sensor)
+    if sensor is None or not any(sensor_preset(run.simulator, name) for name in SENSORS):
+        return None
+    preset = sensor_preset(run.simulator, sensor.name)
+    if preset is None:
+        measured = [
+            name for name in simulator.presets if any(one.startswith(name) for one in SENSORS)
+        ]
+        return (
+            f"{sensor.name} sets the size only: {run.simulator} has measured constants of "
+            f"{', '.join(measured)}; those of preset {shown(run.preset)} stand in"
+        )
+    known: Mapping[str, tuple[str, ...]] = getattr(simulator, "known_constants", {})
+    if preset != run.preset or preset not in known:
+        return None
+    return (
+        f"of {sensor.name}, {', '.join(known[preset])} are published or measured; all other "
+        f"constants are defaults of {run.simulator}"
+    )
+
+
+def resolve(
+    command: Command,
+    options: Mapping[str, Any],
+    *,
+    config: str | Path | None = None,
+    has_motion: bool = False,
+) -> Settings:
+    """Settings of a run from a config file and single options.
+
+    Args:
+        command: "generate" (from a prompt) or "simulate" (from frames).
+        options: option name → value; None means "not given". Names as in `texvent --help`, with
+            underscores.
+        config: a TOML or YAML file with options, flat or in the tables `run`, `generate`,
+            `capture`, `interpolate`, `simulate`; or an event file, whose run is repeated.
+        has_motion: whether the frames come with motion vectors that no option names.
+
+    Raises:
+        ConfigError: an unknown name, a wrong type, a value out of range, an unreadable file.
+    """
+    single = {name: value for name, value in options.items() if value is not None}
+    if "sensor" in single:
+        single["sensor"] = _sensor_text(single["sensor"])
+    deciding = {name: single.pop(name) for name in DECIDING if name in single}
+    base = base_settings(command, config=config, has_motion=has_motion, **deciding)
+    return apply_options(base, single, where="options")
+
+
+def _sensor_text(sensor: Any) -> Any:
+    """A sensor given as an object, a file or numbers (width, height), as files and flags say it."""
+    if isinstance(sensor, Sensor):
+        return sensor.name
+    if isinstance(sensor, Path):
+        return str(sensor)
+    if isinstance(sensor, (tuple, list)) and len(sensor) == 2:
+        return "x".join(str(s) if isinstance(s, str) else shown(s) for s in sensor)
+    if not isinstance(sensor, str):
+        raise ConfigError(
+            f"options: sensor is {shown(sensor)}; it must be a name, a text such as '346x260', or "
+            "(width, height)"
+        )
+    return sensor
+
+
+def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str) -> Settings:
+    """The settings with single options replaced, each in the config that declares it.
+
+    Raises:
+        ConfigError: a name that no config declares, or a value that does not fit.
+    """
+    groups = {
+        "run": settings.run,
+        "source": settings.source,
+        "interpolate": settings.interpolate,
+        "simulate": settings.simulate,
+    }
+    options = dict(options)
+    owners = {name: key for key, group in groups.items() for name in option_names(type(group))}
+    changed: dict[str, dict[str, Any]] = {}
+    if "contrast_threshold" in options and "contrast_threshold" not in owners:
+        # One number for models that have one threshold for ON and one for OFF.
+        threshold = _as_number(options.pop("contrast_threshold"), where)
+        groups["simulate"] = with_contrast_threshold(settings.simulate, threshold)
+        changed["simulate"] = {}
+    for name, value in options.items():
+        if name not in owners:
+            raise ConfigError(
+                f"{where}: unknown option {shown(name)}; {suggest(name, tuple(owners))}"
+            )
+        changed.setdefault(owners[name], {})[name] = value
+    replaced = {
+        key: with_options(groups[key], values, where=where) for key, values in changed.items()
+    }
+    result = dataclasses.replace(settings, **replaced)
+    if result.interpolate.interpolate not in INTERPOLATORS.names():
+        INTERPOLATORS.load(result.interpolate.interpolate)
+    result.size  # noqa: B018  (parses the sensor, so a wrong name fails before any work)
+    return result
+
+
+def _as_number(value: Any, where: str) -> float:
+    if isinstance(value, bool) or not isinstance(value, (int, float)):
+        raise ConfigError(f"{where}: contrast_threshold is {shown(value)}; it must be a number")
+    check_range("contrast_threshold", value, 1e-6, 1e6)
+    return float(value)

@@ -1,0 +1,29 @@
+"""`--preview`: stills of a scene instead of events."""
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from texvent.cli.app import main
+
+
+def test_a_preview_shows_the_scene_and_says_what_is_shown_and_nothing_more(
+    tmp_path, monkeypatch, capsys
+):
+    monkeypatch.chdir(tmp_path)
+    words = ["generate", "a wug and a red ball bounce", "--sensor", "64x48", "--duration", "0.5"]
+    assert main([*words, "--preview", "scene.png", "-o", "out.h5"]) == 0
+    said = capsys.readouterr()
+    assert said.out == "scene.png\n"
+    assert "scene    1 ball, red, bounces" in said.err
+    assert "warning  prompt words not understood: wug" in said.err
+    assert "warning  --preview stops before the events, so -o has no effect" in said.err
+    assert not Path("out.h5").exists()
+    image = cv2.imread("scene.png")
+    assert image.shape == (48, 3 * 64 + 2 * 4, 3)
+    assert not np.array_equal(image[:, :64], image[:, 68:132])
+    assert main([*words, "--preview", "scene.png"]) == 3  # exists already
+    assert main([*words, "--preview", "scene.jpg"]) == 2
+    assert main([*words, "--preview", "a.png", "--generator", "wan-1.3b"]) == 2
+    assert not Path("a.png").exists()

@@ -1,0 +1,68 @@
+"""`--dry-run`: the first pairs say what the whole run would take."""
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.cli.app import main
+from texvent.cli.dry_run import MOST_PAIRS, measure_start, size_text
+from texvent.pipeline import video_to_events
+from texvent.settings.resolution import resolve
+from texvent.video import Video
+
+FRAMES = np.random.default_rng(1).integers(0, 256, (7, 12, 16), dtype=np.uint8)
+OPTIONS = {"interpolate": "none", "noise": "none", "seed": 1}
+
+
+@pytest.fixture(autouse=True)
+def _folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+
+
+def dry_run(frames):
+    return measure_start(
+        video_to_events(
+            Video(frames, [20_000 * i for i in range(len(frames))]), resolve("simulate", OPTIONS)
+        )
+    )
+
+
+def test_the_first_pairs_are_counted():
+    tried = dry_run(FRAMES)
+    first = texvent.simulate(FRAMES[: MOST_PAIRS + 1], fps=50, **OPTIONS)
+    assert (tried.pairs, tried.pairs_in_all, tried.events) == (MOST_PAIRS, 6, len(first))
+    assert tried.seconds > 0
+    assert f"about {len(first) / MOST_PAIRS * 6:,.0f} events in " in tried.describe()
+    assert "4 of 6 pairs" in tried.describe()
+
+
+def test_a_single_frame_gives_no_events():
+    assert dry_run(FRAMES[:1]).describe().startswith("no events: there is one frame only")
+
+
+@pytest.mark.parametrize(
+    ("size", "text"), [(512, "0 KB"), (3 * 2**20, "3.0 MB"), (1.5 * 2**40, "1.5 TB")]
+)
+def test_sizes_for_people(size, text):
+    assert size_text(size) == text
+
+
+def test_a_dry_run_says_what_is_shown_of_the_prompt(capsys):
+    words = ["generate", "a red ball bounces", "--sensor", "32x24", "--duration", "0.1"]
+    assert main([*words, "--dry-run"]) == 0
+    said = capsys.readouterr()
+    assert "scene    1 ball, red, bounces" in said.err
+    assert "about" in said.out
+    assert not list(Path().glob("*.h5"))
+
+
+def test_a_dry_run_refuses_no_existing_file_as_it_replaces_none(capsys):
+    np.save("drift.npy", FRAMES)
+    Path("out.h5").write_text("mine", encoding="utf-8")
+    words = ["simulate", "drift.npy", "--fps", "60", "-o", "out.h5"]
+    assert main([*words, "--dry-run"]) == 0
+    assert "note     the run needs --overwrite: there is already out.h5" in capsys.readouterr().err
+    assert Path("out.h5").read_text(encoding="utf-8") == "mine"
+    assert main(words) == 3

@@ -1,0 +1,155 @@
+import itertools
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.errors import ConfigError, InputError
+from texvent.pipeline import video_to_events
+from texvent.run.rate_search import (
+    HIGHEST,
+    LOWEST,
+    MAX_STEPS,
+    find_threshold,
+    match_rate,
+    measure_rate,
+    threshold_for_rate,
+)
+from texvent.settings.resolution import resolve
+from texvent.video import Video
+
+
+def moving_waves(count: int = 13) -> Video:
+    y, x = np.mgrid[:24, :32]
+    frames = [
+        np.round(120 + 70 * np.sin((x + 2 * i) / 3) * np.cos((y - i) / 4)).astype(np.uint8)
+        for i in range(count)
+    ]
+    return Video(np.stack(frames), [round(i * 1e6 / 24) for i in range(count)])
+
+
+def simulation(video=None, **options):
+    settings = resolve("simulate", {"interpolate": "none", "noise_scale": 0.0, **options})
+    return video_to_events(video or moving_waves(), settings)
+
+
+def test_the_search_ends_within_two_percent():
+    found = threshold_for_rate(lambda threshold: 1000 / threshold, 4000.0)
+    assert found.rate_hz == pytest.approx(4000, rel=0.02)
+    assert found.contrast_threshold == pytest.approx(0.25, rel=0.02)
+    assert found.steps <= 9
+
+
+def test_the_search_takes_the_nearest_where_rates_jump():
+    found = threshold_for_rate(lambda threshold: 1050.0 if threshold < 0.3 else 500.0, 1000.0)
+    assert found.rate_hz == pytest.approx(1050)
+    assert found.steps == 9
+
+
+@pytest.mark.parametrize("target", [1.0, 1e9])
+def test_a_rate_out_of_reach_fails_and_says_what_is_near(target):
+    with pytest.raises(InputError, match=r"no contrast threshold.*the nearest is"):
+        threshold_for_rate(lambda threshold: 1000 / threshold, target)
+
+
+@pytest.mark.parametrize("simulator", ["physical", "esim"])
+@pytest.mark.parametrize("target", [10_000, 30_000])
+def test_a_simulation_is_matched_to_a_rate(simulator, target):
+    run = simulation(simulator=simulator, **({"noise_scale": None} if simulator == "esim" else {}))
+    matched, found = match_rate(run, target, seconds=0.5)
+    assert found.rate_hz == pytest.approx(target, rel=0.05)
+    events = matched.packets.collect()
+    assert len(events) / 0.5 == pytest.approx(found.rate_hz)
+    assert matched.provenance["settings"]["simulate"] != run.provenance["settings"]["simulate"]
+
+
+def test_only_the_start_of_the_clip_is_simulated():
+    read = []
+
+    class Counted(Video):
+        def __iter__(self):
+            return (read.append(frame.t_us) or frame for frame in super().__iter__())
+
+    video = moving_waves(30)
+    counted = Counted(video.pixels, video.times_us)
+    measure_rate(simulation(counted, simulator="physical"), 0.2)
+    # Up to three frames more are decoded ahead.
+    assert 208_333 <= max(read) <= 333_333
+    early, late = (
+        measure_rate(simulation(one, simulator="physical"), 0.2)
+        for one in (video, Video(video.pixels, np.add(video.times_us, 10**6)))
+    )
+    assert early == late
+
+
+def test_what_cannot_be_matched_fails_clearly():
+    class Live(Video):
+        is_live = True
+
+    video = moving_waves(3)
+    with pytest.raises(InputError, match="live source"):
+        match_rate(simulation(Live(video.pixels, video.times_us), simulator="physical"), 1e4)
+    with pytest.raises(InputError, match="two frames"):
+        match_rate(simulation(moving_waves(1), simulator="physical"), 1e4)
+    for target in (0.0, -5.0, float("nan")):
+        with pytest.raises(ConfigError, match="target_rate"):
+            match_rate(simulation(simulator="physical"), target)
+
+
+def test_a_higher_threshold_never_gives_a_higher_rate():
+    rates = [
+        measure_rate(simulation(simulator="physical", contrast_threshold=threshold), 0.5)
+        for threshold in (0.05, 0.1, 0.2, 0.4, 0.8)
+    ]
+    assert all(high >= low for high, low in itertools.pairwise(rates))
+
+
+class Counter:
+    """A simulator whose count falls as a power of the threshold."""
+
+    def __init__(self, at_one, power):
+        self.at_one, self.power, self.calls = at_one, power, []
+
+    def __call__(self, threshold):
+        self.calls.append(threshold)
+        return round(self.at_one * threshold**-self.power)
+
+
+def test_a_count_that_falls_as_one_over_the_threshold_is_matched_in_two_steps():
+    counter = Counter(10_000, 1.0)
+    match = find_threshold(counter, 100_000, start=0.2)
+    assert match.threshold == pytest.approx(0.1)
+    assert match.is_matched
+    assert len(counter.calls) == 2
+
+
+@given(power=st.floats(0.5, 3.0), wanted=st.floats(0.02, 1.0))
+def test_any_power_law_is_matched_within_nine_steps(power, wanted):
+    counter = Counter(1_000_000, power)
+    match = find_threshold(counter, round(1_000_000 * wanted**-power), start=0.2)
+    assert match.is_matched
+    assert match.ratio == pytest.approx(1, abs=0.02)
+    assert len(counter.calls) <= MAX_STEPS
+
+
+def test_a_count_that_cannot_be_reached_gives_the_closest_threshold():
+    counter = Counter(10, 1.0)
+    match = find_threshold(counter, 1_000_000, start=0.2)
+    assert not match.is_matched
+    assert match.threshold == LOWEST
+    too_many = find_threshold(Counter(1_000_000, 0.1), 10, start=0.2)
+    assert too_many.threshold == HIGHEST
+
+
+def test_a_simulator_without_events_keeps_its_threshold():
+    match = find_threshold(lambda threshold: 0, 1000, start=0.2)
+    assert match.threshold == 0.2
+    assert match.ratio == 0
+    assert not match.is_matched
+
+
+def test_a_jump_over_the_target_ends_with_the_closer_side():
+    match = find_threshold(lambda threshold: 1000 if threshold < 0.3 else 10, 900, start=0.2)
+    assert match.ratio == pytest.approx(1000 / 900)
+    assert not match.is_matched

@@ -1,0 +1,151 @@
+"""From names and single options to the settings of a run."""
+
+import pytest
+
+from texvent.errors import ConfigError, InputError
+from texvent.sensor import SENSORS, SensorSize
+from texvent.settings.config_files import read_config
+from texvent.settings.resolution import base_settings, resolve, unmeasured_sensor
+
+SENSOR_FILE = """
+[run]
+simulator = "physical"
+sensor = "64x48"
+
+[simulate]
+contrast_threshold = 0.31
+balance = 12.5
+"""
+
+
+def test_a_video_keeps_its_size_and_a_scene_is_davis346():
+    assert resolve("simulate", {}).size is None
+    assert resolve("generate", {}).size == (346, 260)
+    assert resolve("generate", {}).interpolate.interpolate == "motion"
+
+
+def test_precedence_is_preset_then_file_then_option(tmp_path):
+    config = tmp_path / "run.toml"
+    config.write_text("simulator = 'v2e'\npreset = 'noisy'\nleak_rate_hz = 0.7\n", encoding="utf-8")
+    settings = resolve("simulate", {"seed": 5}, config=config)
+    assert settings.run.simulator == "v2e"
+    assert settings.simulate.shot_noise_rate_hz == 5.0  # from the preset
+    assert settings.simulate.leak_rate_hz == 0.7  # from the file
+    assert settings.run.seed == 5
+    assert resolve("simulate", {"leak_rate_hz": 0.2}, config=config).simulate.leak_rate_hz == 0.2
+
+
+def test_a_sensor_with_measured_constants_chooses_its_preset():
+    settings = resolve("simulate", {"simulator": "physical", "sensor": "davis346"})
+    assert settings.run.preset == "davis346"
+    assert settings.simulate.balance == 20.0
+    family = resolve("simulate", {"simulator": "voltmeter", "sensor": "davis240c"})
+    assert family.run.preset == "davis240"
+    named = resolve(
+        "simulate", {"simulator": "physical", "sensor": "davis346", "preset": "default"}
+    )
+    assert named.run.preset == "default"
+
+
+@pytest.mark.parametrize(
+    ("sensor", "name"),
+    [((64, 48), "64x48"), (SensorSize(64, 48), "64x48"), (SENSORS["dvs128"], "dvs128")],
+)
+def test_a_sensor_may_be_given_as_numbers_or_as_an_object(sensor, name):
+    assert resolve("simulate", {"sensor": sensor}).run.sensor == name
+
+
+@pytest.mark.parametrize("sensor", [(64,), (64, 48, 3), 64, ("a", "b"), (-1, 5)])
+def test_what_is_no_sensor_is_refused(sensor):
+    with pytest.raises(ConfigError, match="sensor"):
+        resolve("simulate", {"sensor": sensor})
+
+
+def test_a_sensor_without_measured_constants_is_said_to_have_none():
+    with_constants = resolve("simulate", {"simulator": "voltmeter", "sensor": "davis346"})
+    assert unmeasured_sensor(with_constants.run) is None
+    with_some = resolve("simulate", {"simulator": "physical", "sensor": "IMX636"})
+    assert "of evk4, contrast_threshold, " in unmeasured_sensor(with_some.run)
+    without_them = {"simulator": "physical", "sensor": "evk4", "preset": "default"}
+    assert unmeasured_sensor(resolve("simulate", without_them).run) is None
+    without = resolve("simulate", {"simulator": "physical", "sensor": "gen4-hd"})
+    assert "gen4-hd sets the size only" in unmeasured_sensor(without.run)
+    assert unmeasured_sensor(resolve("simulate", {"sensor": "gen4-hd"}).run) is None
+
+
+@pytest.mark.parametrize(
+    ("sensor", "size", "preset"),
+    [
+        ("evk4", (1280, 720), "evk4"),
+        ("IMX636", (1280, 720), "evk4"),
+        ("genx320", (320, 320), "genx320"),
+        ("gen3", (640, 480), "gen3.1"),
+        ("dvxplorer", (640, 480), "dvxplorer"),
+        ("davis240", (240, 180), "davis240c"),
+    ],
+)
+def test_a_camera_chooses_size_and_preset_by_any_of_its_names(sensor, size, preset):
+    settings = resolve("simulate", {"simulator": "physical", "sensor": sensor})
+    assert settings.size == size
+    assert settings.run.preset == preset
+
+
+def test_a_fitted_sensor_file_sets_simulator_size_and_constants(tmp_path):
+    path = tmp_path / "my.toml"
+    path.write_text(SENSOR_FILE, encoding="utf-8")
+    settings = resolve("simulate", {"sensor": str(path), "balance": 15.0})
+    assert settings.run.simulator == "physical"
+    assert settings.size == (64, 48)
+    assert settings.simulate.contrast_threshold == 0.31
+    assert settings.simulate.balance == 15.0
+
+
+def test_settings_written_and_read_back_are_the_same(tmp_path):
+    import tomli_w
+
+    settings = resolve("generate", {"fps": "30000/1001", "simulator": "esim", "seed": 4})
+    path = tmp_path / "run.toml"
+    path.write_text(tomli_w.dumps(settings.as_tables()), encoding="utf-8")
+    assert resolve("generate", {}, config=path) == settings
+
+
+def test_a_generator_is_refused_where_frames_are_given():
+    with pytest.raises(ConfigError, match="generator is set"):
+        base_settings("simulate", generator="procedural")
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "message"),
+    [
+        ("a.toml", "seed = = 3", "not valid"),
+        ("a.yaml", "seed: [", "not valid"),
+        ("a.json", "{}", "must end in .toml"),
+        ("a.yaml", "- 3", "options by name"),
+        ("a.toml", "seed = 1\n[run]\nseed = 2", "sets 'seed' twice"),
+        ("a.toml", "[simulat]\nnoise = 'none'", "unknown table 'simulat'.*did you mean 'simulate'"),
+    ],
+)
+def test_a_broken_config_file_is_one_clear_error(tmp_path, name, text, message):
+    path = tmp_path / name
+    path.write_text(text, encoding="utf-8")
+    with pytest.raises(ConfigError, match=message):
+        read_config(path)
+
+
+def test_a_single_option_is_stronger_than_the_config_file(tmp_path):
+    path = tmp_path / "run.toml"
+    path.write_text('sensor = "64x48"\nsimulator = "esim"\nseed = 4\nfps = 30\n', encoding="utf-8")
+    given = {"sensor": "dvs128", "simulator": "texvent", "fps": 50}
+    settings = resolve("generate", given, config=path)
+    assert (settings.run.sensor, settings.run.simulator) == ("dvs128", "texvent")
+    assert (settings.source.fps, settings.run.seed) == (50, 4)
+
+
+def test_a_missing_config_file_is_named(tmp_path):
+    with pytest.raises(InputError, match=r"nope\.toml"):
+        read_config(tmp_path / "nope.toml")
+
+
+def test_a_sensor_that_is_one_number_is_told_what_a_sensor_can_be():
+    with pytest.raises(ConfigError, match=r"sensor is 32; it must be a name.*\(width, height\)"):
+        resolve("generate", {"sensor": 32})

@@ -1,0 +1,118 @@
+"""A run that loses its signal says so, why, and which option helps."""
+
+import warnings
+from fractions import Fraction
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.cli.app import main
+from texvent.events import EventStream
+from texvent.generate.videos.stored_video import write_stream
+from texvent.simulate.signal_tally import SignalTally
+from texvent.video import Frame, Video
+
+FPS = 120
+
+
+def drifting(levels=80.0, frames=FPS // 2):
+    """A grating that moves so slowly that no pixel changes by a threshold from frame to frame."""
+    x = np.arange(48)[None] - 40 * np.arange(frames)[:, None] / FPS
+    rows = 128 + levels * np.sin(2 * np.pi * x / 50)
+    return np.repeat(rows[:, None, :], 36, axis=1).astype(np.float32)
+
+
+def doubt_of(frames, **options):
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always")
+        events = texvent.simulate(frames, fps=FPS, interpolate="none", **options)
+    said = [str(one.message) for one in caught if one.category is texvent.TexventWarning]
+    assert len(said) < 2
+    return events, "".join(said)
+
+
+@pytest.mark.parametrize("noise_rate_hz", [0.0, 20.0])
+def test_slow_change_that_a_cache_forgets_is_named_with_the_option_that_helps(noise_rate_hz):
+    options = {"noise_rate_hz": noise_rate_hz, "noise_intensity": 255.0}
+    events, said = doubt_of(drifting(), cache="local", **options)
+    head = f"all {len(events):,} events are noise" if noise_rate_hz else "no events"
+    assert said.startswith(f"{head}, though 9")
+    assert "cache='local' forgets" in said
+    assert "give cache='global'" in said
+    events, said = doubt_of(drifting(), cache="global", **options)
+    assert len(events) > 5_000
+    assert said == ""
+
+
+@pytest.mark.parametrize("simulator", ["physical", "esim", "v2e", "voltmeter"])
+def test_models_that_remember_are_not_doubted(simulator):
+    events, said = doubt_of(drifting(), simulator=simulator)
+    assert len(events) > 5_000
+    assert said == ""
+
+
+def test_a_model_that_holds_change_back_otherwise_gets_general_advice():
+    _, said = doubt_of(drifting(), simulator="v2e", cutoff_hz=0.01, shot_noise_rate_hz=0.0)
+    assert "hold it back; give a lower contrast_threshold=0.1" in said
+
+
+def test_a_scene_at_rest_with_noise_is_said_to_be_noise():
+    events, said = doubt_of(drifting(levels=2.0), noise_rate_hz=20.0, noise_intensity=255.0)
+    assert said.startswith(
+        f"all {len(events):,} events are noise: nothing changed by more than the"
+    )
+    # 2 levels of 148 in each direction are .027 log units; half of that is suggested.
+    assert "lower it, such as contrast_threshold=0.01" in said
+    assert (
+        doubt_of(
+            drifting(levels=2.0), noise_rate_hz=20.0, noise_intensity=255.0, keep_events="noise"
+        )[1]
+        == ""
+    )
+
+
+def test_the_range_of_pixels_is_followed_on_a_grid_so_memory_does_not_grow_with_the_sensor():
+    tally = SignalTally()
+    for level in (10, 200):
+        tally.see(Frame(np.full((1080, 1920), level, np.uint8), level))
+    assert tally._low.size < 2**14
+    assert tally._low.max() == 10
+    assert tally._high.min() == 200
+
+
+def test_events_without_a_label_count_as_signal():
+    tally = SignalTally()
+    tally.count(EventStream.from_columns([1, 1], [1, 1], [1, 2], [0, 1], size=(4, 4)))
+    assert (tally.signal, tally.noise) == (2, 0)
+
+
+def test_commands_count_signal_and_noise_apart_and_name_flags(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    clips = Path("clips")
+    clips.mkdir()
+    frames = np.rint(drifting()).astype(np.uint8)
+    times = [k * 1_000_000 // FPS for k in range(len(frames))]
+    write_stream(Video(frames, times, fps=Fraction(FPS)), clips / "slow.avi", overwrite=False)
+    options = ["--interpolate", "none", "--events-only", "--noise-rate-hz", "20"]
+    options += ["--noise-intensity", "255", "-o"]
+    advice = "; give --cache global\n"
+    assert main(["simulate", "clips/slow.avi", "--cache", "local", *options, "a.h5"]) == 0
+    said = capsys.readouterr().err
+    assert ": 0 signal, " in said
+    assert said.endswith(advice)
+    assert main(["batch", "clips", "--cache", "local", *options, "many"]) == 0
+    assert advice in capsys.readouterr().err
+    assert main(["simulate", "clips/slow.avi", "--cache", "global", *options, "b.h5"]) == 0
+    said = capsys.readouterr().err
+    total, signal, noise = _counts(said)
+    assert signal > 5_000
+    assert noise > 0
+    assert total == signal + noise == len(texvent.load("b.h5"))
+    assert "warning" not in said
+
+
+def _counts(said):
+    words = next(line for line in said.splitlines() if line.startswith("events")).split()
+    return [int(words[at].replace(",", "")) for at in (1, -4, -2)]

@@ -1,0 +1,84 @@
+"""Frames given one by one give the events of the whole video."""
+
+import numpy as np
+import pytest
+
+import texvent
+from texvent.errors import ConfigError, InputError
+from texvent.events import EventStream
+
+FRAMES = np.random.default_rng(7).integers(0, 256, (4, 12, 16), dtype=np.uint8)
+TIMES = [0, 20_000, 40_000, 70_000]
+
+
+def step_all(camera: texvent.EventCamera) -> EventStream:
+    return EventStream.concat([camera.step(*one) for one in zip(FRAMES, TIMES, strict=True)])
+
+
+@pytest.mark.parametrize(
+    "options",
+    [
+        {},
+        {"simulator": "esim", "interpolate": "blend"},
+        {"simulator": "v2e"},
+        {"simulator": "physical", "sensor": "8x8", "white_level": 200.0},
+        {"deflicker": True, "randomize": "v2v", "keep_events": "signal"},
+    ],
+    ids=lambda options: "-".join(map(str, options.values())) or "default",
+)
+def test_steps_give_the_events_of_the_video(options):
+    whole = texvent.simulate(FRAMES, t_us=TIMES, progress=False, seed=5, **options)
+    assert len(whole)
+    with texvent.EventCamera((16, 12), seed=5, **options) as camera:
+        assert step_all(camera).equals(whole)
+        camera.reset()
+        assert step_all(camera).equals(whole)
+
+
+@pytest.mark.parametrize(
+    ("options", "words"),
+    [
+        ({"start": 1.0}, "start is for videos and files"),
+        ({"fps": 30}, "fps is for videos and files"),
+        ({"target_rate": 1e5}, "target_rate reads the first second"),
+        ({"interpolate": "exact"}, "interpolate is exact, which needs more than frames"),
+    ],
+)
+def test_options_that_need_later_frames_are_refused(options, words):
+    with pytest.raises(ConfigError, match=words):
+        texvent.EventCamera("16x12", **options)
+
+
+def test_events_held_back_come_at_the_end(held_back):
+    whole = texvent.simulate(FRAMES, t_us=TIMES, progress=False, simulator="esim")
+    camera = texvent.EventCamera((16, 12), simulator=held_back)
+    assert len(step_all(camera)) == 0
+    assert camera.finish().equals(whole)
+    assert len(camera.finish()) == 0
+
+
+@pytest.mark.parametrize(
+    ("frame", "t_us", "words"),
+    [
+        (FRAMES[1][:6], 20_000, "the frame is 16x6; this event camera takes 16x12"),
+        (FRAMES[1], 0, "frame times must strictly increase"),
+        (np.full((12, 16), np.nan), 20_000, "NaN"),
+        (FRAMES[1].astype(np.int64), 20_000, "uint8, uint16"),
+    ],
+)
+def test_a_bad_frame_is_refused(frame, t_us, words):
+    camera = texvent.EventCamera((16, 12))
+    camera.step(FRAMES[0], 0)
+    with pytest.raises(InputError, match=words):
+        camera.step(frame, t_us)
+
+
+@pytest.mark.parametrize("end", ["finish", "close"])
+def test_a_camera_that_ended_takes_no_frame_before_a_reset(end):
+    camera = texvent.EventCamera((16, 12))
+    camera.step(FRAMES[0], 0)
+    getattr(camera, end)()
+    with pytest.raises(InputError, match=r"reset\(\) starts it again"):
+        camera.step(FRAMES[1], 20_000)
+    camera.reset()
+    assert len(camera.step(FRAMES[0], 0)) == 0
