@@ -2,7 +2,7 @@
 
 `ceilings.toml` has a table for each room: its paths, those in them that belong to other rooms
 (`without`), and the most lines of Python, lines of data
-and modules that it may have.
+and modules that it may have; what it does not name has no ceiling.
 
 Example:
     .venv/bin/python -m tools.ceilings
@@ -69,10 +69,12 @@ def faults(ceilings: Ceilings, before: Ceilings, root: Path = ROOT) -> list[str]
     for room, limits in ceilings.items():
         size = measure(limits["paths"], root, tuple(limits.get("without", ())))
         for name, now in size._asdict().items():
+            if name not in limits:
+                continue
             most = limits[name]
             if now > most:
                 found.append(f"{room}: {now:,} ({name}); the ceiling is {most:,}")
-            if most > before.get(room, limits)[name]:
+            if most > before.get(room, limits).get(name, most):
                 found.append(f"{room}: the ceiling of {name} was {before[room][name]:,}; keep it")
     return found
 
@@ -82,7 +84,10 @@ def table(ceilings: Ceilings, root: Path = ROOT) -> str:
     lines = [f"{'room':30}{'lines of Python':>20}{'lines of data':>18}{'modules':>14}"]
     for room, limits in ceilings.items():
         size = measure(limits["paths"], root, tuple(limits.get("without", ())))._asdict()
-        cells = {name: f"{now:,} / {limits[name]:,}" for name, now in size.items()}
+        cells = {
+            name: f"{now:,} / {limits[name]:,}" if name in limits else f"{now:,}"
+            for name, now in size.items()
+        }
         lines.append(f"{room:30}{cells['python']:>20}{cells['data']:>18}{cells['modules']:>14}")
     return "\n".join(lines)
 

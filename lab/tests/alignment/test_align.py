@@ -25,11 +25,11 @@ from texvent.generate.videos.clip_model import ClipModel, _prepare  # noqa: E402
 from texvent.sensor import SensorSize  # noqa: E402
 from texvent_lab.alignment.align import align, alignment_table  # noqa: E402
 from texvent_lab.alignment.recordings import (  # noqa: E402
+    DrawnEvents,
     Recording,
     list_samples,
     list_streams,
 )
-from texvent_lab.alignment.views import DrawnEvents  # noqa: E402
 from texvent_lab.nt_imagenet.files import read_captioned  # noqa: E402
 
 from ..nt_imagenet.tiny_data import WNIDS, stream_id, write_n_imagenet  # noqa: E402

@@ -14,12 +14,13 @@ from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent_lab.alignment.recordings import (
+    DrawnEvents,
     Recording,
+    event_slices,
     keep_common,
     list_samples,
     list_streams,
 )
-from texvent_lab.alignment.views import DrawnEvents, event_slices
 from texvent_lab.nt_imagenet.files import Captioned
 
 from ..nt_imagenet.tiny_data import WNIDS, stream_id, write_n_imagenet

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
-from texvent_lab.alignment.retrieval import Retrieval, RetrievalReport, score_retrieval
+from texvent_lab.alignment.align import Retrieval, RetrievalReport, score_retrieval
 
 BY_HAND = np.array(
     [

@@ -8,7 +8,7 @@ from texvent.pipeline import video_to_events
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.video import Video
-from texvent_lab.bench.oracle.smooth_texture import ValueNoise
+from texvent_lab.bench.oracle.scenes import ValueNoise
 
 SIZE = SensorSize(64, 48)
 FRAMES, STEP_US = 28, 40_000

@@ -2,7 +2,7 @@
 
 import math
 
-from texvent_lab.bench.fidelity.details import BINS, Details
+from texvent_lab.bench.fidelity.comparison import BINS, Details
 from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
 
 

@@ -17,7 +17,7 @@ RESULTS = Path(__file__).parents[3] / "docs/results"
     ("report", "has"),
     [
         (lambda: read_report(read_document(RESULTS / "fidelity.json.gz")), "| entry |"),
-        (lambda: read_selftest(RESULTS / "selftest.json"), "| metric |"),
+        (lambda: read_selftest(RESULTS / "selftest.json.gz"), "| metric |"),
     ],
     ids=["fidelity", "selftest"],
 )

@@ -44,7 +44,7 @@ def test_texvent_lists_the_commands_and_without_the_package_names_it(capsys, mon
         (["bench", "fidelity", "--simulators", "esmi"], "did you mean 'esim'"),
         (["bench", "fidelity", "--interpolations", "blnd"], "did you mean 'blend'"),
         (["bench", "fidelity", "--jobs", "0"], "jobs is 0"),
-        (["bench", "page", "x.json", ""], "must not be empty"),
+        (["bench", "page", "x.json", ""], "unexpected ''"),
     ],
 )
 def test_mistakes_are_one_clear_line(tmp_path, monkeypatch, capsys, words, message):

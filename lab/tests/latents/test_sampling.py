@@ -13,8 +13,7 @@ from hypothesis.extra.numpy import arrays
 import texvent
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent_lab.latents.change import BrightnessChange
-from texvent_lab.latents.sampling import node_grid, sample_packets
+from texvent_lab.latents.change import BrightnessChange, node_grid, sample_packets
 
 THRESHOLD = 0.25
 

@@ -4,18 +4,17 @@ import json
 import sys
 from pathlib import Path
 
-import cv2
 import pytest
 
 pytest.importorskip("OpenEXR")
 
-from texvent_lab.measure.blender.__main__ import main
+from texvent_lab.measure.blender import main
 
 SAMPLE = Path(__file__).parents[3] / "tests" / "capture" / "motion_vectors" / "blender_sample"
 
 
 def test_a_film_against_itself(tmp_path, monkeypatch, capsys):
-    words = [SAMPLE, SAMPLE, "--json", tmp_path / "a.json", "--picture", tmp_path / "a.png"]
+    words = [SAMPLE, SAMPLE, "--json", tmp_path / "a.json"]
     monkeypatch.setattr(sys, "argv", ["blender", *map(str, words)])
     main()
     results = json.loads((tmp_path / "a.json").read_text())
@@ -24,5 +23,4 @@ def test_a_film_against_itself(tmp_path, monkeypatch, capsys):
     assert results["film"]["render_seconds"] > 0
     assert results["rows"]["blend"]["stpp"] == 1.0
     assert results["rows"]["blend"]["events"] == results["rows"]["dense"]["events"] > 0
-    assert cv2.imread(str(tmp_path / "a.png")).shape[1] == 2 * 2 * 48 + 4
     assert "stpp" in capsys.readouterr().out

@@ -12,7 +12,7 @@ import pytest
 from texvent.errors import InputError
 from texvent_lab.measure.prompts import score
 from texvent_lab.measure.prompts.__main__ import main
-from texvent_lab.measure.prompts.rates import Share
+from texvent_lab.measure.prompts.score import Share
 
 GRADES = """id,style,nouns_asked,nouns_shown,motion,silently_wrong,fully_right,fully_reported,stand_in,grade,remark
 a,short,2,2,yes,no,yes,no,no,5,

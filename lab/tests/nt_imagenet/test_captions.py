@@ -8,14 +8,15 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError, FileFormatError, InputError
-from texvent_lab.nt_imagenet.caption_checks import (
+from texvent_lab.nt_imagenet.captions import (
     CaptionCheck,
+    CaptionStore,
     check_captions,
     find_duplicates,
     normalised,
+    read_captions,
+    similar_pairs,
 )
-from texvent_lab.nt_imagenet.caption_store import CaptionStore, read_captions
-from texvent_lab.nt_imagenet.similar_captions import similar_pairs
 
 SHARK = ("great white shark", "white shark")
 FACTS = {"model": "a", "longest": 200}

@@ -19,13 +19,13 @@ torch.set_num_threads(1)
 from tests.generate import tiny_pipelines  # noqa: E402
 
 from texvent.cli.app import main  # noqa: E402
-from texvent_lab.nt_imagenet.caption_store import FILE  # noqa: E402
 from texvent_lab.nt_imagenet.captioner import Captioner  # noqa: E402
-from texvent_lab.nt_imagenet.files import read_captioned  # noqa: E402
-from texvent_lab.nt_imagenet.similar_captions import (  # noqa: E402
+from texvent_lab.nt_imagenet.captions import (  # noqa: E402
+    FILE,
     embed_sentences,
     find_similar,
 )
+from texvent_lab.nt_imagenet.files import read_captioned  # noqa: E402
 
 from .tiny_data import WNIDS, contents, stream_id, write_imagenet, write_n_imagenet  # noqa: E402
 

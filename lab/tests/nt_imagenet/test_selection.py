@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from texvent.errors import FileFormatError
-from texvent_lab.nt_imagenet.images import find_class_names, find_image
+from texvent_lab.nt_imagenet.files import find_class_names, find_image
 from texvent_lab.nt_imagenet.selection import choose_classes, select_streams
 
 from .tiny_data import NAMES, WNIDS, stream_id, write_imagenet, write_n_imagenet

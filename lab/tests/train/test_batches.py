@@ -11,7 +11,7 @@ import pytest
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from texvent.errors import InputError  # noqa: E402
-from texvent_lab.train.batches import Batches  # noqa: E402
+from texvent_lab.train.task import Batches  # noqa: E402
 
 pytestmark = pytest.mark.torch
 

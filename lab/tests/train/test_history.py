@@ -7,7 +7,7 @@ import pytest
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 pytest.importorskip("matplotlib")
 
-from texvent_lab.train.history import draw_curves  # noqa: E402
+from texvent_lab.train.loop import draw_curves  # noqa: E402
 
 pytestmark = pytest.mark.torch
 

@@ -17,11 +17,13 @@ torch = pytest.importorskip("torch", reason="make test-torch runs the tests that
 
 from texvent_lab.registries import TASKS  # noqa: E402
 from texvent_lab.train.depth.config import DepthConfig  # noqa: E402
-from texvent_lab.train.depth.e2depth import make_e2depth, settings_of  # noqa: E402
-from texvent_lab.train.depth.log_depth import encode_depth  # noqa: E402
+from texvent_lab.train.depth.task import (  # noqa: E402
+    encode_depth,
+    make_e2depth,
+    settings_of,
+)
 from texvent_lab.train.flow.e_raft import make_e_raft  # noqa: E402
-from texvent_lab.train.reading import read_training  # noqa: E402
-from texvent_lab.train.run import train_from_file  # noqa: E402
+from texvent_lab.train.run import read_training, train_from_file  # noqa: E402
 from texvent_lab.train.schedule import Hardware  # noqa: E402
 
 from .sequences.windowed_specification import TEXT, write_specification  # noqa: E402

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Callable, Iterator, Sequence
-from typing import Any
+from typing import Any, TypeAlias
 
 from texvent.batch.processes import interruptible, processes
 
@@ -33,3 +33,12 @@ def run_jobs(
 def _call(function: Callable[..., Any], arguments: tuple[Any, ...]) -> Any:
     with interruptible():
         return function(*arguments)
+
+
+Progress: TypeAlias = Callable[[str], None]
+"""Called with one line per step."""
+
+
+def no_progress(line: str) -> None:
+    """Report no progress."""
+    del line

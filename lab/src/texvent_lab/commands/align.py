@@ -16,18 +16,19 @@ from texvent.generate.videos.clip_model import ClipModel
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent_lab.alignment.align import align, alignment_table
 from texvent_lab.alignment.recordings import (
+    DrawnEvents,
+    ReconstructedImages,
     Recording,
+    View,
     keep_common,
     list_samples,
     list_streams,
 )
-from texvent_lab.alignment.views import DrawnEvents, ReconstructedImages, View
-from texvent_lab.bench.machine import describe_environment
+from texvent_lab.bench.document import describe_environment
 from texvent_lab.commands.bench.result_options import ResultOptions
 from texvent_lab.nt_imagenet.files import read_captioned
 from texvent_lab.nt_imagenet.pairing import ids_of_clips
-from texvent_lab.reconstruct.config import ReconstructConfig
-from texvent_lab.reconstruct.reconstructor import load_reconstructor
+from texvent_lab.reconstruct.reconstructor import ReconstructConfig, load_reconstructor
 
 SCHEMA = "texvent-alignment-1"
 DESCRIPTION = """Does the text that a recording was made from fit it better than other texts? A CLIP

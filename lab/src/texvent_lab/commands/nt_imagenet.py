@@ -16,11 +16,15 @@ from texvent.errors import ConfigError, InputError, TexventError, shown
 from texvent.extending import suggest
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent_lab.nt_imagenet import files
-from texvent_lab.nt_imagenet.caption_checks import CHECKS, check_captions
-from texvent_lab.nt_imagenet.caption_store import FILE, CaptionStore, read_captions
 from texvent_lab.nt_imagenet.captioner import INSTRUCTION, Captioner, Dtype
-from texvent_lab.nt_imagenet.files import Captioned
-from texvent_lab.nt_imagenet.images import find_class_names, find_image
+from texvent_lab.nt_imagenet.captions import (
+    CHECKS,
+    FILE,
+    CaptionStore,
+    check_captions,
+    read_captions,
+)
+from texvent_lab.nt_imagenet.files import Captioned, find_class_names, find_image
 from texvent_lab.nt_imagenet.pairing import list_pairs
 from texvent_lab.nt_imagenet.report import Report
 from texvent_lab.nt_imagenet.selection import (
@@ -251,7 +255,7 @@ def _report(
     checks = check_captions(captions, wnids, names)
     similar = None
     if options.sentence_model is not None:
-        from texvent_lab.nt_imagenet.similar_captions import find_similar
+        from texvent_lab.nt_imagenet.captions import find_similar
 
         similar = find_similar(captions, options.sentence_model, device=options.device)
     left_out = [

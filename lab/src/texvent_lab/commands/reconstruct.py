@@ -21,8 +21,11 @@ from texvent.represent.slices import slice_by_count, slice_regularly
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.video import MICROSECONDS
 from texvent.view.video.writer import check_image_output, open_image_sink
-from texvent_lab.reconstruct.config import ReconstructConfig
-from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor
+from texvent_lab.reconstruct.reconstructor import (
+    ReconstructConfig,
+    Reconstructor,
+    load_reconstructor,
+)
 
 DESCRIPTION = """Reconstruct intensity images from events by a published network whose weights you
 provide (docs/reconstruction.md says where to get them).

@@ -48,7 +48,7 @@ def run(arguments: Sequence[str]) -> int:
         description=DESCRIPTION,
     )
     kind = TASKS.load(options.task)
-    from texvent_lab.train.history import HIDDEN
+    from texvent_lab.train.loop import HIDDEN
     from texvent_lab.train.run import train_from_file  # brings torch
 
     folder = options.out.absolute()

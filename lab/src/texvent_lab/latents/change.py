@@ -1,14 +1,4 @@
-"""How brightness changes between the latent frames of a video. Experimental.
-
-A video autoencoder keeps one latent frame for r frames: latent frame 0 is frame 0, latent frame k
-is frames (k − 1)·r + 1 .. k·r. Interval k − 1 lasts from frame (k − 1)·r to frame k·r and is cut
-into B bins of equal length. The voxel of a bin is the signed change of brightness over it,
-
-    c[k, b, y, x] = L(t[k, b + 1], y, x) − L(t[k, b], y, x),    L = ln(α + I)
-
-in log units: ∂L/∂t times the length of the bin. I is luma on the 0..255 scale. A bin is as wide and
-as high as a pixel of the decoded video, not of the latents.
-"""
+"""Brightness changes between latents, and the events that they give."""
 
 from __future__ import annotations
 
@@ -23,7 +13,11 @@ from numpy.typing import NDArray
 from texvent.brightness import balanced_log
 from texvent.config import check_range
 from texvent.errors import InputError
+from texvent.events import EventStream
 from texvent.sensor import SensorSize
+from texvent.simulate.packets import FrameInterval, make_packet
+from texvent.simulate.random.draws import frame_key
+from texvent.simulate.v2ce.ldati import sample_events
 from texvent.video import Frame, FrameStream, RenderableStream, frame_time_us
 
 BALANCE = 30.0
@@ -124,3 +118,61 @@ def measure_change(
         before = after
     voxels = np.stack(steps).reshape(intervals, bins, *steps[0].shape)
     return BrightnessChange(voxels, video.fps, frames_per_latent, balance)
+
+
+Float64Array = NDArray[np.float64]
+
+
+def sample_packets(
+    change: BrightnessChange, *, contrast_threshold: float = 0.2, seed: int = 0
+) -> Iterator[EventStream]:
+    """Events of each interval.
+
+    Args:
+        change: what the pixels see.
+        contrast_threshold: δ, log units.
+        seed: of the random draws, 0..2⁶³−1.
+
+    Yields:
+        Packets in time order, a packet per latent frame after the first.
+
+    Raises:
+        ConfigError: the threshold or the seed is out of range.
+    """
+    check_range("contrast_threshold", contrast_threshold, 0.01, 10.0)
+    check_range("seed", seed, 0, 2**63 - 1)
+    bounds_us = change.edges_us[:: change.voxels.shape[1]].tolist()
+    distance = np.zeros(change.voxels.shape[2:])
+    for number, voxels in enumerate(change.voxels):
+        start_us, stop_us = bounds_us[number : number + 2]
+        interval = FrameInterval(start_us, stop_us, frame_key(seed, stop_us))
+        grid, distance = node_grid(voxels, distance, contrast_threshold)
+        yield make_packet(sample_events(grid, interval), interval, change.size)
+
+
+def node_grid(
+    voxels: NDArray[np.float32], distance: Float64Array, contrast_threshold: float
+) -> tuple[Float64Array, Float64Array]:
+    """The grid that LDATI takes, from the changes of one interval.
+
+    Args:
+        voxels: changes, [B, H, W], log units.
+        distance: from the brightness at each pixel's last event, [H, W], within ± δ.
+        contrast_threshold: δ, log units.
+
+    Returns:
+        Events per node, ON first, then OFF, [2, B + 1, H, W], and the distance at the end.
+    """
+    grid = np.zeros((2, len(voxels) + 1, *voxels.shape[1:]))
+    # In units of δ: n events move the reference by n.
+    distance = distance / contrast_threshold
+    for node, change in enumerate(voxels / np.float64(contrast_threshold)):
+        counts = np.trunc(distance + change)
+        n, along = np.abs(counts), distance * np.sign(change)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            late = np.where(n > 0, (n * (n + 1) / 2 - n * along) / np.abs(change), 0.0)
+        for polarity, fired in enumerate((counts > 0, counts < 0)):
+            grid[polarity, node] += np.where(fired, n - late, 0.0)
+            grid[polarity, node + 1] += np.where(fired, late, 0.0)
+        distance = distance + change - counts
+    return grid, distance * contrast_threshold

@@ -1,6 +1,6 @@
-"""How well background activity filters tell noise from signal, and how fast they are.
+"""How well background activity filters tell noise from signal.
 
-    python -m texvent_lab.measure.event_filters [--hot | --speed | --figure FILE.png]
+    python -m texvent_lab.measure.event_filters [--hot]
 
 Events come from the embedded generator and carry labels. A filter is judged by the share of the
 signal and of the noise that it keeps, over windows from 0.2 ms to 1 s: AUC is the area under that
@@ -10,9 +10,6 @@ curve, 1 for a perfect filter and 0.5 for one that guesses. Hot pixels are added
 from __future__ import annotations
 
 import argparse
-import time
-from collections.abc import Callable
-from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -21,16 +18,8 @@ from numpy.typing import NDArray
 import texvent
 from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
-from texvent.extending import require
-from texvent.represent.named import represent
-from texvent.sensor import SensorSize
 from texvent.transform.edits import merge
-from texvent.transform.filters import kernels_cpu
-from texvent.transform.filters.apply import NEVER
 from texvent.transform.filters.noise_filters import find_hot_pixels
-from texvent.view.drawing.canvas import Image, blank, draw_text, png_bytes
-from texvent.view.drawing.palettes import get_palette
-from texvent_lab.measure.representations import CAPTION, GAP, TEXT, WHITE, paint
 
 SCENES = {
     "car": "a red car drives left past two trees, the camera follows it",
@@ -47,8 +36,6 @@ FILTERS: dict[str, dict[str, Any]] = {
     "2 of 8, same polarity": {"support": 2, "polarity": True},
     "3 of 24": {"support": 3, "radius": 2},
 }
-EVENTS = 1_000_000
-VGA = SensorSize(640, 480)
 
 
 class Curve(NamedTuple):
@@ -71,21 +58,9 @@ class Curve(NamedTuple):
 
 def main() -> None:
     """Print one of the tables."""
-    parser = argparse.ArgumentParser(description="Judge and time event filters.")
-    parser.add_argument("--speed", action="store_true", help="time them instead")
+    parser = argparse.ArgumentParser(description="Judge event filters.")
     parser.add_argument("--hot", action="store_true", help="judge hot pixels instead")
-    parser.add_argument("--figure", type=Path, help="draw a filter's work instead")
-    arguments = parser.parse_args()
-    if arguments.figure:
-        arguments.figure.write_bytes(png_bytes(draw_figure()))
-        return
-    if arguments.hot:
-        print_hot_pixels()
-        return
-    if arguments.speed:
-        print_speed()
-        return
-    print_roc()
+    (print_hot_pixels if parser.parse_args().hot else print_roc)()
 
 
 def labelled(scene: str, noise_hz: float) -> EventStream:
@@ -152,78 +127,6 @@ def print_hot_pixels() -> None:
             right = int(np.isin(found, places).sum())
             cells.append(f"{right} % and {len(found) - right} others")
         print(f"| {rate_hz} Hz |", " | ".join(cells), "|")
-
-
-def draw_figure() -> Image:
-    """30 ms of a scene: all events, those that a filter keeps, and those that are signal."""
-    events = labelled("ball", 5.0)
-    kept = events.filter("background-activity", window_us=20_000, support=2, polarity=True)
-    signal = events[labels_of(events) == SIGNAL]
-    captions = {"all events, noise of 5 Hz": events, "filtered": kept, "signal alone": signal}
-    tiles = []
-    for caption, one in captions.items():
-        frame = represent("event-frame", one.cut(500_000, 530_000)).astype(np.float64)
-        tile = blank(one.size.width + GAP, one.size.height + CAPTION, WHITE)
-        draw_text(tile, caption, 2, CAPTION - 8, height=TEXT, colour=get_palette("paper").ink)
-        tile[CAPTION:, : one.size.width] = paint(np.clip(frame, -1, 1))
-        tiles.append(tile)
-    return np.hstack(tiles)
-
-
-def print_speed() -> None:
-    """Events per second of the kernels, and their ratio to EventCV."""
-    rng = np.random.default_rng(1)
-    x, y, p = (rng.integers(0, side, EVENTS) for side in (*VGA, 2))
-    t = np.sort(rng.integers(0, 200_000, EVENTS))
-    events = EventStream.from_columns(x, y, t, p, size=VGA)
-    eventcv: Any = require("eventcv", extra="readers")
-    stacked = np.stack([events.x, events.y, events.t, events.p], axis=1).astype(np.int64)
-    theirs = eventcv.from_numpy(stacked, sensor_size=tuple(VGA), time_unit="us")
-
-    def supported(module: Any, part: EventStream) -> Callable[[], Any]:
-        def call() -> Any:
-            seen = np.full((1, *VGA.shape), NEVER, np.int64)
-            plane = np.zeros(len(part), np.uint8)
-            return module.find_supported(part.x, part.y, part.t, plane, seen, 5000, 1, 1)
-
-        return call
-
-    def rested(module: Any, part: EventStream) -> Callable[[], Any]:
-        def call() -> Any:
-            kept = np.full(VGA.shape, NEVER, np.int64)
-            return module.find_rested(part.x, part.y, part.t, kept, 5000)
-
-        return call
-
-    rows = {
-        "background-activity": (
-            supported, lambda: events.filter("background-activity", window_us=5000),
-            lambda: theirs.background_activity_filter(5000),
-        ),
-        "refractory": (
-            rested, lambda: events.filter("refractory", period_us=5000),
-            lambda: theirs.refractory_filter(5000),
-        ),
-    }  # fmt: skip
-    for name, (make, whole, other) in rows.items():
-        kernel = measure(make(kernels_cpu, events)) / len(events)
-        method, rival = measure(whole) / len(events), measure(other) / len(events)
-        print(
-            f"{name}: kernel {1e-6 / kernel:.0f} million events per CPU-second, "
-            f"events.filter {1e-6 / method:.0f} million, "
-            f"{rival / method:.2f} times EventCV"
-        )
-
-
-def measure(call: Callable[[], Any], repeats: int = 5) -> float:
-    """Least seconds of CPU, all threads together, after one call that does not count."""
-    call()
-    taken = []
-    for _ in range(repeats):
-        begin = time.process_time()
-        call()
-        taken.append(time.process_time() - begin)
-    return min(taken)
 
 
 if __name__ == "__main__":

@@ -29,11 +29,15 @@ from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.threshold_map import write_threshold_map
 from texvent_lab.bench.fidelity.entries import SENSOR_FILE, THRESHOLD_FILE
-from texvent_lab.bench.oracle.camera import EXPOSURE
 from texvent_lab.bench.oracle.pixel import NOISY, REFERENCE_SEED
 from texvent_lab.bench.oracle.recording import FPS, SIZE, record, render_video
-from texvent_lab.bench.oracle.scenes import Float64Array, Scene, panning_texture
-from texvent_lab.bench.oracle.smooth_texture import ValueNoise
+from texvent_lab.bench.oracle.scenes import (
+    EXPOSURE,
+    Float64Array,
+    Scene,
+    ValueNoise,
+    panning_texture,
+)
 
 FLICKER_HZ, RATIO, BRIGHT = 4.0, 5.0, 1 / EXPOSURE
 """Bright is what the camera shows as white."""

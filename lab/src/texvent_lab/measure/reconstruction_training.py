@@ -25,16 +25,14 @@ from texvent.extending import full_version, require
 from texvent.metrics.image_measures import Measures, load_measures
 from texvent.options.values import plain
 from texvent.runtime.progress import NO_PROGRESS
-from texvent_lab.bench.document import read_document, write_document
-from texvent_lab.bench.machine import describe_environment
-from texvent_lab.bench.real.frame_recording import FrameRecording, open_recording
-from texvent_lab.bench.real.scene import locate_source
-from texvent_lab.bench.reconstruction.image_scores import ImageScores, ScoreCollector, true_image
+from texvent_lab.bench.document import describe_environment, read_document, write_document
+from texvent_lab.bench.real.recording import FrameRecording, locate_source, open_recording
 from texvent_lab.bench.reconstruction.run import ReconstructionPlan, ReconstructionScorer
+from texvent_lab.bench.reconstruction.scores import ImageScores, ScoreCollector, true_image
 from texvent_lab.reconstruct.reconstructor import load_reconstructor
 from texvent_lab.train.loop import LOSS, train
-from texvent_lab.train.reading import read_training
 from texvent_lab.train.reconstruction.config import ReconstructionConfig
+from texvent_lab.train.run import read_training
 from texvent_lab.train.schedule import EXTRA, Hardware
 
 SCHEMA = "texvent-reconstruction-training-1"

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from texvent.extending import full_version
-from texvent_lab.nt_imagenet.caption_checks import (
+from texvent_lab.nt_imagenet.captions import (
     CHECKS,
     FEWEST_WORDS,
     MOST_WORDS,

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import copy
 from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
-from typing import TypeAlias
+from typing import Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,9 +20,24 @@ from texvent.networks.weight_files import Tensor
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
 from texvent_lab.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
-from texvent_lab.reconstruct.config import Device
 from texvent_lab.reconstruct.protocol import PublishedNetwork
 from texvent_lab.registries import RECONSTRUCTORS
+
+Device: TypeAlias = Literal["auto", "cpu", "cuda"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReconstructConfig:
+    """Which network turns events into images."""
+
+    network: str = "e2vid"
+    """Network: e2vid, e2vid+, firenet, firenet+, hypere2vid or et-net."""
+    weights: Path | None = None
+    """File with its published weights, which texvent neither carries nor downloads; default: its
+    place in the weights folder."""
+    device: Device = "auto"
+    """Where it runs: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one."""
+
 
 Intensity: TypeAlias = NDArray[np.float32]
 """An image, [H, W] float32, 0..1."""

@@ -7,22 +7,174 @@ training that was killed therefore ends with the weights of one that was not.
 from __future__ import annotations
 
 import copy
+import json
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from texvent.errors import OutputError, TexventError, one_line
+from texvent.batch.manifest import describe_differences
+from texvent.errors import ConfigError, FileFormatError, OutputError, TexventError, one_line
 from texvent.extending import full_version, require
-from texvent.networks.weight_files import NOTES, TRAINING
+from texvent.io.atomic import atomic_file
+from texvent.networks.weight_files import DAMAGE, NOTES, TRAINING, Tensor
 from texvent.runtime.progress import Progress
-from texvent_lab.train.batches import Batches
-from texvent_lab.train.checkpoint import WEIGHTS_FILE, TrainingState, read_state, save, write_state
-from texvent_lab.train.history import write_history
 from texvent_lab.train.schedule import EXTRA, Hardware, Schedule
-from texvent_lab.train.task import Task
+from texvent_lab.train.task import Batches, Task
+
+CHECKPOINT_FILE, WEIGHTS_FILE = "checkpoint.pt", "weights.pt"
+
+
+@dataclass(kw_only=True)
+class TrainingState:
+    """All that the next epoch depends on, and what is kept of those before."""
+
+    tables: Mapping[str, Any]
+    """What is trained and how, as plain values."""
+    version: str = field(default_factory=full_version)
+    """Of texvent."""
+    epochs: int = 0
+    """Complete ones."""
+    network: Mapping[str, Tensor] = field(default_factory=dict)
+    optimizer: Mapping[str, Any] = field(default_factory=dict)
+    best_epoch: int = 0
+    """From 1."""
+    best: Mapping[str, Tensor] = field(default_factory=dict)
+    """The network after that epoch."""
+    reduced_at: int = 0
+    """Epoch after which the learning rate was reduced last."""
+    rows: list[dict[str, float]] = field(default_factory=list)
+    """Scores of all epochs."""
+
+
+def write_state(folder: Path, state: TrainingState) -> None:
+    """Write the state of a training, flushed to disk, in place of the last one."""
+    values = {one.name: getattr(state, one.name) for one in fields(state)}
+    save(folder / CHECKPOINT_FILE, values)
+
+
+def save(path: Path, values: Mapping[str, Any]) -> None:
+    """Write tensors and plain values as torch does."""
+    torch = require("torch", extra=EXTRA)
+    with atomic_file(path, overwrite=True) as part:
+        torch.save(dict(values), part)
+
+
+def read_state(folder: Path, tables: Mapping[str, Any]) -> TrainingState | None:
+    """The state of a training that was begun, or None.
+
+    Args:
+        folder: of the training.
+        tables: what is to be trained now.
+
+    Raises:
+        FileFormatError: the file is damaged.
+        ConfigError: another training was begun there, or by another version of texvent.
+    """
+    torch = require("torch", extra=EXTRA)
+    path = folder / CHECKPOINT_FILE
+    if not path.exists():
+        return None
+    try:
+        values = torch.load(path, map_location="cpu", weights_only=True)
+        state = TrainingState(**values)
+    except DAMAGE as error:
+        raise FileFormatError(f"{path} is damaged; delete it to begin again") from error
+    if state.version != full_version():
+        raise ConfigError(
+            f"{folder} was begun by texvent {state.version}, and this is {full_version()}; install "
+            "that version, or name another folder with -o"
+        )
+    changed = describe_differences(state.tables, tables)
+    if changed:
+        raise ConfigError(
+            f"{folder} holds another training: {changed}; name another folder with -o, or delete it"
+        )
+    return state
+
+
+HISTORY_FILE, CURVES_FILE = "history.json", "curves.png"
+Row = Mapping[str, float]
+"""Name → value of one epoch; "epoch" counts from 1."""
+HIDDEN = ("epoch", "seconds")
+"""What gets no curve of its own."""
+LOSSES = "loss"
+"""End of the names of losses, which share a plot."""
+MOST_COLUMNS, WIDTH_INCHES, HEIGHT_INCHES = 3, 4.5, 3.4
+COLOURS = ("#1f77b4", "#d95f02", "#2ca02c", "#7b3294")
+STANDARD_ERROR = " standard error"
+"""End of the names of standard errors; they are drawn around what they belong to."""
+
+
+def write_history(folder: Path, facts: Mapping[str, Any], rows: Sequence[Row]) -> None:
+    """Write both files, over those of the epoch before.
+
+    Args:
+        folder: of the training.
+        facts: what else the JSON says: how it was trained, and which epoch is the best.
+        rows: of all epochs so far.
+
+    Raises:
+        MissingDependencyError: matplotlib is not installed.
+    """
+    text = json.dumps({**facts, "epochs": [*rows]}, indent=1)
+    with atomic_file(folder / HISTORY_FILE, overwrite=True) as part:
+        part.write_text(text + "\n", encoding="utf-8")
+    figure = draw_curves(rows, best=facts.get("best_epoch"))
+    with atomic_file(folder / CURVES_FILE, overwrite=True) as part:
+        figure.savefig(part, format="png", dpi=120)
+
+
+def draw_curves(rows: Sequence[Row], *, best: int | None = None) -> Any:
+    """A matplotlib figure: all losses in one plot, then a plot per score.
+
+    Args:
+        rows: of all epochs so far, at least one.
+        best: the epoch to mark.
+    """
+    figure_module = require("matplotlib.figure", extra=EXTRA)
+    plots: dict[str, list[str]] = {}
+    for name in rows[0]:
+        if name not in HIDDEN and not name.endswith(STANDARD_ERROR):
+            plots.setdefault(LOSSES if name.endswith(LOSSES) else name, []).append(name)
+    columns = min(len(plots), MOST_COLUMNS)
+    lines = -(-len(plots) // columns)
+    size = (WIDTH_INCHES * columns, HEIGHT_INCHES * lines)
+    figure = figure_module.Figure(figsize=size, layout="constrained", facecolor="white")
+    places = figure.subplots(lines, columns, squeeze=False).ravel()
+    for axes, (title, names) in zip(places, plots.items(), strict=False):
+        _draw_plot(axes, rows, names, best)
+        axes.set_title(title)
+    for axes in places[len(plots) :]:
+        axes.remove()
+    return figure
+
+
+def _draw_plot(axes: Any, rows: Sequence[Row], names: Sequence[str], best: int | None) -> None:
+    """Scores over epochs, with their standard errors if they are known."""
+    epochs = [row["epoch"] for row in rows]
+    if best is not None:
+        axes.axvline(best, color="0.6", linestyle="--", linewidth=1, label=f"best epoch {best}")
+    for name, colour in zip(names, COLOURS, strict=False):
+        values = np.array([row[name] for row in rows])
+        axes.plot(epochs, values, color=colour, marker=".", label=name)
+        if name + STANDARD_ERROR in rows[0]:
+            error = np.array([row[name + STANDARD_ERROR] for row in rows])
+            axes.fill_between(
+                epochs, values - error, values + error, color=colour, alpha=0.2, linewidth=0,
+                label="± standard error",
+            )  # fmt: skip
+    axes.set_facecolor("white")
+    axes.set_xlabel("epoch")
+    axes.set_xlim(0.5, max(epochs[-1], 2) + 0.5)
+    axes.xaxis.get_major_locator().set_params(integer=True)
+    axes.grid(color="0.9")
+    axes.set_axisbelow(True)
+    axes.legend(fontsize="small", framealpha=0.8)
+
 
 LOSS = "training loss"
 
@@ -111,17 +263,41 @@ def _train_epoch(
     progress: Progress,
 ) -> float:
     """Mean loss of the batches of an epoch."""
-    torch = require("torch", extra=EXTRA)
     device = hardware.find_device()
     network.train()
-    total = 0.0
-    for number, batch in enumerate(batches.epoch(epoch)):
-        with hardware.autocast(device):
-            loss = task.loss(network, batch, device)
+
+    def losses() -> Iterator[Tensor]:
+        for number, batch in enumerate(batches.epoch(epoch)):
+            with hardware.autocast(device):
+                loss = task.loss(network, batch, device)
+            yield loss
+            progress.advance(f"epoch {epoch + 1} of {schedule.epochs}", number + 1, len(batches))
+
+    return descend(losses(), optimizer, network, where=f"epoch {epoch + 1}", schedule=schedule)
+
+
+def descend(
+    losses: Iterable[Tensor], optimizer: Any, network: Any, *, where: str, schedule: Schedule
+) -> float:
+    """One step of the optimiser for each loss; returns their mean.
+
+    Args:
+        losses: scalars; each is computed after the step for the one before.
+        optimizer: of the network's parameters.
+        network: what is trained.
+        where: part of the training, for the message.
+        schedule: whether gradients are clipped.
+
+    Raises:
+        TexventError: a loss is no number.
+    """
+    torch = require("torch", extra=EXTRA)
+    total, number = 0.0, 0
+    for number, loss in enumerate(losses, start=1):
         value = float(loss.detach())
         if not np.isfinite(value):
             raise TexventError(
-                f"the loss is {value} in epoch {epoch + 1}, batch {number + 1}; give a smaller "
+                f"the loss is {value} in {where}, batch {number}; give a smaller "
                 "learning_rate, or clip_gradient = 1"
             )
         optimizer.zero_grad()
@@ -130,8 +306,7 @@ def _train_epoch(
             torch.nn.utils.clip_grad_norm_(network.parameters(), schedule.clip_gradient)
         optimizer.step()
         total += value
-        progress.advance(f"epoch {epoch + 1} of {schedule.epochs}", number + 1, len(batches))
-    return total / len(batches)
+    return total / max(number, 1)
 
 
 def _note_epoch(

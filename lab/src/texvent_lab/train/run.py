@@ -1,25 +1,72 @@
-"""A training from its file, and the scores of trained weights."""
+"""Trainings and evaluations from a training file."""
 
 from __future__ import annotations
 
+import dataclasses
 import json
+import typing
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from texvent.errors import InputError
+from texvent.errors import ConfigError, InputError, shown
 from texvent.extending import full_version, require
 from texvent.io.atomic import atomic_file
 from texvent.networks.weight_files import describe_file, read_mapping
-from texvent.options.values import plain
+from texvent.options.values import plain, with_options
 from texvent.runtime.progress import NO_PROGRESS, Progress
+from texvent.settings.config_files import read_document
 from texvent_lab.reconstruct.checkpoint import LEFT_BY_TRAINING
-from texvent_lab.train.checkpoint import TrainingState
-from texvent_lab.train.loop import train
-from texvent_lab.train.reading import read_training
+from texvent_lab.train.loop import TrainingState, train
 from texvent_lab.train.schedule import EXTRA, Hardware
 from texvent_lab.train.task import PredictingTask, TaskConfig
+
+Config = TypeVar("Config")
+
+
+def read_training(path: Path, config: Config) -> Config:
+    """The training in a file; paths in it count from its folder.
+
+    Args:
+        path: a `.toml`, `.yaml` or `.yml` file.
+        config: the defaults of the task, a dataclass; its tables are dataclasses too.
+
+    Raises:
+        InputError: the file cannot be read.
+        ConfigError: an unknown name, or a value that does not fit.
+    """
+    return with_tables(config, read_document(path), folder=path.parent, where=str(path))
+
+
+def with_tables(config: Config, tables: Mapping[str, Any], *, folder: Path, where: str) -> Config:
+    """A copy of a config with values replaced, in its tables too.
+
+    Args:
+        config: the defaults.
+        tables: name → value; of a table, name → value again.
+        folder: that relative paths count from.
+        where: what to call them in messages.
+
+    Raises:
+        ConfigError: as `read_training`.
+    """
+    hints = typing.get_type_hints(type(config))
+    values: dict[str, Any] = {}
+    for name, value in tables.items():
+        name = name.replace("-", "_")
+        inner = getattr(config, name, None)
+        if dataclasses.is_dataclass(inner):
+            if not isinstance(value, Mapping):
+                raise ConfigError(f"{where}: {name} is {shown(value)}; it must be a table")
+            inner = with_tables(inner, value, folder=folder, where=f"{where}: {name}")
+            config = dataclasses.replace(config, **{name: inner})  # type: ignore[type-var]
+        elif Path in (hints.get(name), *typing.get_args(hints.get(name))):
+            values[name] = str(folder / str(value))
+        else:
+            values[name] = value
+    return with_options(config, values, where=where)
+
 
 WHERE_FROM = "texvent train writes it as weights.pt"
 """Of a weights file, for messages."""

@@ -1,15 +1,21 @@
-"""What a task brings to the training loop."""
+"""What a task brings to the training loop: its network, loss and scores, and its batches."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar, Protocol, runtime_checkable
 
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.dataset.loading.collate import collate
+from texvent.dataset.loading.order import epoch_order
+from texvent.errors import TexventError
+from texvent.extending import require
 from texvent.networks.weight_files import Tensor
-from texvent_lab.train.batches import Batches
-from texvent_lab.train.schedule import Schedule
+from texvent_lab.train.schedule import EXTRA, Schedule
 
 
 class TaskConfig(Protocol):
@@ -95,3 +101,74 @@ class PredictingTask(Task, Protocol):
     def scores(self, predictions: Mapping[str, Sequence[Any]]) -> dict[str, float]:
         """What `validate` gives, from these columns."""
         ...
+
+
+_data: Any = require("torch.utils.data", extra=EXTRA)
+_Dataset: Any = _data.Dataset
+_AUGMENTATION = 1
+
+
+class MakeSample(Protocol):
+    """Samples as arrays by name; picklable, for worker processes."""
+
+    @property
+    def identity(self) -> str:
+        """Of the samples; a training goes on with equal ones alone."""
+        ...
+
+    def __call__(self, number: int, chance: np.random.Generator) -> Mapping[str, Any]:
+        """A sample, by its number and the chance of this sample in this epoch."""
+        ...
+
+
+@dataclass(frozen=True)
+class Batches:
+    """Samples that are made anew in every epoch, by worker processes if there are any.
+
+    The number of workers changes no batch.
+    """
+
+    make: MakeSample
+    count: int
+    """Number of samples."""
+    batch_size: int
+    seed: int
+    shuffle: bool = True
+    workers: int = 0
+
+    def __len__(self) -> int:
+        """Number of batches of an epoch."""
+        return -(-self.count // self.batch_size)
+
+    def epoch(self, number: int) -> Iterator[dict[str, Any]]:
+        """The batches of an epoch, 0 or more; see `collate`."""
+        numbers: NDArray[np.int64] = np.arange(self.count)
+        if self.shuffle:
+            numbers = epoch_order(np.zeros(self.count, np.int64), seed=self.seed, epoch=number)
+        # Workers end with the epoch: they hold its number.
+        loader = _data.DataLoader(
+            _Epoch(self, number),
+            sampler=numbers.tolist(),
+            batch_size=self.batch_size,
+            num_workers=self.workers,
+            collate_fn=collate,
+            multiprocessing_context="spawn" if self.workers else None,
+        )
+        try:
+            yield from loader
+        except TexventError as error:
+            # torch puts the worker's traceback, which ends with the message, in its place.
+            raise type(error)(str(error).rpartition(f".{type(error).__name__}: ")[2]) from error
+
+
+class _Epoch(_Dataset):
+    def __init__(self, batches: Batches, number: int) -> None:
+        super().__init__()
+        self._batches, self._number = batches, number
+
+    def __len__(self) -> int:
+        return self._batches.count
+
+    def __getitem__(self, sample: int) -> Mapping[str, Any]:
+        keys = (self._batches.seed, _AUGMENTATION, self._number, sample)
+        return self._batches.make(sample, np.random.default_rng(keys))

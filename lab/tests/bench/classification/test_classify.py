@@ -8,8 +8,13 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.networks.resnet34 import resnet_shapes
 from texvent.sensor import SensorSize
-from texvent_lab.bench.classification.classify import Sample, classify, list_samples, take_slice
-from texvent_lab.bench.classification.resnet34_weights import read_resnet_weights
+from texvent_lab.bench.classification import (
+    Sample,
+    classify,
+    list_samples,
+    read_resnet_weights,
+    take_slice,
+)
 
 from .torch_resnet import torch_resnet
 
@@ -118,7 +123,7 @@ def checkpoint(torch, tmp_path):
 
 @pytest.mark.torch
 def test_the_network_agrees_with_layers_of_torch_put_together_by_hand(torch, checkpoint):
-    from texvent_lab.bench.classification.resnet34 import ResNetClassifier
+    from texvent_lab.bench.classification import ResNetClassifier
 
     weights = read_resnet_weights(checkpoint)
     assert (weights.blocks, weights.class_count) == (BLOCKS, CLASSES)

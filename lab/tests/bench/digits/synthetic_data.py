@@ -9,7 +9,7 @@ from texvent.events import EventStream
 from texvent.run.prepare import prepare_video
 from texvent.sensor import SensorSize
 from texvent_lab.bench.digits.arms import find_arm
-from texvent_lab.bench.digits.data.sheet import Digits, DigitSheet
+from texvent_lab.bench.digits.sheet import Digits, DigitSheet
 
 TRAIN, PAIRS = 40, 6
 SIZE = SensorSize(34, 34)

@@ -14,11 +14,9 @@ from texvent.events import EventStream
 from texvent.run.prepare import prepare_video
 from texvent.sensor import SensorSize
 from texvent_lab.bench.digits.arms import find_arm
-from texvent_lab.bench.digits.data.idx import read_idx, read_mnist
-from texvent_lab.bench.digits.data.inputs import represent_all
-from texvent_lab.bench.digits.data.polarity import polarity_agreement
-from texvent_lab.bench.digits.data.recordings import read_recordings
-from texvent_lab.bench.digits.data.sheet import MARGIN, PITCH, Digits, DigitSheet
+from texvent_lab.bench.digits.inputs import polarity_agreement, read_idx, read_mnist, represent_all
+from texvent_lab.bench.digits.recordings import read_recordings
+from texvent_lab.bench.digits.sheet import MARGIN, PITCH, Digits, DigitSheet
 
 from .synthetic_data import encode, figures, record, tile_events, write_idx, write_mnist
 

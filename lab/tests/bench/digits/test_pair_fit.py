@@ -3,7 +3,7 @@
 from texvent.run.prepare import prepare_video
 from texvent_lab.bench.digits import pair_fit
 from texvent_lab.bench.digits.arms import find_arm
-from texvent_lab.bench.digits.data.sheet import Digits, DigitSheet
+from texvent_lab.bench.digits.sheet import Digits, DigitSheet
 
 from .synthetic_data import figures, tile_events
 

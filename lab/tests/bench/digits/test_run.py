@@ -10,14 +10,14 @@ from texvent.errors import FileFormatError, MissingDependencyError
 from texvent.options.fields import option_names
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent_lab.bench.digits.arms import find_arm
-from texvent_lab.bench.digits.data.idx import read_mnist
+from texvent_lab.bench.digits.inputs import read_mnist
+from texvent_lab.bench.digits.page import page_files
 from texvent_lab.bench.digits.pair_fit import COORDINATES
 from texvent_lab.bench.digits.plan import DigitsPlan
-from texvent_lab.bench.digits.report.page import page_files
-from texvent_lab.bench.digits.report.results import read_report
-from texvent_lab.bench.digits.report.tables import summary_text
+from texvent_lab.bench.digits.results import read_report
 from texvent_lab.bench.digits.run import run_digits
 from texvent_lab.bench.digits.simulation import simulate_digits
+from texvent_lab.bench.digits.tables import summary_text
 from texvent_lab.bench.document import read_document, write_document
 from texvent_lab.train.schedule import Schedule
 

@@ -3,13 +3,15 @@
 import numpy as np
 import pytest
 
-from texvent_lab.bench.digits.report.results import Comparison, DigitsReport, SetScore
-from texvent_lab.bench.digits.report.statistics import (
+from texvent_lab.bench.digits.results import (
+    Comparison,
+    DigitsReport,
+    SetScore,
     compare_classifiers,
     difference_interval,
     vote,
 )
-from texvent_lab.bench.digits.report.tables import accuracy_table, best_marks, comparison_table
+from texvent_lab.bench.digits.tables import accuracy_table, best_marks, comparison_table
 
 
 def pair(both, first, second, neither):

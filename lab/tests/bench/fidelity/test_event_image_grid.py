@@ -2,7 +2,7 @@ import cv2
 import numpy as np
 
 from texvent_lab.bench.fidelity.entries import Entry
-from texvent_lab.bench.fidelity.event_image_grid import COLUMNS, event_image_grid
+from texvent_lab.bench.fidelity.page import COLUMNS, event_image_grid
 from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
 
 from ..synthetic_report import synthetic_details

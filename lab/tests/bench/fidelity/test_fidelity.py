@@ -14,7 +14,7 @@ from texvent.metrics.compare import compare
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
 from texvent.simulate.physical.threshold_map import read_threshold_map
-from texvent_lab.bench.fidelity.details import BINS, describe
+from texvent_lab.bench.fidelity.comparison import BINS, describe
 from texvent_lab.bench.fidelity.entries import INTERPOLATIONS, Entry, choose_entries
 from texvent_lab.bench.fidelity.results import read_report
 from texvent_lab.bench.fidelity.run import (
@@ -26,9 +26,9 @@ from texvent_lab.bench.fidelity.run import (
     score_entry,
 )
 from texvent_lab.bench.fidelity.table import fidelity_tables
-from texvent_lab.bench.oracle.camera import EXPOSURE
 from texvent_lab.bench.oracle.pixel import IDEAL, NOISY, PixelArray
 from texvent_lab.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, record
+from texvent_lab.bench.oracle.scenes import EXPOSURE
 
 from ..synthetic_report import synthetic_report
 

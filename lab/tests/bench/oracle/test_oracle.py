@@ -6,12 +6,17 @@ import pytest
 from texvent.errors import ConfigError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
-from texvent_lab.bench.oracle.camera import camera_level, radiance_of
 from texvent_lab.bench.oracle.pixel import IDEAL, NOISY, PixelArray, PixelModel
-from texvent_lab.bench.oracle.prompt_scenes import PROMPTS
 from texvent_lab.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, record, render_video
-from texvent_lab.bench.oracle.scenes import SCENES, build_scene, known_flow
-from texvent_lab.bench.oracle.smooth_texture import ValueNoise
+from texvent_lab.bench.oracle.scenes import (
+    PROMPTS,
+    SCENES,
+    ValueNoise,
+    build_scene,
+    camera_level,
+    known_flow,
+    radiance_of,
+)
 
 ONE = SensorSize(1, 1)
 

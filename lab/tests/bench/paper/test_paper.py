@@ -10,10 +10,8 @@ from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError
 from texvent.metrics.compare import compare
 from texvent.metrics.event_frames import EventFrameLpips
-from texvent_lab.bench.paper import simulator_tables
-from texvent_lab.bench.paper.ablation_tables import ablation_figures, leave_out_other_tables
+from texvent_lab.bench.paper import tables
 from texvent_lab.bench.paper.config_entry import read_ablations
-from texvent_lab.bench.paper.network_tables import accuracy_figures
 from texvent_lab.bench.paper.published_tables import (
     TABLES,
     OurFigures,
@@ -21,8 +19,13 @@ from texvent_lab.bench.paper.published_tables import (
     join_figures,
 )
 from texvent_lab.bench.paper.run import PaperInputs, measure_table
-from texvent_lab.bench.paper.simulator_tables import event_frame_figures
-from texvent_lab.bench.real.scene import RecordingPart, open_scene
+from texvent_lab.bench.paper.tables import (
+    ablation_figures,
+    accuracy_figures,
+    event_frame_figures,
+    leave_out_other_tables,
+)
+from texvent_lab.bench.real.recording import RecordingPart, open_scene
 
 from ..synthetic_report import synthetic_report
 
@@ -34,10 +37,10 @@ def silent(line):
 def keep_few(monkeypatch):
     """Three of the columns, without motion compensation, which is tested elsewhere."""
     few = {
-        column: dataclasses.replace(simulator_tables.ENTRIES[column], interpolate="none")
+        column: dataclasses.replace(tables.ENTRIES[column], interpolate="none")
         for column in ("VID2E", "V2CE", "Texvent")
     }
-    monkeypatch.setattr(simulator_tables, "ENTRIES", few)
+    monkeypatch.setattr(tables, "ENTRIES", few)
 
 
 def test_every_row_of_a_table_has_a_figure_per_column():
@@ -134,7 +137,7 @@ def test_the_network_of_a_table_is_named_with_the_place_of_its_weights(
 
 def test_seconds_per_pair_are_measured_for_what_runs(monkeypatch):
     keep_few(monkeypatch)
-    monkeypatch.setattr(simulator_tables, "TIMED_PAIRS", 2)
+    monkeypatch.setattr(tables, "TIMED_PAIRS", 2)
     found = measure_table(2, PaperInputs(), silent)
     seconds = {column: float(value) for column, value in found.figures["time, s"].items()}
     assert set(seconds) == {"VID2E", "Texvent"}

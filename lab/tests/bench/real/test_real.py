@@ -16,8 +16,8 @@ from texvent_lab.bench.fidelity.page import page_files
 from texvent_lab.bench.fidelity.results import read_report
 from texvent_lab.bench.fidelity.table import fidelity_tables, motion_table
 from texvent_lab.bench.paper.config_entry import ConfigEntry
+from texvent_lab.bench.real.recording import RecordingPart, open_scene
 from texvent_lab.bench.real.run import HALVES, RealPlan, adapt_settings, real_entries, run_real
-from texvent_lab.bench.real.scene import RecordingPart, open_scene
 
 PLAN = RealPlan(
     metrics=("stpp", "count_ratio"),

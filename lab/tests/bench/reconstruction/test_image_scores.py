@@ -14,7 +14,7 @@ from texvent.metrics.image_measures import (
     peak_signal_to_noise,
 )
 from texvent.video import Frame
-from texvent_lab.bench.reconstruction.image_scores import (
+from texvent_lab.bench.reconstruction.scores import (
     ImageScores,
     ScoreCollector,
     pool_scores,

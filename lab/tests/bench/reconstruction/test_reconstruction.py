@@ -10,8 +10,6 @@ import pytest
 from texvent.errors import ConfigError
 from texvent.metrics.image_measures import load_measures
 from texvent_lab.bench.fidelity.entries import Entry
-from texvent_lab.bench.reconstruction.image_grid import ReconstructionGrid
-from texvent_lab.bench.reconstruction.image_scores import ImageScores
 from texvent_lab.bench.reconstruction.noise_robustness import NoiseLevel, noise_curve
 from texvent_lab.bench.reconstruction.run import (
     DEFAULT_SKIP,
@@ -24,8 +22,9 @@ from texvent_lab.bench.reconstruction.run import (
     run_reconstruction,
     simulate_recording,
 )
+from texvent_lab.bench.reconstruction.scores import ImageScores, ReconstructionGrid
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
-from texvent_lab.bench.selftest.perturbations import add_background, scatter
+from texvent_lab.bench.selftest.run import add_background, scatter
 
 from .synthetic_network import FRAMES, SIZE, STEP_US, StandInReconstructor, moving_bar
 
@@ -236,7 +235,7 @@ def test_tables_mark_the_best_simulated_source_and_those_like_it():
     assert "(≈)" in ends["like it"]
     assert "(?)" in ends["drifting"]
     assert lines["elsewhere"].endswith("| 0.0100 |")  # of other frames, so not compared
-    assert "(≈): cannot be told apart" in report.markdown()
+    assert "(≈): no significant difference" in report.markdown()
     behind = {row["source"]: row["behind_best"] for row in reconstruction_document(report)["rows"]}
     assert behind["best"]["mse"] is None
     assert (behind["behind"]["mse"]["best"], behind["behind"]["mse"]["is_significant"]) == (

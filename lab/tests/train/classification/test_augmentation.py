@@ -11,8 +11,8 @@ from tests.represent.definitions import rows, streams
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.transform.edits import resize
-from texvent_lab.train.classification.augmentation import augment, take_run
 from texvent_lab.train.classification.config import Augmentation
+from texvent_lab.train.classification.samples import augment, take_run
 
 pytestmark = pytest.mark.torch
 pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")

@@ -13,7 +13,7 @@ from texvent.cli.app import main
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from texvent.networks.resnet34 import BLOCKS  # noqa: E402
-from texvent_lab.train.classification.networks import resnet34, small_cnn  # noqa: E402
+from texvent_lab.train.classification.task import resnet34, small_cnn  # noqa: E402
 
 from ...bench.classification.torch_resnet import torch_resnet  # noqa: E402
 from ..written_samples import bar  # noqa: E402

@@ -22,7 +22,7 @@ torch = pytest.importorskip("torch", reason="make test-torch runs the tests that
 from texvent_lab.train.classification.config import ClassData, ClassificationConfig  # noqa: E402
 from texvent_lab.train.classification.samples import open_training, open_validation  # noqa: E402
 from texvent_lab.train.classification.task import ClassificationTask  # noqa: E402
-from texvent_lab.train.reading import read_training  # noqa: E402
+from texvent_lab.train.run import read_training  # noqa: E402
 
 pytestmark = pytest.mark.torch
 

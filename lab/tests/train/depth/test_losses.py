@@ -13,8 +13,12 @@ from numpy.typing import NDArray
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from texvent_lab.train.depth.log_depth import decode_depth, encode_depth  # noqa: E402
-from texvent_lab.train.depth.losses import gradient_loss, scale_invariant_loss  # noqa: E402
+from texvent_lab.train.depth.task import (  # noqa: E402  # noqa: E402
+    decode_depth,
+    encode_depth,
+    gradient_loss,
+    scale_invariant_loss,
+)
 
 pytestmark = pytest.mark.torch
 CODES = arrays(np.float64, (2, 1, 8, 16), elements=st.floats(0, 1))

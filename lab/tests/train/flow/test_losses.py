@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from texvent_lab.train.flow.losses import flow_loss  # noqa: E402
+from texvent_lab.train.flow.task import flow_loss  # noqa: E402
 
 pytestmark = pytest.mark.torch
 

@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from texvent_lab.train.flow.correlation import CorrelationPyramid  # noqa: E402
-from texvent_lab.train.flow.e_raft import make_e_raft  # noqa: E402
-from texvent_lab.train.flow.e_raft_shapes import e_raft_shapes  # noqa: E402
-from texvent_lab.train.flow.ev_flow_net import ev_flow_net_shapes, make_ev_flow_net  # noqa: E402
+from texvent_lab.train.flow.e_raft import (  # noqa: E402
+    CorrelationPyramid,
+    e_raft_shapes,
+    make_e_raft,
+)
+from texvent_lab.train.flow.task import ev_flow_net_shapes, make_ev_flow_net  # noqa: E402
 
 pytestmark = pytest.mark.torch
 

@@ -14,12 +14,11 @@ torch = pytest.importorskip("torch", reason="make test-torch runs the tests that
 
 from lab.tests.latents.tiny_autoencoder import write_autoencoder  # noqa: E402
 
+from texvent_lab.latents.change import sample_packets  # noqa: E402
 from texvent_lab.latents.head import load_head  # noqa: E402
-from texvent_lab.latents.sampling import sample_packets  # noqa: E402
 from texvent_lab.train.latents.config import LatentsConfig  # noqa: E402
 from texvent_lab.train.latents.pairs import CHANGE, LATENTS, LatentPairs  # noqa: E402
-from texvent_lab.train.reading import read_training  # noqa: E402
-from texvent_lab.train.run import train_from_file  # noqa: E402
+from texvent_lab.train.run import read_training, train_from_file  # noqa: E402
 from texvent_lab.train.schedule import Hardware  # noqa: E402
 
 pytestmark = pytest.mark.torch

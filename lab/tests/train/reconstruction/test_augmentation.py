@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent_lab.train.reconstruction.augmentation import add_hot_pixels, add_noise, draw_pauses
+from texvent_lab.train.reconstruction.losses import add_hot_pixels, add_noise, draw_pauses
 
 
 def slow_pauses(count, begin, stay, seed):

@@ -10,13 +10,13 @@ from texvent.metrics.lpips import Lpips, lpips_distance
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from texvent_lab.train.reconstruction.config import ReconstructionLoss  # noqa: E402
-from texvent_lab.train.reconstruction.image_losses import (  # noqa: E402
+from texvent_lab.train.reconstruction.losses import (  # noqa: E402
+    SequenceLoss,
     dissimilarity,
     inconsistency,
     l1,
     ssim,
 )
-from texvent_lab.train.reconstruction.sequence_loss import SequenceLoss  # noqa: E402
 
 pytestmark = pytest.mark.torch
 

@@ -6,7 +6,7 @@ from texvent_lab.registries import RECONSTRUCTORS
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from texvent_lab.train.reconstruction.network import new_network  # noqa: E402
+from texvent_lab.train.reconstruction.task import new_network  # noqa: E402
 
 pytestmark = pytest.mark.torch
 

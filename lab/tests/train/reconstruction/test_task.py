@@ -23,13 +23,16 @@ torch = pytest.importorskip("torch", reason="make test-torch runs the tests that
 from texvent_lab.reconstruct.checkpoint import Checkpoint  # noqa: E402
 from texvent_lab.reconstruct.networks import FIRENET  # noqa: E402
 from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor  # noqa: E402
-from texvent_lab.train.reading import read_training  # noqa: E402
 from texvent_lab.train.reconstruction.config import (  # noqa: E402
     ReconstructionAugmentation,
     ReconstructionConfig,
 )
 from texvent_lab.train.reconstruction.task import ReconstructionTask  # noqa: E402
-from texvent_lab.train.run import evaluate_from_file, train_from_file  # noqa: E402
+from texvent_lab.train.run import (  # noqa: E402
+    evaluate_from_file,
+    read_training,
+    train_from_file,
+)
 from texvent_lab.train.schedule import Hardware  # noqa: E402
 
 pytestmark = pytest.mark.torch

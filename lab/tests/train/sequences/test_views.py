@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent_lab.train.sequences.views import crop_randomly, flip, flip_randomly
+from texvent_lab.train.sequences.truth import crop_randomly, flip, flip_randomly
 
 
 def maps(height: int, width: int) -> dict[str, np.ndarray]:

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 import dataclasses
+import hashlib
+import json
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from types import MappingProxyType
 from typing import Any, Literal, TypeAlias, get_args
 
+from texvent import __version__
 from texvent.errors import ConfigError, shown
-from texvent.extending import suggest
+from texvent.extending import full_version, suggest
+from texvent.runtime.cache_folder import make_folder
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.model_options import with_contrast_threshold
+from texvent_lab.bench.document import read_document, write_document
 
 Way: TypeAlias = Literal["exact", "flow", "frames"]
 """What a model is given: true frames, 1,020 per second; 60 frames per second and what the pipeline
@@ -126,3 +132,53 @@ class Cell:
     def name(self) -> str:
         """How progress calls it."""
         return f"{self.arm}, {self.way}, {self.choice}"
+
+
+PROTOCOL = 1
+"""Part of every digest: raise it when a step computes something else from the same config."""
+DIGITS = 20
+"""Of a digest, hexadecimal."""
+
+
+def digest_of(*values: Any) -> str:
+    """A name for plain values and bytes."""
+    found = hashlib.sha256()
+    for value in values:
+        content = value if isinstance(value, bytes) else json.dumps(value, sort_keys=True).encode()
+        found.update(hashlib.sha256(content).digest())
+    return found.hexdigest()[:DIGITS]
+
+
+@dataclass(frozen=True)
+class Step:
+    """A result, made or to be made."""
+
+    folder: Path
+    kind: str
+    """What it is, such as "sets"; a folder of that name holds it."""
+    config: Mapping[str, Any]
+    """All that it depends on, beside the release of texvent and `PROTOCOL`."""
+
+    @property
+    def digest(self) -> str:
+        """Its name."""
+        return digest_of(__version__, PROTOCOL, self.kind, self.config)
+
+    def path(self, extension: str) -> Path:
+        """Its file."""
+        return self.folder / self.kind / f"{self.digest}{extension}"
+
+    @property
+    def is_done(self) -> bool:
+        """Whether its values were written, which comes last."""
+        return self.path(".json").is_file()
+
+    def write(self, values: Mapping[str, Any]) -> None:
+        """Write its values."""
+        make_folder(self.path("").parent)
+        document = {"version": full_version(), "config": self.config, **values}
+        write_document(self.path(".json"), document, overwrite=True)
+
+    def read(self) -> dict[str, Any]:
+        """Its values."""
+        return read_document(self.path(".json"))

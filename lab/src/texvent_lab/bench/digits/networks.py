@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent_lab.bench.digits.arms import Cell
-from texvent_lab.bench.digits.data.idx import CLASSES
-from texvent_lab.bench.digits.data.inputs import InputSet
+from texvent_lab.bench.digits.inputs import CLASSES, InputSet
 from texvent_lab.bench.digits.plan import DigitsPlan, Run, Training
+from texvent_lab.bench.digits.training import predict, train_network
 
 REAL_SHARE = 4
 """Every so many-th training sample is a recording, where both are mixed."""
@@ -19,8 +19,6 @@ REAL_SHARE = 4
 
 def train_one(run: Run, training: Training) -> str:
     """Train a network and note what it takes recordings for; returns a line for progress."""
-    from texvent_lab.bench.digits.training import predict, train_network  # imports torch
-
     step, plan, start = run.training_step(training), run.plan, time.perf_counter()
     recorded = run.recordings()
     is_seen = choose_recordings(recorded.labels, training, plan)
@@ -95,7 +93,5 @@ def _held_out(run: Run, cell: Cell) -> InputSet:
 
 
 def _accuracy(network: Any, inputs: InputSet, representation: str) -> float:
-    from texvent_lab.bench.digits.training import predict  # imports torch
-
     predicted = predict(network, inputs.images[representation])
     return float((predicted == inputs.labels).mean())

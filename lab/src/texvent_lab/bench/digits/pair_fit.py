@@ -18,7 +18,7 @@ from texvent.calibrate.distance import Distance, measure_distance
 from texvent.events import EventStream
 from texvent.run.prepare import prepare_video
 from texvent.settings.resolution import Settings
-from texvent_lab.bench.digits.data.sheet import DigitSheet
+from texvent_lab.bench.digits.sheet import DigitSheet
 
 COORDINATES: Mapping[str, tuple[float, ...]] = {
     "refractory_period_us": (100, 1000, 2000),
@@ -29,12 +29,20 @@ COORDINATES: Mapping[str, tuple[float, ...]] = {
     "leak_rate_hz": (0.0, 0.05, 0.1, 0.3),
 }
 """Options that are searched, in this order, and the values that are tried beside the first."""
+
+
 COUNT_ROUNDS = 5
 """Simulations that may be spent on the thresholds of one candidate."""
+
+
 COUNT_TOLERANCE = 0.03
 """Logarithm of a count ratio at which thresholds are good enough."""
+
+
 COUNT_GAIN = 0.7
 """Step of the logarithm of a threshold per logarithm of a count ratio."""
+
+
 THRESHOLD_LIMITS = (0.02, 2.0)
 
 

@@ -14,10 +14,9 @@ from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError, shown
 from texvent.extending import suggest
 from texvent.settings.resolution import Settings
-from texvent_lab.bench.digits.arms import CHOICES, WAYS, Arm, Cell, Choice, Way, find_arm
-from texvent_lab.bench.digits.data.inputs import REPRESENTATIONS, InputSet
+from texvent_lab.bench.digits.arms import CHOICES, WAYS, Arm, Cell, Choice, Step, Way, find_arm
+from texvent_lab.bench.digits.inputs import REPRESENTATIONS, InputSet
 from texvent_lab.bench.digits.pair_fit import COORDINATES
-from texvent_lab.bench.digits.store import Step
 from texvent_lab.train.schedule import Schedule
 
 ALL_DIGITS = 10_000

@@ -8,14 +8,12 @@ from typing import Any
 
 from texvent.config import check_range
 from texvent.extending import require
-from texvent_lab.bench.digits.arms import find_arm
+from texvent_lab.bench.digits.arms import Step, find_arm
 from texvent_lab.bench.digits.networks import train_one
 from texvent_lab.bench.digits.plan import DigitsPlan, Run, list_trainings
-from texvent_lab.bench.digits.report.results import Collector, DigitsReport
+from texvent_lab.bench.digits.results import Collector, DigitsReport
 from texvent_lab.bench.digits.simulation import fit_cell, fit_physical, open_run, simulate_cell
-from texvent_lab.bench.digits.store import Step
-from texvent_lab.bench.jobs import run_jobs
-from texvent_lab.bench.progress import Progress, no_progress
+from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
 from texvent_lab.train.schedule import EXTRA
 
 

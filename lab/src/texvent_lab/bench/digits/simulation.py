@@ -15,15 +15,19 @@ from texvent.run.rate_search import UNREACHED, find_threshold
 from texvent.runtime.cache_folder import make_folder
 from texvent.settings.resolution import Settings
 from texvent.simulate.model_options import contrast_threshold_of
-from texvent_lab.bench.digits.arms import Cell, find_arm
-from texvent_lab.bench.digits.data.idx import Mnist, read_mnist
-from texvent_lab.bench.digits.data.inputs import InputSet, join_inputs, represent_all
-from texvent_lab.bench.digits.data.polarity import polarity_agreement
-from texvent_lab.bench.digits.data.recordings import FIRST_TEST, Recording, read_recordings
-from texvent_lab.bench.digits.data.sheet import Digits, DigitSheet
+from texvent_lab.bench.digits.arms import Cell, digest_of, find_arm
+from texvent_lab.bench.digits.inputs import (
+    InputSet,
+    Mnist,
+    join_inputs,
+    polarity_agreement,
+    read_mnist,
+    represent_all,
+)
 from texvent_lab.bench.digits.pair_fit import fit_to_pairs
 from texvent_lab.bench.digits.plan import DigitsPlan, Run, recorded_step
-from texvent_lab.bench.digits.store import digest_of
+from texvent_lab.bench.digits.recordings import FIRST_TEST, Recording, read_recordings
+from texvent_lab.bench.digits.sheet import Digits, DigitSheet
 
 SHEET, RANDOM_SHEET = 100, 25
 """Digits per sheet; and where each sheet has a threshold of its own."""

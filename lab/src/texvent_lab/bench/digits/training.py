@@ -1,8 +1,7 @@
 """A small network that tells digits apart, trained on images that were made before.
 
-`texvent_lab.train.loop` validates, keeps checkpoints and counts epochs. A training here takes
-seconds, keeps its last network, and counts steps, so that few samples are trained on for as long
-as many.
+A training takes seconds, keeps its last network, and counts steps, not epochs: few samples are
+trained on for as long as many.
 """
 
 from __future__ import annotations
@@ -15,8 +14,8 @@ from numpy.typing import NDArray
 
 from texvent.dataset.loading.order import epoch_order
 from texvent.extending import require
-from texvent_lab.bench.digits.data.idx import CLASSES
-from texvent_lab.train.classification.networks import small_cnn
+from texvent.networks.weight_files import Tensor
+from texvent_lab.bench.digits.inputs import CLASSES
 from texvent_lab.train.schedule import EXTRA, Schedule
 
 Precision: TypeAlias = Literal["float32", "bfloat16"]
@@ -46,22 +45,26 @@ def train_network(
         seed: of initial weights, order and shifts.
         precision: number type of the network's computation.
     """
+    from texvent_lab.train.classification.task import small_cnn
+    from texvent_lab.train.loop import descend  # these import torch
+
     torch = require("torch", extra=EXTRA)
     # One thread: equal runs give equal weights, and processes do not share cores.
     torch.set_num_threads(1)
     network = small_cnn(images.shape[1], CLASSES, seed).to(memory_format=torch.channels_last)
     network.train()
     optimizer = schedule.make_optimizer(network)
-    batches = _batches(images, labels, schedule.batch_size, seed)
-    for step, (batch, classes) in zip(range(steps), batches, strict=False):
-        for group in optimizer.param_groups:
-            group["lr"] = schedule.learning_rate * (1 - step / steps)
-        with torch.autocast("cpu", torch.bfloat16, enabled=precision == "bfloat16"):
-            scores = network(_tensor(batch))
-        loss = torch.nn.functional.cross_entropy(scores.float(), torch.from_numpy(classes))
-        optimizer.zero_grad()
-        loss.backward()
-        optimizer.step()
+
+    def losses() -> Iterator[Tensor]:
+        batches = _batches(images, labels, schedule.batch_size, seed)
+        for step, (batch, classes) in zip(range(steps), batches, strict=False):
+            for group in optimizer.param_groups:
+                group["lr"] = schedule.learning_rate * (1 - step / steps)
+            with torch.autocast("cpu", torch.bfloat16, enabled=precision == "bfloat16"):
+                scores = network(_tensor(batch))
+            yield torch.nn.functional.cross_entropy(scores.float(), torch.from_numpy(classes))
+
+    descend(losses(), optimizer, network, where="a network of digits", schedule=schedule)
     return network.eval()
 
 

@@ -10,11 +10,8 @@ from typing import Any
 from texvent.errors import FileFormatError, shown
 from texvent.metrics.compare import load_metric, plain_values
 from texvent.metrics.summary import Summary, normalise, summarise
-from texvent_lab.bench.document import restore_nan
-from texvent_lab.bench.document_types import check_record
-from texvent_lab.bench.fidelity.comparison import Comparison
-from texvent_lab.bench.fidelity.details import Details
-from texvent_lab.bench.markdown import MarkdownReport
+from texvent_lab.bench.document import MarkdownReport, check_record, restore_nan
+from texvent_lab.bench.fidelity.comparison import Comparison, Details
 from texvent_lab.bench.oracle.pixel import TARGETS
 
 SCHEMA = "texvent-fidelity-2"

@@ -16,11 +16,11 @@ from texvent.events import EventStream
 from texvent.metrics.compare import compare, load_metric
 from texvent.metrics.protocol import Metric
 from texvent.run.rate_search import ThresholdMatch, find_threshold
-from texvent_lab.bench.fidelity.details import describe
+from texvent_lab.bench.document import describe_environment
+from texvent_lab.bench.fidelity.comparison import describe
 from texvent_lab.bench.fidelity.entries import Entry, choose_entries
 from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
-from texvent_lab.bench.jobs import run_jobs
-from texvent_lab.bench.machine import describe_environment
+from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
 from texvent_lab.bench.oracle.pixel import (
     FLOOR_SEED,
     OTHER_SEED,
@@ -31,8 +31,7 @@ from texvent_lab.bench.oracle.pixel import (
 )
 from texvent_lab.bench.oracle.recording import oracle_scene, record
 from texvent_lab.bench.oracle.scenes import check_scene, known_flow, scene_names
-from texvent_lab.bench.progress import Progress, no_progress
-from texvent_lab.bench.selftest.perturbations import perturb
+from texvent_lab.bench.selftest.run import perturb
 
 NULL = "shuffle all times"
 OTHER_SENSOR = "another sensor of the kind"

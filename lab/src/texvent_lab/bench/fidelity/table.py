@@ -8,9 +8,9 @@ from collections.abc import Iterable, Iterator, Sequence
 from texvent.errors import ConfigError, shown
 from texvent.extending import suggest
 from texvent.metrics.summary import normalise, summarise
+from texvent_lab.bench.document import markdown_table
 from texvent_lab.bench.fidelity.comparison import Comparison, comparison_note, difference_text
 from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
-from texvent_lab.bench.markdown import markdown_table
 from texvent_lab.bench.oracle.pixel import TARGETS
 
 BASELINE = "texvent paper, blend"

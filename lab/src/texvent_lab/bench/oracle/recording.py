@@ -13,9 +13,8 @@ from numpy.typing import NDArray
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame, Video, frame_time_us
-from texvent_lab.bench.oracle.camera import camera_level
 from texvent_lab.bench.oracle.pixel import PixelArray, PixelModel
-from texvent_lab.bench.oracle.scenes import Scene, build_scene
+from texvent_lab.bench.oracle.scenes import Scene, build_scene, camera_level
 
 SIZE = SensorSize(96, 72)
 FPS = Fraction(24)

@@ -1,4 +1,4 @@
-"""Scenes of the oracle: linear radiance at any instant, from a name and a seed."""
+"""Scenes whose brightness is known at every instant: textures, discs, and prompts."""
 
 from __future__ import annotations
 
@@ -12,11 +12,77 @@ from numpy.typing import NDArray
 
 from texvent.errors import ConfigError, shown
 from texvent.extending import suggest
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
-from texvent_lab.bench.oracle.prompt_scenes import PROMPTS, build_prompt_scene
-from texvent_lab.bench.oracle.smooth_texture import ValueNoise
+from texvent.video import MICROSECONDS
+
+EXPOSURE = 0.9
+GAMMA = 2.2
+WHITE = 255.0
+
+
+def camera_level(radiance: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Radiance as the camera records it: exposed, clipped, gamma-coded, 0..255, not rounded."""
+    return np.asarray(WHITE * np.clip(EXPOSURE * radiance, 0.0, 1.0) ** (1 / GAMMA))
+
+
+def radiance_of(level: NDArray[np.float32]) -> NDArray[np.float64]:
+    """Radiance that the camera records as these levels, 0..255: the inverse of `camera_level`."""
+    return np.asarray((level.astype(np.float64) / WHITE) ** GAMMA / EXPOSURE)
+
+
+TABLE = 64
+"""Lattice points per side; the texture repeats after them."""
+OCTAVES = ((16.0, 0.55), (5.0, 0.30), (2.3, 0.15))
+"""Lattice spacing, px, and weight."""
 
 Float64Array = NDArray[np.float64]
+
+
+class ValueNoise:
+    """Random lattices, interpolated with smoothstep, in three octaves."""
+
+    def __init__(self, seed: int) -> None:
+        """Draw the lattices.
+
+        Args:
+            seed: which texture.
+        """
+        self._lattices = [
+            np.random.default_rng([seed, octave]).random((TABLE, TABLE))
+            for octave in range(len(OCTAVES))
+        ]
+
+    def sample(self, x: Float64Array, y: Float64Array) -> Float64Array:
+        """The texture on a grid of columns and rows.
+
+        Args:
+            x: position of each column, px, [W]; any numbers.
+            y: position of each row, px, [H].
+
+        Returns:
+            [H, W], 0..1, mean near 0.5.
+        """
+        total = np.zeros((len(y), len(x)))
+        for lattice, (spacing, weight) in zip(self._lattices, OCTAVES, strict=True):
+            # Bilinear in smoothstep weights: one sparse matrix per axis, so two products.
+            total += weight * (_weights(y / spacing) @ lattice @ _weights(x / spacing).T)
+        return total
+
+
+def _weights(position: Float64Array) -> Float64Array:
+    """Share of each lattice line at each position, [n, TABLE]."""
+    cell = np.floor(position)
+    rest = position - cell
+    upper = rest * rest * (3 - 2 * rest)
+    first = cell.astype(np.int64) % TABLE
+    weights = np.zeros((len(position), TABLE))
+    row = np.arange(len(position))
+    weights[row, first] = 1 - upper
+    weights[row, (first + 1) % TABLE] = upper
+    return weights
+
+
 Scene: TypeAlias = Callable[[float], Float64Array]
 """Time, s → radiance, [H, W]; 1 is about white for the camera, 0 is dark."""
 
@@ -156,3 +222,37 @@ SCENES: Mapping[str, Callable[[ValueNoise, SensorSize, float], Float64Array]] = 
     "hdr": _hdr,
 }
 """Name → what it shows."""
+
+
+PROMPTS: Mapping[str, str] = {
+    "prompt-car": "a red car drives left past two trees at dusk",
+    "prompt-dog": "a dog runs across a meadow",
+    "prompt-bird": "a bird flies over the sea at night",
+}
+"""Name of the scene → prompt; the seed varies what the words leave open."""
+SECONDS = 0.5
+
+
+def build_prompt_scene(
+    prompt: str, seed: int, size: SensorSize
+) -> Callable[[float], NDArray[np.float64]]:
+    """What a prompt shows, at any instant.
+
+    The generator draws each instant anew, so nothing between two frames is guessed. Its levels
+    are taken for those of the benchmark's camera before rounding: the camera gives them back.
+
+    Args:
+        prompt: English sentences.
+        seed: of the generator: which car, which trees.
+        size: width and height, px.
+
+    Raises:
+        InputError: the prompt is empty.
+    """
+    generator = ProceduralGenerator(ProceduralConfig(duration=SECONDS), seed=seed, size=size)
+    video = generator.generate(prompt)
+
+    def show(seconds: float) -> NDArray[np.float64]:
+        return radiance_of(video.at(round(seconds * MICROSECONDS)).luma)
+
+    return show

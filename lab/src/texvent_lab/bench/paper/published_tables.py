@@ -10,7 +10,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import TypeAlias
 
-from texvent_lab.bench.markdown import markdown_table
+from texvent_lab.bench.document import markdown_table
 
 SIMULATORS = ("VID2E", "V2E", "V2CE", "DVS-Voltmeter", "SENPI", "Texvent")
 

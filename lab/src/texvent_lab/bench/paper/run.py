@@ -1,4 +1,4 @@
-"""What of the paper's Tables 1, 2, 7, 8 and 9 can be measured with the inputs that there are."""
+"""Runs of the paper's tables and of folders of config files."""
 
 from __future__ import annotations
 
@@ -8,17 +8,24 @@ from pathlib import Path
 from texvent.data.pull import find_pulled
 from texvent.errors import InputError, MissingDependencyError
 from texvent.metrics.latent_similarity import load_eqs
-from texvent_lab.bench.paper.network_tables import accuracy_figures, noise_figures
+from texvent_lab.bench.jobs import Progress
 from texvent_lab.bench.paper.published_tables import OurFigures, join_figures
-from texvent_lab.bench.paper.simulator_tables import (
+from texvent_lab.bench.paper.tables import (
+    accuracy_figures,
     eqs_figures,
     event_frame_figures,
     image_figures,
+    noise_figures,
     time_figures,
 )
-from texvent_lab.bench.progress import Progress
-from texvent_lab.bench.real.frame_recording import FrameRecording, open_recording
-from texvent_lab.bench.real.scene import WITH_FRAMES, RealScene, locate_source, open_scene
+from texvent_lab.bench.real.recording import (
+    WITH_FRAMES,
+    FrameRecording,
+    RealScene,
+    locate_source,
+    open_recording,
+    open_scene,
+)
 from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor
 from texvent_lab.registries import RECONSTRUCTORS
 

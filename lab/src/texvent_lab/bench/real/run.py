@@ -20,15 +20,14 @@ from texvent.metrics.event_sharpness import estimate_patch_flow
 from texvent.metrics.protocol import Metric
 from texvent.options.fields import option_names
 from texvent.settings.resolution import Settings, apply_options
-from texvent_lab.bench.fidelity.details import Details, describe
+from texvent_lab.bench.document import describe_environment
+from texvent_lab.bench.fidelity.comparison import Details, describe
 from texvent_lab.bench.fidelity.entries import Entry, simulate_video, simulators_to_compare
 from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent_lab.bench.fidelity.run import NULL, compare_all, fit_threshold
-from texvent_lab.bench.jobs import run_jobs
-from texvent_lab.bench.machine import describe_environment
-from texvent_lab.bench.progress import Progress, no_progress
-from texvent_lab.bench.real.scene import RealScene
-from texvent_lab.bench.selftest.perturbations import perturb
+from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
+from texvent_lab.bench.real.recording import RealScene
+from texvent_lab.bench.selftest.run import perturb
 
 TARGET = "recorded"
 """What takes the place of the oracle's kind of pixels."""

@@ -11,16 +11,19 @@ import numpy as np
 from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.represent.slices import slice_between
-from texvent_lab.bench.real.frame_recording import FrameRecording
-from texvent_lab.bench.reconstruction.image_scores import GreyImage, ImageScores, true_image
+from texvent_lab.bench.real.recording import FrameRecording
 from texvent_lab.bench.reconstruction.run import ReconstructionPlan, ReconstructionScorer
-from texvent_lab.bench.selftest.perturbations import add_background, scatter
+from texvent_lab.bench.reconstruction.scores import GreyImage, ImageScores, true_image
+from texvent_lab.bench.selftest.run import add_background, scatter
 
 NoiseKind: TypeAlias = Literal["scattered", "background"]
 """A share of the events moved to random places, or background activity at a rate per pixel."""
 
+
 PAPER_SHARES = (0.01, 0.05, 0.1, 0.2, 0.3)
 """ρ of the paper's Table 7."""
+
+
 BACKGROUND_HZ = (0.1, 0.3, 1.0, 3.0, 10.0)
 """Background activity per pixel; sensors show about 0.1 Hz in light and 10 Hz in the dark."""
 
@@ -49,6 +52,8 @@ class NoiseLevel:
 
 
 PAPER_LEVELS = tuple(NoiseLevel("scattered", share) for share in PAPER_SHARES)
+
+
 BACKGROUND_LEVELS = tuple(NoiseLevel("background", rate_hz) for rate_hz in BACKGROUND_HZ)
 
 

@@ -25,11 +25,11 @@ from texvent.represent.slices import slice_between
 from texvent.run.rate_search import match_rate
 from texvent.simulate.model_options import contrast_threshold_of
 from texvent.video import MICROSECONDS
+from texvent_lab.bench.document import MarkdownReport
 from texvent_lab.bench.fidelity.entries import Entry
-from texvent_lab.bench.markdown import MarkdownReport
-from texvent_lab.bench.progress import Progress, no_progress
-from texvent_lab.bench.real.frame_recording import FrameRecording
-from texvent_lab.bench.reconstruction.image_scores import ImageScores, ScoreCollector, score_images
+from texvent_lab.bench.jobs import Progress, no_progress
+from texvent_lab.bench.real.recording import FrameRecording
+from texvent_lab.bench.reconstruction.scores import ImageScores, ScoreCollector, score_images
 from texvent_lab.reconstruct.reconstructor import Intensity, Reconstructor
 
 ImageCallback: TypeAlias = Callable[[str, str, int, Intensity], None]

@@ -7,12 +7,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from texvent.metrics.compare import plain_values
+from texvent_lab.bench.document import describe_environment, markdown_table, without_tags
 from texvent_lab.bench.fidelity.comparison import Comparison
-from texvent_lab.bench.machine import describe_environment
-from texvent_lab.bench.markdown import markdown_table, without_tags
-from texvent_lab.bench.reconstruction.image_scores import ImageScores, pool_scores
 from texvent_lab.bench.reconstruction.noise_robustness import NoiseScore
 from texvent_lab.bench.reconstruction.run import RECORDED, ReconstructionReport, ReconstructionRow
+from texvent_lab.bench.reconstruction.scores import ImageScores, pool_scores
 
 SCHEMA = "texvent-reconstruction-1"
 """Name of the document's layout; docs/reconstruction.md describes it."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import asdict, fields
 from pathlib import Path
@@ -9,23 +10,37 @@ from typing import Any
 
 from texvent.errors import FileFormatError, shown
 from texvent.metrics.compare import plain_values
-from texvent_lab.bench.document import read_document, restore_nan
-from texvent_lab.bench.document_types import check_record
-from texvent_lab.bench.machine import describe_environment
-from texvent_lab.bench.selftest.perturbations import PERTURBATIONS, SERIES
+from texvent_lab.bench.document import (
+    check_record,
+    describe_environment,
+    read_document,
+    restore_nan,
+)
 from texvent_lab.bench.selftest.run import (
+    DETECTED,
+    PERTURBATIONS,
     RECORDING_SEEDS,
     SCENE,
+    SERIES,
     TEXTURE_SEED,
     SelftestRow,
     SelftestRows,
     ranked_rows,
 )
+from texvent_lab.charts import Matrix, matrix_chart
 
 SCHEMA = "texvent-selftest-1"
 """Name of the document's layout: one entry of `rows` per `SelftestRow`."""
 MOST_NAMES = 8
 """Missed perturbations that a row of the table names; of more, one less and dots."""
+FOUND, REWARDED = (0.298, 0.471, 0.659), (0.894, 0.341, 0.337)
+"""Colours of what was found, and of damage that scores better than a second recording."""
+FULL = 1000.0
+"""Standard deviations that are drawn in full colour."""
+LEGEND = (
+    "Standard deviations worse than the floor. Blue: found (above 3). White: missed. "
+    "Red: damage that the metric rewards."
+)
 
 
 def selftest_table(rows: Sequence[SelftestRow]) -> str:
@@ -78,3 +93,38 @@ def read_selftest(path: Path) -> SelftestRows:
     for number, row in enumerate(rows):
         check_record(SelftestRow, row, f"{path}: row {number}")
     return SelftestRows(SelftestRow(**{name: row[name] for name in names}) for row in rows)
+
+
+def selftest_chart(rows: Sequence[SelftestRow]) -> bytes:
+    """An SVG image of z-scores, the metrics that found most on top.
+
+    Args:
+        rows: result of `run_selftest` or `read_selftest`.
+    """
+    ranked = ranked_rows(rows)
+    matrix = Matrix(
+        title="",
+        rows=[row.metric for row in ranked],
+        columns=[*PERTURBATIONS],
+        colours=[[_colour(row.z[name]) for name in PERTURBATIONS] for row in ranked],
+        texts=[[_short(row.z[name]) for name in PERTURBATIONS] for row in ranked],
+    )
+    return matrix_chart([matrix], note=LEGEND)
+
+
+def _colour(z: float) -> tuple[float, float, float, float]:
+    """As strong as the damage was seen; white where it was not."""
+    if not abs(z) > DETECTED:
+        return (1.0, 1.0, 1.0, 1.0)
+    share = min(math.log(abs(z) / DETECTED) / math.log(FULL / DETECTED), 1.0)
+    return (*(FOUND if z > 0 else REWARDED), 0.15 + 0.85 * share)
+
+
+def _short(z: float) -> str:
+    """A number in at most five characters."""
+    if math.isnan(z):
+        return "–"
+    if abs(z) == math.inf:
+        return "∞" if z > 0 else "−∞"
+    text = f"{z:.0f}" if abs(z) < 10_000 else f"{z / 1000:.0f}k"
+    return text.replace("-0", "0").replace("-", "−")

@@ -10,10 +10,13 @@ from typing import ClassVar
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent_lab.bench.classification.classify import classify, list_samples
-from texvent_lab.bench.classification.resnet34 import ResNetClassifier
-from texvent_lab.bench.classification.resnet34_weights import read_resnet_weights
-from texvent_lab.bench.machine import describe_environment
+from texvent_lab.bench.classification import (
+    ResNetClassifier,
+    classify,
+    list_samples,
+    read_resnet_weights,
+)
+from texvent_lab.bench.document import describe_environment
 from texvent_lab.commands.bench.result_options import ResultOptions
 
 SCHEMA = "texvent-classify-1"

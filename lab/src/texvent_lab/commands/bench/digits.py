@@ -13,10 +13,10 @@ from texvent.cli.options import parse_configs
 from texvent.io.atomic import atomic_file
 from texvent.runtime.cache_folder import cache_folder
 from texvent_lab.bench.digits.arms import ARMS
+from texvent_lab.bench.digits.page import page_files, page_paths
 from texvent_lab.bench.digits.plan import DigitsPlan
-from texvent_lab.bench.digits.report.page import page_files, page_paths
-from texvent_lab.bench.digits.report.tables import summary_text
 from texvent_lab.bench.digits.run import run_digits
+from texvent_lab.bench.digits.tables import summary_text
 from texvent_lab.commands.bench.result_options import ResultOptions
 
 DESCRIPTION = """\

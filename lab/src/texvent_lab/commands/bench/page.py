@@ -11,8 +11,8 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.io.atomic import atomic_file, check_output
-from texvent_lab.bench.digits.report import page as digits_page
-from texvent_lab.bench.digits.report import results as digits_results
+from texvent_lab.bench.digits import page as digits_page
+from texvent_lab.bench.digits import results as digits_results
 from texvent_lab.bench.document import read_document, result_name
 from texvent_lab.bench.fidelity.page import page_files
 from texvent_lab.bench.fidelity.results import read_report

@@ -11,21 +11,21 @@ from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError
+from texvent_lab.bench.document import describe_environment
 from texvent_lab.bench.fidelity.run import FidelityPlan, run_fidelity
 from texvent_lab.bench.fidelity.table import check_baseline, fidelity_tables
-from texvent_lab.bench.machine import describe_environment
-from texvent_lab.bench.paper.ablation_tables import (
+from texvent_lab.bench.jobs import Progress
+from texvent_lab.bench.paper.config_entry import read_ablations
+from texvent_lab.bench.paper.published_tables import TABLES, compare_with_paper, join_figures
+from texvent_lab.bench.paper.run import PaperInputs, measure_table
+from texvent_lab.bench.paper.tables import (
     BASELINE,
     TABLES_HERE,
     ablation_figures,
     leave_out_other_tables,
 )
-from texvent_lab.bench.paper.config_entry import read_ablations
-from texvent_lab.bench.paper.published_tables import TABLES, compare_with_paper, join_figures
-from texvent_lab.bench.paper.run import PaperInputs, measure_table
-from texvent_lab.bench.progress import Progress
+from texvent_lab.bench.real.recording import open_scene
 from texvent_lab.bench.real.run import RealPlan, run_real
-from texvent_lab.bench.real.scene import open_scene
 from texvent_lab.commands.bench.result_options import ResultOptions
 
 SCHEMA = "texvent-paper-1"

@@ -18,8 +18,8 @@ from texvent_lab.bench.fidelity.table import (
     motion_table,
 )
 from texvent_lab.bench.paper.config_entry import ConfigEntry
+from texvent_lab.bench.real.recording import WITH_FRAMES, RecordingPart, open_scene
 from texvent_lab.bench.real.run import INTERPOLATIONS, RealPlan, real_entries, run_real
-from texvent_lab.bench.real.scene import WITH_FRAMES, RecordingPart, open_scene
 from texvent_lab.commands.bench.result_options import ResultOptions
 
 DESCRIPTION = """\

@@ -15,19 +15,17 @@ from texvent.io.atomic import atomic_file
 from texvent.metrics.image_measures import load_measures
 from texvent.sensor import parse_sensor
 from texvent_lab.bench.fidelity.entries import choose_entries
-from texvent_lab.bench.real.frame_recording import FrameRecording, open_recording
-from texvent_lab.bench.real.scene import locate_source
-from texvent_lab.bench.reconstruction.image_grid import ReconstructionGrid
+from texvent_lab.bench.real.recording import FrameRecording, locate_source, open_recording
 from texvent_lab.bench.reconstruction.noise_robustness import NoiseScore, noise_curve
 from texvent_lab.bench.reconstruction.run import (
     ReconstructionPlan,
     ReconstructionScorer,
     run_reconstruction,
 )
+from texvent_lab.bench.reconstruction.scores import ReconstructionGrid
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent_lab.commands.bench.result_options import ResultOptions
-from texvent_lab.reconstruct.config import ReconstructConfig
-from texvent_lab.reconstruct.reconstructor import load_reconstructor
+from texvent_lab.reconstruct.reconstructor import ReconstructConfig, load_reconstructor
 
 DESCRIPTION = """\
 A network makes an image at every frame of a recording, once from the recorded events and once from

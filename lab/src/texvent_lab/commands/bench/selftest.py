@@ -10,9 +10,13 @@ from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
 from texvent.io.atomic import atomic_file
-from texvent_lab.bench.selftest.chart import selftest_chart
 from texvent_lab.bench.selftest.run import SelftestRow, run_selftest
-from texvent_lab.bench.selftest.table import read_selftest, selftest_document, selftest_table
+from texvent_lab.bench.selftest.table import (
+    read_selftest,
+    selftest_chart,
+    selftest_document,
+    selftest_table,
+)
 from texvent_lab.commands.bench.result_options import ResultOptions
 
 
@@ -46,7 +50,7 @@ def run(arguments: Sequence[str]) -> None:
     )
     if options.chart is not None:
         with atomic_file(options.chart, overwrite=output.overwrite) as part:
-            part.write_text(selftest_chart(rows), encoding="utf-8")
+            part.write_bytes(selftest_chart(rows))
     write_out(selftest_table(rows))
 
 

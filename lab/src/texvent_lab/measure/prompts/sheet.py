@@ -16,22 +16,118 @@ import functools
 import json
 import re
 import statistics
+import textwrap
 import time
+import unicodedata
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
 from texvent.batch.identity import digest
 from texvent.batch.processes import interruptible, processes
-from texvent.errors import InputError, TexventError, shown
+from texvent.errors import InputError, OutputError, TexventError, shown
 from texvent.extending import full_version
 from texvent.io.atomic import atomic_file
 from texvent.scenes.report import PromptReport, ReportTally
-from texvent_lab.measure.prompts import drawing
-from texvent_lab.measure.prompts.measure import SETTINGS, measure_prompt
-from texvent_lab.measure.prompts.rates import Share
-from texvent_lab.measure.prompts.score import COLUMNS
+from texvent_lab.measure.prompts.measure import SETTINGS, SIZE, STILLS, measure_prompt
+from texvent_lab.measure.prompts.score import COLUMNS, Share
+
+GAP_PX = 2
+LINE_PX, LETTERS = 15, 158
+"""Height of a line of text, and its letters at most."""
+MOST_LINES = 9
+PAGE_COLUMNS = 2
+TILE, LABEL_PX, TILES_PER_ROW = (86, 65), 12, 8
+"""Size of a still in the mosaic, height of its label, px, and prompts in a row."""
+WIDTH = STILLS * SIZE.width + (STILLS - 1) * GAP_PX
+_FONT, _SCALE = cv2.FONT_HERSHEY_SIMPLEX, 0.38
+_PLAIN = {"→": "->", "’": "'", "‘": "'", "“": '"', "”": '"', "–": "-", "—": "-"}
+
+Image = NDArray[np.uint8]
+
+
+def draw_strip(stills: Sequence[Image], caption: Sequence[str]) -> Image:
+    """Stills [H, W, 3] in a row, black where there are none, with lines of text below."""
+    lines = [part for line in caption for part in textwrap.wrap(_ascii(line), LETTERS)]
+    if len(lines) > MOST_LINES:
+        lines = [*lines[: MOST_LINES - 1], f"... {len(lines) - MOST_LINES + 1} more lines"]
+    image = np.full((SIZE.height + LINE_PX * (len(lines) + 1), WIDTH, 3), 255, np.uint8)
+    image[: SIZE.height] = 0
+    for number, still in enumerate(stills):
+        left = number * (SIZE.width + GAP_PX)
+        image[: SIZE.height, left : left + SIZE.width] = still
+    for number, line in enumerate(lines):
+        colour = (0, 0, 0) if number == 0 else (70, 70, 70)
+        place = (3, SIZE.height + LINE_PX * (number + 1))
+        cv2.putText(image, line, place, _FONT, _SCALE, colour, 1, cv2.LINE_AA)
+    return image
+
+
+def draw_page(strips: Sequence[Image]) -> Image:
+    """Strips in two columns, row by row, each row as high as its higher strip."""
+    rows = []
+    for start in range(0, len(strips), PAGE_COLUMNS):
+        row = strips[start : start + PAGE_COLUMNS]
+        height = max(strip.shape[0] for strip in row)
+        band = np.full((height + 8, PAGE_COLUMNS * WIDTH + 10, 3), 255, np.uint8)
+        for number, strip in enumerate(row):
+            left = number * (WIDTH + 10)
+            band[: strip.shape[0], left : left + strip.shape[1]] = strip
+        rows.append(band)
+    return np.concatenate(rows)
+
+
+def draw_tile(strip: Image, name: str) -> Image:
+    """The second and the last but one still of a strip, small, with the name of the prompt."""
+    stills = []
+    for number in (1, STILLS - 2):
+        left = number * (SIZE.width + GAP_PX)
+        still = strip[: SIZE.height, left : left + SIZE.width]
+        stills.append(cv2.resize(still, TILE, interpolation=cv2.INTER_AREA))
+    label = np.full((LABEL_PX, 2 * TILE[0], 3), 255, np.uint8)
+    cv2.putText(label, _ascii(name), (2, LABEL_PX - 3), _FONT, 0.3, (0, 0, 0), 1, cv2.LINE_AA)
+    return np.concatenate([np.concatenate(stills, axis=1), label])
+
+
+def draw_grid(tiles: Sequence[Image]) -> Image:
+    """Tiles of one size, in rows of `TILES_PER_ROW`."""
+    blank = np.full_like(tiles[0], 255)
+    filled = [*tiles, *[blank] * (-len(tiles) % TILES_PER_ROW)]
+    rows = [
+        np.concatenate(filled[start : start + TILES_PER_ROW], axis=1)
+        for start in range(0, len(filled), TILES_PER_ROW)
+    ]
+    return np.concatenate(rows)
+
+
+def write_image(path: Path, image: Image) -> None:
+    """Write RGB as PNG or JPEG, by the name, whole or not at all."""
+    is_made, data = cv2.imencode(path.suffix, image[..., ::-1])
+    if not is_made:
+        raise OutputError(f"cannot encode {path}")
+    with atomic_file(path, overwrite=True) as part:
+        part.write_bytes(data.tobytes())
+
+
+def read_image(path: Path) -> Image:
+    """The RGB image of a file."""
+    image = cv2.imdecode(np.frombuffer(path.read_bytes(), np.uint8), cv2.IMREAD_COLOR)
+    if image is None:
+        raise InputError(f"{path} is no image; run with --again")
+    return np.asarray(image[..., ::-1], np.uint8)
+
+
+def _ascii(text: str) -> str:
+    """The text in the letters that the font has."""
+    for letter, plain in _PLAIN.items():
+        text = text.replace(letter, plain)
+    return unicodedata.normalize("NFKD", text).encode("ascii", "replace").decode()
+
 
 PER_PAGE = 12
 RATES = (0.5, 10.0)
@@ -129,8 +225,8 @@ def make_strip(prompt: Prompt, *, folder: Path, with_events: bool) -> str:
         **asdict(prompt), "key": _key(prompt, with_events), "version": full_version(),
         "error": error, **facts,
     }  # fmt: skip
-    image = drawing.draw_strip(stills, _caption(prompt, result))
-    drawing.write_image(_strip(folder, prompt), image)
+    image = draw_strip(stills, _caption(prompt, result))
+    write_image(_strip(folder, prompt), image)
     with atomic_file(folder / "results" / f"{prompt.id}.json", overwrite=True) as part:
         part.write_text(json.dumps(result) + "\n", encoding="utf-8")
     return f"{prompt.id}: {error or 'drawn'}"
@@ -171,10 +267,8 @@ def _result(folder: Path, prompt: Prompt) -> Any:
 def write_pages(folder: Path, prompts: Sequence[Prompt]) -> None:
     """Contact sheets of twelve strips each."""
     for number, start in enumerate(range(0, len(prompts), PER_PAGE), 1):
-        strips = [
-            drawing.read_image(_strip(folder, one)) for one in prompts[start : start + PER_PAGE]
-        ]
-        drawing.write_image(folder / f"contact-{number:02d}.png", drawing.draw_page(strips))
+        strips = [read_image(_strip(folder, one)) for one in prompts[start : start + PER_PAGE]]
+        write_image(folder / f"contact-{number:02d}.png", draw_page(strips))
 
 
 def write_blank_grades(path: Path, prompts: Sequence[Prompt]) -> None:
@@ -204,10 +298,9 @@ def write_mosaic(options: argparse.Namespace) -> None:
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise InputError(f"{options.folder} holds no sheet; make it with sheet") from error
     tiles = [
-        drawing.draw_tile(drawing.read_image(options.folder / "strips" / f"{name}.png"), name)
-        for name in names
+        draw_tile(read_image(options.folder / "strips" / f"{name}.png"), name) for name in names
     ]
-    drawing.write_image(options.out, drawing.draw_grid(tiles))
+    write_image(options.out, draw_grid(tiles))
 
 
 def summarise(results: Sequence[dict[str, Any]]) -> dict[str, Any]:

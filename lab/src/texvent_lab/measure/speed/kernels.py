@@ -3,24 +3,25 @@
 from __future__ import annotations
 
 import itertools
+import os
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
 from texvent.extending import SIMULATORS
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent_lab.measure.model_kernels import threads_at_most
-from texvent_lab.measure.speed.floor import Bandwidth
 from texvent_lab.measure.speed.scenes import Bytes, jumping_pixels, to_and_fro
-from texvent_lab.measure.speed.timing import Quartiles, rounded, seconds
+from texvent_lab.measure.speed.timing import Bandwidth, Quartiles, rounded, seconds
 
 SIZES = (SensorSize(346, 260), SensorSize(1280, 720))
 DENSITIES = (0.001, 0.01, 0.05, 0.2)
 WARM_UP_FRAMES = 3
 BATCH = 16
 """Frames that a model is given at once."""
+THREADS = "TEXVENT_NUM_THREADS"
 
 
 @dataclass(frozen=True)
@@ -39,6 +40,20 @@ QUICK = Plan(frames=16, steps=24)
 FULL = Plan(
     frames=48, steps=96, models=("texvent", "esim", "v2e", "senpi", "voltmeter", "physical")
 )
+
+
+@contextmanager
+def threads_at_most(count: int) -> Iterator[None]:
+    """So many threads share a frame, whatever the machine has."""
+    before = os.environ.get(THREADS)
+    os.environ[THREADS] = str(count)
+    try:
+        yield
+    finally:
+        if before is None:
+            del os.environ[THREADS]
+        else:
+            os.environ[THREADS] = before
 
 
 class Run:

@@ -12,14 +12,18 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from texvent.sensor import SensorSize
-from texvent_lab.bench.machine import describe_environment
-from texvent_lab.measure.speed.duel import run_on_one_core
-from texvent_lab.measure.speed.floor import measure_bandwidth
+from texvent_lab.bench.document import describe_environment
 from texvent_lab.measure.speed.kernels import FULL, QUICK, measure_kernels
-from texvent_lab.measure.speed.scenes import EXCERPT, embedded_heavy_clip, write_video
+from texvent_lab.measure.speed.peers import run_on_one_core
+from texvent_lab.measure.speed.scenes import (
+    EXCERPT,
+    embedded_heavy_clip,
+    measure_startup,
+    write_video,
+)
 from texvent_lab.measure.speed.stages import Engine, measure_pipeline
-from texvent_lab.measure.speed.startup import measure_startup
-from texvent_lab.measure.speed.targets import check_targets
+from texvent_lab.measure.speed.tables import check_targets
+from texvent_lab.measure.speed.timing import measure_bandwidth
 
 SCHEMA_VERSION = 1
 HD = SensorSize(1280, 720)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
@@ -12,18 +12,82 @@ import numpy as np
 
 from texvent.errors import FileFormatError, InputError, shown
 from texvent.extending import require
+from texvent.networks.layer_shapes import Shapes, batch_norm, linear
+from texvent.networks.layers import Layers
+from texvent.networks.resnet34 import BLOCKS, WIDTH, resnet_scores, resnet_shapes
 from texvent.networks.weight_files import Tensor, read_mapping, state_tensors, trained_with
 from texvent.options.values import plain
 from texvent.represent.named import represent_window
 from texvent.transform.edits import resize
-from texvent_lab.train.batches import Batches
-from texvent_lab.train.classification.augmentation import augment, take_run
 from texvent_lab.train.classification.config import Augmentation, ClassificationConfig
-from texvent_lab.train.classification.networks import LAST_LAYERS, NETWORKS
-from texvent_lab.train.classification.samples import ChosenSamples, open_training, open_validation
-from texvent_lab.train.history import STANDARD_ERROR
+from texvent_lab.train.classification.samples import (
+    ChosenSamples,
+    augment,
+    open_training,
+    open_validation,
+    take_run,
+)
+from texvent_lab.train.loop import STANDARD_ERROR
 from texvent_lab.train.schedule import EXTRA
-from texvent_lab.train.task import Score
+from texvent_lab.train.task import Batches, Score
+from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
+
+SMALL_WIDTH, STAGES = 16, 3
+LAST_LAYERS = ("linear.weight", "linear.bias", "fc.weight", "fc.bias")
+"""Tensors whose shapes depend on the number of classes."""
+
+
+def small_cnn(channels: int, classes: int, seed: int, *, width: int | None = None) -> TensorNetwork:
+    """Three convolutions of 3×3 with normalisation, two of them halved, a mean, a linear layer.
+
+    Args:
+        channels: of the input, [n, channels, H, W].
+        classes: scores that come out, [n, classes].
+        seed: of the initial weights.
+        width: channels after the first convolution; None: 16, which makes 24,000 parameters.
+    """
+    shapes: Shapes = {}
+    before = channels
+    for number in range(STAGES):
+        after = (width or SMALL_WIDTH) * 2**number
+        shapes[f"conv{number}.weight"] = (after, before, 3, 3)
+        shapes |= batch_norm(f"norm{number}", after)
+        before = after
+    shapes |= linear("linear", classes, before)
+    return TensorNetwork(initial_tensors(shapes, seed), _small_scores)
+
+
+def resnet34(channels: int, classes: int, seed: int, *, width: int | None = None) -> TensorNetwork:
+    """See `texvent.networks.resnet34`; arguments as for `small_cnn`, `width` is 64.
+
+    Kernels begin as K. He et al., "Delving deep into rectifiers", ICCV 2015, for outputs; the
+    first and the last layer as torch's own, because N-ImageNet's program replaces them.
+    """
+    shapes = resnet_shapes(channels, classes, width=width or WIDTH)
+    tensors = initial_tensors(shapes, seed, normal="layer")
+    return TensorNetwork(tensors, _resnet_scores)
+
+
+NETWORKS: Mapping[str, Callable[..., TensorNetwork]] = {
+    "small-cnn": small_cnn,
+    "resnet34": resnet34,
+}
+
+
+def _small_scores(network: Any, images: Tensor) -> Tensor:
+    layers = Layers(network.tensors, is_training=network.training)
+    torch, x = layers.torch, images
+    for number in range(STAGES):
+        x = torch.relu(layers.normalise(layers.convolve(x, f"conv{number}"), f"norm{number}"))
+        if number < STAGES - 1:
+            x = torch.nn.functional.max_pool2d(x, 2)
+    return layers.linear(x.mean(dim=(2, 3)), "linear")
+
+
+def _resnet_scores(network: Any, images: Tensor) -> Tensor:
+    layers = Layers(network.tensors, is_training=network.training)
+    return resnet_scores(layers, BLOCKS, images)
+
 
 IMAGE, CLASS, CLASSES = "image", "class_number", "classes"
 NO_AUGMENTATION = Augmentation(shift=0)

@@ -1,4 +1,4 @@
-"""Depth from events: consecutive windows → metres at the end of each."""
+"""Depth from events: E2Depth, its loss, its scores."""
 
 from __future__ import annotations
 
@@ -7,15 +7,157 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any, ClassVar, Final
 
+from texvent.extending import require
 from texvent.metrics.dense_errors import FARTHEST_M, DepthError
+from texvent.networks.layer_shapes import Shapes
+from texvent.networks.padding import Padding
 from texvent.networks.weight_files import STATE, Tensor
-from texvent_lab.train.batches import Batches
+from texvent_lab.reconstruct.recurrent_unet import (
+    PUBLISHED_BLOCKS,
+    PUBLISHED_ENCODERS,
+    E2vid,
+    UNetVariant,
+)
 from texvent_lab.train.depth.config import DepthConfig
-from texvent_lab.train.depth.e2depth import ARCHITECTURE, BINS, make_e2depth, settings_of
-from texvent_lab.train.depth.log_depth import decode_depth, encode_depth
-from texvent_lab.train.depth.losses import gradient_loss, scale_invariant_loss
+from texvent_lab.train.schedule import EXTRA
 from texvent_lab.train.sequences.truth import GRIDS, SEEN, TruthExamples
-from texvent_lab.train.task import Score
+from texvent_lab.train.task import Batches, Score
+from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
+
+ARCHITECTURE = "E2VIDRecurrent"
+"""What the program of E2Depth calls it."""
+BINS = 5
+KERNEL = 5
+
+
+def e2depth_shapes(width: int) -> Shapes:
+    """Every tensor, by name; the published network has width 32."""
+    variant = UNetVariant(
+        width=width,
+        bins=BINS,
+        side=KERNEL,
+        encoders=PUBLISHED_ENCODERS,
+        blocks=PUBLISHED_BLOCKS,
+        has_norm=False,
+        is_gru=False,
+        is_transposed=False,
+    )
+    return variant.tensor_shapes(is_dynamic=False)
+
+
+def make_e2depth(width: int, seed: int) -> TensorNetwork:
+    """E2Depth with random weights.
+
+    It takes voxel grids of consecutive windows, [n, windows, 5, H, W], each normalised, and gives
+    the log depth at the end of each (see `encode_depth`), [n, windows, 1, H, W].
+
+    Args:
+        width: channels of the first layer.
+        seed: of the weights.
+
+    Source: J. Hidalgo-Carrió, D. Gehrig, D. Scaramuzza, "Learning monocular dense depth from
+        events", 3DV 2020, section 3.2, and its program.
+    """
+    return TensorNetwork(initial_tensors(e2depth_shapes(width), seed), _unroll)
+
+
+def settings_of(width: int) -> dict[str, Any]:
+    """What the program of E2Depth builds the network from."""
+    return {
+        "num_bins": BINS,
+        "skip_type": "sum",
+        "recurrent_block_type": "convlstm",
+        "num_encoders": PUBLISHED_ENCODERS,
+        "base_num_channels": width,
+        "num_residual_blocks": PUBLISHED_BLOCKS,
+        "use_upsample_conv": True,
+        "norm": "none",
+    }
+
+
+def _unroll(network: Any, grids: Tensor) -> Tensor:
+    recurrent = E2vid(network.tensors, {})
+    padding = Padding.centred(grids.shape[-2:], recurrent.multiple)
+    outputs = [recurrent.step(grid) for grid in padding.around(grids).unbind(1)]
+    return padding.off(require("torch", extra=EXTRA).stack(outputs, 1))
+
+
+LOG_RANGE = 3.70378
+"""Natural logarithm of farthest over nearest depth; the nearest is 1.97 m."""
+
+
+def encode_depth(depth_m: Tensor) -> Tensor:
+    """1 at the farthest depth and beyond, 0 at the nearest and before; NaN stays NaN.
+
+    Args:
+        depth_m: metres, 0 or more, any shape; inf for the sky.
+
+    Source: J. Hidalgo-Carrió, D. Gehrig, D. Scaramuzza, "Learning monocular dense depth from
+        events", 3DV 2020, equation (1), and its program.
+    """
+    share = (depth_m / FARTHEST_M).clamp(max=1.0)
+    return (1 + share.log() / LOG_RANGE).clamp(0.0, 1.0)
+
+
+def decode_depth(code: Any) -> Any:
+    """Metres of a network's output, a tensor or an array; undoes `encode_depth` in its range."""
+    exponent = LOG_RANGE * (code - 1)
+    return FARTHEST_M * 2.718281828459045**exponent
+
+
+SCALES = (1, 2, 4, 8)
+"""Sides of the squares over which differences are averaged before edges are sought, px."""
+SOBEL_SUM = 8
+"""Sum of the magnitudes of a Sobel kernel."""
+
+
+def scale_invariant_loss(predicted: Tensor, target: Tensor, *, shift_weight: float) -> Tensor:
+    """`mean(e²) − shift_weight · mean(e)²` of the differences e.
+
+    Args:
+        predicted: log depth, any shape.
+        target: the same; NaN where it is not known.
+        shift_weight: 1: a constant difference costs nothing, so that depth is learned up to a
+            factor; 0: the mean squared error.
+
+    Returns:
+        A scalar; 0 where nothing is known.
+    """
+    error = _error(predicted, target)
+    count = target.isfinite().sum().clamp(min=1)
+    return (error**2).sum() / count - shift_weight * (error.sum() / count) ** 2
+
+
+def gradient_loss(predicted: Tensor, target: Tensor) -> Tensor:
+    """Mean magnitude of the differences' Sobel gradient, at four scales.
+
+    Args:
+        predicted: log depth, [n, 1, H, W]; both sides at least 8 px.
+        target: the same; NaN where it is not known: there is no difference.
+
+    Returns:
+        A scalar: the sum over both directions, the mean over pixels, images and scales.
+
+    Deviation: the program sums over the images of a batch, so that the weight of this loss depends
+        on their number.
+    """
+    functional = require("torch", extra=EXTRA).nn.functional
+    error = _error(predicted, target)
+    row = error.new_tensor([[-1, 0, 1], [-2, 0, 2], [-1, 0, 1]]) / SOBEL_SUM
+    kernels = row.new_empty(2, 1, 3, 3)
+    kernels[0, 0], kernels[1, 0] = row, row.T
+    total = error.new_zeros(())
+    for side in SCALES:
+        coarse = functional.pad(functional.avg_pool2d(error, side), (1, 1, 1, 1), mode="replicate")
+        total = total + 2 * functional.conv2d(coarse, kernels).abs().mean()
+    return total / len(SCALES)
+
+
+def _error(predicted: Tensor, target: Tensor) -> Tensor:
+    """Differences; 0 where the target is not known, so that no gradient is NaN."""
+    known = target.isfinite()
+    return (predicted - target.where(known, predicted.detach())).where(known, predicted * 0)
+
 
 DEPTH: Final = "depth"
 WHERE_FROM = (

@@ -2,24 +2,129 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
+from texvent.extending import require
+from texvent.networks.layer_shapes import Shapes, batch_norm, convolution
 from texvent.networks.layers import Layers
 from texvent.networks.padding import Padding
 from texvent.networks.weight_files import Tensor
-from texvent_lab.train.flow.correlation import CorrelationPyramid
-from texvent_lab.train.flow.e_raft_shapes import (
-    CONTEXT,
-    ENLARGEMENT,
-    FEATURES,
-    HIDDEN,
-    LEVELS,
-    RADIUS,
-    UPDATE,
-    WIDTHS,
-    e_raft_shapes,
-)
+from texvent_lab.train.schedule import EXTRA
 from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
+
+
+class CorrelationPyramid:
+    """Scalar products of the features of two images, at several sizes of the second one.
+
+    Source: Z. Teed, J. Deng, "RAFT: recurrent all-pairs field transforms for optical flow", ECCV
+        2020, section 3.2.
+    """
+
+    def __init__(self, first: Tensor, second: Tensor, *, levels: int) -> None:
+        """Correlate every pixel with every other.
+
+        Args:
+            first: features, [n, channels, h, w].
+            second: of the other image, of the same shape; h and w at least 2^(levels − 1).
+            levels: sizes of the second image, each half of the one before.
+        """
+        functional = require("torch", extra=EXTRA).nn.functional
+        n, channels, height, width = first.shape
+        product = first.flatten(2).transpose(1, 2) @ second.flatten(2)
+        volume = product.reshape(n * height * width, 1, height, width) / math.sqrt(channels)
+        self._levels = [volume]
+        for _ in range(levels - 1):
+            self._levels.append(functional.avg_pool2d(self._levels[-1], 2))
+
+    def look_up(self, places: Tensor, radius: int) -> Tensor:
+        """Correlations around a place in the second image for each pixel of the first.
+
+        Args:
+            places: (x, y), px, [n, 2, h, w].
+            radius: neighbours up to this distance along both axes, px of each size.
+
+        Returns:
+            [n, levels · (2 · radius + 1)², h, w]; sizes from the largest, then columns from the
+            left, then rows from above. Bilinear between pixels, 0 outside.
+        """
+        torch = require("torch", extra=EXTRA)
+        n, _, height, width = places.shape
+        steps = torch.arange(-radius, radius + 1, dtype=places.dtype, device=places.device)
+        # x varies along the first axis: the published weights expect columns before rows.
+        around = torch.stack(torch.meshgrid(steps, steps, indexing="ij"), -1)
+        centres = places.permute(0, 2, 3, 1).reshape(-1, 1, 1, 2)
+        parts = []
+        for level, volume in enumerate(self._levels):
+            sides = places.new_tensor(volume.shape[:-3:-1])
+            # From pixels, whose centres are whole numbers, to −1..1 between the borders.
+            grid = (2 * (centres / 2**level + around) + 1) / sides - 1
+            found = torch.nn.functional.grid_sample(volume, grid, align_corners=False)
+            parts.append(found.reshape(n, height, width, -1))
+        return torch.cat(parts, -1).permute(0, 3, 1, 2)
+
+
+FEATURES, CONTEXT = "fnet", "cnet"
+"""The encoder of both grids, and that of the later one alone."""
+UPDATE = "update_block"
+WIDTHS = (64, 96, 128)
+"""Channels of an encoder at half, a quarter and an eighth of the size."""
+FEATURE_CHANNELS, HIDDEN, CONTEXT_CHANNELS = 256, 128, 128
+LEVELS, RADIUS = 4, 4
+"""Sizes at which correlations are looked up, and how far around, px of each size."""
+LOOKED_UP = LEVELS * (2 * RADIUS + 1) ** 2
+MOTION = 128
+"""Channels of the motion features, the flow itself among them."""
+ENLARGEMENT = 8
+CONVEX = 9 * ENLARGEMENT**2
+"""Weights of the neighbours of each of 8×8 fine pixels."""
+
+
+def e_raft_shapes(bins: int) -> Shapes:
+    """Every tensor, batch counters left out.
+
+    Args:
+        bins: of the voxel grids; the published network of DSEC has 15.
+    """
+    shapes = _encoder_shapes(FEATURES, bins, FEATURE_CHANNELS, has_norm=False)
+    shapes |= _encoder_shapes(CONTEXT, bins, HIDDEN + CONTEXT_CHANNELS, has_norm=True)
+    motion, unit, head = f"{UPDATE}.encoder", f"{UPDATE}.gru", f"{UPDATE}.flow_head"
+    shapes |= convolution(f"{motion}.convc1", 256, LOOKED_UP, 1)
+    shapes |= convolution(f"{motion}.convc2", 192, 256, 3)
+    shapes |= convolution(f"{motion}.convf1", 128, 2, 7)
+    shapes |= convolution(f"{motion}.convf2", 64, 128, 3)
+    shapes |= convolution(f"{motion}.conv", MOTION - 2, 64 + 192, 3)
+    before = HIDDEN + CONTEXT_CHANNELS + MOTION
+    for number, sides in ((1, (1, 5)), (2, (5, 1))):
+        for gate in "zrq":
+            name = f"{unit}.conv{gate}{number}"
+            shapes |= {f"{name}.weight": (HIDDEN, before, *sides), f"{name}.bias": (HIDDEN,)}
+    shapes |= convolution(f"{head}.conv1", 256, HIDDEN, 3)
+    shapes |= convolution(f"{head}.conv2", 2, 256, 3)
+    shapes |= convolution(f"{UPDATE}.mask.0", 256, HIDDEN, 3)
+    return shapes | convolution(f"{UPDATE}.mask.2", CONVEX, 256, 1)
+
+
+def _encoder_shapes(name: str, bins: int, channels: int, *, has_norm: bool) -> Shapes:
+    """An encoder whose normalisations are those of the batch, or of each image without tensors."""
+    shapes = convolution(f"{name}.conv1", WIDTHS[0], bins, 7)
+    if has_norm:
+        shapes |= batch_norm(f"{name}.norm1", WIDTHS[0])
+    for layer, wide in enumerate(WIDTHS, 1):
+        narrow = WIDTHS[max(layer - 2, 0)]
+        for block, before in ((0, narrow), (1, wide)):
+            inner = f"{name}.layer{layer}.{block}"
+            shapes |= convolution(f"{inner}.conv1", wide, before, 3)
+            shapes |= convolution(f"{inner}.conv2", wide, wide, 3)
+            is_smaller = layer > 1 and block == 0
+            if is_smaller:
+                shapes |= convolution(f"{inner}.downsample.0", wide, before, 1)
+            # The program stores the normalisation of the shortcut under two names.
+            norms = ("norm1", "norm2", *(("norm3", "downsample.1") if is_smaller else ()))
+            for norm in norms if has_norm else ():
+                shapes |= batch_norm(f"{inner}.{norm}", wide)
+    return shapes | convolution(f"{name}.conv2", channels, WIDTHS[-1], 1)
+
 
 ITERATIONS = 12
 MULTIPLE = 32

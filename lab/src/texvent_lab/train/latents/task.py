@@ -11,10 +11,9 @@ import numpy as np
 
 from texvent.networks.weight_files import STATE, Tensor
 from texvent_lab.latents.head import CONFIG, HeadConfig, apply_head
-from texvent_lab.train.batches import Batches
 from texvent_lab.train.latents.config import LatentsConfig
 from texvent_lab.train.latents.pairs import CHANGE, LATENTS, LatentPairs
-from texvent_lab.train.task import Score
+from texvent_lab.train.task import Batches, Score
 from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
 
 WHERE_FROM = "texvent train latents writes it as weights.pt"

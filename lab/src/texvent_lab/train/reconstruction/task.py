@@ -22,15 +22,38 @@ from texvent_lab.reconstruct.checkpoint import Checkpoint
 from texvent_lab.reconstruct.protocol import PublishedNetwork
 from texvent_lab.reconstruct.reconstructor import Intensity, Reconstructor
 from texvent_lab.registries import RECONSTRUCTORS
-from texvent_lab.train.batches import Batches
-from texvent_lab.train.reconstruction.augmentation import add_hot_pixels, add_noise, draw_pauses
 from texvent_lab.train.reconstruction.config import ReconstructionAugmentation, ReconstructionConfig
-from texvent_lab.train.reconstruction.network import new_network
-from texvent_lab.train.reconstruction.sequence_loss import SequenceLoss
+from texvent_lab.train.reconstruction.losses import (
+    SequenceLoss,
+    add_hot_pixels,
+    add_noise,
+    draw_pauses,
+)
 from texvent_lab.train.schedule import EXTRA
 from texvent_lab.train.sequences.clips import WindowedClips
-from texvent_lab.train.sequences.views import FLOW, crop_randomly, flip_randomly
-from texvent_lab.train.task import Score
+from texvent_lab.train.sequences.truth import FLOW, crop_randomly, flip_randomly
+from texvent_lab.train.task import Batches, Score
+from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
+
+_torch: Any = require("torch", extra=EXTRA)
+
+
+def new_network(published: PublishedNetwork, seed: int) -> TensorNetwork:
+    """A network of the published names and shapes, with initial weights.
+
+    It gives an image per voxel grid, [n, windows, 1, H, W] of [n, windows, bins, H, W]. The state
+    begins empty and is carried from window to window; gradients go back through all of them.
+    """
+    tensors = initial_tensors(published.network.tensor_shapes({}), seed)
+    return TensorNetwork(tensors, functools.partial(_see_sequence, published))
+
+
+# A window is compiled, not the whole sequence, which would take as many times longer.
+@_torch.compiler.disable(recursive=False)  # type: ignore[untyped-decorator]
+def _see_sequence(published: PublishedNetwork, network: Any, voxels: Tensor) -> Tensor:
+    recurrent = published.network(network.tensors, {})
+    return _torch.stack([recurrent.step(one) for one in voxels.unbind(dim=1)], dim=1)
+
 
 VOXELS, IMAGES = "voxels", "images"
 WHITE = np.float32(255)

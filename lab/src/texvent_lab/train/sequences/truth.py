@@ -1,4 +1,4 @@
-"""Voxel grids of runs of windows with what the simulated scene knows exactly: flow or depth."""
+"""Windows of clips with their truth, cut for training."""
 
 from __future__ import annotations
 
@@ -7,15 +7,15 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.dataset.targets import Target
 from texvent.errors import ConfigError
 from texvent.represent.event_frame import count_events
 from texvent.represent.voxel_grid import voxel_e2vid
-from texvent_lab.train.batches import Batches
 from texvent_lab.train.sequences.clips import WindowedClips
 from texvent_lab.train.sequences.config import SequenceData
-from texvent_lab.train.sequences.views import crop_randomly, flip
+from texvent_lab.train.task import Batches
 
 TRUTHS: tuple[Target, ...] = ("flow", "depth")
 """Of every stored clip, so that depth and flow are trained on the same files."""
@@ -109,3 +109,39 @@ class TruthExamples:
             x, y = chance.random(2) < 0.5
             maps = flip(maps, x=bool(self.flips_x and x), y=bool(self.flips_y and y))
         return {name: np.ascontiguousarray(one) for name, one in maps.items()}
+
+
+Maps = Mapping[str, NDArray[Any]]
+"""Name → [..., H, W]; "flow" is [..., 2, H, W], displacement (x, y) in px."""
+FLOW = "flow"
+
+
+def crop_randomly(maps: Maps, side: int | None, chance: np.random.Generator) -> dict[str, Any]:
+    """The same random square of every map.
+
+    Args:
+        maps: all of one height and width.
+        side: of the square, px, at most the shorter side; None: everything.
+        chance: of this sample in this epoch.
+    """
+    if side is None:
+        return dict(maps)
+    height, width = next(iter(maps.values())).shape[-2:]
+    top, left = (int(chance.integers(length - side + 1)) for length in (height, width))
+    return {name: one[..., top : top + side, left : left + side] for name, one in maps.items()}
+
+
+def flip(maps: Maps, *, x: bool, y: bool) -> dict[str, Any]:
+    """Every map mirrored along the axes that are chosen; displacements turn round with them."""
+    steps = slice(None, None, -1 if y else 1), slice(None, None, -1 if x else 1)
+    flipped = {name: one[..., *steps] for name, one in maps.items()}
+    if FLOW in flipped:
+        signs = np.array([-1 if x else 1, -1 if y else 1], np.float32)
+        flipped[FLOW] = flipped[FLOW] * signs[:, None, None]
+    return flipped
+
+
+def flip_randomly(maps: Maps, chance: np.random.Generator) -> dict[str, Any]:
+    """Mirrored along each axis with probability 1/2."""
+    x, y = chance.random(2) < 0.5
+    return flip(maps, x=bool(x), y=bool(y))

@@ -1,1 +1,0 @@
-"""Classifiers of event streams, and streams of different scenes."""

@@ -1,1 +1,0 @@
-"""MNIST, N-MNIST, how its sensor moved, digits that move so, and what networks see of them."""

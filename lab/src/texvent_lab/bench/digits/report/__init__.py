@@ -1,1 +1,0 @@
-"""What a run found: scores, tests, tables, charts, a page."""

@@ -1,0 +1,264 @@
+"""Recordings of frames and events as scenes of the benchmark."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+from texvent.calibrate.recording import WARM_UP_US, TimeSpan
+from texvent.capture.dsec_frames import EVENTS as DSEC_EVENTS
+from texvent.capture.dsec_frames import is_dsec
+from texvent.capture.evreal_frames import is_evreal
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
+from texvent.data.catalogue import DATA_SETS
+from texvent.data.pull import find_pulled
+from texvent.errors import InputError
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
+from texvent.io.files import open_events
+from texvent.video import MICROSECONDS, Frame, FrameStream, Video
+
+ECD_EVENTS, ECD_FRAMES = "events.txt", "images.txt"
+
+EVREAL_SPANS_S: Mapping[str, tuple[float, float]] = {
+    "calibration": (5.0, 20.0),
+    "boxes_6dof": (5.0, 20.0),
+    "dynamic_6dof": (5.0, 20.0),
+    "office_zigzag": (5.0, 12.0),
+    "poster_6dof": (5.0, 20.0),
+    "shapes_6dof": (5.0, 20.0),
+    "slider_depth": (1.0, 2.5),
+}
+"""Recording of the Event-Camera Dataset → which part of it EVREAL scores, seconds."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class FrameRecording:
+    """Frames and events of one sensor on one clock; both can be read again, with flat memory.
+
+    Raises:
+        InputError: their sizes differ, or the frames are live.
+    """
+
+    name: str
+    frames: FrameStream
+    events: EventPackets
+
+    def __post_init__(self) -> None:
+        if self.frames.size != self.events.size:
+            raise InputError(
+                f"{self.name}: frames of {self.frames.size} and events of {self.events.size}; both "
+                "must come from one sensor"
+            )
+        if self.frames.is_live:
+            raise InputError(f"{self.name}: frames of a camera pass once; record them first")
+
+    @property
+    def evreal_span_us(self) -> tuple[int, int] | None:
+        """First and last µs that EVREAL scores, or None where it scores all of a recording."""
+        span = EVREAL_SPANS_S.get(self.name)
+        return None if span is None else (_us(span[0]), _us(span[1]))
+
+
+def open_recording(
+    path: Path, *, frames: str | None = None, size: tuple[int, int] | None = None
+) -> FrameRecording:
+    """A recording from the files it is usually kept in.
+
+    Args:
+        path: a folder of the Event-Camera Dataset (events.txt, images.txt), an EVREAL folder with
+            images, a DSEC sequence, an AEDAT4 file with frames, or any event file if `frames` is
+            given.
+        frames: the frames, where they lie elsewhere: a video file or image folder on the clock of
+            the events.
+        size: sensor size (width, height), for event formats that do not store it; default: that of
+            the frames.
+
+    Raises:
+        InputError: there is no such recording, or it holds no frames.
+        FileFormatError: a file is damaged.
+    """
+    if not path.exists():
+        raise InputError(f"there is no recording {path}")
+    if frames is None and path.is_dir() and not (is_evreal(path) or is_dsec(path)):
+        missing = [name for name in (ECD_EVENTS, ECD_FRAMES) if not (path / name).is_file()]
+        if missing:
+            raise InputError(
+                f"{path} has no {missing[0]}, and is no EVREAL folder with images.npy and no DSEC "
+                "sequence; give a folder of either kind, an AEDAT4 file, or an event file and "
+                "--frames"
+            )
+    video = open_frames(frames or str(path), CaptureConfig())
+    events = open_events(_events_of(path), size=size or video.size)
+    return FrameRecording(name=path.resolve().stem, frames=video, events=events)
+
+
+def _events_of(path: Path) -> Path:
+    """The event file of a recording: itself, or one of its files."""
+    if is_dsec(path):
+        return path / DSEC_EVENTS
+    has_rows = path.is_dir() and (path / ECD_EVENTS).is_file()
+    return path / ECD_EVENTS if has_rows else path
+
+
+def _us(seconds: float) -> int:
+    return round(seconds * MICROSECONDS)
+
+
+SEGMENT_US, EDGE_US = 100_000, 50_000
+"""Length of a scored span, and of what its start is a multiple of: windows of the metrics, µs."""
+MOST_SEGMENTS = 20
+FIT_SECONDS = 0.6
+DISPLAY_GAMMA, LINEAR_GAMMA = 2.2, 1.0
+WITH_FRAMES = ("slider_depth", "davis346")
+"""Data sets that hold frames and events."""
+
+
+class RecordingPart(NamedTuple):
+    """Which part of a recording is used, and how its clocks fit."""
+
+    start_s: float = 0.0
+    """Skipped at the start of the frames, s."""
+    seconds: float = 4.0
+    """Longest part that is used, s: δ is fitted at the start of its first half, and its second
+    half is scored, at most 2 s."""
+    offset_us: int | None = None
+    """Added to the times of the frames, µs; None: what the catalogue knows of the recording,
+    else 0."""
+    frames_gamma: float | None = None
+    """Exponent that makes the frames linear; None: 1 for frames of a DAVIS, 2.2 for DSEC's."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class RealScene:
+    """Frames and events of one sensor on one clock, in memory, with what is fitted and scored."""
+
+    name: str
+    video: Video
+    """Frames, moved by the offset."""
+    events: EventStream
+    fit: TimeSpan
+    """Where δ is fitted."""
+    scored: tuple[TimeSpan, ...]
+    """What is scored, span by span."""
+    frames_gamma: float
+    offset_us: int
+
+    @property
+    def whole(self) -> TimeSpan:
+        """All scored spans, which follow on each other."""
+        return TimeSpan(self.scored[0].start_us, self.scored[-1].stop_us)
+
+    def recorded(self, span: TimeSpan) -> EventStream:
+        """The recorded events of a span."""
+        return self.events.cut(*span)
+
+    def frames_around(self, span: TimeSpan) -> Video:
+        """The frames from before a span, time to warm up included, to after its end."""
+        times = np.asarray(self.video.times_us)
+        first = max(int(np.searchsorted(times, span.start_us - WARM_UP_US, "right")) - 1, 0)
+        last = int(np.searchsorted(times, span.stop_us, "left"))
+        return Video(self.video.pixels[first : last + 1], self.video.times_us[first : last + 1])
+
+
+WHOLE = RecordingPart()
+"""The default part of a recording."""
+
+
+def open_scene(source: str, part: RecordingPart = WHOLE) -> RealScene:
+    """A scene from the name of a pulled data set, or the path of a recording.
+
+    Args:
+        source: `slider_depth`, `davis346`, or a folder or file that `open_recording` takes.
+        part: which part of it.
+
+    Raises:
+        InputError: it is not there or not pulled, has no frames, or what frames and events share
+            is too short.
+        FileFormatError: a file is damaged.
+    """
+    path, offset_us = locate_source(source)
+    recording = open_recording(path)
+    offset_us = offset_us if part.offset_us is None else part.offset_us
+    gamma = DISPLAY_GAMMA if is_dsec(path) else LINEAR_GAMMA
+    frames = list(_used_frames(recording, part, offset_us))
+    times_us = [frame.t_us for frame in frames]
+    if len(frames) < 2:
+        raise InputError(f"{source} has {len(frames)} frames in the part that is used; it needs 2")
+    events = _used_events(recording, times_us[0], times_us[-1])
+    fit, scored = _spans(source, times_us, events)
+    return RealScene(
+        name=recording.name if source not in DATA_SETS else source,
+        video=Video(np.stack([frame.pixels for frame in frames]), times_us),
+        events=events,
+        fit=fit,
+        scored=scored,
+        frames_gamma=gamma if part.frames_gamma is None else part.frames_gamma,
+        offset_us=offset_us,
+    )
+
+
+def locate_source(source: str) -> tuple[Path, int]:
+    """Where a recording lies, and the frozen offset of its frames, µs.
+
+    Raises:
+        InputError: it is not there, or not pulled.
+    """
+    if source not in DATA_SETS:
+        path = Path(source).expanduser()
+        if not path.exists():
+            raise InputError(
+                f"there is no recording {source}; give the path of one, or the name of a data set: "
+                f"{', '.join(WITH_FRAMES)}"
+            )
+        return path, 0
+    pulled = find_pulled(source)
+    if pulled is None:
+        raise InputError(f"{source} is not pulled yet: texvent data pull {source}")
+    return pulled, DATA_SETS[source].frame_offset_us
+
+
+def _used_frames(recording: FrameRecording, part: RecordingPart, offset_us: int) -> Iterator[Frame]:
+    first_us: int | None = None
+    for frame in recording.frames:
+        first_us = frame.t_us if first_us is None else first_us
+        since_us = frame.t_us - first_us - round(part.start_s * MICROSECONDS)
+        if since_us > part.seconds * MICROSECONDS:
+            return
+        if since_us >= 0:
+            yield Frame(frame.pixels, frame.t_us + offset_us)
+
+
+def _used_events(recording: FrameRecording, start_us: int, stop_us: int) -> EventStream:
+    """Read packet by packet: a sequence may hold more events than fit in memory."""
+    used: list[EventStream] = []
+    for packet in recording.events:
+        if len(packet) and int(packet.t[0]) >= stop_us:
+            break
+        used.append(packet.cut(start_us, stop_us))
+    return EventStream.concat(used) if used else EventStream.empty(recording.frames.size)
+
+
+def _spans(
+    source: str, times_us: list[int], events: EventStream
+) -> tuple[TimeSpan, tuple[TimeSpan, ...]]:
+    """The start of the first half to fit, and whole segments of the second to score."""
+    start = max(times_us[0] + WARM_UP_US, int(events.t[0]) if len(events) else times_us[0])
+    stop = min(times_us[-1], int(events.t[-1]) if len(events) else times_us[0])
+    middle = (start + stop) // 2
+    first = -(-middle // EDGE_US) * EDGE_US
+    count = min((stop - first) // SEGMENT_US, MOST_SEGMENTS)
+    if count < 1:
+        raise InputError(
+            f"{source}: frames and events share {max(stop - start, 0) / MICROSECONDS:.3f} s in the "
+            f"part that is used; it needs {2 * SEGMENT_US / MICROSECONDS:g} s and more. Do they "
+            "run on the same clock?"
+        )
+    fit = TimeSpan(start, middle).first(FIT_SECONDS)
+    edges = (first + number * SEGMENT_US for number in range(count))
+    return fit, tuple(TimeSpan(edge, edge + SEGMENT_US) for edge in edges)

@@ -1,1 +1,0 @@
-"""Events from the latents of a video autoencoder, against events from its frames."""

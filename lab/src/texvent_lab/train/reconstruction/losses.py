@@ -1,0 +1,216 @@
+"""Losses of reconstructed sequences, and the augmentation of their windows."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.extending import require
+from texvent.metrics.image_measures import CONTRAST, LUMINANCE, RADIUS_PX, gaussian_window
+from texvent.metrics.lpips import Lpips, LpipsWeights
+from texvent.networks.weight_files import Tensor
+from texvent_lab.train.reconstruction.config import ReconstructionLoss
+from texvent_lab.train.schedule import EXTRA
+
+Voxels = NDArray[np.float32]
+"""[windows, bins, H, W]."""
+
+
+def draw_pauses(
+    count: int, *, begin: float, stay: float, chance: np.random.Generator
+) -> NDArray[np.bool_]:
+    """Which windows of a sequence are pauses, [count]; the first is none.
+
+    Args:
+        count: windows.
+        begin: probability of a pause after a window that is none.
+        stay: probability of a pause after a pause.
+        chance: of this sequence in this epoch.
+    """
+    is_pause = np.zeros(count, np.bool_)
+    for number, drawn in enumerate(chance.random(count)):
+        if number:
+            is_pause[number] = drawn < (stay if is_pause[number - 1] else begin)
+    return is_pause
+
+
+def add_noise(voxels: Voxels, *, deviation: float, chance: np.random.Generator) -> Voxels:
+    """Normal noise in every voxel but those of the first window."""
+    noise = chance.standard_normal(voxels.shape, np.float32) * np.float32(deviation)
+    noise[:1] = 0
+    return np.asarray(voxels + noise)
+
+
+def add_hot_pixels(
+    voxels: Voxels, *, deviation: float, max_fraction: float, chance: np.random.Generator
+) -> Voxels:
+    """Some pixels, to which a normal number each is added in all bins of all windows.
+
+    Args:
+        voxels: of a sequence.
+        deviation: of these numbers.
+        max_fraction: the largest share of pixels; the share is uniform from 0 on.
+        chance: of this sequence in this epoch.
+    """
+    height, width = voxels.shape[-2:]
+    count = int(chance.uniform(0, max_fraction) * height * width)
+    offset = np.zeros((height, width), np.float32)
+    places = chance.integers(height, size=count), chance.integers(width, size=count)
+    # A pixel that is drawn twice gets the sum.
+    np.add.at(offset, places, chance.standard_normal(count, np.float32) * np.float32(deviation))
+    return np.asarray(voxels + offset)
+
+
+LEAST_SUM = 1e-5
+"""Added to what the difference of two images is divided by."""
+
+
+def l1(images: Tensor, true: Tensor) -> Tensor:
+    """Mean absolute difference of each pair of images, [n] from [n, 1, H, W]."""
+    return (images - true).abs().mean(dim=(1, 2, 3))
+
+
+def dissimilarity(images: Tensor, true: Tensor) -> Tensor:
+    """1 − SSIM of each pair of images, [n] from [n, 1, H, W]."""
+    return 1 - ssim(images, true)
+
+
+def ssim(a: Tensor, b: Tensor) -> Tensor:
+    """See `texvent.metrics.structural_similarity.structural_similarity`.
+
+    Args:
+        a: [n, 1, H, W], 0..1, sides of 11 px or more.
+        b: alike.
+
+    Returns:
+        Of each pair, [n].
+    """
+    means = _smooth([a, b, a * a, b * b, a * b])
+    mean_a, mean_b, square_a, square_b, product = means
+    variance = square_a - mean_a**2 + square_b - mean_b**2
+    covariance = product - mean_a * mean_b
+    c1, c2 = LUMINANCE**2, CONTRAST**2
+    similarity = (2 * mean_a * mean_b + c1) * (2 * covariance + c2)
+    return (similarity / ((mean_a**2 + mean_b**2 + c1) * (variance + c2))).mean(dim=(1, 2, 3))
+
+
+def _smooth(images: list[Tensor]) -> list[Tensor]:
+    """Gaussian-weighted mean around every pixel that is far enough from the border."""
+    torch = require("torch", extra=EXTRA)
+    weights = torch.as_tensor(gaussian_window().astype(np.float32), device=images[0].device)
+    joined = torch.cat(images)
+    # Variances are small differences of squares: never in the narrow numbers of mixed precision.
+    with torch.autocast(joined.device.type, enabled=False):
+        for kernel in (weights[None, None, None], weights[None, None, :, None]):
+            joined = torch.nn.functional.conv2d(joined, kernel.to(joined.dtype))
+    return list(joined.chunk(len(images)))
+
+
+def inconsistency(
+    images: tuple[Tensor, Tensor], true: tuple[Tensor, Tensor], flow: Tensor, *, alpha: float
+) -> Tensor:
+    """How much two images in succession differ where they show the same.
+
+    The later image is looked up where each pixel of the earlier one has moved. The difference,
+    divided by the sum of both, counts less where the true images differ there too, and not at all
+    where the flow is not known or leaves the image.
+
+    Args:
+        images: the earlier and the later one, [n, 1, H, W].
+        true: alike, 0..1.
+        flow: displacement (x, y) of what each pixel of the earlier image shows, px, [n, 2, H, W];
+            NaN where it is not known.
+        alpha: see `ReconstructionLoss.consistency_alpha`.
+
+    Returns:
+        Of each pair, the mean over all pixels, [n].
+
+    Source: W.-S. Lai et al., "Learning blind video temporal consistency", ECCV 2018; with this
+        difference, the program of T. Stoffregen et al., "Reducing the sim-to-real gap for event
+        cameras", ECCV 2020.
+    """
+    torch = require("torch", extra=EXTRA)
+    height, width = flow.shape[-2:]
+    y, x = torch.meshgrid(
+        torch.arange(height, device=flow.device),
+        torch.arange(width, device=flow.device),
+        indexing="ij",
+    )
+    place = torch.stack([x, y]) + flow
+    limits = torch.tensor([width - 1, height - 1], device=flow.device)[:, None, None]
+    # A comparison with NaN is false.
+    is_known = ((place >= 0) & (place <= limits)).all(dim=1, keepdim=True)
+    grid = (2 * place / limits.clamp(min=1) - 1).nan_to_num(0).movedim(1, -1)
+    both = torch.cat([images[1], true[1]], dim=1)
+    later, true_later = torch.nn.functional.grid_sample(
+        both, grid.to(both.dtype), padding_mode="border", align_corners=True
+    ).split(1, dim=1)
+    weight = torch.exp(-alpha * (true_later - true[0]) ** 2) * is_known
+    error = (later - images[0]).abs() / (later.abs() + images[0].abs() + LEAST_SUM)
+    return (weight * error).mean(dim=(1, 2, 3))
+
+
+Comparison: TypeAlias = Callable[[Tensor, Tensor], Tensor]
+"""Images and true images, [n, 1, H, W], to [n]."""
+
+
+class SequenceLoss:
+    """The sum that `ReconstructionLoss` describes."""
+
+    def __init__(self, options: ReconstructionLoss, weights: LpipsWeights | None) -> None:
+        """Choose the parts that have a weight.
+
+        Args:
+            options: weights of the parts.
+            weights: those of LPIPS; None: it has no part.
+        """
+        self._options = options
+        self._lpips = None if weights is None else Lpips(weights)
+        parts: list[tuple[float, Comparison]] = [
+            (options.l1, l1),
+            (options.ssim, dissimilarity),
+        ]
+        if self._lpips is not None:
+            parts.append((options.lpips, self._lpips))
+        self._parts = [(weight, compare) for weight, compare in parts if weight]
+
+    @property
+    def least_side(self) -> int:
+        """Of images that can be compared, px."""
+        window = 2 * RADIUS_PX + 1 if self._options.ssim else 1
+        return window if self._lpips is None else max(window, self._lpips.least_side)
+
+    def to(self, device: Any) -> SequenceLoss:
+        """Move the weights of LPIPS."""
+        if self._lpips is not None:
+            self._lpips.to(device)
+        return self
+
+    def __call__(self, images: Tensor, true: Tensor, flow: Tensor | None) -> Tensor:
+        """The loss, a scalar.
+
+        Args:
+            images: [n, windows, 1, H, W], roughly 0..1.
+            true: alike, 0..1.
+            flow: over each window, px, [n, windows, 2, H, W]; None: no consistency.
+        """
+        loss: Tensor = 0
+        for weight, compare in self._parts:
+            loss = loss + weight * compare(images.flatten(0, 1), true.flatten(0, 1)).mean()
+        if flow is None:
+            return loss
+        options = self._options
+        later, before = (
+            slice(options.consistency_from, None),
+            slice(options.consistency_from - 1, -1),
+        )
+        pairs = [
+            (one[:, before].flatten(0, 1), one[:, later].flatten(0, 1)) for one in (images, true)
+        ]
+        change = inconsistency(
+            pairs[0], pairs[1], flow[:, later].flatten(0, 1), alpha=options.consistency_alpha
+        )
+        return loss + options.consistency * change.sum() / true[:, :, 0, 0, 0].numel()
