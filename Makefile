@@ -143,7 +143,7 @@ format: $(VENV)/.dev
 
 licences: $(AUDIT_VENV)/.audit $(VENV)/.dev
 	$(AUDIT_VENV)/bin/reuse lint --quiet || { $(AUDIT_VENV)/bin/reuse lint; exit 1; }
-	$(AUDIT_VENV)/bin/python -m tools.licences check $(sort $(VENV) $(filter-out $(NEWEST_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV),$(wildcard .venv*)))
+	$(AUDIT_VENV)/bin/python -m tools.licences $(sort $(VENV) $(filter-out $(NEWEST_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV),$(wildcard .venv*)))
 
 sbom: $(AUDIT_VENV)/.audit
 	rm -rf $(SBOM_VENV)

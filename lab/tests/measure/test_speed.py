@@ -7,7 +7,7 @@ import jsonschema
 import pytest
 
 from texvent.sensor import SensorSize
-from texvent_lab.bench.document import describe_environment
+from texvent_lab.bench.document import describe_environment, read_document
 from texvent_lab.measure.speed import kernels, scenes
 from texvent_lab.measure.speed.kernels import Plan, measure_kernels
 from texvent_lab.measure.speed.peers import (
@@ -16,19 +16,11 @@ from texvent_lab.measure.speed.peers import (
     measure_duel,
 )
 from texvent_lab.measure.speed.stages import measure_pipeline
-from texvent_lab.measure.speed.tables import (
-    BEGIN,
-    END,
-    TARGETS,
-    as_markdown,
-    check_targets,
-    put_into_page,
-)
+from texvent_lab.measure.speed.tables import TARGETS, as_markdown, check_targets
 from texvent_lab.measure.speed.timing import Bandwidth
 
 ROOT = Path(__file__).parents[3]
 SCHEMA = json.loads((ROOT / "docs/results/speed.schema.json").read_text(encoding="utf-8"))
-COMMITTED = ROOT / "docs/results/speed.json"
 SPREAD = {"median": 2.0, "q1": 1.0, "q3": 3.0, "n": 3}
 BANDWIDTHS = {1: Bandwidth(dram=40e9, cache=100e9), 2: Bandwidth(dram=80e9, cache=200e9)}
 
@@ -104,19 +96,7 @@ def test_targets_are_met_missed_or_not_measured(document):
     assert {row["name"]: row["is_met"] for row in check_targets(fast)}[shown["name"]] is True
 
 
-def test_the_page_gets_the_tables_between_its_marks(document):
-    page = put_into_page(f"# Speed\n\n{BEGIN}\nyesterday\n{END}\nmore\n", document)
-    assert page.startswith(f"# Speed\n\n{BEGIN}\n\nCommit ")
-    assert page.endswith(f"{END}\nmore\n")
-    assert "yesterday" not in page
-    assert as_markdown(document) in page
-    assert put_into_page(page, document) == page
-    with pytest.raises(ValueError, match="must hold"):
-        put_into_page("# Speed\n", document)
-
-
-def test_the_committed_page_shows_the_committed_figures():
-    committed = json.loads(COMMITTED.read_text(encoding="utf-8"))
-    jsonschema.validate(committed, SCHEMA)
-    page = (ROOT / "docs/speed.md").read_text(encoding="utf-8")
-    assert put_into_page(page, committed) == page
+def test_the_stored_result_follows_the_schema_and_has_tables():
+    stored = read_document(ROOT / "docs/results/speed.json.gz")
+    jsonschema.validate(stored, SCHEMA)
+    assert as_markdown(stored).count("\n### ") == 6
