@@ -37,13 +37,13 @@ class Column(NamedTuple):
     def kind_in(self, array: Array, width: int) -> str:
         """Kind of its numbers in an array of so many columns, as `dtype.kind`; "" if not there."""
         if isinstance(self.part, int):
-            return array.dtype.kind if array.shape[1:] == (width,) else ""
+            return str(array.dtype.kind) if array.shape[1:] == (width,) else ""
         if not array.shape or array.shape[1:] not in ((), (1,)):
             return ""
         if self.part is None:
-            return array.dtype.kind
+            return str(array.dtype.kind)
         fields = array.dtype.fields or {}
-        return fields[self.part][0].kind if self.part in fields else ""
+        return str(fields[self.part][0].kind) if self.part in fields else ""
 
     def of(self, rows: NDArray[Any]) -> NDArray[Any]:
         """The column of some rows, [n]."""
@@ -105,7 +105,8 @@ class EventLayout:
         others = [name for name in arrays if name not in self.arrays]
 
         def times(rows: NDArray[Any]) -> NDArray[np.int64]:
-            return self._to_us(path, self.columns["t"].of(np.asarray(rows))) + offset_us
+            times_us = self._to_us(path, self.columns["t"].of(np.asarray(rows)))
+            return times_us + offset_us if offset_us else times_us
 
         def read(start: int, stop: int) -> Columns:
             parts = {name: np.asarray(array[start:stop]) for name, array in arrays.items()}
@@ -129,8 +130,10 @@ class EventLayout:
             if not (np.abs(times_us) < LARGEST_FLOAT).all():
                 raise FileFormatError(f"{path} holds times that are not seconds")
             return np.rint(times_us).astype(np.int64)
-        whole = times.astype(np.int64)
-        if self.per_second <= MICROSECONDS:
+        whole = times.astype(np.int64, copy=False)
+        if self.per_second == MICROSECONDS:
+            return whole
+        if self.per_second < MICROSECONDS:
             return whole * (MICROSECONDS // self.per_second)
         return whole // (self.per_second // MICROSECONDS)
 

@@ -145,8 +145,3 @@ def test_the_command_states_both_accuracies(folder, checkpoint, tmp_path, capsys
     assert printed.startswith("top-1 ")
     assert "top-5 1.0000" in printed  # of three classes the right one is always among five
     assert '"count": 6' in (tmp_path / "result.json").read_text()
-
-
-def test_weights_that_are_not_there_are_named_with_their_source(tmp_path):
-    with pytest.raises(InputError, match="82magnolia/n_imagenet"):
-        read_resnet(tmp_path / "none.tar")

@@ -188,7 +188,7 @@ def _is_number(word: str) -> bool:
     return True
 
 
-def _refuse_rows(path: Path, is_wrong: NDArray[np.bool_], what: str) -> None:
+def _refuse_rows(path: Path, is_wrong: Any, what: str) -> None:
     if is_wrong.any():
         raise FileFormatError(f"{path}, row {int(np.argmax(is_wrong)) + 1}, has {what}")
 

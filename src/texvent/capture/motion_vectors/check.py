@@ -188,10 +188,11 @@ class _Samples:
         if along is None:
             seen = other[self.rows, self.columns]
         else:
-            x = (self.columns + along[:, 0]).astype(np.float32)[:, None]
-            y = (self.rows + along[:, 1]).astype(np.float32)[:, None]
-            edge = cv2.BORDER_REPLICATE
-            seen = np.asarray(cv2.remap(other, x, y, cv2.INTER_LINEAR, borderMode=edge))[:, 0]
+            last_row, last_column = other.shape[0] - 1, other.shape[1] - 1
+            x = np.clip(self.columns + along[:, 0], 0, last_column).astype(np.float32)[:, None]
+            y = np.clip(self.rows + along[:, 1], 0, last_row).astype(np.float32)[:, None]
+            warped = cv2.remap(other, x, y, cv2.INTER_LINEAR)
+            seen = np.asarray(warped, np.float32)[:, 0]
         return np.asarray(np.abs(here[self.rows, self.columns] - seen), np.float32)
 
 
