@@ -172,5 +172,5 @@ def test_messages_show_at_most_80_characters_of_a_value(value):
 
 
 def test_a_limit_that_is_infinite_is_refused():
-    with pytest.raises(ConfigError, match="max_frames_per_second is inf"):
-        InterpolateConfig(max_frames_per_second=float("inf"))
+    with pytest.raises(ConfigError, match="frames_per_pixel is inf"):
+        InterpolateConfig(frames_per_pixel=float("inf"))

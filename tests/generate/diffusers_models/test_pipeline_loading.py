@@ -14,6 +14,7 @@ torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
 diffusers = pytest.importorskip("diffusers")
 
 from safetensors.torch import load_file, save_file  # noqa: E402
+from texvent.generate.videos.clip_model import measure_clip_score  # noqa: E402
 
 from texvent.errors import (  # noqa: E402
     ConfigError,
@@ -30,7 +31,6 @@ from texvent.generate.diffusers_models.pipeline_loading import (  # noqa: E402
 )
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
 from texvent.generate.video_models.loading import quiet_libraries  # noqa: E402
-from texvent.generate.videos.clip_model import measure_clip_score  # noqa: E402
 
 from .. import tiny_pipelines  # noqa: E402
 from ..tiny_models import PROMPT, build  # noqa: E402

@@ -155,7 +155,7 @@ def test_its_failure_is_told_in_its_own_words(root):
         ("scripts/diffusion/inference.py", r"has no scripts/diffusion/inference.py"),
         ("configs/diffusion/inference/256px.py", r"has no configs/.*256px.py"),
         ("ckpts/hunyuan_vae.safetensors", r"hunyuan_vae.safetensors are missing; .* hf download"),
-        (".venv/bin/torchrun", r"no torchrun in .*opensora_launcher"),
+        (".venv/bin/torchrun", r"no torchrun in .*link it as \.venv"),
     ],
 )
 def test_what_is_missing_is_named_with_what_to_do(root, monkeypatch, remove, why):
@@ -168,10 +168,11 @@ def test_what_is_missing_is_named_with_what_to_do(root, monkeypatch, remove, why
 def test_without_a_checkout_the_place_to_get_it_is_named(monkeypatch, tmp_path):
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
     monkeypatch.delenv("OPENSORA_ROOT", raising=False)
-    with pytest.raises(TexventError, match="OPENSORA_ROOT or pass `opensora_root`"):
+    with pytest.raises(TexventError, match="then set OPENSORA_ROOT"):
         build().generate(PROMPT)
+    monkeypatch.setenv("OPENSORA_ROOT", str(tmp_path / "gone"))
     with pytest.raises(TexventError, match="there is no folder"):
-        build(opensora_root=tmp_path / "gone").generate(PROMPT)
+        build().generate(PROMPT)
 
 
 @pytest.mark.parametrize(

@@ -130,7 +130,7 @@ def test_the_registry_lists_table_rows_after_its_own_names():
 
 @pytest.mark.parametrize(
     ("option", "value"),
-    [("frames", 1), ("width", 4), ("steps", 0), ("guidance", -1.0), ("retries", -1), ("fps", 0)],
+    [("frames", 1), ("width", 4), ("steps", 0), ("guidance", -1.0), ("fps", 0)],
 )
 def test_options_out_of_range_are_refused(option, value):
     with pytest.raises(ConfigError, match=option):

@@ -177,7 +177,7 @@ def test_too_little_memory_says_what_to_lower(network, monkeypatch):
 
 def test_frames_become_events(weights):
     frames = moving_texture(7, (20, 24))
-    simulator = V2ceSimulator(V2ceConfig(weights=weights, device="cpu", sequence_length=4))
+    simulator = V2ceSimulator(V2ceConfig(weights=weights, sequence_length=4))
     events = EventStream.concat([packet for _, packet in advance_through(simulator, frames)])
     assert len(events) > 100
     assert set(events.p.tolist()) == {0, 1}
@@ -189,7 +189,7 @@ def test_frames_become_events(weights):
 
 
 def test_a_copied_simulator_goes_on_alike(weights):
-    simulator = V2ceSimulator(V2ceConfig(weights=weights, device="cpu", sequence_length=2))
+    simulator = V2ceSimulator(V2ceConfig(weights=weights, sequence_length=2))
     for frame in moving_texture(3):
         simulator.step(frame)
     twin = copy.deepcopy(simulator)

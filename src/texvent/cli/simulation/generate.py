@@ -44,7 +44,7 @@ class PromptOptions:
     positional: ClassVar[tuple[str, ...]] = ("prompt",)
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "generator", "duration", "sensor", "simulator", "preset",
-        "contrast_threshold", "noise", "interpolate", "seed", "events_only", "config", "preview",
+        "contrast_threshold", "noise", "interpolate", "seed", "previews", "config", "preview",
         "dry_run", "overwrite",
     )  # fmt: skip
 

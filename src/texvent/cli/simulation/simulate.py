@@ -26,15 +26,13 @@ class VideoOptions:
     positional: ClassVar[tuple[str, ...]] = ("source",)
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "sensor", "simulator", "preset", "contrast_threshold", "noise", "interpolate",
-        "fps", "motion", "camera", "start", "stop", "seed", "events_only", "config", "dry_run",
+        "fps", "motion", "camera", "start", "stop", "seed", "previews", "config", "dry_run",
         "overwrite",
     )  # fmt: skip
 
     source: str = REQUIRED
     """Video, image folder, camera, stream, or -. A camera is /dev/video0, a stream rtsp://...; - is
     standard input. With --camera: a still image."""
-    prompt: str | None = None
-    """Description of the video; stored with the events."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -49,4 +47,4 @@ def run(arguments: Sequence[str]) -> int:
     if output.print_config:
         return print_settings(settings)
     subject = "standard input" if own.source == "-" else Path(own.source).stem
-    return run_source(own.source, settings, output, prompt=own.prompt, subject=subject)
+    return run_source(own.source, settings, output, subject=subject)

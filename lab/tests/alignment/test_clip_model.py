@@ -11,10 +11,10 @@ torch = pytest.importorskip("torch")
 transformers = pytest.importorskip("transformers")
 torch.set_num_threads(1)
 
-from texvent.errors import ConfigError, FileFormatError, InputError  # noqa: E402
-from texvent.generate.videos.clip_model import ClipModel  # noqa: E402
+from tests.generate import tiny_pipelines  # noqa: E402
 
-from .. import tiny_pipelines  # noqa: E402
+from texvent.errors import ConfigError, FileFormatError, InputError  # noqa: E402
+from texvent_lab.alignment.clip_model import ClipModel  # noqa: E402
 
 TEXTS = ["a red cat walks", "dogs " * 40]
 
