@@ -34,9 +34,9 @@ class OutputOptions:
     """Format to write, where the extension does not say which (docs/files.md lists them); for
     several files, one for each."""
     previews: str = "mp4,png,html"
-    """Files beside the events, with commas between: a video of frames and events (.events.mp4), an
-    image of the busiest moment (.events.png), a page with point cloud, rate and facts
-    (.events.html); or none."""
+    """Files beside the events: mp4, png, html or none. With commas between: a video of frames and
+    events (.events.mp4), an image of the busiest moment (.events.png), a page with point cloud,
+    rate and facts (.events.html)."""
     truth: str = ""
     """Write ground truth of the scene beside the events (out.h5: out.truth/): flow, flow-back,
     depth, ids, boxes, poses, events, overlay, with commas between, or all. See docs/truth.md."""

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.frame_pairs import advance_through
 
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.simulate.v2ce.network import load_network, read_weights
 from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator
@@ -31,7 +31,7 @@ def weights(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def network(weights):
-    return load_network(weights, "cpu")
+    return load_network(weights)
 
 
 def some_pairs(count, height, width, seed=1):
@@ -70,7 +70,7 @@ def test_spectral_layers_are_divided_by_their_largest_singular_value(tmp_path):
     bar = tensors[f"{name}_bar"]
     left, size, _ = np.linalg.svd(bar.reshape(len(bar), -1), full_matrices=False)
     tensors[f"{name}_u"] = left[:, 0]
-    read = read_weights(save(tensors, tmp_path / "w.pt"), "cpu")
+    read = read_weights(save(tensors, tmp_path / "w.pt"))
     found = read["UNet.resblocks.0.conv1.weight"].numpy()
     assert found == pytest.approx(bar / size[0], rel=1e-4, abs=1e-7)
     assert not [key for key in read if ".module." in key]
@@ -83,12 +83,12 @@ def test_prefixes_of_training_programs_are_stripped(network, tmp_path, prefix):
     path = tmp_path / "last.ckpt"
     torch.save({"epoch": 3, "state_dict": state}, path)
     pairs = some_pairs(2, 16, 16)
-    assert np.array_equal(load_network(path, "cpu").predict(pairs), network.predict(pairs))
+    assert np.array_equal(load_network(path).predict(pairs), network.predict(pairs))
 
 
 def test_counters_of_training_may_be_missing(network, tmp_path):
     tensors = {k: v for k, v in random_tensors().items() if not k.endswith("tracked")}
-    other = load_network(save(tensors, tmp_path / "w.pt"), "cpu")
+    other = load_network(save(tensors, tmp_path / "w.pt"))
     pairs = some_pairs(2, 16, 16)
     assert np.array_equal(other.predict(pairs), network.predict(pairs))
 
@@ -117,7 +117,7 @@ def without(tensors, name):
 def test_a_file_of_another_layout_fails_by_name(tmp_path, change, message):
     path = save(change(random_tensors()), tmp_path / "odd.pt")
     with pytest.raises(FileFormatError, match=message) as caught:
-        load_network(path, "cpu")
+        load_network(path)
     assert "odd.pt" in str(caught.value)
 
 
@@ -134,20 +134,20 @@ def test_a_damaged_file_fails_once_and_clearly(weights, tmp_path, content):
     path = tmp_path / "damaged.pt"
     path.write_bytes(content(weights.read_bytes()))
     with pytest.raises(FileFormatError, match=r"damaged\.pt cannot be read.*V2CE-Toolbox"):
-        load_network(path, "cpu")
+        load_network(path)
 
 
 def test_a_file_that_would_run_code_is_refused(tmp_path):
     path = tmp_path / "object.pt"
     torch.save({"UNet.head.conv3d.weight": V2ceConfig()}, path)
     with pytest.raises(FileFormatError, match=r"object of class .*V2ceConfig, whose code would"):
-        load_network(path, "cpu")
+        load_network(path)
 
 
 def test_a_file_of_something_else_is_refused(tmp_path):
     torch.save([1, 2, 3], tmp_path / "list.pt")
     with pytest.raises(FileFormatError, match="list, not named tensors"):
-        load_network(tmp_path / "list.pt", "cpu")
+        load_network(tmp_path / "list.pt")
 
 
 def test_weights_that_blow_up_fail_by_name(tmp_path):
@@ -155,15 +155,9 @@ def test_weights_that_blow_up_fail_by_name(tmp_path):
     for name in tensors:
         if name.endswith("conv1.weight"):
             tensors[name] = tensors[name] * np.float32(1e20)
-    network = load_network(save(tensors, tmp_path / "huge.pt"), "cpu")
+    network = load_network(save(tensors, tmp_path / "huge.pt"))
     with pytest.raises(FileFormatError, match=r"huge\.pt.*NaN or infinite"):
         network.predict(some_pairs(1, 16, 16))
-
-
-def test_a_gpu_that_is_not_there_is_named(weights, monkeypatch):
-    monkeypatch.setattr(torch.cuda, "is_available", lambda: False)
-    with pytest.raises(ConfigError, match="torch finds no GPU"):
-        load_network(weights, "cuda")
 
 
 def test_too_little_memory_says_what_to_lower(network, monkeypatch):
