@@ -86,7 +86,7 @@ test-docs: $(DOCS_VENV)/.docs-test
 	$(DOCS_VENV)/bin/python -m pytest -q -m docs tests/notebooks tests/contract
 
 test-gpl: $(GPL_VENV)/.gpl
-	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io tests/dataset/loading
+	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io
 
 test-llm: $(LLM_VENV)/.llm
 	$(LLM_VENV)/bin/python -m pytest -q -m llm tests/scenes/llm

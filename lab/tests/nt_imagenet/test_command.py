@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from texvent.cli.app import main
-from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent_lab.nt_imagenet.files import read_captioned, read_streams
 
 from .tiny_data import WNIDS, contents, stream_id, write_imagenet, write_n_imagenet
@@ -116,7 +116,7 @@ def test_the_captions_become_events_that_stand_beside_their_streams(
     with (built / "pairs.csv").open() as file:
         pairs = list(csv.DictReader(file))
     (built / "pairs.csv").unlink()
-    shards = MadeSet.open(events).shards()
+    shards = StoredDataset.open(events).shards()
     samples = {one.key: (shard, one) for shard in shards for one in shard.samples}
     assert len(pairs) == len(samples) == 4 * 2 * 2
     for pair in pairs:

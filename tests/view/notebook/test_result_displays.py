@@ -8,10 +8,7 @@ import math
 import pickle
 import weakref
 
-import numpy as np
-
 import texvent
-from texvent.dataset.loading.stored_samples import StoredSample
 from texvent.events import EventStream
 from texvent.metrics.compare import Scores, load_metric
 from texvent.sensor import SensorSize
@@ -49,22 +46,3 @@ def test_an_undefined_score_says_so_and_names_are_escaped():
     table = Scores({"<b>": math.nan}, [])._repr_mimebundle_()["text/html"]
     assert "undefined" in table
     assert "&lt;b&gt;" in table
-
-
-def test_a_sample_shows_its_events_and_class():
-    sample = StoredSample(
-        key="s-000001",
-        events=EVENTS.with_metadata({"prompt": "a <b> car"}),
-        caption="a <b> car",
-        label="car",
-        class_number=0,
-        variant="default",
-        split="train",
-        facts={},
-    )
-    page = sample._repr_mimebundle_()["text/html"]
-    assert "<b> car" not in page
-    assert page.count("a &lt;b&gt; car") == 2
-    for fact in ("s-000001", "train", "2 events"):
-        assert fact in page
-    assert np.array_equal(sample.events.t, [100, 900])

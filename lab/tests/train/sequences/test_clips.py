@@ -10,8 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from texvent.dataset.samples import record_clip, target_of
 from texvent.dataset.simulated_clips import SimulatedClips
-from texvent.dataset.targets import record_clip, target_of
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent_lab.train.sequences.clips import WindowedClips
 from texvent_lab.train.sequences.config import SequenceData
