@@ -41,7 +41,7 @@ def test_a_video_written_once_gives_events_again_and_again(folder, capsys):
     assert len(texvent.load("b.h5")) > len(texvent.load("a.h5")) > 0
     with h5py.File("a.h5") as file:
         stored = json.loads(file.attrs["texvent"])
-    assert stored["source"]["prompt"] == PROMPT
+    assert stored["prompt"] == PROMPT
     assert stored["source"]["generator"] == "procedural"
 
 

@@ -70,7 +70,7 @@ def test_spectral_layers_are_divided_by_their_largest_singular_value(tmp_path):
     bar = tensors[f"{name}_bar"]
     left, size, _ = np.linalg.svd(bar.reshape(len(bar), -1), full_matrices=False)
     tensors[f"{name}_u"] = left[:, 0]
-    read = read_weights(save(tensors, tmp_path / "w.pt"))
+    read = read_weights(save(tensors, tmp_path / "w.pt"), "cpu")
     found = read["UNet.resblocks.0.conv1.weight"].numpy()
     assert found == pytest.approx(bar / size[0], rel=1e-4, abs=1e-7)
     assert not [key for key in read if ".module." in key]
