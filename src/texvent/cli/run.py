@@ -76,6 +76,7 @@ def run_source(
     settings: Settings,
     options: OutputOptions,
     *,
+    prompt: str | None,
     subject: str,
 ) -> int:
     """Simulate a video into its files; returns exit code 0.
@@ -84,6 +85,7 @@ def run_source(
         source: as `texvent simulate` takes it.
         settings: all options.
         options: what is written, and where.
+        prompt: what the video shows, if that is known.
         subject: what the event file is named after, unless it has a name.
 
     Raises:
@@ -91,7 +93,7 @@ def run_source(
     """
     files = options.files(subject)
     with ConsoleProgress(is_quiet=options.quiet) as progress:
-        simulation = prepare_source(source, settings, progress=progress)
+        simulation = prepare_source(source, settings, prompt=prompt, progress=progress)
     return execute(simulation, options, files)
 
 

@@ -33,6 +33,8 @@ class VideoOptions:
     source: str = REQUIRED
     """Video, image folder, camera, stream, or -. A camera is /dev/video0, a stream rtsp://...; - is
     standard input. With --camera: a still image."""
+    prompt: str | None = None
+    """Description of the video; stored with the events."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -47,4 +49,4 @@ def run(arguments: Sequence[str]) -> int:
     if output.print_config:
         return print_settings(settings)
     subject = "standard input" if own.source == "-" else Path(own.source).stem
-    return run_source(own.source, settings, output, subject=subject)
+    return run_source(own.source, settings, output, prompt=own.prompt, subject=subject)
