@@ -17,8 +17,7 @@ from texvent.batch.samples import entries_of, moved_together
 from texvent.dataset.specification.option_ranges import draw_options, is_range
 from texvent.dataset.specification.specification import SampleSource, Specification
 from texvent.errors import ConfigError, InputError, shown
-from texvent.scenes.spec.data import scene_from_data, scene_to_data
-from texvent.scenes.spec.paths import get_field, with_fields
+from texvent.scenes.spec.data import get_field, scene_from_data, scene_to_data, with_fields
 from texvent.scenes.spec.scene import Scene
 
 MAX_ITEMS = 10_000_000
