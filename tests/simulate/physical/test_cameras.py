@@ -6,6 +6,7 @@ import dataclasses
 
 import pytest
 
+from texvent.sensor import SENSORS
 from texvent.simulate.physical.cameras import CAMERAS, NOT_OF_A_CAMERA, PRESETS, camera_table
 from texvent.simulate.physical.config import PhysicalConfig
 
