@@ -89,10 +89,20 @@ def nouns_of(subject: Subject, nouns: Mapping[str, Noun]) -> Mapping[str, Noun]:
     return with_models(nouns, models) if models else nouns
 
 
+def check_words(scene: Scene, assets: str | Path | None = None) -> Scene:
+    """The scene, if its words are shown by the generator or by models of a folder.
+
+    Raises:
+        ConfigError: a word is not shown.
+        InputError: a model does not exist.
+    """
+    return checked_scene(scene, list_words(nouns_of(scene, list_nouns(assets))))
+
+
 def list_words(nouns: Mapping[str, Noun]) -> Vocabulary:
     """The words of scenes, by kind: nouns, motions and activities, places, effects."""
     from texvent.scenes.models.effects import EFFECTS
-    from texvent.scenes.models.motions import MOTIONS
+    from texvent.scenes.models.nouns import MOTIONS
     from texvent.scenes.models.people.activities import ACTIVITIES, HAND_GESTURES
     from texvent.scenes.models.places import PLACES
 

@@ -10,7 +10,7 @@ from texvent._version import full_version
 from texvent.errors import InputError
 from texvent.generate.protocol import renders_instants
 from texvent.generate.scene_input import stored_subject
-from texvent.scenes.assets.provenance import check_files
+from texvent.scenes.assets.nouns import check_files
 from texvent.settings.resolution import Settings, resolve
 from texvent.video import FrameStream, RenderableStream
 

@@ -20,6 +20,7 @@ from texvent.scenes.description import AMID, SceneDescription
 from texvent.scenes.held import Unheld, bodies_of, find_unheld
 from texvent.scenes.models.places import PLACES
 from texvent.scenes.projection import project
+from texvent.scenes.raycast.acceleration import CUBE
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.render import render, world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
@@ -46,8 +47,6 @@ _LEAST_CLIP_S = 1.0
 _WATER = (Ground.SEA, Ground.LAKE, Ground.RIVER)
 _OUTDOORS = ("sunny", "overcast", "dusk", "dawn", "moonlight")
 _TURNS = ("spin", "work", "rotate")
-_CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
-"""Of the box around a unit shape."""
 
 
 class Unseen(NamedTuple):
@@ -202,7 +201,7 @@ def _box(
 ) -> tuple[Float64Array, Float64Array] | None:
     """Whole pixels around an instance, low and high corner; None where it is not in the image."""
     to_world = shapes.to_world[shapes.instance == instance].astype(np.float64)
-    corners = _CORNERS @ to_world[:, :, :3].transpose(0, 2, 1) + to_world[:, None, :, 3]
+    corners = CUBE @ to_world[:, :, :3].transpose(0, 2, 1) + to_world[:, None, :, 3]
     seen = project(scene.camera(float(time_s)), size, corners.reshape(-1, 3))
     low, high = np.zeros(2), np.array([size.width, size.height], dtype=np.float64)
     if (seen[:, 2] > 0.0).all() and np.isfinite(seen).all():

@@ -15,8 +15,7 @@ import pytest
 
 from texvent.cli.app import main
 from texvent.errors import InputError, TexventError
-from texvent.scenes.llm.endpoint import Endpoint
-from texvent.scenes.llm.writer import ground, model_schema, write_scene
+from texvent.scenes.llm import Endpoint, ground, model_schema, write_scene
 from texvent.scenes.spec.files import load_scene
 from texvent.scenes.spec.scene import Motion, Relation, SceneObject
 

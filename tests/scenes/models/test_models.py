@@ -6,7 +6,6 @@ from functools import cache
 import numpy as np
 import pytest
 
-from texvent.errors import InputError
 from texvent.scenes.models.materials import RED
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
@@ -190,9 +189,3 @@ def test_rolling_nouns_turn_by_distance_over_radius(name):
                 rates.append(rate[0, 2] * a.to_body[2, 3])
         assert rates
         np.testing.assert_allclose(rates, 1.0, rtol=1e-4)
-
-
-@pytest.mark.parametrize("scale", [0.0, -1.0, math.nan, math.inf])
-def test_a_figure_fails_on_an_impossible_scale(scale):
-    with pytest.raises(InputError, match="scale must be a positive number"):
-        NOUNS["car"].build(colour=None, scale=scale, seed=0)

@@ -62,7 +62,6 @@ def test_an_image_file_is_read_in_linear_light(tmp_path):
         (Picture("text", " "), "0 characters"),
         (Picture("text", "x" * 300), "300 characters"),
         (Picture("text", "Größe"), "ASCII"),
-        (Picture("hologram", "x"), "hologram"),
     ],
 )
 def test_a_bad_picture_is_one_clear_line(picture, message):

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, sheet
 
-from texvent.scenes.image import SurfaceImage, surface_image
+from texvent.scenes.mesh import SurfaceImage, surface_image
 from texvent.scenes.projection import place_in_image
 from texvent.scenes.raycast.render import render_light
 from texvent.scenes.scene import Camera

@@ -6,9 +6,12 @@ import numpy as np
 import pytest
 from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
-from texvent.scenes.raycast.lamps.bins import MOST_SHADOW_LAMPS, order_lamps
-from texvent.scenes.raycast.lamps.light import lamp_light
-from texvent.scenes.raycast.lamps.shadows import lamps_reach
+from texvent.scenes.raycast.lamps.light import (
+    MOST_SHADOW_LAMPS,
+    lamp_light,
+    lamps_reach,
+    order_lamps,
+)
 from texvent.scenes.raycast.render import render_light, world_at
 from texvent.scenes.scene import Environment, Float64Array, Ground, Shape
 from texvent.sensor import SensorSize

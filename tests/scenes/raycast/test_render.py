@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from texvent.errors import InputError
 from texvent.runtime.threads import THREADS_VARIABLE
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Environment, Ground, Shape
@@ -62,11 +61,6 @@ def test_any_size_can_be_drawn(size):
     image = render(showcase(), 0.0, SensorSize(*size))
     assert image.shape == (size[1], size[0], 3)
     assert np.isfinite(image).all()
-
-
-def test_samples_below_one_are_refused():
-    with pytest.raises(InputError, match="samples is 0; it must be at least 1"):
-        render(showcase(), 0.0, SMALL, samples=0)
 
 
 def test_an_edge_crosses_a_pixel_in_small_steps():

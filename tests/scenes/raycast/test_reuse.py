@@ -8,9 +8,8 @@ import pytest
 
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.scenes.raycast.render import render, world_and_shapes
-from texvent.scenes.raycast.reuse import changed
-from texvent.scenes.raycast.reuse.changed import Drawn, changed_tiles
-from texvent.scenes.raycast.reuse.memory import FrameMemory
+from texvent.scenes.raycast.reuse import memory as changed
+from texvent.scenes.raycast.reuse.memory import Drawn, FrameMemory, changed_tiles
 from texvent.scenes.scene import Environment, Float64Array, Shape
 from texvent.sensor import SensorSize
 

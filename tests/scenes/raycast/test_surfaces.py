@@ -11,8 +11,8 @@ from tests.scenes.hand_scenes import day
 
 from texvent.scenes.raycast.acceleration import bin_rectangles
 from texvent.scenes.raycast.records import INSTANT_RECORD, describe_surroundings
+from texvent.scenes.raycast.shading.ground import strip_place
 from texvent.scenes.raycast.shading.material import patch_axes, tile_average
-from texvent.scenes.raycast.shading.road import strip_place
 from texvent.scenes.raycast.shading.value_noise import (
     box_coverage,
     square_wave,

@@ -14,7 +14,7 @@ from texvent.scenes.description import (
     SceneObject,
 )
 from texvent.scenes.models.nouns import NOUNS
-from texvent.scenes.models.places import PLACES, is_room, place_names
+from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Ground
 from texvent.scenes.staging.surroundings.road import RoadLine
@@ -135,9 +135,9 @@ def test_every_place_can_be_drawn_and_a_room_holds_its_furniture(place):
 
 
 def test_a_name_belongs_to_one_place_and_scenery_has_models():
-    names = [name for some in place_names().values() for name in some]
+    names = [name for one in PLACES.values() for name in one.names]
     assert len(names) == len(set(names))
-    assert all(place_names().values())
+    assert all(one.names for one in PLACES.values())
     assert {one.noun for place in PLACES.values() for one in place.scenery} <= set(NOUNS)
     for place in ("park", "grass"):
         frozen = {rule.noun for rule in under_snow(PLACES[place].scenery)}

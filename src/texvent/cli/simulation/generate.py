@@ -76,7 +76,11 @@ def run(arguments: Sequence[str]) -> int:
     )
     if output.print_config:
         return print_settings(settings)
-    prompt = _written(own, settings) if own.reader == "llm" else read_subject(own.prompt)
+    prompt = (
+        _written(own, settings)
+        if own.reader == "llm"
+        else read_subject(own.prompt, getattr(settings.source, "assets", None))
+    )
     if own.write_scene is not None:
         return _write_scene(prompt, own, settings, output)
     if own.video_only:
@@ -114,8 +118,10 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
     Warns:
         TexventWarning: there are such words, or the model added something.
     """
-    from texvent.scenes.llm.endpoint import Endpoint  # an extra that most runs do not need
-    from texvent.scenes.llm.writer import write_scene
+    from texvent.scenes.llm import (
+        Endpoint,  # an extra that most runs do not need
+        write_scene,
+    )
 
     if own.llm_url is None or is_scene_file(own.prompt):
         raise ConfigError("--reader llm takes a sentence, and --llm-url with the model's server")

@@ -82,7 +82,7 @@ def run(arguments: Sequence[str]) -> int:
     out = output.out or default_event_file(subject_name(own.prompt)).with_suffix("")
     from texvent.rig.recorder import record_rig  # brings what writes HDF5 and bags
 
-    subject = read_subject(own.prompt)
+    subject = read_subject(own.prompt, getattr(settings.source, "assets", None))
     with ConsoleProgress(is_quiet=output.quiet) as progress:
         tally = record_rig(
             subject, settings, own.config, out, overwrite=output.overwrite, progress=progress

@@ -15,7 +15,7 @@ from texvent.batch.samples import entries_of
 from texvent.dataset.specification.option_ranges import draw_options, is_range
 from texvent.dataset.specification.specification import SampleSource
 from texvent.errors import ConfigError, InputError, shown
-from texvent.scenes.spec.paths import get_field, with_fields
+from texvent.scenes.spec.data import get_field, with_fields
 from texvent.scenes.spec.scene import Scene
 
 

@@ -1,8 +1,14 @@
 """Models of one's own: folders of GLB, OBJ and PLY files as nouns."""
 
 from texvent.scenes.assets.index import Asset, read_folder
-from texvent.scenes.assets.nouns import load_model, merge_nouns, with_models
-from texvent.scenes.assets.provenance import check_files, describe_file, list_files
+from texvent.scenes.assets.nouns import (
+    check_files,
+    describe_file,
+    list_files,
+    load_model,
+    merge_nouns,
+    with_models,
+)
 
 __all__ = [
     "Asset",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import hashlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import lru_cache
@@ -14,11 +14,10 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, one_line, shown
-from texvent.scenes.assets.figure import Figure, RigidFigure, Surface
-from texvent.scenes.assets.gltf_figure import GltfFigure
+from texvent.scenes.assets.figure import Figure, GltfFigure, RigidFigure, Surface
 from texvent.scenes.assets.index import ENDINGS, Asset
-from texvent.scenes.image import SurfaceImage, decode_srgb, surface_image
-from texvent.scenes.mesh import Colour, Float64Array
+from texvent.scenes.description import SceneDescription
+from texvent.scenes.mesh import Colour, Float64Array, SurfaceImage, decode_srgb, surface_image
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.parts import read_nouns
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
@@ -265,8 +264,6 @@ class _Builder:
     is_centred: bool
 
     def __call__(self, *, colour: Colour | None, scale: float, seed: int) -> Model:
-        if not (math.isfinite(scale) and scale > 0.0):
-            raise InputError(f"scale must be a positive number but got {scale!r}")
         asset = choose(seed, "asset", self.assets)
         listed = _part_noun(asset)
         if listed is not None:
@@ -334,3 +331,42 @@ def _noun(name: str, assets: tuple[Asset, ...]) -> Noun:
 def assets_of(noun: Noun) -> tuple[Asset, ...]:
     """The assets that a noun's models come from; none for an embedded noun."""
     return noun.build.assets if isinstance(noun.build, _Builder) else ()
+
+
+def describe_file(path: Path) -> dict[str, str]:
+    """A file's path and SHA-256 as JSON."""
+    try:
+        with path.open("rb") as file:
+            digest = hashlib.file_digest(file, "sha256").hexdigest()
+    except OSError as error:
+        raise InputError(f"{path} cannot be read: {error.strerror}") from error
+    return {"file": str(path), "sha256": digest}
+
+
+def list_files(description: SceneDescription, nouns: Mapping[str, Noun]) -> list[dict[str, str]]:
+    """The files of assets and pictures that a scene is made of, each once."""
+    files = {asset.path for one in description.objects for asset in assets_of(nouns[one.noun])}
+    for one in description.objects:
+        if one.picture is not None and one.picture.kind == "file":
+            files.add(Path(one.picture.value))
+    return [describe_file(path) for path in sorted(files)]
+
+
+def check_files(described: Any) -> None:
+    """Refuse files that are gone or not as they were.
+
+    Args:
+        described: the list that `list_files` gave, from an event file; anything else is passed.
+
+    Raises:
+        InputError: a file is gone.
+        FileFormatError: a file was changed.
+    """
+    for one in described if isinstance(described, list) else ():
+        if not isinstance(one, Mapping) or not isinstance(one.get("file"), str):
+            continue
+        path = Path(one["file"])
+        if not path.is_file():
+            raise InputError(f"{path}, which the events were made with, is not here")
+        if describe_file(path)["sha256"] != one.get("sha256"):
+            raise FileFormatError(f"{path} was changed since the events were made with it")

@@ -7,7 +7,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.errors import InputError
 from texvent.scenes.models.protocol import ModelPart, Pose
 from texvent.scenes.models.shapes import Affine, bounds
 
@@ -60,12 +59,7 @@ class ArticulatedModel:
             anchor: places at which other things are held; None = those of its box.
             poses: what its size is measured over.
             is_wheeled: whether it rolls on wheels; what does not rolls as a whole.
-
-        Raises:
-            InputError: scale is not a positive number.
         """
-        if not (np.isfinite(scale) and scale > 0.0):
-            raise InputError(f"scale must be a positive number but got {scale!r}")
         self._scale = float(scale)
         self._rigid = [_scaled(each, self._scale) for each in rigid]
         self._articulate = articulate

@@ -5,13 +5,12 @@ The table is `data/effects.toml`; `staging.particles` shows what it says. Reader
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass
-from importlib.resources import files
 from types import MappingProxyType
 from typing import Any, Literal
 
+from texvent.scenes.models.tables import frozen, read_table
 from texvent.scenes.scene import Colour
 
 Vector = tuple[float, float, float]
@@ -103,27 +102,16 @@ class EffectWords:
     emitters: tuple[EmitterStyle, ...] = ()
 
 
-def _frozen(value: Any) -> Any:
-    """Lists as tuples, all the way down."""
-    return tuple(_frozen(one) for one in value) if isinstance(value, list) else value
-
-
 _BODIES: Mapping[str, Literal["puff", "drop", "chip"]] = MappingProxyType(
     {"chips": "chip", "flakes": "chip", "drops": "drop", "puffs": "puff"}
 )
 """Kind of particles in the table → their bodies."""
 
 
-def _read() -> dict[str, Any]:
-    file = files("texvent.scenes.models") / "data" / "effects.toml"
-    table = tomllib.loads(file.read_text(encoding="utf-8"))
-    return {name: _fields(row) for name, row in table.items()}
-
-
 def _effect(row: dict[str, Any], usual: Mapping[str, dict[str, Any]]) -> EffectWords:
     """An effect from its table; what its particles leave open is usual for their kind."""
     row["emitters"] = tuple(
-        EmitterStyle(**{"body": body, **usual[kind], **_fields(one)})
+        EmitterStyle(**{"body": body, **usual[kind], **one})
         for kind, body in _BODIES.items()
         for one in row.pop(kind, ())
     )
@@ -131,14 +119,10 @@ def _effect(row: dict[str, Any], usual: Mapping[str, dict[str, Any]]) -> EffectW
     return EffectWords(**row)
 
 
-def _fields(row: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: _frozen(value) for name, value in row.items()}
-
-
-_TABLE = _read()
+_TABLE = frozen(read_table("effects"))
 LIQUID_COLOURS: Mapping[str, Colour] = MappingProxyType(_TABLE.pop("liquid colours"))
 """Name of a liquid → its colour."""
-_USUAL = {kind: _fields(row) for kind, row in _TABLE.pop("usual particles").items()}
+_USUAL = _TABLE.pop("usual particles")
 EFFECTS: Mapping[str, EffectWords] = MappingProxyType(
     {kind: _effect(row, _USUAL) for kind, row in _TABLE.items()}
 )

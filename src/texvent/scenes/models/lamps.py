@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, Literal
+from typing import Literal
 
-from texvent.scenes.models.tables import trait_values
+from texvent.scenes.models.tables import frozen, trait_values
 
 Wave = Literal["square", "sine", "flame"]
 """How a lamp's light goes up and down: on and off; as mains light does; as a flame does."""
@@ -55,13 +55,8 @@ class Lamp:
 
 
 def _read_lamps() -> dict[str, tuple[Lamp, ...]]:
-    kinds = {kind: _lamp_from(entry) for kind, entry in trait_values("lamp kind").items()}
+    kinds = {kind: Lamp(**row) for kind, row in frozen(trait_values("lamp kind")).items()}
     return {noun: tuple(kinds[one] for one in own) for noun, own in trait_values("lamps").items()}
-
-
-def _lamp_from(entry: dict[str, Any]) -> Lamp:
-    direction = entry.get("direction")
-    return Lamp(**{**entry, "direction": tuple(direction) if direction else None})
 
 
 LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType(_read_lamps())

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from texvent.errors import InputError
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.scene import Colour, Texture
 
@@ -84,31 +83,17 @@ MATERIALS: dict[str, NamedMaterial] = {
     "marble": NamedMaterial(Texture.STONE, (0.62, 0.61, 0.58), (0.40, 0.40, 0.41)),
     "brick": NamedMaterial(Texture.BRICK, (0.34, 0.11, 0.07), (0.42, 0.40, 0.36)),
     "concrete": NamedMaterial(Texture.CONCRETE, (0.38, 0.37, 0.35)),
-    "plaster": NamedMaterial(Texture.PLASTER, (0.68, 0.65, 0.58)),
     "metal": NamedMaterial(Texture.METAL, (0.34, 0.35, 0.37)),
-    "gold": NamedMaterial(Texture.METAL, (0.60, 0.38, 0.07)),
-    "silver": NamedMaterial(Texture.METAL, (0.52, 0.53, 0.55)),
     "brass": NamedMaterial(Texture.METAL, (0.50, 0.33, 0.08)),
     "ceramic": NamedMaterial(Texture.WORN, (0.70, 0.67, 0.62)),
-    "copper": NamedMaterial(Texture.METAL, (0.48, 0.20, 0.09)),
     "rust": NamedMaterial(Texture.RUST, None, (0.26, 0.09, 0.03)),
     "glass": NamedMaterial(Texture.WORN, (0.10, 0.15, 0.17)),
     "plastic": NamedMaterial(Texture.WORN),
     "rubber": NamedMaterial(Texture.LEATHER, (0.030, 0.030, 0.032)),
     "cloth": NamedMaterial(Texture.CLOTH),
-    "wool": NamedMaterial(Texture.CARPET),
     "leather": NamedMaterial(Texture.LEATHER, (0.20, 0.09, 0.04)),
-    "fur": NamedMaterial(Texture.FUR, (0.30, 0.19, 0.10)),
-    "feathers": NamedMaterial(Texture.FEATHERS),
     "paper": NamedMaterial(Texture.CLOTH, (0.70, 0.68, 0.62)),
-    "cardboard": NamedMaterial(Texture.CLOTH, (0.38, 0.23, 0.11)),
-    "clay": NamedMaterial(Texture.SOIL, (0.42, 0.20, 0.10), (0.50, 0.27, 0.15)),
-    "tile": NamedMaterial(Texture.TILES, (0.66, 0.66, 0.64), (0.52, 0.53, 0.55)),
     "ice": NamedMaterial(Texture.SNOW, (0.62, 0.74, 0.82)),
-    "snow": NamedMaterial(Texture.SNOW, (0.80, 0.83, 0.88)),
-    "sand": NamedMaterial(Texture.SAND, (0.56, 0.43, 0.25), (0.68, 0.55, 0.35)),
-    "grass": NamedMaterial(Texture.GRASS, (0.055, 0.14, 0.022), (0.13, 0.21, 0.045)),
-    "leaf": NamedMaterial(Texture.FOLIAGE, (0.06, 0.17, 0.03)),
 }
 
 
@@ -206,18 +191,5 @@ class OverriddenModel:
 
 
 def in_material(model: Model, name: str | None, colour: Colour | None) -> Model:
-    """A model in the material that a prompt names.
-
-    Args:
-        model: as the noun builds it.
-        name: key of `materials.MATERIALS`; None = as usual.
-        colour: colour that the prompt says; it wins over the material's own.
-
-    Raises:
-        InputError: there is no such material.
-    """
-    if name is None:
-        return model
-    if name not in MATERIALS:
-        raise InputError(f"unknown material {name!r}; known: {', '.join(MATERIALS)}")
-    return OverriddenModel(model, MATERIALS[name], colour)
+    """A model in one of `MATERIALS`; a colour wins over the material's own, None is as usual."""
+    return model if name is None else OverriddenModel(model, MATERIALS[name], colour)

@@ -18,6 +18,7 @@ from texvent.scenes.models.shapes import (
     placed_between,
     placed_spanned,
     placed_upright,
+    point,
     shift,
     turn_about,
 )
@@ -176,7 +177,7 @@ def _take_offsets(shape: str, rest: list[str]) -> tuple[list[str], list[Point]]:
     values = [read_number(one) for one in rest[at + 1 :]]
     if len(values) % 3:
         raise ValueError("'also' needs places, of three numbers each")
-    others = [_point(values[n : n + 3]) for n in range(0, len(values), 3)]
+    others = [point(values[n : n + 3]) for n in range(0, len(values), 3)]
     return rest[:at], [(a - x, b - y, c - z) for a, b, c in [(x, y, z), *others]]
 
 
@@ -205,22 +206,17 @@ def _read_one(
         *ends, thick = _count(values, 7, 8)[:7]
         side = values[7] if len(values) == 8 else thick
         over = _ROUNDED * thick if shape == "limb" else 0.0
-        to_body = placed_between(_point(ends), _point(ends[3:]), thick, side, over)
+        to_body = placed_between(point(ends), point(ends[3:]), thick, side, over)
         return [Placed(_RODS[shape], surface, to_body)]
     if shape in _SPANNED:
-        corners = [_point(values[n : n + 3]) for n in range(0, len(_count(values, 12)), 3)]
+        corners = [point(values[n : n + 3]) for n in range(0, len(_count(values, 12)), 3)]
         return [Placed(_SPANNED[shape], surface, placed_spanned(*corners))]
     return [*_COMPOSED[shape](surface, values, more)]
 
 
-def _point(values: Sequence[float]) -> Point:
-    x, y, z = values[:3]
-    return x, y, z
-
-
 def _solid(centre: Point, size: Sequence[float], more: Sequence[float | str]) -> Affine:
     """An upright solid, slanted by "lean" or turned about its middle by "turn"."""
-    to_body = placed_upright((0.0, 0.0, 0.0), _point(size))
+    to_body = placed_upright((0.0, 0.0, 0.0), point(size))
     word = more[0] if more else ""
     if word == "lean":
         to_body[0, 2] = float(more[1]) * to_body[2, 2]
@@ -265,7 +261,7 @@ def _chain(surface: str, values: list[float], more: object) -> Iterator[Placed]:
     radius, *rest = values
     if len(rest) % 3 or len(rest) < 6:
         raise ValueError("a chain needs its radius and two or more points")
-    points = [_point(rest[n : n + 3]) for n in range(0, len(rest), 3)]
+    points = [point(rest[n : n + 3]) for n in range(0, len(rest), 3)]
     yield from _limbs(surface, points, radius, radius)
 
 

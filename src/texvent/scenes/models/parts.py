@@ -45,8 +45,8 @@ from texvent.scenes.models.joints import (
 from texvent.scenes.models.limbs import Chain, read_walk
 from texvent.scenes.models.materials import shade
 from texvent.scenes.models.part_lines import Placed, read_groups, read_parts
+from texvent.scenes.models.people.figure import read_rider
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
-from texvent.scenes.models.riders import read_rider
 from texvent.scenes.models.shapes import ball, compose, half_extents, moved, shift, turn_y
 from texvent.scenes.models.surfaces import Painted, paint_model
 from texvent.scenes.models.variation import between, choose, fraction

@@ -5,13 +5,12 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from importlib.resources import files
 from types import MappingProxyType
 from typing import Any, Literal
 
+from texvent.scenes.models.tables import frozen, read_table
 from texvent.scenes.scene import Colour, Ground, Texture
 
 Where = Literal["around", "walls", "under", "both sides", "water", "far", "route"]
@@ -88,45 +87,27 @@ class Place:
         return self.ground in SHORE_GROUNDS
 
 
-def _read() -> dict[str, Place]:
-    text = files("texvent.scenes.models").joinpath("data", "places.toml").read_text("utf-8")
-    return {name: _place_of(entry) for name, entry in tomllib.loads(text).items()}
-
-
-def _place_of(entry: dict[str, Any]) -> Place:
-    ground, walls = entry.pop("ground"), entry.pop("walls", None)
-    first, second = (_colour(one) for one in ground["colours"])
+def _place_of(fields: dict[str, Any]) -> Place:
+    ground, walls = fields.pop("ground"), fields.pop("walls", None)
     if "surface" in ground:
-        entry["surface"] = Texture[ground["surface"].upper()]
+        fields["surface"] = Texture[ground["surface"].upper()]
     if walls is not None:
-        entry.update(walls=Texture[walls["surface"].upper()], wall_colour=_colour(walls["colour"]))
-    scenery = tuple(_scenery_of(one) for one in entry.pop("scenery", ()))
+        fields["walls"] = Texture[walls["surface"].upper()]
+        fields["wall_colour"] = walls["colour"]
+    fields["scenery"] = tuple(map(_scenery_of, fields.get("scenery", ())))
     kind = Ground[ground["kind"].upper().replace(" ", "_")]
-    entry.setdefault("light", "room" if kind is Ground.FLOOR else "")
-    names = tuple(entry.pop("names"))
-    return Place(names, kind, (first, second), scenery=scenery, **entry)
+    fields.setdefault("light", "room" if kind is Ground.FLOOR else "")
+    return Place(ground=kind, colours=ground["colours"], **fields)
 
 
-def _scenery_of(entry: dict[str, Any]) -> Scenery:
-    entry.setdefault("scale", _SCALES.get(entry.get("where", "around"), (0.8, 1.2)))
-    for name in ("reach", "scale"):
-        entry[name] = tuple(entry.get(name, (0.0, 0.0)))
-    if "colours" in entry:
-        entry["colours"] = tuple(_colour(one) for one in entry["colours"])
-    return Scenery(**entry)
+def _scenery_of(row: Mapping[str, Any]) -> Scenery:
+    scale = _SCALES.get(row.get("where", "around"), Scenery.scale)
+    return Scenery(**{"scale": scale, **row})
 
 
-def _colour(values: list[float]) -> Colour:
-    red, green, blue = values
-    return red, green, blue
-
-
-PLACES: Mapping[str, Place] = MappingProxyType(_read())
-
-
-def place_names() -> Mapping[str, tuple[str, ...]]:
-    """Place → words for it, in the singular."""
-    return {name: place.names for name, place in PLACES.items()}
+PLACES: Mapping[str, Place] = MappingProxyType(
+    {name: _place_of(row) for name, row in frozen(read_table("places")).items()}
+)
 
 
 def is_room(place: str) -> bool:

@@ -13,8 +13,7 @@ from typing import Literal, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.image import SurfaceImage
-from texvent.scenes.mesh import Mesh
+from texvent.scenes.mesh import Mesh, SurfaceImage
 from texvent.scenes.scene import Colour, Shape, Texture
 
 Habitat = Literal["ground", "air", "water", "fixed"]

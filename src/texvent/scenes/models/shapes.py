@@ -8,7 +8,9 @@ determinant: a mirror image would turn surfaces inside out.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import fields, is_dataclass, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -92,10 +94,27 @@ def blade(
     return part(Shape.ELLIPSOID, material, placed_spanned(start, end, chord, thickness))
 
 
+def point(values: Sequence[float] | Affine) -> Point:
+    """The first three numbers of some."""
+    x, y, z = map(float, values[:3])
+    return x, y, z
+
+
 def part_way(start: Point, end: Point, share: float) -> Point:
     """`start` at share 0, `end` at share 1."""
     x, y, z = (a + share * (b - a) for a, b in zip(start, end, strict=True))
     return (x, y, z)
+
+
+def mixed(first: Any, second: Any, share: float) -> Any:
+    """Between numbers, tuples or dataclasses of them; flags are those of the second."""
+    if is_dataclass(first):
+        names = [one.name for one in fields(first)]
+        pairs = {one: (getattr(first, one), getattr(second, one)) for one in names}
+        return replace(second, **{one: mixed(*pair, share) for one, pair in pairs.items()})
+    if isinstance(first, tuple):
+        return tuple(mixed(a, b, share) for a, b in zip(first, second, strict=True))
+    return second if isinstance(first, bool) else first + share * (second - first)
 
 
 def moved(parts: Iterable[ModelPart], motion: Affine) -> list[ModelPart]:
@@ -119,25 +138,33 @@ def shift(x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Affine:
 
 def turn_x(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
     """A roll about an axis along x: positive lifts the left side (+y)."""
-    c, s = math.cos(angle), math.sin(angle)
-    return _about(np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]]), pivot)
+    return turn_about("x", angle, pivot)
 
 
 def turn_y(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
     """A turn about an axis along y: positive as a wheel that rolls towards +x."""
-    c, s = math.cos(angle), math.sin(angle)
-    return _about(np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]]), pivot)
+    return turn_about("y", angle, pivot)
 
 
 def turn_z(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
     """A turn about an upright axis: positive turns the nose left, from +x to +y."""
-    c, s = math.cos(angle), math.sin(angle)
-    return _about(np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]]), pivot)
+    return turn_about("z", angle, pivot)
 
 
 def turn_about(axis: str, angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
     """A turn about an axis along "x", "y" or "z"."""
-    return {"x": turn_x, "y": turn_y, "z": turn_z}[axis](angle, pivot)
+    turn, centre = rotation(axis, angle), np.array(pivot)
+    return np.column_stack([turn, centre - turn @ centre])
+
+
+def rotation(axis: str, angle: float) -> Affine:
+    """[3, 3] rotation about "x", "y" or "z", rad."""
+    c, s = math.cos(angle), math.sin(angle)
+    if axis == "x":
+        return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
+    if axis == "y":
+        return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
+    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
 def bounds(parts: Iterable[ModelPart]) -> tuple[Affine, Affine]:
@@ -181,11 +208,6 @@ def placed_upright(centre: Point, size: Point) -> Affine:
     x, y, z = centre
     half_x, half_y, half_z = (0.5 * extent for extent in size)
     return np.array([[half_x, 0.0, 0.0, x], [0.0, half_y, 0.0, y], [0.0, 0.0, half_z, z]])
-
-
-def _about(rotation: Affine, pivot: Point) -> Affine:
-    centre = np.array(pivot)
-    return np.column_stack([rotation, centre - rotation @ centre])
 
 
 def placed_between(start: Point, end: Point, radius: float, side: float, overlap: float) -> Affine:

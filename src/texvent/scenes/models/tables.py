@@ -24,7 +24,9 @@ def read_table(name: str, room: str = "models") -> Mapping[str, Any]:
 
 
 def frozen(value: Any) -> Any:
-    """Lists as tuples, all the way down."""
+    """A copy with lists as tuples, all the way down."""
+    if isinstance(value, Mapping):
+        return {name: frozen(one) for name, one in value.items()}
     return tuple(map(frozen, value)) if isinstance(value, list) else value
 
 

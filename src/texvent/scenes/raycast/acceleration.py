@@ -7,15 +7,14 @@ grid facing the sun (for shadow rays). A ray then only tests the shapes listed w
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.lens import Lens, lens_reach
 from texvent.scenes.projection import Rays
-from texvent.scenes.raycast.meshes.packing import describe_surfaces
-from texvent.scenes.raycast.meshes.tree import tree_of
+from texvent.scenes.raycast.meshes.tree import describe_surfaces, tree_of
 from texvent.scenes.raycast.records import (
     GLOW_RECORD,
     INSTANT_RECORD,
@@ -53,7 +52,8 @@ BIG_SHARE = 1.0
 """Shadow casters wider than this share of all others' extent are tested everywhere, so that a
 mountain does not make the sun grid's cells too large for a fence."""
 IntArray = NDArray[np.int64]
-_CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float64)
+CUBE = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=np.float64)
+"""[8, 3] corners of the box around a unit shape."""
 
 
 class Bins(NamedTuple):
@@ -91,35 +91,26 @@ def bin_rectangles(rectangles: IntArray, numbers: IntArray, columns: int, rows: 
     return Bins(start.astype(np.int64), numbers[owner[order]].astype(np.int64), columns, rows)
 
 
-class Placed(Protocol):
-    """Placed unit shapes."""
-
-    @property
-    def shape(self) -> NDArray[np.int8]:
-        """[n] `Shape`."""
-        ...
-
-    @property
-    def to_world(self) -> Float64Array:
-        """[n, 3, 4] unit shape → world."""
-        ...
-
-
 def screen_bounds(
-    primitives: Placed, rays: Rays, size: SensorSize
+    is_round: NDArray[np.bool_], to_world: Float64Array, rays: Rays, size: SensorSize
 ) -> tuple[Float64Array, Float64Array]:
     """Where shapes may appear, from the corners of the boxes around them.
+
+    Args:
+        is_round: [n] whether a shape is an ellipsoid.
+        to_world: [n, 3, 4] unit shape → world.
+        rays: of the camera.
+        size: of the image, pixels.
 
     Returns:
         ([n, 4] lowest x, highest x, lowest y, highest y in pixels, [n] least depth in metres).
         A shape wholly behind the camera has an empty rectangle (lowest > highest).
     """
-    to_world = primitives.to_world
-    corners = np.einsum("nij,kj->nki", to_world[:, :, :3], _CUBE) + to_world[:, None, :, 3]
+    corners = np.einsum("nij,kj->nki", to_world[:, :, :3], CUBE) + to_world[:, None, :, 3]
     basis = np.stack([rays.right, rays.down, rays.corner], axis=1)
     seen = (corners - rays.origin) @ np.linalg.inv(basis).T
     depth = seen[..., 2]
-    first, second = np.triu_indices(len(_CUBE), 1)
+    first, second = np.triu_indices(len(CUBE), 1)
     gap = depth[:, second] - depth[:, first]
     share = np.clip((NEAR_M - depth[:, first]) / np.where(gap == 0.0, np.inf, gap), 0.0, 1.0)
     cut = seen[:, first] + share[..., None] * (seen[:, second] - seen[:, first])
@@ -129,18 +120,23 @@ def screen_bounds(
     low = np.where(front[..., None], place, np.inf).min(axis=1)
     high = np.where(front[..., None], place, -np.inf).max(axis=1)
     bounds = np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1]], axis=1)
-    _tighten_ellipsoids(bounds, primitives, np.linalg.inv(basis).astype(np.float64), rays)
+    _tighten_ellipsoids(
+        bounds, np.flatnonzero(is_round), to_world, np.linalg.inv(basis).astype(np.float64), rays
+    )
     limit = 4.0 * max(size)
     return np.clip(bounds, -limit, limit + max(size)), np.maximum(depth.min(axis=1), 0.0)
 
 
 def _tighten_ellipsoids(
-    bounds: Float64Array, primitives: Placed, to_image: Float64Array, rays: Rays
+    bounds: Float64Array,
+    chosen: IntArray,
+    to_world: Float64Array,
+    to_image: Float64Array,
+    rays: Rays,
 ) -> None:
     """Replace the bounds of ellipsoids wholly in front of the camera by their exact outline's."""
-    chosen = np.flatnonzero(primitives.shape == Shape.ELLIPSOID)
-    axes = np.einsum("ij,njk->nik", to_image, primitives.to_world[chosen, :, :3])
-    centre = (primitives.to_world[chosen, :, 3] - rays.origin) @ to_image.T
+    axes = np.einsum("ij,njk->nik", to_image, to_world[chosen, :, :3])
+    centre = (to_world[chosen, :, 3] - rays.origin) @ to_image.T
     dual = np.einsum("nik,njk->nij", axes, axes) - centre[:, :, None] * centre[:, None, :]
     front = centre[:, 2] - np.linalg.norm(axes[:, 2], axis=1) > NEAR_M
     chosen, dual = chosen[front], dual[front]
@@ -198,7 +194,8 @@ def build_world(
     describe_materials(instant, shapes, primitives, environment)
     surfaces = describe_surfaces(shapes, primitives)
     inverse, exists = invert_maps(np.asarray(primitives.to_world, dtype=np.float64))
-    bounds, depth = screen_bounds(primitives, rays, plane_size)
+    is_round = primitives.shape == Shape.ELLIPSOID
+    bounds, depth = screen_bounds(is_round, primitives.to_world, rays, plane_size)
     shapes["kind"] = primitives.shape
     shapes["inverse"] = inverse
     shapes["eye"] = inverse[:, :, :3] @ rays.origin + inverse[:, :, 3]

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
 from texvent.scenes.raycast.lamps.glow import add_glows
-from texvent.scenes.raycast.lamps.shadows import ALL_LIGHTS, LIT_BITS, lit_by
+from texvent.scenes.raycast.lamps.light import ALL_LIGHTS, LIT_BITS, lit_by
 from texvent.scenes.raycast.puffs import through_puffs
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.shading.lighting import shade_hit

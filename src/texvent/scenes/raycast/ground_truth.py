@@ -13,8 +13,13 @@ from numpy.typing import NDArray
 
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.render import world_at
-from texvent.scenes.raycast.surface_motion import Seen, cast, cast_centres, move_to
-from texvent.scenes.raycast.visibility import count_unoccluded
+from texvent.scenes.raycast.surface_motion import (
+    Seen,
+    cast,
+    cast_centres,
+    count_unoccluded,
+    move_to,
+)
 from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
 

@@ -11,7 +11,7 @@ without any order in which two of them could change places.
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -31,7 +31,7 @@ from texvent.scenes.raycast.shading.value_noise import detail_fade, noise_3d
 from texvent.scenes.raycast.trace import plane_direction, tile_at
 from texvent.scenes.raycast.uncounted import puff_at
 from texvent.scenes.raycast.vectors import Vector, along, dot, plane_point, scaled, triple, turned
-from texvent.scenes.scene import PUFF_COLUMNS, Colour, Float64Array, Shape
+from texvent.scenes.scene import PUFF_COLUMNS, Colour, Float64Array
 from texvent.sensor import SensorSize
 
 _DETAIL_SCALE = 2.8
@@ -186,11 +186,6 @@ _MASS = 15.0 / 16.0
 """1 / ∫ (1 - s²)² ds over -1..1: density in the middle for an optical depth of 1."""
 
 
-class _Balls(NamedTuple):
-    shape: NDArray[np.int8]
-    to_world: Float64Array
-
-
 def describe_puffs(puffs: Float64Array, rays: Rays, instant: Any) -> tuple[NDArray[Any], Bins]:
     """Records of the puffs, and which may be seen in each screen tile.
 
@@ -211,8 +206,7 @@ def describe_puffs(puffs: Float64Array, rays: Rays, instant: Any) -> tuple[NDArr
     records = np.zeros(len(rows), dtype=PUFF_RECORD)
     inverse, exists = invert_maps(to_world)
     size = SensorSize(columns * TILE, tile_rows * TILE)
-    shape = np.full(len(rows), Shape.ELLIPSOID, dtype=np.int8)
-    bounds, depth = screen_bounds(_Balls(shape, to_world), rays, size)
+    bounds, depth = screen_bounds(np.ones(len(rows), dtype=np.bool_), to_world, rays, size)
     records["inverse"], records["depth"], records["window"] = inverse, depth, bounds
     records["eye"] = inverse[:, :, :3] @ rays.origin + inverse[:, :, 3]
     records["colour"], records["emission"] = rows[:, 12:15], rows[:, 16]

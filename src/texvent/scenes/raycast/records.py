@@ -12,8 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.image import MOST_LEVELS
 from texvent.scenes.lens import Lens
+from texvent.scenes.mesh import MOST_LEVELS
 from texvent.scenes.projection import Rays
 from texvent.scenes.raycast.surfaces.catalogue import SURFACE_COUNT, surface_rows
 from texvent.scenes.scene import Environment, Float64Array, Ground, Primitives, Texture
@@ -170,7 +170,7 @@ IMAGE_RECORD = np.dtype(
     ],
     align=True,
 )
-"""One image of `scenes.image`."""
+"""One image of `scenes.mesh`."""
 
 
 PUFF_RECORD = np.dtype(

@@ -9,13 +9,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import InputError
 from texvent.runtime.threads import run_parts
 from texvent.scenes.projection import Rays, camera_rays
 from texvent.scenes.raycast.acceleration import TILE, Bins, build_world
 from texvent.scenes.raycast.adaptive_sampling import render_rows
-from texvent.scenes.raycast.lamps.bins import list_casters, order_lamps
 from texvent.scenes.raycast.lamps.glow import see_glows
+from texvent.scenes.raycast.lamps.light import list_casters, order_lamps
 from texvent.scenes.raycast.puffs import describe_puffs
 from texvent.scenes.raycast.records import OwnedWorld, World, point_to
 from texvent.scenes.scene import Environment, Float32Array, Float64Array, Primitives, Scene
@@ -109,9 +108,6 @@ def render(
     Returns:
         [H, W, 3] RGB, float32, 0..255, gamma-coded with the sRGB curve (IEC 61966-2-1), not
         rounded to whole levels.
-
-    Raises:
-        InputError: samples is below 1.
     """
     return encode_srgb(render_light(scene, time_s, size, samples=samples, shadows=shadows))
 
@@ -163,12 +159,7 @@ def render_light(
     Returns:
         [H, W, 3] linear RGB, float64; 1 is white, and the brightest where the scene has no
         highlights.
-
-    Raises:
-        InputError: samples is below 1.
     """
-    if samples < 1:
-        raise InputError(f"samples is {samples}; it must be at least 1")
     world = world_at(scene, time_s, size, shadows=shadows, samples=samples)
     return light_of_rows(world, (0, size.height), size, samples=samples)
 

@@ -66,6 +66,17 @@ def mapped(m: Float64Array, p: Vector) -> Vector:
 
 
 @jit(error_model="numpy", inner=True)
+def world_normal(m: Float64Array, n: Vector) -> Vector:
+    """Unit normal in the world, from one in a shape's coordinates; `m` leads into these."""
+    normal = (
+        m[0, 0] * n[0] + m[1, 0] * n[1] + m[2, 0] * n[2],
+        m[0, 1] * n[0] + m[1, 1] * n[1] + m[2, 1] * n[2],
+        m[0, 2] * n[0] + m[1, 2] * n[1] + m[2, 2] * n[2],
+    )
+    return scaled(normal, 1.0 / math.sqrt(dot(normal, normal) + 1e-300))
+
+
+@jit(error_model="numpy", inner=True)
 def on_axis(axis: int, length: float) -> Vector:
     """A vector along one axis: 0 = x, 1 = y, 2 = z."""
     return (

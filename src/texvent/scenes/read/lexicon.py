@@ -14,7 +14,7 @@ from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.nouns import DRESSING, NOUNS
 from texvent.scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HAND_GESTURES
-from texvent.scenes.models.places import place_names
+from texvent.scenes.models.places import PLACES
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import read_table
 
@@ -175,8 +175,8 @@ def _list_effects() -> Iterator[tuple[str, Sense]]:
 def _list_words() -> Iterator[tuple[str, Sense]]:
     """Words of places, and those of words.toml: the path to a list of phrases is their sense."""
     words = read_table("words", "read")
-    for place, names in place_names().items():
-        for name in names:
+    for place, one in PLACES.items():
+        for name in one.names:
             yield from _with_plurals(name, Sense("place", place))
     yield from ((name, Sense("field", ("colour", name))) for name in SURFACES)
     for field, units in words["units"].items():

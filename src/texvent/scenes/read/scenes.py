@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any, get_args
 
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
-from texvent.scenes.models.people.props import list_props
+from texvent.scenes.models.people.outfit import list_props
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import read_table
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses

@@ -1,9 +1,10 @@
-"""Scenes as plain values (tables, lists, text, numbers), as JSON and TOML hold them."""
+"""Scenes as plain values, as JSON and TOML hold them: built, checked, read and set by path."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
+import re
 import types
 import typing
 from collections.abc import Iterator, Mapping
@@ -15,7 +16,14 @@ from texvent._registry import suggest
 from texvent.errors import MAX_WORD, ConfigError, few, shown
 from texvent.options.values import convert
 from texvent.scenes.spec.limits import Vocabulary
-from texvent.scenes.spec.scene import MAX_BODIES, MAX_LAMPS, Scene, object_ids
+from texvent.scenes.spec.scene import (
+    MAX_BODIES,
+    MAX_LAMPS,
+    Camera,
+    Scene,
+    SceneObject,
+    object_ids,
+)
 
 PLACING = frozenset(
     {"on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
@@ -48,7 +56,8 @@ def scene_from_data(data: Any, words: Vocabulary | None = None) -> Scene:
             circle. The message begins with the path of the field.
     """
     scene: Scene = _build(Scene, data, "", words or {})
-    _check_objects(scene)
+    for fault in _faults(scene):
+        raise ConfigError(fault)
     return scene
 
 
@@ -146,60 +155,39 @@ def _build_table(owner: Any, value: Any, where: str, words: Vocabulary) -> Any:
     )
 
 
-def _check_objects(scene: Scene) -> None:
-    """Refuse too many bodies, ids that clash or are not there, and circles of relations."""
-    bodies = sum(one.count for one in scene.objects)
+def _faults(scene: Scene) -> Iterator[str]:
+    """Errors of the scene as a whole, as lines: what no field alone can show."""
+    bodies, ids = sum(one.count for one in scene.objects), object_ids(scene)
     if bodies > MAX_BODIES:
-        raise ConfigError(
-            f"objects have {bodies:,} copies in all; a scene shows {MAX_BODIES} at most"
-        )
-    ids = object_ids(scene)
+        yield f"objects have {bodies:,} copies in all; a scene shows {MAX_BODIES} at most"
     for n, id in enumerate(ids):
         if id in ids[:n]:
-            raise ConfigError(
-                f"objects[{n}].id is {shown(id)}, which is that of objects[{ids.index(id)}]; give "
-                "it another one"
-            )
+            yield (f"objects[{n}].id is {shown(id)}, which is that of objects[{ids.index(id)}]; "
+                   "give it another one")  # fmt: skip
     for where, id in _references(scene):
         if id not in ids:
             known = suggest(id, tuple(one[:MAX_WORD] for one in ids)) if ids else "there are none"
-            raise ConfigError(f"{where} is {shown(id)}, which is no object's id; {known}")
-    for n, one in enumerate(scene.objects):
-        for m, relation in enumerate(one.relations):
-            if ids[n] in relation.to and one.count == 1:
-                raise ConfigError(
-                    f"objects[{n}].relations[{m}].to is {shown(ids[n])}, which is the object itself"
-                )
-    _check_circles(scene, ids)
-    _check_metres(scene)
-    _check_moves(scene)
-    _check_models(scene)
-    if len(scene.light.lamps) > MAX_LAMPS:
-        raise ConfigError(
-            f"light.lamps are {len(scene.light.lamps)}; a scene has {MAX_LAMPS} at most"
-        )
-
-
-def _check_models(scene: Scene) -> None:
-    """Refuse two models of one noun."""
+            yield f"{where} is {shown(id)}, which is no object's id; {known}"
     first: dict[str, int] = {}
     for n, one in enumerate(scene.objects):
-        other = scene.objects[first.setdefault(one.noun, n)]
-        if one.model != other.model:
-            raise ConfigError(
-                f"objects[{n}].model is {shown(one.model)}, but objects[{first[one.noun]}] is "
-                f"{shown(one.noun)} too and has {shown(other.model)}; give one of them another noun"
-            )
+        yield from _relation_faults(f"objects[{n}]", ids[n], one)
+        other = first.setdefault(one.noun, n)
+        if one.model != (of := scene.objects[other].model):
+            yield (f"objects[{n}].model is {shown(one.model)}, but objects[{other}] is "
+                   f"{shown(one.noun)} too and has {shown(of)}; give one of them another noun"
+                   )  # fmt: skip
+    yield from _circles(scene, ids)
+    yield from _camera_faults(scene.camera)
+    if (lamps := len(scene.light.lamps)) > MAX_LAMPS:
+        yield f"light.lamps are {lamps}; a scene has {MAX_LAMPS} at most"
 
 
 def _references(scene: Scene) -> Iterator[tuple[str, str]]:
     """Path of every field that names an object, and the id that it names."""
     for n, one in enumerate(scene.objects):
         for m, relation in enumerate(one.relations):
-            if not relation.to:
-                raise ConfigError(f"objects[{n}].relations[{m}].to is empty; name an object's id")
-            for k, id in enumerate(relation.to):
-                yield f"objects[{n}].relations[{m}].to[{k}]", id
+            yield from ((f"objects[{n}].relations[{m}].to[{k}]", id)
+                        for k, id in enumerate(relation.to))  # fmt: skip
     for n, effect in enumerate(scene.effects):
         if effect.source is not None:
             yield f"effects[{n}].source", effect.source
@@ -207,8 +195,19 @@ def _references(scene: Scene) -> Iterator[tuple[str, str]]:
         yield "camera.target", scene.camera.target
 
 
-def _check_circles(scene: Scene, ids: tuple[str, ...]) -> None:
-    """Refuse objects of which each stands with respect to the next, and the last to the first."""
+def _relation_faults(where: str, id: str, one: SceneObject) -> Iterator[str]:
+    for m, relation in enumerate(one.relations):
+        if not relation.to:
+            yield f"{where}.relations[{m}].to is empty; name an object's id"
+        if id in relation.to and one.count == 1:
+            yield f"{where}.relations[{m}].to is {shown(id)}, which is the object itself"
+        if relation.distance_m is not None and relation.kind not in SPACED:
+            yield (f"{where}.relations[{m}].distance_m is given, but {shown(relation.kind)} has no "
+                   f"distance; {', '.join(SPACED)} have one")  # fmt: skip
+
+
+def _circles(scene: Scene, ids: tuple[str, ...]) -> Iterator[str]:
+    """Objects of which each stands with respect to the next, and the last to the first."""
     placed_by = {
         id: {to for relation in one.relations if relation.kind in PLACING for to in relation.to}
         - {id}
@@ -218,10 +217,8 @@ def _check_circles(scene: Scene, ids: tuple[str, ...]) -> None:
         TopologicalSorter(placed_by).prepare()
     except CycleError as error:
         circle = [str(id) for id in error.args[1]]
-        raise ConfigError(
-            f"objects[{ids.index(circle[-1])}].relations go round in a circle "
-            f"({few([*map(shown, reversed(circle))])}); leave one of them out"
-        ) from None
+        yield (f"objects[{ids.index(circle[-1])}].relations go round in a circle "
+               f"({few([*map(shown, reversed(circle))])}); leave one of them out")  # fmt: skip
 
 
 _TIMED = ("pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "crane",
@@ -229,45 +226,80 @@ _TIMED = ("pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", 
 """Camera moves that start and stop; others last all of the clip."""
 
 
-def _check_moves(scene: Scene) -> None:
-    """Refuse times of camera moves that would have no effect."""
-    for n, one in enumerate(scene.camera.moves):
-        if not one.is_timed:
-            continue
-        if one.kind not in _TIMED:
-            raise ConfigError(
-                f"camera.moves[{n}] has a start or stop time, but {shown(one.kind)} lasts all of "
-                f"the clip; {', '.join(_TIMED)} have times"
-            )
-        if one.stop_s is not None and one.stop_s <= (one.start_s or 0.0):
-            raise ConfigError(
-                f"camera.moves[{n}].stop_s is {one.stop_s:g}, not after its start at "
-                f"{one.start_s or 0.0:g} s; give a later time"
-            )
-
-
-def _check_metres(scene: Scene) -> None:
-    """Refuse distances and poses of the camera that would have no effect."""
-    for n, one in enumerate(scene.objects):
-        for m, relation in enumerate(one.relations):
-            if relation.distance_m is not None and relation.kind not in SPACED:
-                raise ConfigError(
-                    f"objects[{n}].relations[{m}].distance_m is given, but "
-                    f"{shown(relation.kind)} has no distance; {', '.join(SPACED)} have one"
-                )
-    position, goal = scene.camera.position_m, scene.camera.look_at_m
+def _camera_faults(camera: Camera) -> Iterator[str]:
+    """Times of moves and poses of the camera that would have no effect."""
+    for n, one in enumerate(camera.moves):
+        start_s = one.start_s or 0.0
+        if one.is_timed and one.kind not in _TIMED:
+            yield (f"camera.moves[{n}] has a start or stop time, but {shown(one.kind)} lasts all "
+                   f"of the clip; {', '.join(_TIMED)} have times")  # fmt: skip
+        if one.stop_s is not None and one.stop_s <= start_s:
+            yield (f"camera.moves[{n}].stop_s is {one.stop_s:g}, not after its start at "
+                   f"{start_s:g} s; give a later time")  # fmt: skip
+    position, goal = camera.position_m, camera.look_at_m
     if (position is None) != (goal is None):
-        raise ConfigError("camera.position_m and camera.look_at_m are given together, or neither")
-    if position is None or goal is None:
-        return
-    flat = math.dist(position[:2], goal[:2])
-    if flat <= STEEPEST * abs(position[2] - goal[2]):
-        raise ConfigError(
-            f"camera.look_at_m is {shown(goal)}, straight above or below camera.position_m; move "
-            "one of them aside"
-        )
-    if scene.camera.target is not None or any(one.kind == "travel" for one in scene.camera.moves):
-        raise ConfigError(
-            "camera.position_m is given with a target or with travel, which choose the position; "
-            "leave one of them out"
-        )
+        yield "camera.position_m and camera.look_at_m are given together, or neither"
+    elif position is not None and goal is not None:
+        if math.dist(position[:2], goal[:2]) <= STEEPEST * abs(position[2] - goal[2]):
+            yield (f"camera.look_at_m is {shown(goal)}, straight above or below "
+                   "camera.position_m; move one of them aside")  # fmt: skip
+        if camera.target is not None or any(one.kind == "travel" for one in camera.moves):
+            yield ("camera.position_m is given with a target or with travel, which choose the "
+                   "position; leave one of them out")  # fmt: skip
+
+
+_PATH = re.compile(r"[a-z_]+(\[\d+\]|\.[a-z_]+)*")
+_STEP = re.compile(r"\[(\d+)\]|([a-z_]+)")
+
+
+def get_field(scene: Scene, path: str) -> Any:
+    """The value of a field by its path, such as `objects[0].motions[0].speed_m_s`.
+
+    Raises:
+        ConfigError: there is no such field; the message has the nearest one.
+
+    Example:
+        >>> get_field(Scene(), "light.wave")
+        'sine'
+    """
+    value: Any = scene
+    done = ""
+    for step in _steps(path):
+        if isinstance(step, int):
+            count = len(value) if isinstance(value, tuple) else 0
+            if step >= count:
+                raise ConfigError(f"{path} is not there: {done} has {count} items")
+            value, done = value[step], f"{done}[{step}]"
+            continue
+        owner: Any = type(value)
+        names = tuple(field_types(owner)) if dataclasses.is_dataclass(value) else ()
+        if step not in names:
+            of = done or "scene"
+            left = suggest(step, names) if names else f"{of} has no fields or is left out"
+            raise ConfigError(f"{of} has no field {shown(step)}; {left}")
+        value, done = getattr(value, step), f"{done}.{step}" if done else step
+    return value
+
+
+def with_fields(scene: Scene, values: Mapping[str, Any]) -> Scene:
+    """The scene with other values of fields: path → value.
+
+    Raises:
+        ConfigError: there is no such field, or it cannot have that value.
+    """
+    data = scene_to_data(scene)
+    for path, value in values.items():
+        get_field(scene, path)
+        *way, last = _steps(path)
+        place: Any = data
+        for step in way:
+            # A table at its defaults is left out of the data.
+            place = place[step] if isinstance(step, int) else place.setdefault(step, {})
+        place[last] = value
+    return scene_from_data(data)
+
+
+def _steps(path: str) -> list[int | str]:
+    if not _PATH.fullmatch(path):
+        raise ConfigError(f"{shown(path)} is no path of a field, such as 'objects[0].colour'")
+    return [int(number) if number else name for number, name in _STEP.findall(path)]

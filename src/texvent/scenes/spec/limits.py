@@ -1,14 +1,15 @@
 """Limits of fields: ranges of numbers, words of a vocabulary, names of colours.
 
-A limit stands in a field's type: `Annotated[float, Between(0.0, 100.0)]`. Errors begin with the
-path of the field, such as `objects[1].size`.
+A limit stands in a field's type: `Annotated[float, Between(0.0, 100.0)]`. `check` raises a
+`ConfigError` that begins with the path of the field, such as `objects[1].size`; kinds of words that
+the vocabulary lacks are not checked. `schema` is the limit in JSON Schema.
 """
 
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
 from dataclasses import dataclass
-from typing import Any, Protocol, TypeAlias
+from typing import Any, TypeAlias
 
 from texvent._registry import suggest
 from texvent.config import check_range
@@ -16,24 +17,6 @@ from texvent.errors import ConfigError, shown
 
 Vocabulary: TypeAlias = Mapping[str, Collection[str]]
 """Kind of word ("noun", "motion", "place", "effect") → the words that a generator shows."""
-
-
-class Limit(Protocol):
-    """A condition on the value of a field."""
-
-    def check(self, value: Any, where: str, words: Vocabulary) -> None:
-        """Refuse a value with a `ConfigError`.
-
-        Args:
-            value: of the field, of its declared type.
-            where: path of the field.
-            words: those that the generator shows; kinds that it lacks are not checked.
-        """
-        ...
-
-    def schema(self) -> dict[str, Any]:
-        """The limit in JSON Schema."""
-        ...
 
 
 @dataclass(frozen=True)
@@ -44,12 +27,12 @@ class Between:
     high: float
 
     def check(self, value: float, where: str, words: Vocabulary) -> None:
-        """See `Limit.check`; NaN and infinity are outside."""
+        """Refuse a number outside, NaN and infinity too."""
         del words
         check_range(where, value, self.low, self.high)
 
     def schema(self) -> dict[str, Any]:
-        """See `Limit.schema`."""
+        """In JSON Schema."""
         return {"minimum": self.low, "maximum": self.high}
 
 
@@ -60,7 +43,7 @@ class Word:
     kind: str
 
     def check(self, value: str, where: str, words: Vocabulary) -> None:
-        """See `Limit.check`."""
+        """Refuse a word that is not shown."""
         known = words.get(self.kind)
         if known is None or value in known:
             return
@@ -71,7 +54,7 @@ class Word:
         raise ConfigError(f"{where} is {shown(value)}; {hint}")
 
     def schema(self) -> dict[str, Any]:
-        """See `Limit.schema`: the schema has the words, which editors offer, at one place."""
+        """The words, which editors offer, are at one place of the schema."""
         return {"$ref": f"#/$defs/{self.kind}"}
 
 
@@ -83,7 +66,7 @@ class Colour:
     """Key of `colours.PALETTES`."""
 
     def check(self, value: str, where: str, words: Vocabulary) -> None:
-        """See `Limit.check`."""
+        """Refuse a colour without a name or a code."""
         # Imported here: plain values of a scene need no NumPy.
         from texvent.scenes.colours import PALETTES, find_colour
 
@@ -91,5 +74,5 @@ class Colour:
         find_colour(value, PALETTES[self.of], where)
 
     def schema(self) -> dict[str, Any]:
-        """See `Limit.schema`."""
+        """In JSON Schema."""
         return {"$ref": f"#/$defs/{self.of} colour"}

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from texvent.scenes.models.anchors import has_places, locate
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import AFLOAT
-from texvent.scenes.models.people.props import Prop
+from texvent.scenes.models.people.outfit import Prop
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import bounds, compose, moved, rod
 from texvent.scenes.scene import Float64Array, Primitives

@@ -8,7 +8,6 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.errors import InputError
 from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import AMID, SceneDescription
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
@@ -140,9 +139,6 @@ def compose_scene(
         size: image size, pixels, for the framing.
         duration_s: length of the clip, s; moves are spread over it.
         nouns: table of models.
-
-    Raises:
-        InputError: the duration is not a positive number.
     """
     description, missing = _prepare(description, duration_s)
     place = description.surroundings.name or "grass"
@@ -252,12 +248,7 @@ def _prepare(
     """The description as it is staged, and what of it cannot be shown.
 
     A camera that follows something which stays in its place would show nothing: it passes instead.
-
-    Raises:
-        InputError: the duration is not a positive number.
     """
-    if not (math.isfinite(duration_s) and duration_s > 0.0):
-        raise InputError(f"duration is {duration_s} s; it must be a positive number of seconds")
     missing = [
         f"the {one.noun}'s {motion.kind} after {motion.start_s:g} s "
         f"(the clip ends at {duration_s:g} s)"

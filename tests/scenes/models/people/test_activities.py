@@ -13,18 +13,19 @@ from texvent.scenes.models.people.activities import (
     PERSON_NOUNS,
     TRAVELLING,
 )
-from texvent.scenes.models.people.movements import find_posture
 from texvent.scenes.models.people.outfit import (
     ADULT,
     CLOTHES,
+    HOLDS,
     KINDS,
+    PROPS,
     draw_parts,
     dress_person,
     put_on,
     read_table,
 )
+from texvent.scenes.models.people.person import find_posture
 from texvent.scenes.models.people.posture import LOWER_ARM, SHIN, THIGH, UPPER_ARM, Skeleton
-from texvent.scenes.models.people.props import HOLDS, PROPS
 from texvent.scenes.models.protocol import Pose
 
 from ...every_row import for_every

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from tests.scenes.hand_scenes import day, look_at
 
-from texvent.scenes.image import SurfaceImage
-from texvent.scenes.mesh import Mesh, make_mesh, smooth_normals
+from texvent.scenes.mesh import Mesh, SurfaceImage, make_mesh, smooth_normals
 from texvent.scenes.scene import Camera, Environment, Float64Array, Primitives, Shape
 
 

@@ -10,9 +10,9 @@ from texvent.scenes.description import (
     ObjectMotion,
     SceneObject,
 )
+from texvent.scenes.models.anchors import top_heights
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds, moved
-from texvent.scenes.models.support_surface import top_heights
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.striking import contact_time
 

@@ -13,8 +13,7 @@ import numpy as np
 
 from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import CLOTH_COLOURS, SKIN_TONES, Material, cloth, mix, skin
-from texvent.scenes.models.people.activities import HAND_GESTURES, motion_of
-from texvent.scenes.models.people.track import Track, read_track
+from texvent.scenes.models.people.activities import HAND_GESTURES, Track, motion_of, read_track
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
 from texvent.scenes.models.shapes import (
     Affine,
@@ -22,6 +21,7 @@ from texvent.scenes.models.shapes import (
     ball,
     compose,
     limb,
+    mixed,
     moved,
     shift,
     turn_x,
@@ -61,19 +61,6 @@ class HandShape:
     """About the forearm, radians."""
     shift: tuple[float, float, float] = (0.0, 0.0, 0.0)
     """Of the whole hand: front, left, up, m."""
-
-
-def mix_shapes(first: HandShape, second: HandShape, share: float) -> HandShape:
-    """Between two shapes: the first at share 0, the second at 1."""
-    thumb, index, middle, ring, little = (
-        a + share * (b - a) for a, b in zip(first.bent, second.bent, strict=True)
-    )
-    x, y, z = (a + share * (b - a) for a, b in zip(first.shift, second.shift, strict=True))
-    numbers = {
-        name: getattr(first, name) + share * (getattr(second, name) - getattr(first, name))
-        for name in ("spread", "roll", "pitch", "yaw")
-    }
-    return HandShape((thumb, index, middle, ring, little), shift=(x, y, z), **numbers)
 
 
 def find_shape(gesture: str, time_s: float) -> HandShape:
@@ -131,7 +118,8 @@ def _shape_at(pose: Pose) -> HandShape:
     shape = find_shape(pose.activity, pose.time_s)
     if pose.before is None:
         return shape
-    return mix_shapes(find_shape(pose.before, pose.time_s), shape, pose.share)
+    between: HandShape = mixed(find_shape(pose.before, pose.time_s), shape, pose.share)
+    return between
 
 
 def _turned(shape: HandShape) -> Affine:

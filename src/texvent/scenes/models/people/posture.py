@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.models.limbs import bend
-from texvent.scenes.models.shapes import Affine, Point, part_way
+from texvent.scenes.models.shapes import Affine, Point, mixed, point, rotation
 
 THIGH, SHIN, ANKLE = 0.43, 0.43, 0.08
 HIP, HIP_SIDE = 0.95, 0.10
@@ -126,30 +126,12 @@ def blend(first: Posture, second: Posture, share: float) -> Posture:
         return first
     if share >= 1.0:
         return second
-    a, b = _absolute(first), _absolute(second)
+    a, b = (_absolute(fill(one, _REST)) for one in (first, second))
+    blended: Posture = mixed(a, b, share)
+    return blended
 
-    def arm(p: Arm | None, q: Arm | None) -> Arm:
-        p, q = p or Arm(), q or Arm()
-        return Arm(part_way(p.hand, q.hand, share), part_way(p.elbow, q.elbow, share), True)
 
-    def leg(p: Leg | None, q: Leg | None) -> Leg:
-        p, q = p or Leg(), q or Leg()
-        pitch = p.pitch + share * (q.pitch - p.pitch)
-        return Leg(part_way(p.foot, q.foot, share), part_way(p.knee, q.knee, share), pitch)
-
-    angles = {
-        name: getattr(a, name) + share * (getattr(b, name) - getattr(a, name))
-        for name in ("lean", "tilt", "turn", "nod", "look", "heading")
-    }
-    return Posture(
-        hips=part_way(a.hips or (0.0, 0.0, HIP), b.hips or (0.0, 0.0, HIP), share),
-        left=arm(a.left, b.left),
-        right=arm(a.right, b.right),
-        left_leg=leg(a.left_leg, b.left_leg),
-        right_leg=leg(a.right_leg, b.right_leg),
-        tool=part_way(a.tool, b.tool, share),
-        **angles,
-    )
+_REST = Posture((0.0, 0.0, HIP), left=Arm(), right=Arm(), left_leg=Leg(), right_leg=Leg())
 
 
 def solve(posture: Posture) -> Skeleton:
@@ -161,17 +143,17 @@ def solve(posture: Posture) -> Skeleton:
     hips = posture.hips or (0.0, 0.0, HIP)
     torso = _torso_axes(posture)
     axes = torso[:, :3]
-    heading = _about_z(posture.heading)
+    heading = rotation("z", posture.heading)
     neck = torso @ np.array([0.0, 0.0, NECK, 1.0])
-    head = axes @ _about_z(posture.look) @ _about_y(posture.nod)
+    head = axes @ rotation("z", posture.look) @ rotation("y", posture.nod)
     arms = [_solve_arm(torso, arm or Arm(), side)
             for arm, side in zip((posture.left, posture.right), SIDES, strict=True)]  # fmt: skip
-    turn = _about_z(posture.turn) if abs(posture.lean) < 1.0 else np.eye(3)
+    turn = rotation("z", posture.turn) if abs(posture.lean) < 1.0 else np.eye(3)
     legs = [
         _solve_leg(np.array(hips), axes, turn, leg or Leg(), side)
         for leg, side in zip((posture.left_leg, posture.right_leg), SIDES, strict=True)
     ]
-    points = [[_point(heading @ joint) for joint in limb] for limb in (*arms, *legs)]
+    points = [[point(heading @ joint) for joint in limb] for limb in (*arms, *legs)]
     pitches = tuple((leg or Leg()).pitch for leg in (posture.left_leg, posture.right_leg))
     forward, out, up = posture.tool
     tool = heading @ axes @ np.array([forward, -out, up])
@@ -186,7 +168,7 @@ def solve(posture: Posture) -> Skeleton:
         ankles=(points[2][2], points[3][2]),
         pitches=(pitches[0], pitches[1]),
         heading=posture.heading,
-        tool=_point(tool / max(float(np.linalg.norm(tool)), 1e-9)),
+        tool=point(tool / max(float(np.linalg.norm(tool)), 1e-9)),
     )
 
 
@@ -195,7 +177,7 @@ def _solve_arm(torso: Affine, arm: Arm, side: float) -> list[Affine]:
     forward, out, up = arm.elbow
     towards = torso[:, :3] @ np.array([forward, side * out, up])
     hand = _within(shoulder, np.array(arm.hand), UPPER_ARM + LOWER_ARM)
-    elbow = bend(_point(shoulder), _point(hand), UPPER_ARM, LOWER_ARM, _point(towards))
+    elbow = bend(point(shoulder), point(hand), UPPER_ARM, LOWER_ARM, point(towards))
     return [shoulder, np.array(elbow), hand]
 
 
@@ -205,7 +187,7 @@ def _solve_leg(hips: Affine, axes: Affine, turn: Affine, leg: Leg, side: float) 
     towards = turn @ np.array([forward, side * out, up])
     x, y, z = leg.foot
     ankle = _within(hip, np.array([x, side * y, z]), THIGH + SHIN)
-    knee = bend(_point(hip), _point(ankle), THIGH, SHIN, _point(towards))
+    knee = bend(point(hip), point(ankle), THIGH, SHIN, point(towards))
     return [hip, np.array(knee), ankle]
 
 
@@ -229,30 +211,11 @@ def _absolute(posture: Posture) -> Posture:
             spot = torso @ np.array(
                 [forward, side * (SHOULDER_SIDE + out), NECK - SHOULDER_DROP + up, 1.0]
             )
-            where = Arm(_point(spot), where.elbow, True)
+            where = Arm(point(spot), where.elbow, True)
         arms.append(where)
     return replace(posture, left=arms[0], right=arms[1])
 
 
 def _torso_axes(posture: Posture) -> Affine:
-    turn = _about_z(posture.turn) @ _about_y(posture.lean) @ _about_x(posture.tilt)
+    turn = rotation("z", posture.turn) @ rotation("y", posture.lean) @ rotation("x", posture.tilt)
     return np.column_stack([turn, np.array(posture.hips or (0.0, 0.0, HIP))])
-
-
-def _point(values: Affine) -> Point:
-    return (float(values[0]), float(values[1]), float(values[2]))
-
-
-def _about_x(angle: float) -> Affine:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[1.0, 0.0, 0.0], [0.0, c, -s], [0.0, s, c]])
-
-
-def _about_y(angle: float) -> Affine:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[c, 0.0, s], [0.0, 1.0, 0.0], [-s, 0.0, c]])
-
-
-def _about_z(angle: float) -> Affine:
-    c, s = math.cos(angle), math.sin(angle)
-    return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])

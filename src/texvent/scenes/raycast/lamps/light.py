@@ -1,13 +1,28 @@
-"""Light of lamps on a surface (compiled by Numba)."""
+"""Light and shadow of lamps: columns of their table, casters by direction, what a surface sees."""
 
 from __future__ import annotations
 
 import math
 
+import numpy as np
+from numpy.typing import NDArray
+
 from texvent.runtime.jit import jit
+from texvent.scenes.raycast.acceleration import CUBE, Bins, IntArray, bin_rectangles
 from texvent.scenes.raycast.records import Record, World
-from texvent.scenes.raycast.vectors import Vector, along, dot
-from texvent.scenes.scene import Colour
+from texvent.scenes.raycast.trace import (
+    ROOM,
+    SHADOW_BIAS_M,
+    SKY,
+    is_between,
+    ray_direction,
+    shadow_point,
+    sun_reaches,
+    surface_normal,
+    widened_hit,
+)
+from texvent.scenes.raycast.vectors import Vector, along, dot, mapped, triple, turned
+from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Primitives, Shape
 
 POSITION, LIGHT, REACH, BEAM, FULL, DARK, RADIUS, CASTS, GLOWS = 0, 3, 6, 7, 10, 11, 12, 13, 14
 """Columns of a lamp; see `scene.LAMP_COLUMNS`."""
@@ -85,3 +100,233 @@ def light_through(world: World, point: Vector) -> Colour:
         share, _ = falloff(lamp, towards_lamp(lamp, point))
         light = along(light, (lamp[3], lamp[4], lamp[5]), share)
     return light
+
+
+LONGITUDES, LATITUDES = 48, 24
+"""Cells of the grid of directions around a lamp: around the vertical, and by the sine of the
+height."""
+MOST_SHADOW_LAMPS = 4
+"""Lamps that can cast shadows at one instant."""
+_LONGEST_PIECES = 8
+
+
+def order_lamps(lamps: Float64Array, *, shadows: bool) -> tuple[Float64Array, int]:
+    """The lamps that cast shadows first, and how many they are; `shadows` False: none does."""
+    rows = np.asarray(lamps, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
+    casts = np.flatnonzero(rows[:, CASTS] > 0.0)[: MOST_SHADOW_LAMPS if shadows else 0]
+    rest = np.setdiff1d(np.arange(len(rows)), casts)
+    return np.ascontiguousarray(rows[np.concatenate([casts, rest])]), len(casts)
+
+
+def list_casters(lamp: Float64Array, primitives: Primitives, inverse: Float64Array) -> Bins:
+    """The shapes that may stand in a lamp's light, by cells of directions from the lamp.
+
+    Each is followed by its distance from the lamp, mm, and nearer ones come first: what is
+    farther than a surface cannot stand in its light. Shapes that glow, that hold the lamp or that
+    its light does not reach are left out.
+
+    Args:
+        lamp: [15] as in `Environment.lamps`.
+        primitives: the shapes.
+        inverse: [n, 3, 4] world → unit-shape coordinates.
+    """
+    place = lamp[:3]
+    local = inverse[:, :, :3] @ place + inverse[:, :, 3]
+    is_round = primitives.shape == Shape.ELLIPSOID
+    extent = np.where(is_round, np.linalg.norm(local, axis=1), np.abs(local).max(axis=1))
+    chosen = np.flatnonzero((np.asarray(primitives.emission) <= 0.0) & (extent > 1.0))
+    numbers, centre, radius = _split_long(primitives, chosen)
+    offset = centre - place
+    distance = np.linalg.norm(offset, axis=1)
+    near = distance - radius < lamp[6]
+    if lamp[10] >= -1.0:
+        near &= in_beam(lamp, offset, distance, radius)
+    numbers, offset = numbers[near], offset[near]
+    start_mm = np.floor(1e3 * np.maximum(distance - radius, 0.0)[near]).astype(np.int64)
+    rectangles, owner = _rectangles(offset, distance[near], radius[near])
+    order = np.argsort(start_mm[owner], kind="stable")
+    rectangles, owner = rectangles[order], owner[order]
+    bins = bin_rectangles(rectangles, np.arange(len(owner)), LONGITUDES, LATITUDES)
+    shown = owner[bins.items]
+    items = np.stack([numbers[shown], start_mm[shown]], axis=1).ravel()
+    return Bins(2 * bins.start, items, LONGITUDES, LATITUDES)
+
+
+def _split_long(
+    primitives: Primitives, chosen: IntArray
+) -> tuple[IntArray, Float64Array, Float64Array]:
+    """Balls that together hold each shape: its number, their centres and radii, m."""
+    linear = np.asarray(primitives.to_world, dtype=np.float64)[chosen, :, :3]
+    middle = np.asarray(primitives.to_world, dtype=np.float64)[chosen, :, 3]
+    lengths = np.linalg.norm(linear, axis=1)
+    longest = lengths.argmax(axis=1)
+    rows = np.arange(len(chosen))
+    second = np.sort(lengths, axis=1)[:, 1]
+    pieces = np.ceil(lengths[rows, longest] / np.maximum(second, 1e-9)).astype(np.int64)
+    pieces = np.clip(pieces, 1, _LONGEST_PIECES)
+    owner = np.repeat(rows, pieces)
+    step = np.arange(len(owner)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
+    axis = linear[rows, :, longest]
+    place = (2.0 * step + 1.0) / pieces[owner] - 1.0
+    scaled = linear.copy()
+    scaled[rows, :, longest] = axis / pieces[:, None]
+    corners = np.einsum("nij,kj->nki", scaled, CUBE)
+    radius = np.linalg.norm(corners, axis=2).max(axis=1)
+    return chosen[owner], middle[owner] + place[:, None] * axis[owner], radius[owner]
+
+
+def in_beam(
+    lamp: Float64Array, offset: Float64Array, distance: Float64Array, radius: Float64Array
+) -> NDArray[np.bool_]:
+    """Which balls the beam touches."""
+    angle = np.arccos(np.clip(offset @ lamp[7:10] / np.maximum(distance, 1e-9), -1.0, 1.0))
+    width = np.arcsin(np.clip(radius / np.maximum(distance, 1e-9), 0.0, 1.0))
+    touches = angle - width <= np.arccos(np.clip(lamp[11], -1.0, 1.0))
+    return np.asarray(touches | (distance <= radius), dtype=np.bool_)
+
+
+def _rectangles(
+    offset: Float64Array, distance: Float64Array, radius: Float64Array
+) -> tuple[IntArray, IntArray]:
+    """Cells of the grid that balls cover: rectangles, and the ball that each belongs to."""
+    inside = distance <= radius * (1.0 + 1e-9)
+    safe = np.where(inside, 1.0, distance)
+    width = np.where(inside, np.pi, np.arcsin(np.clip(radius / np.maximum(safe, radius), 0, 1)))
+    latitude = np.arcsin(np.clip(offset[:, 2] / np.maximum(distance, 1e-12), -1.0, 1.0))
+    low = np.maximum(latitude - width, -0.5 * np.pi)
+    high = np.minimum(latitude + width, 0.5 * np.pi)
+    has_pole = inside | (np.abs(latitude) + width >= 0.5 * np.pi)
+    sine = np.sin(np.minimum(width, 0.5 * np.pi)) / np.maximum(np.cos(latitude), 1e-12)
+    turn = np.where(has_pole, np.pi, np.arcsin(np.clip(sine, 0.0, 1.0)))
+    longitude = np.arctan2(offset[:, 1], offset[:, 0])
+    count = np.arange(len(distance))
+    columns = LONGITUDES / 4.0
+    first = np.floor(_along_diamond(longitude - turn) * columns - 1e-6).astype(np.int64)
+    last = np.floor(_along_diamond(longitude + turn) * columns + 1e-6).astype(np.int64)
+    last = np.minimum(last, first + LONGITUDES - 1)
+    top = np.floor((0.5 + 0.5 * np.sin(low)) * LATITUDES - 1e-6).astype(np.int64)
+    bottom = np.floor((0.5 + 0.5 * np.sin(high)) * LATITUDES + 1e-6).astype(np.int64)
+    # A range of columns may go round past either edge of the grid.
+    pieces = [np.stack([first + turns, last + turns, top, bottom], axis=1)
+              for turns in (-LONGITUDES, 0, LONGITUDES)]  # fmt: skip
+    rectangles = np.concatenate(pieces)
+    owner = np.tile(count, len(pieces))
+    touches = (rectangles[:, 1] >= 0) & (rectangles[:, 0] < LONGITUDES)
+    return rectangles[touches], owner[touches]
+
+
+def _along_diamond(angle: Float64Array) -> Float64Array:
+    """Where a direction crosses the diamond |x| + |y| = 1: 0..4 for 0..2π, and so on.
+
+    It grows with the angle, and needs no trigonometry where the direction is known.
+    """
+    x, y = np.cos(angle), np.sin(angle)
+    corner = y / (np.abs(x) + np.abs(y))
+    corner = np.where(x < 0.0, 2.0 - corner, np.where(y < 0.0, 4.0 + corner, corner))
+    return np.asarray(corner + 4.0 * np.floor(angle / (2.0 * np.pi)))
+
+
+LIT_BITS = 1 + MOST_SHADOW_LAMPS
+"""Bits of a probe that tell what light reaches a surface: the sun, then lamps."""
+
+
+@jit(error_model="numpy", inner=True)
+def direction_cell(towards: Vector, distance: float) -> int:
+    """The cell of a lamp's grid of directions that a surface is in; `towards` leads to the lamp.
+
+    Columns divide the outline of a diamond around the lamp, rows the height: see `lamps.light`.
+    """
+    x, y = -towards[0], -towards[1]
+    corner = y / (abs(x) + abs(y) + 1e-300)
+    if x < 0.0:
+        corner = 2.0 - corner
+    elif y < 0.0:
+        corner += 4.0
+    height = 0.5 - 0.5 * towards[2] / distance
+    column = min(int(corner * (0.25 * LONGITUDES)), LONGITUDES - 1)
+    row = min(max(int(height * LATITUDES), 0), LATITUDES - 1)
+    return row * LONGITUDES + column
+
+
+@jit(error_model="numpy", inner=True)
+def _blocked(
+    world: World, cell: int, point: Vector, towards: Vector, near: float
+) -> tuple[bool, bool]:
+    """Whether a shape of one cell stands between a point and a lamp, and whether a thin one nearly.
+
+    Shapes beyond the share `near` of the way belong to the lamp itself.
+    """
+    lists = world.lists
+    thin = False
+    reach_mm = 1e3 * math.sqrt(dot(towards, towards))
+    for index in range(lists[cell], lists[cell + 1], 2):
+        if lists[index + 1] > reach_mm:
+            break
+        shape = world.shapes[lists[index]]
+        o, d = mapped(shape.inverse, point), turned(shape.inverse, towards)
+        if is_between(world, shape, o, d, near):
+            return True, thin
+        if shape.is_thin and not thin:
+            thin = widened_hit(shape, o, d, 0.0) < near
+    return False, thin
+
+
+@jit(error_model="numpy")
+def lamps_reach(world: World, point: Vector, normal: Vector, wanted: int) -> tuple[int, bool]:
+    """Which of the lamps that cast shadows a surface sees, and whether a thin shadow is near.
+
+    Only the lamps whose bit is set in `wanted` are looked for. Bit k belongs to lamp k. A lamp
+    that the surface faces but whose light ends before it counts as seen.
+    """
+    instant = world.instant[0]
+    seen, thin = 0, False
+    for index in range(instant.shadow_lamps):
+        if not (wanted >> index) & 1:
+            continue
+        lamp = world.lamps[index]
+        start = along(point, normal, SHADOW_BIAS_M)
+        towards = towards_lamp(lamp, start)
+        if dot(towards, normal) <= 0.0:
+            continue
+        seen |= 1 << index
+        share, distance = falloff(lamp, towards)
+        if share <= 0.0:
+            continue
+        grid = instant.lamp_cells + index * (LONGITUDES * LATITUDES + 1)
+        cell = grid + direction_cell(towards, distance)
+        near = 1.0 - min(lamp[12] / distance, 0.9)
+        is_blocked, is_thin = _blocked(world, cell, start, towards, near)
+        thin = thin or is_thin
+        if is_blocked:
+            seen &= ~(1 << index)
+    return seen, thin
+
+
+ALL_LIGHTS = (1 << LIT_BITS) - 1
+"""All bits of a probe that tell what light reaches a surface."""
+
+
+@jit(error_model="numpy", inner=True)
+def lit_by(
+    world: World, x: float, y: float, hit: tuple[float, int, int], wanted: int
+) -> tuple[int, bool]:
+    """What light reaches what was hit (bit 0: sun, then lamps), and whether a thin shadow is near.
+
+    Only the lights in `wanted` are looked for; only lamps that cast shadows count.
+    """
+    depth, number, face = hit
+    instant = world.instant[0]
+    if number == SKY or (number == ROOM and instant.shadow_lamps == 0):
+        return 0, False
+    point = along(triple(instant.origin), ray_direction(instant, x, y), depth)
+    normal = surface_normal(world, number, face, point)
+    point = shadow_point(world, number, face, point)
+    is_sunlit, thin = False, False
+    if number != ROOM and wanted & 1:
+        is_sunlit, thin = sun_reaches(world, point, normal)
+    lit = int(is_sunlit)
+    if instant.shadow_lamps > 0:
+        lamps, thin_lamp = lamps_reach(world, point, normal, wanted >> 1)
+        lit |= lamps << 1
+        thin = thin or thin_lamp
+    return lit, thin

@@ -20,6 +20,7 @@ from texvent.scenes.raycast.vectors import (
     mapped,
     scaled,
     triple,
+    world_normal,
 )
 
 _SLACK = 1.0 + 8.0 * 2.0**-53
@@ -197,17 +198,6 @@ def slopes_of(triangle: Record, v: Vector) -> tuple[float, float]:
     return dot(cross(v, e2), n) / square, dot(cross(e1, v), n) / square
 
 
-@jit(error_model="numpy", inner=True)
-def _to_world_normal(m: Record, n: Vector) -> Vector:
-    """Unit normal in the world, from one in a shape's coordinates."""
-    normal = (
-        m[0, 0] * n[0] + m[1, 0] * n[1] + m[2, 0] * n[2],
-        m[0, 1] * n[0] + m[1, 1] * n[1] + m[2, 1] * n[2],
-        m[0, 2] * n[0] + m[1, 2] * n[1] + m[2, 2] * n[2],
-    )
-    return scaled(normal, 1.0 / math.sqrt(dot(normal, normal) + 1e-300))
-
-
 def _no_normals(world: World, number: int, face: int, point: Vector) -> tuple[Vector, Vector]:
     return point, point
 
@@ -225,10 +215,10 @@ def mesh_normals(world: World, number: int, face: int, point: Vector) -> tuple[V
     a = triple(triangle.corner[0])
     e1 = along(triple(triangle.corner[1]), a, -1.0)
     e2 = along(triple(triangle.corner[2]), a, -1.0)
-    flat = _to_world_normal(m, cross(e1, e2))
+    flat = world_normal(m, cross(e1, e2))
     w = weights_at(triangle, mapped(m, point))
     n = triangle.normal
-    smooth = _to_world_normal(
+    smooth = world_normal(
         m,
         (
             w[0] * n[0, 0] + w[1] * n[1, 0] + w[2] * n[2, 0],

@@ -8,11 +8,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.projection import Rays
-from texvent.scenes.raycast.acceleration import TILE, screen_bounds
-from texvent.scenes.raycast.lamps.bins import in_beam
-from texvent.scenes.raycast.lamps.light import FULL, POSITION, REACH
+from texvent.scenes.raycast.acceleration import CUBE, TILE, screen_bounds
+from texvent.scenes.raycast.lamps.light import FULL, POSITION, REACH, in_beam
 from texvent.scenes.raycast.trace import MESH, SHADOW_BIAS_M
-from texvent.scenes.scene import Float64Array, Ground, Primitives, Shape
+from texvent.scenes.scene import Float64Array, Ground, Primitives
 from texvent.sensor import SensorSize
 
 Mask = NDArray[np.bool_]
@@ -101,22 +100,13 @@ BIAS_M = 2.0 * SHADOW_BIAS_M
 """How far beside a surface its shadow rays may begin, with room for rounding, m."""
 LOWEST_SUN = 1e-3
 """Below this sine of the sun's height its shadows are longer than the world."""
-_CORNERS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], dtype=float)
-
-
-class _Boxes:
-    """Placed boxes, as `screen_bounds` takes them."""
-
-    def __init__(self, to_world: Float64Array) -> None:
-        self.to_world = to_world
-        self.shape = np.full(len(to_world), Shape.BOX, dtype=np.int8)
 
 
 def shape_balls(shapes: NDArray[Any], primitives: Primitives) -> Balls:
     """Balls that hold shapes, as wide as thin ones are made to be found."""
     to_world = np.asarray(primitives.to_world, dtype=np.float64)
     widened = to_world[:, :, :3] / np.maximum(shapes["shrink"], 1e-9)[:, None, :]
-    corners = np.einsum("nij,kj->nki", widened, _CORNERS)
+    corners = np.einsum("nij,kj->nki", widened, CUBE)
     radius = np.linalg.norm(corners, axis=2).max(axis=1)
     return Balls(to_world[:, :, 3], radius * (1.0 + 1e-9) + BIAS_M)
 
@@ -180,7 +170,7 @@ def sun_shadow_windows(
     to_world[:, :, 3] = 0.5 * middle @ axes
     rays = Rays(instant["origin"], instant["corner"], instant["right"], instant["down"])
     size = SensorSize(TILE * int(instant["tile_columns"]), TILE * int(instant["tile_rows"]))
-    bounds = screen_bounds(_Boxes(to_world), rays, size)[0]
+    bounds = screen_bounds(np.zeros(len(to_world), dtype=np.bool_), to_world, rays, size)[0]
     return np.asarray(bounds + np.array([-1.0, 1.0, -1.0, 1.0]))
 
 

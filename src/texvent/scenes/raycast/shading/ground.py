@@ -1,4 +1,4 @@
-"""Colour and relief of what z = 0 is made of, and of the walls of a room (compiled by Numba)."""
+"""Colour and relief of the ground, roads, rivers, a shore, and walls of a room (Numba)."""
 
 from __future__ import annotations
 
@@ -8,16 +8,296 @@ from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.shading.material import (
     Look,
+    Patch,
     land_look,
+    mixed,
     painted,
     patch_axes,
     sample_material,
 )
-from texvent.scenes.raycast.shading.road import strip_look
 from texvent.scenes.raycast.shading.sky import mix
-from texvent.scenes.raycast.shading.value_noise import box_coverage, lattice
+from texvent.scenes.raycast.shading.value_noise import (
+    box_coverage,
+    detail_fade,
+    lattice,
+    noise_2d,
+    smooth,
+    square_wave,
+)
 from texvent.scenes.raycast.vectors import Vector, scaled, triple
 from texvent.scenes.scene import Colour
+
+_WHITE_PAINT = (0.62, 0.62, 0.60)
+_KERB = (0.46, 0.46, 0.44)
+_IRON = (0.045, 0.042, 0.04)
+_DASH_M = 6.0
+_LINE_M = 0.14
+_ZEBRA_M = 3.2
+_ZEBRA_EVERY_M = 58.0
+_MANHOLE_EVERY_M = 19.0
+_DIRT_ROAD = 3
+_CITY = 5
+_RIVER = 11
+_LAKE = 12
+_WATER = 30
+_BREAKERS_M, _ROLL_M_S = 6.0, 2.0
+"""From one line of foam to the next, and how fast they come."""
+_FOAM = (0.82, 0.84, 0.84)
+_FLOW_M_S = 0.9
+_DRIFT_M_S = 0.25
+
+Strip = tuple[float, float, float, float]
+"""Metres along and across a strip, and cosine and sine of its direction there."""
+
+
+@jit(error_model="numpy")
+def strip_place(instant: Record, x: float, y: float) -> Strip:
+    """Where a ground point lies on the main road's line, which is straight or an arc."""
+    cosine, sine, _, x0, y0 = instant.road
+    bend = instant.road_curvature
+    if bend == 0.0:
+        return (
+            (x - x0) * cosine + (y - y0) * sine,
+            (y - y0) * cosine - (x - x0) * sine,
+            cosine,
+            sine,
+        )
+    side = 1.0 if bend > 0.0 else -1.0
+    start_x, start_y = sine / bend, -cosine / bend
+    from_x, from_y = x - x0 + start_x, y - y0 + start_y
+    radius = max(math.sqrt(from_x * from_x + from_y * from_y), 1e-9)
+    turn = side * math.atan2(start_x * from_y - start_y * from_x,
+                             start_x * from_x + start_y * from_y)  # fmt: skip
+    across = side * (side / bend - radius)
+    return turn / abs(bend), across, -side * from_y / radius, side * from_x / radius
+
+
+@jit(error_model="numpy", inner=True)
+def _crossing_place(instant: Record, number: int, x: float, y: float) -> Strip:
+    x0, y0, cosine, sine = instant.crossings[number]
+    return (
+        (x - x0) * cosine + (y - y0) * sine,
+        (y - y0) * cosine - (x - x0) * sine,
+        cosine,
+        sine,
+    )
+
+
+@jit(error_model="numpy", inner=True)
+def _feet(strip: Strip, patch: Patch) -> tuple[float, float]:
+    """Metres that a pixel covers along and across a strip."""
+    cosine, sine = strip[2], strip[3]
+    return (
+        abs(patch[0] * cosine + patch[1] * sine) + abs(patch[2] * cosine + patch[3] * sine),
+        abs(patch[1] * cosine - patch[0] * sine) + abs(patch[3] * cosine - patch[2] * sine),
+    )
+
+
+@jit(error_model="numpy", inner=True)
+def _inside_share(instant: Record, strip: Strip, foot: float) -> float:
+    """Share of a pixel that shows the strip rather than what lies beside it."""
+    half = instant.road[2]
+    if instant.ground in (2, _CITY):
+        return box_coverage(strip[1], -half, half, foot)
+    far = 1.0 if instant.ground == _DIRT_ROAD else 2.5
+    wobble = far * (
+        0.35 * noise_2d(0.35 * strip[0] / far, 0.0, 3) + 0.12 * noise_2d(1.3 * strip[0], 9.0, 4)
+    )
+    soft = max(0.6, 1.5 * foot)
+    if instant.ground == _LAKE:
+        return smooth((strip[1] + 2.0 * wobble) / soft + 0.5)
+    return smooth((half + wobble - abs(strip[1])) / soft + 0.5)
+
+
+@jit(error_model="numpy", inner=True)
+def _line_marks(strip: Strip, half: float, feet: tuple[float, float]) -> float:
+    """Share of white paint: edge lines and a dashed middle line."""
+    edge = box_coverage(abs(strip[1]), half - 3.0 * _LINE_M, half - 2.0 * _LINE_M, feet[1])
+    middle = box_coverage(strip[1], -0.5 * _LINE_M, 0.5 * _LINE_M, feet[1])
+    return max(edge, middle * square_wave(strip[0] / _DASH_M, feet[0] / _DASH_M))
+
+
+@jit(error_model="numpy", inner=True)
+def _zebra_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> float:
+    """Share of a pixel within a zebra crossing's length; they come at even distances."""
+    if instant.ground != _CITY:
+        return 0.0
+    place = strip[0] - 11.0 - _ZEBRA_EVERY_M * math.floor((strip[0] - 11.0) / _ZEBRA_EVERY_M)
+    return box_coverage(place, 0.0, _ZEBRA_M, feet[0])
+
+
+@jit(error_model="numpy", inner=True)
+def _manhole_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> float:
+    """Share of a pixel that shows a manhole's lid."""
+    if instant.ground != _CITY:
+        return 0.0
+    cell = math.floor(strip[0] / _MANHOLE_EVERY_M)
+    aside = 1.2 * (lattice(int(cell), 0, 21) - 0.5) * instant.road[2]
+    a = strip[0] - _MANHOLE_EVERY_M * (cell + 0.5)
+    b = strip[1] - aside
+    foot = max(feet[0], feet[1], 0.03)
+    share = smooth((0.33 - math.sqrt(a * a + b * b)) / foot + 0.5)
+    return share * min(1.0, 0.4 / foot)
+
+
+@jit(error_model="numpy", inner=True)
+def _asphalt(world: World, x: float, y: float, axes: Patch, marks: float, lid: float) -> Look:
+    """Carriageway with worn paint; `marks` and `lid` are shares of a pixel."""
+    instant = world.instant[0]
+    sample = sample_material(instant, instant.road_surface, x, y, axes, 1.0)
+    tar = triple(instant.second_colour)
+    surface = painted(sample, tar, scaled(tar, 2.2), 1.0)
+    brightness = min(sample[0] + sample[1], 1.3)
+    colour = mix(surface[0], scaled(_WHITE_PAINT, 0.55 + 0.45 * brightness), 0.9 * marks)
+    return mix(colour, scaled(_IRON, brightness), lid), surface[1], surface[2]
+
+
+@jit(error_model="numpy", inner=True)
+def _track(
+    world: World, x: float, y: float, axes: Patch, strip: Strip, feet: tuple[float, float]
+) -> Look:
+    """A dirt road with two ruts."""
+    instant = world.instant[0]
+    sample = sample_material(instant, instant.road_surface, x, y, axes, 1.0)
+    wobble = 0.3 * noise_2d(0.35 * strip[0], 0.0, 3)
+    rut = smooth(1.6 - abs(abs(strip[1] + wobble) - 0.85) / 0.35)
+    factor = 1.0 - 0.28 * rut * detail_fade(feet[1] / 1.5)
+    soil = triple(instant.second_colour)
+    return painted(sample, soil, scaled(soil, 1.3), factor)
+
+
+@jit(error_model="numpy", inner=True)
+def _foam_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> float:
+    """Share of foam on high waves: lines of it roll onto a shore, fewer far out."""
+    if instant.wave_height <= 1.0 or instant.ground != _LAKE:
+        return 0.0
+    far = max(strip[1], 0.0)
+    seaward = far + _ROLL_M_S * instant.time
+    place = (seaward + 3.0 * noise_2d(0.12 * strip[0], 0.0, 5)) / _BREAKERS_M
+    behind = place - math.floor(place)
+    patchy = noise_2d(0.5 * strip[0], 0.9 * seaward, 6)
+    sharp = _BREAKERS_M / max(feet[1], 0.5)
+    line = smooth((0.24 + 0.26 * patchy - behind) * min(sharp, 6.0) + 0.5)
+    near = math.exp(-far / (8.0 * instant.wave_height))
+    return 0.9 * near * (0.15 + (line - 0.15) * detail_fade(feet[1] / _BREAKERS_M))
+
+
+@jit(error_model="numpy", inner=True)
+def _water(world: World, strip: Strip, axes: Patch, view_up: float, foam: float) -> Look:
+    """Rippled water that flows along the strip and mirrors the sky."""
+    instant = world.instant[0]
+    speed = _FLOW_M_S if instant.ground == _RIVER else _DRIFT_M_S
+    turned = (
+        axes[0] * strip[2] + axes[1] * strip[3], axes[1] * strip[2] - axes[0] * strip[3],
+        axes[2], axes[3],
+    )  # fmt: skip
+    place = strip[0] - speed * instant.time
+    sample = sample_material(instant, _WATER, place, strip[1], turned, 1.0)
+    mirror = 0.06 + 0.74 * (1.0 - min(abs(view_up), 1.0)) ** 4
+    deep = mix(triple(instant.second_colour), triple(instant.sky_horizon), mirror)
+    bright = mix(deep, triple(instant.sky_horizon), 0.65)
+    look = painted(sample, deep, bright, 1.0)
+    # Ripples lie flat: their slopes turn what is mirrored, not the water's own shade.
+    return mix(look[0], _FOAM, foam), 0.0, 0.0
+
+
+@jit(error_model="numpy", inner=True)
+def _carriageway(
+    world: World,
+    point: tuple[float, float],
+    axes: Patch,
+    main: tuple[Strip, tuple[float, float], float],
+    other: tuple[Strip, tuple[float, float], float],
+) -> Look:
+    """Asphalt of the main road, of one that crosses it, or of both."""
+    instant = world.instant[0]
+    half = instant.road[2]
+    strip, feet, inside = main
+    marks, lid = 0.0, 0.0
+    if inside > 0.0:
+        zebra = _zebra_share(instant, strip, feet)
+        stripes = square_wave(strip[1] / 1.1, feet[1] / 1.1) * box_coverage(
+            strip[1], -half + 0.3, half - 0.3, feet[1]
+        )
+        marks = inside * (
+            zebra * stripes + (1.0 - zebra) * _line_marks(strip, half, feet) * (1.0 - other[2])
+        )
+        lid = inside * _manhole_share(instant, strip, feet)
+    if other[2] > 0.0:
+        marks += (1.0 - inside) * other[2] * _line_marks(other[0], half, other[1])
+    return _asphalt(world, point[0], point[1], axes, marks, lid)
+
+
+@jit(error_model="numpy", inner=True)
+def _road_look(world: World, x: float, y: float, patch: Patch, axes: Patch, strip: Strip) -> Look:
+    """A road with those that cross it, and what lies beside it."""
+    instant = world.instant[0]
+    half = instant.road[2]
+    feet = _feet(strip, patch)
+    inside = _inside_share(instant, strip, feet[1])
+    other, other_feet, beyond = strip, feet, 0.0
+    kerb = box_coverage(abs(strip[1]), half, half + 0.3, feet[1])
+    for number in range(instant.crossing_count):
+        place = _crossing_place(instant, number, x, y)
+        spread = _feet(place, patch)
+        share = _inside_share(instant, place, spread[1])
+        kerb = max(kerb, box_coverage(abs(place[1]), half, half + 0.3, spread[1]))
+        if share > beyond:
+            other, other_feet, beyond = place, spread, share
+    covered = inside + (1.0 - inside) * beyond
+    if covered <= 0.0:
+        return _kerbed(land_look(world, x, y, axes), instant, kerb)
+    if instant.ground == _DIRT_ROAD:
+        if inside >= beyond:
+            surface = _track(world, x, y, axes, strip, feet)
+        else:
+            surface = _track(world, x, y, axes, other, other_feet)
+    else:
+        surface = _carriageway(
+            world, (x, y), axes, (strip, feet, inside), (other, other_feet, beyond)
+        )
+    if covered >= 1.0:
+        return surface
+    return mixed(_kerbed(land_look(world, x, y, axes), instant, kerb), surface, covered)
+
+
+@jit(error_model="numpy", inner=True)
+def _kerbed(land: Look, instant: Record, kerb: float) -> Look:
+    if instant.ground != _CITY or kerb == 0.0:
+        return land
+    colour: Colour = mix(land[0], _KERB, kerb)
+    return colour, land[1], land[2]
+
+
+@jit(error_model="numpy", inner=True)
+def strip_look(world: World, x: float, y: float, patch: Patch, axes: Patch, view_up: float) -> Look:
+    """Reflectance and relief of a ground with a road, a river or a shore.
+
+    Args:
+        world: the scene.
+        x: metres east.
+        y: metres north.
+        patch: what one pixel covers there.
+        axes: of that patch, from `patch_axes`.
+        view_up: z of the ray's unit direction.
+    """
+    instant = world.instant[0]
+    strip = strip_place(instant, x, y)
+    if instant.ground not in (_RIVER, _LAKE):
+        return _road_look(world, x, y, patch, axes, strip)
+    feet = _feet(strip, patch)
+    wet = _inside_share(instant, strip, feet[1])
+    if wet >= 1.0:
+        return _water(world, strip, axes, view_up, _foam_share(instant, strip, feet))
+    land = land_look(world, x, y, axes)
+    edge = strip[1] + 1.2 if instant.ground == _LAKE else instant.road[2] + 1.2 - abs(strip[1])
+    bank = 0.6 * smooth(edge / 2.0)
+    land = scaled(mix(land[0], (0.20, 0.155, 0.10), bank), 1.0 - 0.25 * bank), land[1], land[2]
+    if wet <= 0.0:
+        return land
+    foam = _foam_share(instant, strip, feet)
+    return mixed(land, _water(world, strip, axes, view_up, foam), wet)
+
 
 _PLASTER, _STONE, _CLOTH = 33, 31, 43
 _HANGING_EVERY_M = 2.3

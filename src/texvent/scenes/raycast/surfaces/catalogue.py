@@ -9,9 +9,8 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.raycast.surfaces import bodies, grounds
+from texvent.scenes.raycast.surfaces import patterns
 from texvent.scenes.raycast.surfaces.fields import SIDE, Field
-from texvent.scenes.raycast.surfaces.grounds import Pattern
 from texvent.scenes.scene import FIRST_SURFACE, Texture
 
 LEVELS = 9
@@ -27,7 +26,7 @@ _FRACTION = 1 << 16
 class SurfaceKind:
     """One material."""
 
-    pattern: Callable[[], Pattern]
+    pattern: Callable[[], patterns.Pattern]
     side_m: float
     """Side of its tile, metres."""
     relief: float = 0.0
@@ -41,40 +40,40 @@ class SurfaceKind:
 
 
 SURFACES: dict[Texture, SurfaceKind] = {
-    Texture.VARIATION: SurfaceKind(grounds.variation, 1.0),
-    Texture.CRACKED: SurfaceKind(grounds.cracked, 1.0),
-    Texture.WORN: SurfaceKind(bodies.worn, 1.6, wear=0.0),
-    Texture.ASPHALT: SurfaceKind(grounds.asphalt, 1.1, 0.25, 1.0, Texture.CRACKED, 13.7),
-    Texture.GRASS: SurfaceKind(grounds.grass, 1.7, 0.35, 1.0),
-    Texture.SOIL: SurfaceKind(grounds.soil, 1.6, 0.7, 0.8),
-    Texture.SAND: SurfaceKind(grounds.sand, 2.2, 0.9, 0.8),
-    Texture.GRAVEL: SurfaceKind(grounds.gravel, 1.3, 0.9, 0.6),
-    Texture.LEAVES: SurfaceKind(grounds.leaves, 1.9, 0.4, 0.8),
-    Texture.SNOW: SurfaceKind(grounds.snow, 3.0, 0.9, 0.5),
-    Texture.PAVING: SurfaceKind(grounds.paving, 3.0, 0.8, 0.8),
-    Texture.TILES: SurfaceKind(grounds.tiles, 1.6, 0.4, 0.5),
-    Texture.BOARDS: SurfaceKind(grounds.boards, 1.9, 0.3, 0.6),
-    Texture.CARPET: SurfaceKind(grounds.carpet, 1.8, 0.3, 0.7),
-    Texture.WATER: SurfaceKind(grounds.water, 3.5, 0.3, 0.9),
-    Texture.STONE: SurfaceKind(bodies.stone, 1.5, 0.9),
-    Texture.CONCRETE: SurfaceKind(bodies.concrete, 2.6, 0.5, 0.7, larger=5.3),
-    Texture.PLASTER: SurfaceKind(bodies.plaster, 3.2, 0.35, 0.25),
-    Texture.BRICK: SurfaceKind(bodies.brick, 2.0, 0.8, 0.5),
-    Texture.ROOFING: SurfaceKind(bodies.roofing, 2.5, 0.4),
-    Texture.WALLPAPER: SurfaceKind(bodies.wallpaper, 1.6, 0.2, 0.3),
-    Texture.WOOD: SurfaceKind(bodies.wood, 0.9, 0.2, 0.0),
-    Texture.BARK: SurfaceKind(bodies.bark, 0.9, 0.9, 0.0),
-    Texture.FOLIAGE: SurfaceKind(bodies.foliage, 1.8, 0.45, 0.5, larger=4.3),
-    Texture.NEEDLES: SurfaceKind(bodies.needles, 1.5, 0.45, 0.5, larger=4.3),
-    Texture.FUR: SurfaceKind(bodies.fur, 0.6, 0.35, 0.0),
-    Texture.FEATHERS: SurfaceKind(bodies.feathers, 0.5, 0.3, 0.0),
-    Texture.CLOTH: SurfaceKind(bodies.cloth, 0.7, 0.35, 0.0),
-    Texture.SKIN: SurfaceKind(bodies.skin, 0.35, 0.2, 0.0),
-    Texture.METAL: SurfaceKind(bodies.metal, 1.0, 0.1, 0.0),
-    Texture.RUST: SurfaceKind(bodies.rust, 0.9, 0.4, 0.0),
-    Texture.LEATHER: SurfaceKind(bodies.leather, 0.6, 0.5, 0.0),
-    Texture.SPOTS: SurfaceKind(bodies.spots, 1.0, 0.2, 0.0),
-    Texture.SCALES: SurfaceKind(bodies.scales, 0.5, 0.4, 0.0),
+    Texture.VARIATION: SurfaceKind(patterns.variation, 1.0),
+    Texture.CRACKED: SurfaceKind(patterns.cracked, 1.0),
+    Texture.WORN: SurfaceKind(patterns.worn, 1.6, wear=0.0),
+    Texture.ASPHALT: SurfaceKind(patterns.asphalt, 1.1, 0.25, 1.0, Texture.CRACKED, 13.7),
+    Texture.GRASS: SurfaceKind(patterns.grass, 1.7, 0.35, 1.0),
+    Texture.SOIL: SurfaceKind(patterns.soil, 1.6, 0.7, 0.8),
+    Texture.SAND: SurfaceKind(patterns.sand, 2.2, 0.9, 0.8),
+    Texture.GRAVEL: SurfaceKind(patterns.gravel, 1.3, 0.9, 0.6),
+    Texture.LEAVES: SurfaceKind(patterns.leaves, 1.9, 0.4, 0.8),
+    Texture.SNOW: SurfaceKind(patterns.snow, 3.0, 0.9, 0.5),
+    Texture.PAVING: SurfaceKind(patterns.paving, 3.0, 0.8, 0.8),
+    Texture.TILES: SurfaceKind(patterns.tiles, 1.6, 0.4, 0.5),
+    Texture.BOARDS: SurfaceKind(patterns.boards, 1.9, 0.3, 0.6),
+    Texture.CARPET: SurfaceKind(patterns.carpet, 1.8, 0.3, 0.7),
+    Texture.WATER: SurfaceKind(patterns.water, 3.5, 0.3, 0.9),
+    Texture.STONE: SurfaceKind(patterns.stone, 1.5, 0.9),
+    Texture.CONCRETE: SurfaceKind(patterns.concrete, 2.6, 0.5, 0.7, larger=5.3),
+    Texture.PLASTER: SurfaceKind(patterns.plaster, 3.2, 0.35, 0.25),
+    Texture.BRICK: SurfaceKind(patterns.brick, 2.0, 0.8, 0.5),
+    Texture.ROOFING: SurfaceKind(patterns.roofing, 2.5, 0.4),
+    Texture.WALLPAPER: SurfaceKind(patterns.wallpaper, 1.6, 0.2, 0.3),
+    Texture.WOOD: SurfaceKind(patterns.wood, 0.9, 0.2, 0.0),
+    Texture.BARK: SurfaceKind(patterns.bark, 0.9, 0.9, 0.0),
+    Texture.FOLIAGE: SurfaceKind(patterns.foliage, 1.8, 0.45, 0.5, larger=4.3),
+    Texture.NEEDLES: SurfaceKind(patterns.needles, 1.5, 0.45, 0.5, larger=4.3),
+    Texture.FUR: SurfaceKind(patterns.fur, 0.6, 0.35, 0.0),
+    Texture.FEATHERS: SurfaceKind(patterns.feathers, 0.5, 0.3, 0.0),
+    Texture.CLOTH: SurfaceKind(patterns.cloth, 0.7, 0.35, 0.0),
+    Texture.SKIN: SurfaceKind(patterns.skin, 0.35, 0.2, 0.0),
+    Texture.METAL: SurfaceKind(patterns.metal, 1.0, 0.1, 0.0),
+    Texture.RUST: SurfaceKind(patterns.rust, 0.9, 0.4, 0.0),
+    Texture.LEATHER: SurfaceKind(patterns.leather, 0.6, 0.5, 0.0),
+    Texture.SPOTS: SurfaceKind(patterns.spots, 1.0, 0.2, 0.0),
+    Texture.SCALES: SurfaceKind(patterns.scales, 0.5, 0.4, 0.0),
 }
 """Every material."""
 SURFACE_COUNT = max(SURFACES) - FIRST_SURFACE + 1

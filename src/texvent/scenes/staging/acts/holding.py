@@ -10,11 +10,10 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.description import Relation
-from texvent.scenes.models.people.outfit import CLOTHES
-from texvent.scenes.models.people.props import list_props
+from texvent.scenes.models.anchors import find_support, top_heights
+from texvent.scenes.models.people.outfit import CLOTHES, list_props
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import Affine, shift
-from texvent.scenes.models.support_surface import find_support, top_heights
 from texvent.scenes.models.tables import nouns_with, trait_value
 from texvent.scenes.staging.actors import Actor, Tether, size_of
 from texvent.scenes.staging.acts.acts import (

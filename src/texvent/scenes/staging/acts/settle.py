@@ -13,7 +13,7 @@ from texvent.scenes.description import (
     SceneObject,
 )
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.people.props import list_props
+from texvent.scenes.models.people.outfit import list_props
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import nouns_with, trait_value
 from texvent.scenes.spec.scene import Direction

@@ -12,7 +12,7 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.models.people.activities import ACTIVITIES
-from texvent.scenes.models.people.props import list_props
+from texvent.scenes.models.people.outfit import list_props
 from texvent.scenes.models.shapes import Affine, bounds, moved, shift
 from texvent.scenes.models.tables import trait_value
 from texvent.scenes.scene import Float64Array

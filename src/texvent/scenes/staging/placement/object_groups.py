@@ -10,15 +10,14 @@ import numpy as np
 
 from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import STANDING, SceneDescription, SceneObject
+from texvent.scenes.models.anchors import find_support
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
-from texvent.scenes.models.people.outfit import CLOTHES
+from texvent.scenes.models.people.outfit import CLOTHES, HOLDS, Prop, list_props
 from texvent.scenes.models.people.person import dress
 from texvent.scenes.models.people.posture import SEAT
-from texvent.scenes.models.people.props import HOLDS, Prop, list_props
 from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.models.shapes import bounds, moved
-from texvent.scenes.models.support_surface import find_support
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred, size_of

@@ -8,6 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.description import Relation
+from texvent.scenes.models.anchors import Support, find_support, top_heights
 from texvent.scenes.models.people.activities import (
     DONE_SEATED,
     PERSON_NOUNS,
@@ -17,7 +18,6 @@ from texvent.scenes.models.people.activities import (
 from texvent.scenes.models.people.posture import SEAT
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds
-from texvent.scenes.models.support_surface import Support, find_support, top_heights
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred, size_of

@@ -1,8 +1,11 @@
-"""What a picture shows at each instant, as images with pyramids in linear light."""
+"""Pictures that surfaces show: files, videos, checkerboards and text, as images in linear light."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+import re
+import threading
+from collections import OrderedDict
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
@@ -12,15 +15,168 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, InputError, shown
 from texvent.scenes.description import Picture
-from texvent.scenes.image import SurfaceImage, decode_srgb, surface_image
+from texvent.scenes.mesh import SurfaceImage, decode_srgb, surface_image
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import half_extents
 from texvent.scenes.models.tables import nouns_with
-from texvent.scenes.pictures.checking import check_picture, is_video, read_checks
-from texvent.scenes.pictures.video import PlayedVideo
 from texvent.scenes.scene import Colour, Shape, Texture
+
+VIDEO_ENDINGS = frozenset({".mp4", ".m4v", ".mov", ".avi", ".mkv", ".webm", ".gif", ".mpg", ".ts"})
+"""Endings of files that play; any other file is read as an image."""
+LONGEST_TEXT = 200
+"""Characters of a text at most."""
+_CHECKS = re.compile(r"(\d{1,3})\s*[x×]\s*(\d{1,3})")
+MOST_CHECKS = 64
+
+
+def check_picture(picture: Picture) -> None:
+    """Refuse a picture that cannot be shown.
+
+    Raises:
+        InputError: its file does not exist or is no image or video, its squares are no such as
+            "9x6", or its text is empty, too long, or has characters other than ASCII.
+    """
+    if picture.kind == "checkerboard":
+        read_checks(picture.value)
+    elif picture.kind == "text":
+        _check_text(picture.value)
+    else:
+        _check_file(Path(picture.value))
+
+
+def read_checks(value: str) -> tuple[int, int]:
+    """Columns and rows of squares that "9x6" names.
+
+    Raises:
+        InputError: it names none, or too few or too many.
+    """
+    match = _CHECKS.fullmatch(value.strip().lower())
+    counts = (int(match[1]), int(match[2])) if match else (0, 0)
+    if not 2 <= min(counts) <= max(counts) <= MOST_CHECKS:
+        raise InputError(
+            f"a checkerboard has columns and rows of squares, such as 9x6, of 2 to "
+            f"{MOST_CHECKS} each, but this one has {shown(value)}"
+        )
+    return counts
+
+
+def is_video(path: Path) -> bool:
+    """Whether a file plays."""
+    return path.suffix.lower() in VIDEO_ENDINGS
+
+
+def can_show(noun: str) -> bool:
+    """Whether a noun of the embedded generator has a face for pictures."""
+    return noun in nouns_with("shows a picture")
+
+
+def _check_text(text: str) -> None:
+    if not text.strip() or len(text) > LONGEST_TEXT:
+        raise InputError(
+            f"the text on a surface has {len(text.strip())} characters; it may have 1 to "
+            f"{LONGEST_TEXT}"
+        )
+    odd = next((letter for letter in text if not (letter.isascii() and letter.isprintable())), None)
+    if odd is not None:
+        raise InputError(f"text on a surface is drawn with ASCII letters; {odd!r} is none")
+
+
+def _check_file(path: Path) -> None:
+    if not path.is_file():
+        raise InputError(f"the picture {path} does not exist; name an image or a video file")
+    try:
+        with path.open("rb") as file:
+            file.read(1)
+    except OSError as error:
+        raise InputError(f"the picture {path} cannot be read: {error.strerror}") from error
+    if not is_video(path) and not cv2.haveImageReader(str(path)):
+        raise InputError(
+            f"the picture {path} is no image that can be read (PNG, JPEG, TIFF, WebP, BMP) and no "
+            f"video ({', '.join(sorted(VIDEO_ENDINGS))})"
+        )
+
+
+CACHED_FRAMES = 4
+"""Images that are kept: renderers look at a few neighbouring instants at a time."""
+
+
+class PlayedVideo:
+    """The frames of a video by their own times; its end is followed by its beginning.
+
+    Memory stays flat: times of all frames, and a few decoded images.
+
+    Args:
+        path: the file.
+
+    Raises:
+        FileFormatError: no frame of it can be decoded.
+    """
+
+    def __init__(self, path: Path) -> None:
+        self._path = path
+        self._lock = threading.Lock()
+        self._images: OrderedDict[int, SurfaceImage] = OrderedDict()
+        self._frames: Iterator[Any] | None = None
+        self._next = 0
+        self._times_s, self._duration_s = self._read_times()
+
+    def __reduce__(self) -> tuple[type, tuple[Path]]:
+        return PlayedVideo, (self._path,)
+
+    def at(self, time_s: float) -> SurfaceImage:
+        """The frame shown at an instant, s from the first one."""
+        shown_s = time_s % self._duration_s
+        index = max(int(np.searchsorted(self._times_s, shown_s, side="right")) - 1, 0)
+        with self._lock:
+            if index not in self._images:
+                self._images[index] = self._decode(index)
+                if len(self._images) > CACHED_FRAMES:
+                    self._images.popitem(last=False)
+            self._images.move_to_end(index)
+            return self._images[index]
+
+    def _read_times(self) -> tuple[np.ndarray, float]:
+        """Times of all frames, s from the first, and how long the video lasts, s."""
+        times = []
+        for frame in self._open():
+            times.append(float(frame.pts * frame.time_base) if frame.pts is not None else None)
+        if not times:
+            raise FileFormatError(f"{self._path} has no frame that can be decoded")
+        if any(time is None for time in times):
+            times = [index / 25.0 for index in range(len(times))]
+        counted = np.array(times, dtype=np.float64)
+        counted -= counted[0]
+        last = float(np.median(np.diff(counted))) if len(counted) > 1 else 1.0
+        return np.maximum.accumulate(counted), float(counted[-1]) + max(last, 1e-3)
+
+    def _open(self) -> Iterator[Any]:
+        import av  # most scenes show no video
+        from av.error import FFmpegError
+
+        try:
+            with av.open(str(self._path)) as container:
+                yield from container.decode(video=0)
+        except (FFmpegError, IndexError, OSError) as error:
+            raise FileFormatError(
+                f"{self._path} is no video that can be decoded "
+                f"({getattr(error, 'strerror', None) or error}); name another file"
+            ) from error
+
+    def _decode(self, index: int) -> SurfaceImage:
+        """Read on to a frame, from the beginning where it lies behind."""
+        if self._frames is None or index < self._next:
+            self._frames, self._next = self._open(), 0
+        for frame in self._frames:
+            self._next += 1
+            if self._next == index + 1:
+                coded = frame.to_ndarray(format="rgb24")
+                return surface_image(decode_srgb(np.asarray(coded, dtype=np.uint8)))
+        raise FileFormatError(
+            f"{self._path} ends before frame {index}; it changed while it was read"
+        )
+
 
 PictureSource = Callable[[float], SurfaceImage]
 """The image shown at an instant, s."""

@@ -1,1 +1,0 @@
-"""Scenes written by a language model behind an OpenAI-compatible endpoint."""
