@@ -99,6 +99,11 @@ def find_unheld(
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
         rule, target = _RULES.get(one.kind), description.objects[one.targets[0]].noun
+        is_flat = {description.objects[one.subject].noun, target} <= nouns_with("flat pattern")
+        rule = _RULES["in"] if is_flat and one.kind == "on" else rule
+        side = description.objects[one.subject].side
+        if one.kind in ("past", "overtake") and side in ("left", "right"):
+            yield Unheld("placement", side, f"{names[one.subject]} passing on the {side}")
         is_seat = one.kind == "on" and target in nouns_with("sat on")  # within its frame
         if rule is None or one.subject in one.targets or is_seat:
             continue

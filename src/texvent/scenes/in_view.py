@@ -17,16 +17,19 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.description import AMID, SceneDescription
+from texvent.scenes.defaults import NO_PLACE
 from texvent.scenes.held import Unheld, bodies_of, find_unheld
-from texvent.scenes.models.places import PLACES
+from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.models.places import PLACES, Place
 from texvent.scenes.projection import project
 from texvent.scenes.raycast.acceleration import CUBE
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.render import render, world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
 from texvent.scenes.read.lexicon import lexicon_of
-from texvent.scenes.scene import Float64Array, Ground, Primitives, Scene
+from texvent.scenes.scene import Camera, Float64Array, Ground, Primitives, Scene, Texture
 from texvent.scenes.spec.data import PLACING
+from texvent.scenes.staging.actors import assemble
 from texvent.scenes.staging.compose import ComposedScene
 from texvent.sensor import SensorSize
 
@@ -36,6 +39,8 @@ MOST_POINTS = 2000
 """Points of a grid over the image, or over the box of an object."""
 LEAST_PIXELS = 6
 """Pixels below which an object is too small to be told."""
+LEAST_INSIDE = 0.33
+"""Share of an object's extent that is inside the image; of less it is cut off."""
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
 _SMALL = SensorSize(120, 90)
@@ -45,6 +50,10 @@ _LEAST_LEVELS, _LEAST_SHARE = 6.0, 0.002
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _WATER = (Ground.SEA, Ground.LAKE, Ground.RIVER)
+_FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
+"""Grounds that many places have: only their scenery shows which one it is."""
+_LEAST_SCENERY = 0.02
+"""Share of the pixels that it covers."""
 _OUTDOORS = ("sunny", "overcast", "dusk", "dawn", "moonlight")
 _TURNS = ("spin", "work", "rotate")
 
@@ -70,11 +79,14 @@ def find_unseen(
     """
     object_of = scene.object_of
     pixels = count_pixels(scene, list(object_of), size, duration_s)
+    times = np.linspace(0.0, duration_s, INSTANTS)
+    shots = [(scene.primitives(float(time_s)), scene.camera(float(time_s))) for time_s in times]
     around = {i for one in description.relations if one.kind in AMID for i in one.targets}
     outside: list[str] = []
     small: list[str] = []
     for index, thing in enumerate(description.objects):
-        copies = [pixels[one] for one, owner in object_of.items() if owner == index]
+        ids = [one for one, owner in object_of.items() if owner == index]
+        copies = [pixels[one] for one in ids]
         most, lost = max(copies, default=0), copies.count(0)
         if not copies and index not in around:
             continue
@@ -84,13 +96,14 @@ def find_unseen(
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
         elif lost and len(copies) <= max(2 * lost, 0 if index in around else MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(copies)})")
-    times = np.linspace(0.0, duration_s, INSTANTS)
-    shots = [(scene.primitives(float(time_s)), scene.camera(float(time_s))) for time_s in times]
+        elif max(share_inside(shots, size, one) for one in ids) < LEAST_INSIDE:
+            outside.append(f"{thing.noun} (cut off)")
     bodies = bodies_of(shots, [one for one, count in pixels.items() if count])
     unheld = [one for one in find_unheld(description, bodies, object_of)
               if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
     unheld += _unlit(scene, description, duration_s)
-    unheld += [Unheld("noun", noun, "") for noun in (*outside, *small)]
+    lines = (one.partition(" (") for one in (*outside, *small) if " of " not in one)
+    unheld += [Unheld("noun", noun, "") for noun, *_ in lines]
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)), tuple(dict.fromkeys(unheld))
     )
@@ -111,7 +124,7 @@ def _meanings(word: str) -> Iterator[tuple[str, str | None]]:
             yield from (("motion", one.kind), ("effect", one.kind))
         elif sense.kind == "noun":
             yield "noun", sense.value.noun
-        elif sense.kind in ("adverb", "scene"):
+        elif sense.kind in ("adverb", "scene", "field"):
             *_, field, value = sense.value
             yield from ((field, ""), (field if field != "kind" else "light", value))
         else:
@@ -130,7 +143,18 @@ def _unlit(
         yield Unheld("wave_height", "", "waves, without water")
     if said.has_snow and place.is_room:
         yield Unheld("has_snow", "", "snow, in a room")
+    if description.is_timelapse and place.is_room:
+        yield Unheld("is_timelapse", "", "time lapse, in a room")
+    for noun in (one.noun for one in description.objects if one.is_lit and one.noun not in LAMPS):
+        yield Unheld("is_lit", "", f"lights of the {noun}")
     times = [share * duration_s for share in (0.17, 0.43, 0.71, 0.93)]
+    is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
+    if is_said and place.scenery and not said.is_empty and (
+        place.is_room or place.surface in _FLOORS or _is_common(place)
+    ):  # fmt: skip
+        bare = replace(scene, still=assemble([]))
+        if not _differs(scene, bare, times, least=_LEAST_SCENERY):
+            yield Unheld("place", said.name or "", f"{said.name}, of which only the ground is in view")
     if said.clouds:
         sky = scene.animated_environment
         clear = replace(sky, base=replace(sky.base, clouds=0.0))
@@ -151,13 +175,38 @@ def _unlit(
         yield Unheld("motion", turning[0].motion.kind if turning[0].motion else "", line)
 
 
-def _differs(scene: Scene, other: Scene, times: Sequence[float], later_s: float = 0.0) -> bool:
+def _is_common(place: Place) -> bool:
+    """Whether a place before it in the table has the same ground."""
+    same = (one for one in PLACES.values() if one.ground is place.ground)
+    return next(one for one in same if one.surface is place.surface) is not place
+
+
+def share_inside(
+    shots: Sequence[tuple[Primitives, Camera]], size: SensorSize, instance: int
+) -> float:
+    """Most that the image holds of an object at one instant: share of its box in the image."""
+    most, limits = 0.0, np.array([size.width, size.height])
+    for shapes, camera in shots:
+        seen = _corners(camera, size, shapes, instance)
+        if (seen[:, 2] > 0.0).all() and len(seen):
+            low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+            inside = np.clip(high, 0.0, limits) - np.clip(low, 0.0, limits)
+            most = max(most, float(np.prod(inside / np.maximum(high - low, 1e-9))))
+        elif np.any(seen[:, 2] > 0.0):
+            return 1.0  # it is around the camera
+    return most
+
+
+def _differs(
+    scene: Scene, other: Scene, times: Sequence[float], later_s: float = 0.0,
+    least: float = _LEAST_SHARE,
+) -> bool:  # fmt: skip
     """Whether enough pixels of small pictures are others at one of the instants."""
     for time_s in times:
         first, second = (render(one, at_s, _SMALL, samples=1, shadows=False)
                          for one, at_s in ((scene, time_s), (other, time_s + later_s)))  # fmt: skip
         change = np.abs(first - second).max(axis=-1)
-        if np.mean(change >= _LEAST_LEVELS) >= _LEAST_SHARE:
+        if np.mean(change >= _LEAST_LEVELS) >= least:
             return True
     return False
 
@@ -196,13 +245,20 @@ def _grid(low: Float64Array, high: Float64Array) -> tuple[Float64Array, float]:
     return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2), float(step * step)
 
 
+def _corners(
+    camera: Camera, size: SensorSize, shapes: Primitives, instance: int
+) -> Float64Array:
+    """[n, 3] corners of the boxes around an instance's shapes, pixels and depth in m."""
+    to_world = shapes.to_world[shapes.instance == instance].astype(np.float64)
+    corners = CUBE @ to_world[:, :, :3].transpose(0, 2, 1) + to_world[:, None, :, 3]
+    return project(camera, size, corners.reshape(-1, 3))
+
+
 def _box(
     scene: Scene, time_s: float, size: SensorSize, shapes: Primitives, instance: int
 ) -> tuple[Float64Array, Float64Array] | None:
     """Whole pixels around an instance, low and high corner; None where it is not in the image."""
-    to_world = shapes.to_world[shapes.instance == instance].astype(np.float64)
-    corners = CUBE @ to_world[:, :, :3].transpose(0, 2, 1) + to_world[:, None, :, 3]
-    seen = project(scene.camera(float(time_s)), size, corners.reshape(-1, 3))
+    seen = _corners(scene.camera(float(time_s)), size, shapes, instance)
     low, high = np.zeros(2), np.array([size.width, size.height], dtype=np.float64)
     if (seen[:, 2] > 0.0).all() and np.isfinite(seen).all():
         low, high = (

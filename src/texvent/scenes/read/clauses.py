@@ -14,6 +14,7 @@ _MODIFIERS = ("field", "scene", "adverb")
 """Senses of what stands before it."""
 _STANDPOINTS = ("camera", "pronouns", "conjunctions", "relatives", "negations")
 """Senses of words that no noun group holds."""
+_IS = ("is", "are", "was", "were")
 _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 """Begin phrases that stand alone: "at night"."""
 
@@ -174,8 +175,8 @@ class _Parser:
     def _read_setting(self, clause: Clause) -> Clause | None:
         """A word of the scene or of the camera, in any place."""
         token = self._token()
-        is_verb = clause.verb is None and self._is_verb(clause)
-        if not token.has("scene", "shot") or token.has("noun") or is_verb:
+        is_other = self._is_substance() or (clause.verb is None and self._is_verb(clause))
+        if not token.has("scene", "shot") or token.has("noun") or is_other:
             return None
         return replace(clause, after=(*clause.after, self._take()))
 
@@ -202,7 +203,8 @@ class _Parser:
 
     def _read_phrase(self, clause: Clause) -> Clause | None:
         token = self._token()
-        if not token.has("relation", "small") or token.text in ("and", "or"):
+        is_doing = token.text in _IS and self._token(1).text.endswith("ing")
+        if not token.has("relation", "small") or token.text in ("and", "or") or is_doing:
             return None
         is_back = token.has("relation") and self._token(1).has("pronouns")
         if not is_back and (not self._starts_group(1) or self._token(1).has("adverb")):
@@ -227,18 +229,31 @@ class _Parser:
         is_said = clause.subjects if clause.verb is None else clause.objects or clause.after
         if (self._token().is_unknown and is_said) or not self._starts_group():
             return None
+        if self._is_no_noun(clause):
+            return self._read_rest(clause)
         if clause.verb is None:
             return replace(clause, subjects=(*clause.subjects, self._group()))
         return replace(clause, objects=(*clause.objects, self._group()))
 
     def _read_rest(self, clause: Clause) -> Clause:
         """A word that is not known right after the subject is taken to be its verb."""
-        token = self._take()
+        token = replace(self._take(), senses=()) if self._is_no_noun(clause) else self._take()
         is_verb = clause.subjects and not clause.verb and token.is_unknown
         if not is_verb or token.text.endswith("ly"):
             return replace(clause, after=(*clause.after, token))
         groups = self._groups() if self._starts_group() else ()
         return replace(clause, verb=token, objects=groups)
+
+    def _is_no_noun(self, clause: Clause) -> bool:
+        """Whether a bare noun follows a finished group: "are building a wall", "lamps stream by"."""
+        token, before = self._token(), self._token(-1)
+        if not token.has("noun", "place", "effect", "pose") or token.has(*_MODIFIERS):
+            return False
+        phrases = [one for one in clause.after[-1:] if isinstance(one, Phrase)]
+        groups = (*clause.subjects, *clause.objects, *(each for one in phrases for each in one.groups))
+        is_after = any(before in (one.head, *one.unknown[-1:]) for one in groups)
+        is_doing = bool(clause.subjects) and before.text in _IS and token.text.endswith("ing")
+        return clause.has_subject and (is_after or is_doing)
 
     # Noun groups
 
@@ -261,7 +276,7 @@ class _Parser:
         So does one with a like preposition: "a girl with a hat and a boy with a ball".
         """
         found = [self._group()]
-        while self._token().text == "and" and self._starts_group(1):
+        while self._token().text == "and" and self._starts_group(1) and not self._has_object(1):
             start = self._at
             self._take()
             group = self._group()
@@ -282,11 +297,14 @@ class _Parser:
     def _group(self) -> Group:
         modifiers: list[Token] = []
         unknown: list[Token] = []
-        head, article = None, self._token().text
+        head, article = None, self._token().text if self._token().has("articles") else ""
         while self._token().has("articles"):
             self._take()
         first = self._at
         while head is None and not self._ends_group(first):
+            is_verb = unknown and not article and self._token(-1).text.endswith("s")
+            if is_verb and not modifiers and self._is_singular():
+                break  # "headlights stream along a street"
             token = self._take()
             if token.is_unknown:
                 unknown.append(token)
@@ -318,11 +336,34 @@ class _Parser:
         return is_before and after.has(*_HEADS, "field")
 
     def _is_compound(self) -> bool:
-        """Whether the word that follows is the head: "dog house"."""
-        after, third = self._token(), self._token(1)
-        is_verb = after.text.endswith("s") and third.has("articles")
+        """Whether the word that follows is the head: "dog house", "water slide"."""
+        after = self._token()
         is_head = after.has("noun", "place") and not after.has("verb", "relation", "adverb")
-        return is_head and not is_verb
+        is_done = _is_plural(self._token(-1)) or self._has_object()  # "dogs fish"
+        return (is_head and not is_done) or self._is_substance(-1)
+
+    def _is_singular(self) -> bool:
+        """Whether the word is only a noun or place, and a single one."""
+        token = self._token()
+        is_one = not token.text.endswith("s") and not _is_plural(token)
+        return token.has("noun", "place") and not token.has(*_MODIFIERS) and is_one
+
+    def _has_object(self, ahead: int = 0) -> bool:
+        """Whether a word that may be a noun is a verb: "and watches the ducks"."""
+        token = self._token(ahead)
+        return token.text.endswith("s") and self._token(ahead + 1).has("articles")
+
+    def _is_substance(self, ahead: int = 0) -> bool:
+        """Whether a word names what an unknown thing is of: "water slide", "snow plow"."""
+        token, after = self._token(ahead), self._token(ahead + 1)
+        forms = {one.form for one in after.all("verb")}
+        is_thing = after.is_unknown and not after.text.endswith("ly")
+        is_of = token.text in word_set("things", "substances")
+        return is_of and (is_thing or (forms == {"base"} and not after.has("noun", "relation")))
+
+
+def _is_plural(token: Token) -> bool:
+    return any(one.value.is_plural for one in token.all("noun"))
 
 
 def _is_alone(token: Token) -> bool:

@@ -108,10 +108,11 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
         one for one in nouns.values()
         if one.name not in DRESSING and not one.name.startswith(_UNSAID)
     ]  # fmt: skip
-    names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
     agents = read_table("words", "read")["agents"]
     acts = {one: act for act, kinds in agents.items() for one in kinds}
+    names = {name: NounSense(one.name, act=acts.get(one.name, ""))
+             for one in said for name in (one.name, *one.synonyms)}  # fmt: skip
     for noun, kinds in read_table("kinds", "read").items():
         for kind in kinds if noun in nouns else ():
             if kind not in plurals:

@@ -333,11 +333,13 @@ class _Reader:
         if not targets:
             if draft.parts["place"].get("name") != place:
                 self._go_to_place(token, subjects or self._nearest, moved)
+            elif any(one.head and one.head.has("effect") for one in phrase.groups) and not owners:
+                draft.mark(token, "lost")  # "over a flame"
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
             is_sent = kind in word_set("things", "routes") and done & word_set("things", "sending")
-            able = () if is_sent or kind == "route" else subjects
+            able = () if is_sent or kind in ("route", "off") else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
             draft.mark(token, "shown" if any(placed) else "lost")
         return targets
@@ -362,6 +364,8 @@ class _Reader:
             kind = "wear"
         elif kind == "at" and target["noun"] not in word_set("things", "tables"):
             kind = "beside"
+        if kind == "with" and thing["noun"] in word_set("things", "vessels"):  # "a vase with roses"
+            return all([draft.relate(one, "in", [index]) for one in targets])
         seats = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
         if seats and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
             return all([draft.relate(one, "on", seats[0]) for one in targets])
