@@ -35,7 +35,7 @@ _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of"
 _AT_HAND = frozenset({"hold", "carry", "wear"})
 _PACES = {"walk": 0.7, "run": 1.0}
 """Pace of running in place that looks as walking and running do."""
-_STAYING = ("stand", "float")
+_GOING = {"stand": "slide", "float": "fly"}
 _ALONG = ("walk", "run", "drive", "fly", "roll", "crawl")
 _AFLOAT = ("sail", "paddle")
 _IN_WATER = ("swim", "surf", *_AFLOAT)
@@ -71,9 +71,10 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
 
 def _follow_axis(description: SceneDescription) -> SceneDescription:
     """Who goes through a place between two walls goes along them, unless it is said."""
-    along = {n: replace(one, motion=replace(one.motion, direction="away"))
-             for n, one in enumerate(description.objects)
-             if one.motion and one.motion.direction is None and one.motion.kind in _ALONG}  # fmt: skip
+    is_open = [one.motion is not None and one.motion.kind in _ALONG and not one.motion.direction
+               for one in description.objects]  # fmt: skip
+    along = {n: replace(one, motion=replace(one.motion, direction="towards"))
+             for n, one in enumerate(description.objects) if one.motion and is_open[n]}  # fmt: skip
     is_passage = PLACES[description.surroundings.name or "grass"].is_passage
     return _change(description, along) if is_passage else description
 
@@ -116,7 +117,7 @@ def _decide_motion(motion: ObjectMotion | None, noun: Noun) -> ObjectMotion | No
         lives_there = noun.habitat in ("air", "water") and noun.motion != "stand"
         return ObjectMotion(noun.motion) if lives_there else None
     if motion.kind == "move":
-        motion = replace(motion, kind=noun.motion if noun.motion not in _STAYING else "slide")
+        motion = replace(motion, kind=_GOING.get(noun.motion, noun.motion))
     if motion.kind == "turn" and noun.habitat == "fixed":
         motion = replace(motion, kind="spin", pace=0.5 * motion.pace)
     if motion.kind == "spin" and motion.rate_hz is not None:

@@ -16,8 +16,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.description import AMID, SceneDescription
 from texvent.scenes.defaults import NO_PLACE
+from texvent.scenes.description import AMID, SceneDescription
 from texvent.scenes.held import Unheld, bodies_of, find_unheld
 from texvent.scenes.models.lamps import LAMPS
 from texvent.scenes.models.places import PLACES, Place
@@ -82,6 +82,7 @@ def find_unseen(
     times = np.linspace(0.0, duration_s, INSTANTS)
     shots = [(scene.primitives(float(time_s)), scene.camera(float(time_s))) for time_s in times]
     around = {i for one in description.relations if one.kind in AMID for i in one.targets}
+    related = {i for one in description.relations for i in one.targets}
     outside: list[str] = []
     small: list[str] = []
     for index, thing in enumerate(description.objects):
@@ -90,13 +91,14 @@ def find_unseen(
         most, lost = max(copies, default=0), copies.count(0)
         if not copies and index not in around:
             continue
+        least = math.inf if index not in related else 0.1 * size.width * size.height
         if most == 0:
             outside.append(thing.noun)
         elif most < LEAST_PIXELS:
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
         elif lost and len(copies) <= max(2 * lost, 0 if index in around else MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(copies)})")
-        elif max(share_inside(shots, size, one) for one in ids) < LEAST_INSIDE:
+        elif most < least and max(share_inside(shots, size, one) for one in ids) < LEAST_INSIDE:
             outside.append(f"{thing.noun} (cut off)")
     bodies = bodies_of(shots, [one for one, count in pixels.items() if count])
     unheld = [one for one in find_unheld(description, bodies, object_of)
@@ -143,18 +145,8 @@ def _unlit(
         yield Unheld("wave_height", "", "waves, without water")
     if said.has_snow and place.is_room:
         yield Unheld("has_snow", "", "snow, in a room")
-    if description.is_timelapse and place.is_room:
-        yield Unheld("is_timelapse", "", "time lapse, in a room")
-    for noun in (one.noun for one in description.objects if one.is_lit and one.noun not in LAMPS):
-        yield Unheld("is_lit", "", f"lights of the {noun}")
     times = [share * duration_s for share in (0.17, 0.43, 0.71, 0.93)]
-    is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
-    if is_said and place.scenery and not said.is_empty and (
-        place.is_room or place.surface in _FLOORS or _is_common(place)
-    ):  # fmt: skip
-        bare = replace(scene, still=assemble([]))
-        if not _differs(scene, bare, times, least=_LEAST_SCENERY):
-            yield Unheld("place", said.name or "", f"{said.name}, of which only the ground is in view")
+    yield from _unplaced(scene, description, times)
     if said.clouds:
         sky = scene.animated_environment
         clear = replace(sky, base=replace(sky.base, clouds=0.0))
@@ -173,6 +165,27 @@ def _unlit(
     if turning and not description.shot.is_moving and not _differs(scene, scene, times, 0.13):
         line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
         yield Unheld("motion", turning[0].motion.kind if turning[0].motion else "", line)
+
+
+def _unplaced(
+    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
+) -> Iterator[Unheld]:
+    """A place whose scenery is not in view, and what no picture of it can have."""
+    said = description.surroundings
+    place = PLACES[said.name or "grass"]
+    if description.is_timelapse and place.is_room:
+        yield Unheld("is_timelapse", "", "time lapse, in a room")
+    for noun in (one.noun for one in description.objects if one.is_lit and one.noun not in LAMPS):
+        yield Unheld("is_lit", "", f"lights of the {noun}")
+    is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
+    if is_said and place.scenery and not said.is_empty and (
+        place.is_room or place.surface in _FLOORS or _is_common(place)
+    ):  # fmt: skip
+        bare = replace(scene, still=assemble([]))
+        if not _differs(scene, bare, times, least=_LEAST_SCENERY):
+            yield Unheld(
+                "place", said.name or "", f"{said.name}, of which only the ground is in view"
+            )
 
 
 def _is_common(place: Place) -> bool:
@@ -245,9 +258,7 @@ def _grid(low: Float64Array, high: Float64Array) -> tuple[Float64Array, float]:
     return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2), float(step * step)
 
 
-def _corners(
-    camera: Camera, size: SensorSize, shapes: Primitives, instance: int
-) -> Float64Array:
+def _corners(camera: Camera, size: SensorSize, shapes: Primitives, instance: int) -> Float64Array:
     """[n, 3] corners of the boxes around an instance's shapes, pixels and depth in m."""
     to_world = shapes.to_world[shapes.instance == instance].astype(np.float64)
     corners = CUBE @ to_world[:, :, :3].transpose(0, 2, 1) + to_world[:, None, :, 3]

@@ -250,7 +250,11 @@ class _Parser:
         if not token.has("noun", "place", "effect", "pose") or token.has(*_MODIFIERS):
             return False
         phrases = [one for one in clause.after[-1:] if isinstance(one, Phrase)]
-        groups = (*clause.subjects, *clause.objects, *(each for one in phrases for each in one.groups))
+        groups = (
+            *clause.subjects,
+            *clause.objects,
+            *(each for one in phrases for each in one.groups),
+        )
         is_after = any(before in (one.head, *one.unknown[-1:]) for one in groups)
         is_doing = bool(clause.subjects) and before.text in _IS and token.text.endswith("ing")
         return clause.has_subject and (is_after or is_doing)

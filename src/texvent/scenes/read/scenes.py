@@ -7,6 +7,7 @@ from typing import Any, get_args
 
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.people.outfit import list_props
+from texvent.scenes.models.places import is_room
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import read_table
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
@@ -256,7 +257,7 @@ class _Reader:
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
-        if act.is_near:
+        if act.is_near and not (act.kind == "stand" and draft.things[subjects[0]]["motions"]):
             draft.mark(verb, act.kind)
         for index in subjects:
             self._do(act, verb, index)
@@ -333,7 +334,8 @@ class _Reader:
         if not targets:
             if draft.parts["place"].get("name") != place:
                 self._go_to_place(token, subjects or self._nearest, moved)
-            elif any(one.head and one.head.has("effect") for one in phrase.groups) and not owners:
+            elif kind == "off" or (not owners and any(one.head and one.head.has("effect")
+                                                      for one in phrase.groups)):  # fmt: skip
                 draft.mark(token, "lost")  # "over a flame"
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
@@ -358,14 +360,16 @@ class _Reader:
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft
         thing, target = draft.things[index], draft.things[targets[0]]
+        if kind == "with" and thing["noun"] in word_set("things", "vessels"):
+            return False  # "a vase with roses"
         if target["noun"] in word_set("things", "worn") and kind in ("in", "with"):
             if thing["noun"] not in PERSON_NOUNS:
                 return False
             kind = "wear"
         elif kind == "at" and target["noun"] not in word_set("things", "tables"):
             kind = "beside"
-        if kind == "with" and thing["noun"] in word_set("things", "vessels"):  # "a vase with roses"
-            return all([draft.relate(one, "in", [index]) for one in targets])
+        elif kind == "above" and target["noun"] in word_set("things", "ways"):
+            kind = "on"
         seats = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
         if seats and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
             return all([draft.relate(one, "on", seats[0]) for one in targets])
@@ -393,7 +397,9 @@ class _Reader:
             field, value = (token.first("field") or Sense("", ("", ""))).value
             if token.text == "dark":
                 draft.parts["light"].setdefault("kind", "night")
-            elif field == "colour":
+                if name == "plain":
+                    place |= {"colour": "black", "sky": "black"}
+            elif field == "colour" and not is_room(name):
                 place["sky" if name == "sky" else "colour"] = value
             elif not self._set_scene(token):
                 continue

@@ -74,7 +74,9 @@ def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEf
     if kind not in FALLS:
         return []
     rng = seeded(setting.seed, kind)
-    return [let_fall(kind, setting.base, 1.4 * setting.framing.distance_m, rng)]
+    travels = any(one.kind == "travel" for one in description.shot.moves)
+    camera, extent_m = setting.camera if travels else None, 1.4 * setting.framing.distance_m
+    return [let_fall(kind, setting.base, extent_m, rng, camera)]
 
 
 def with_headroom(description: SceneDescription, actors: Sequence[Actor]) -> list[Actor]:

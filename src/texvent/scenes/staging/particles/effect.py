@@ -185,16 +185,23 @@ class FallingParticles(ParticleEffect):
     """[3] middle of the ground that it falls on, m."""
     extent_m: float
     """Side of the box."""
+    camera: CameraPath | None = None
+    """Path of a camera that travels: the box goes with it."""
 
     def at(self, time_s: float) -> Primitives:
         """All drops at that instant."""
         kind, extent = self.kind, self.extent_m
         speed = kind.speed_m_s + kind.speed_share * extent
         fallen = np.mod(self.places[:, 2] - speed * time_s, _height(extent)) - _DEPTH_BELOW_M
+        x, y = self.places[:, :2].T
+        if self.camera is not None:
+            way = self.camera.at(time_s).position - self.camera.at(0.0).position
+            x, y = (low + np.mod(one - low, extent)
+                    for one, low in ((x, way[0] - 0.5 * extent), (y, way[1] - 0.5 * extent)))  # fmt: skip
         sway = kind.sway * extent * np.sin(1.9 * time_s + 17.0 * self.places[:, 0])
         maps = np.zeros((len(self.places), 3, 4))
         maps[:, [0, 1, 2], [0, 1, 2]] = extent * np.array(kind.half)
-        maps[:, :, 3] = np.column_stack([self.places[:, 0] + sway, self.places[:, 1], fallen])
+        maps[:, :, 3] = np.column_stack([x + sway, y, fallen])
         maps[:, :, 3] += self.base
         return many_shapes(maps, kind.shape, kind.colour)
 
@@ -204,10 +211,14 @@ def _height(extent_m: float) -> float:
 
 
 def let_fall(
-    weather: str, base: Float64Array, extent_m: float, rng: np.random.Generator
+    weather: str,
+    base: Float64Array,
+    extent_m: float,
+    rng: np.random.Generator,
+    camera: CameraPath | None = None,
 ) -> FallingParticles:
-    """Weather of `FALLS` over a square of that side around `base`, m."""
+    """Weather of `FALLS` over a square of that side around `base`, m, or with a camera."""
     low = np.array([-0.5 * extent_m, -0.5 * extent_m, 0.0])
     high = np.array([0.5 * extent_m, 0.5 * extent_m, _height(extent_m)])
     places = rng.uniform(low, high, size=(FALLS[weather].count, 3))
-    return FallingParticles(FALLS[weather], places, base, extent_m)
+    return FallingParticles(FALLS[weather], places, base, extent_m, camera)
