@@ -245,19 +245,12 @@ class _Parser:
         return replace(clause, verb=token, objects=groups)
 
     def _is_no_noun(self, clause: Clause) -> bool:
-        """Whether a bare noun follows a finished group: "are building a wall", "lamps stream by"."""
+        """Whether a bare noun follows a finished group: "are building a wall"."""
         token, before = self._token(), self._token(-1)
-        if not token.has("noun", "place", "effect", "pose") or token.has(*_MODIFIERS):
-            return False
-        phrases = [one for one in clause.after[-1:] if isinstance(one, Phrase)]
-        groups = (
-            *clause.subjects,
-            *clause.objects,
-            *(each for one in phrases for each in one.groups),
-        )
-        is_after = any(before in (one.head, *one.unknown[-1:]) for one in groups)
-        is_doing = bool(clause.subjects) and before.text in _IS and token.text.endswith("ing")
-        return clause.has_subject and (is_after or is_doing)
+        is_noun = token.has("noun", "place", "effect", "pose") and not token.has(*_MODIFIERS)
+        is_doing = before.text in _IS and token.text.endswith("ing")
+        is_after = before.has("noun", "place") or before.is_unknown
+        return is_noun and clause.has_subject and (is_after or is_doing)
 
     # Noun groups
 
@@ -306,8 +299,7 @@ class _Parser:
             self._take()
         first = self._at
         while head is None and not self._ends_group(first):
-            is_verb = unknown and not article and self._token(-1).text.endswith("s")
-            if is_verb and not modifiers and self._is_singular():
+            if unknown and not (article or modifiers) and self._is_single_after_many():
                 break  # "headlights stream along a street"
             token = self._take()
             if token.is_unknown:
@@ -346,11 +338,10 @@ class _Parser:
         is_done = _is_plural(self._token(-1)) or self._has_object()  # "dogs fish"
         return (is_head and not is_done) or self._is_substance(-1)
 
-    def _is_singular(self) -> bool:
-        """Whether the word is only a noun or place, and a single one."""
-        token = self._token()
-        is_one = not token.text.endswith("s") and not _is_plural(token)
-        return token.has("noun", "place") and not token.has(*_MODIFIERS) and is_one
+    def _is_single_after_many(self) -> bool:
+        token, before = self._token(), self._token(-1)
+        is_many = before.text.endswith("s") and not token.text.endswith("s")
+        return is_many and token.has("noun", "place") and not token.has(*_MODIFIERS)
 
     def _has_object(self, ahead: int = 0) -> bool:
         """Whether a word that may be a noun is a verb: "and watches the ducks"."""
@@ -360,10 +351,10 @@ class _Parser:
     def _is_substance(self, ahead: int = 0) -> bool:
         """Whether a word names what an unknown thing is of: "water slide", "snow plow"."""
         token, after = self._token(ahead), self._token(ahead + 1)
-        forms = {one.form for one in after.all("verb")}
+        is_base = {one.form for one in after.all("verb")} == {"base"}
         is_thing = after.is_unknown and not after.text.endswith("ly")
-        is_of = token.text in word_set("things", "substances")
-        return is_of and (is_thing or (forms == {"base"} and not after.has("noun", "relation")))
+        is_before = is_thing or (is_base and not after.has("noun", "relation"))
+        return is_before and token.text in word_set("things", "substances")
 
 
 def _is_plural(token: Token) -> bool:
