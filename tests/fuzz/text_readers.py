@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 import tomli_w
 import yaml
-from tests.scenes.sentences import parse_prompt
 
 from texvent._registry import FILTERS
 from texvent.batch.list_files import read_list
@@ -21,7 +20,7 @@ from texvent.capture.open import open_frames
 from texvent.cli.event_files.time_option import parse_time_range
 from texvent.config import CaptureConfig
 from texvent.errors import TexventError
-from texvent.generate.scene_input import describe_scene, list_nouns
+from texvent.generate.scene_input import describe_scene, list_nouns, understand
 from texvent.io.files import load
 from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask, write_pixel_mask
 from texvent.options.parts import make_part
@@ -151,7 +150,9 @@ def _open_each(text: str) -> str:
 
 
 def _stage(text: str) -> Any:
-    return compose_scene(parse_prompt(text), seed=0, size=SensorSize(64, 48), duration_s=1.0)
+    return compose_scene(
+        understand(text, list_nouns()), seed=0, size=SensorSize(64, 48), duration_s=1.0
+    )
 
 
 def _make_config(ending: str, folder: Path) -> Path:

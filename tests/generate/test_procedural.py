@@ -10,7 +10,6 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from tests.scenes.sentences import parse_prompt
 
 import texvent
 from texvent.errors import ConfigError, InputError, warnings_to
@@ -19,6 +18,7 @@ from texvent.generate.procedural import (
     ProceduralGenerator,
     ProceduralVideo,
 )
+from texvent.generate.scene_input import list_nouns, understand
 from texvent.scenes.report import PromptReport
 from texvent.sensor import SensorSize
 from texvent.video import FrameStream, RenderableStream
@@ -170,5 +170,5 @@ def test_a_film_in_black_and_white_has_the_luminance_of_the_one_in_colour() -> N
 
 
 def test_a_black_and_white_animal_is_no_film_in_black_and_white() -> None:
-    assert not parse_prompt("a black and white cat").is_grey
-    assert parse_prompt("a cat in black and white").is_grey
+    assert not understand("a black and white cat", list_nouns()).is_grey
+    assert understand("a cat in black and white", list_nouns()).is_grey

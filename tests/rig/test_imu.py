@@ -8,9 +8,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from tests.scenes.hand_scenes import HandScene, turned
-from tests.scenes.sentences import parse_prompt
 
 from texvent.errors import TexventWarning
+from texvent.generate.scene_input import list_nouns, understand
 from texvent.rig.description import IMU_NOISES, ImuNoise
 from texvent.rig.imu import (
     GRAVITY,
@@ -30,7 +30,7 @@ LEVEL = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, -1.0], [0.0, 1.0, 0.0]])
 
 
 def scene_of(prompt: str) -> Scene:
-    description = parse_prompt(prompt)
+    description = understand(prompt, list_nouns())
     return compose_scene(description, seed=3, size=SensorSize(64, 48), duration_s=DURATION)
 
 

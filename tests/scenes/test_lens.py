@@ -9,7 +9,7 @@ from tests.scenes.hand_scenes import HandScene, MovingShape, look_at, still
 
 from texvent.errors import ConfigError
 from texvent.scenes.lens import Lens, distort, lens_reach, normalised
-from texvent.scenes.projection import project, ray_directions
+from texvent.scenes.projection import camera_rays, project
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render, world_at
 from texvent.scenes.raycast.trace import ray_direction
@@ -34,6 +34,17 @@ def opencv_points(lens: Lens, points: np.ndarray) -> np.ndarray:
     else:
         placed, _ = cv2.projectPoints(points[:, None], none, none, matrix, coefficients)
     return placed[:, 0] + CENTRE
+
+
+def ray_directions(camera: Camera, size: SensorSize, points: np.ndarray) -> np.ndarray:
+    """Directions [n, 3] through image points [n, 2]; their component along the axis is 1."""
+    lens = camera.lens
+    if lens is not None and lens.distortion != "none":
+        plane = normalised(lens, points)
+        right_axis, down_axis, forward = np.asarray(camera.rotation, dtype=np.float64)
+        return np.asarray(forward + plane[:, :1] * right_axis + plane[:, 1:] * down_axis)
+    rays = camera_rays(camera, size)
+    return np.asarray(rays.corner + points[:, :1] * rays.right + points[:, 1:] * rays.down)
 
 
 def camera_with(lens: Lens | None) -> Camera:

@@ -23,15 +23,12 @@ REPORTS = st.builds(
 def test_a_report_survives_json(report):
     assert PromptReport.from_json(report.to_json()) == report
     assert PromptReport.of_metadata({REPORT_KEY: report.to_json()}) == report
+    assert PromptReport.of_metadata({"generator": "wan"}) is None
 
 
 @given(report=REPORTS)
 def test_a_report_is_faithful_if_and_only_if_nothing_is_to_refuse(report):
     assert report.is_faithful == (report.refusal() is None) == (not report.faults())
-
-
-def test_metadata_without_a_report_give_none():
-    assert PromptReport.of_metadata({"generator": "wan"}) is None
 
 
 def test_the_refusal_names_every_word():

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.lens import distort, normalised
+from texvent.scenes.lens import distort
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.sensor import SensorSize
 
@@ -45,17 +45,6 @@ def camera_rays(camera: Camera, size: SensorSize) -> Rays:
     right, down = right_axis * step, down_axis * step
     corner = forward - 0.5 * size.width * right - 0.5 * size.height * down
     return Rays(np.array(camera.position, dtype=np.float64), corner, right, down)
-
-
-def ray_directions(camera: Camera, size: SensorSize, points: Float64Array) -> Float64Array:
-    """Directions [n, 3] through image points [n, 2]; their component along the axis is 1."""
-    lens = camera.lens
-    if lens is not None and lens.distortion != "none":
-        plane = normalised(lens, points)
-        right_axis, down_axis, forward = np.asarray(camera.rotation, dtype=np.float64)
-        return np.asarray(forward + plane[:, :1] * right_axis + plane[:, 1:] * down_axis)
-    rays = camera_rays(camera, size)
-    return np.asarray(rays.corner + points[:, :1] * rays.right + points[:, 1:] * rays.down)
 
 
 def project(camera: Camera, size: SensorSize, points: Float64Array) -> Float64Array:

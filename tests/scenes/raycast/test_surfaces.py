@@ -95,21 +95,14 @@ def test_the_drawn_road_lies_on_the_line_of_the_staging(x, y, angle, bend):
 
 
 PLACES = st.floats(-20.0, 20.0)
-FOOTPRINTS = st.floats(0.01, 5.0)
 
 
-@given(x=PLACES, footprint=FOOTPRINTS)
+@given(x=PLACES, footprint=st.floats(0.01, 5.0), low=PLACES, width=st.floats(0.0, 10.0))
 @settings(max_examples=60)
-def test_a_square_wave_is_the_average_over_the_footprint(x, footprint):
+def test_a_square_wave_and_a_band_are_averaged_over_the_footprint(x, footprint, low, width):
     points = x + footprint * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
     expected = np.mean(points - np.floor(points) < 0.5)
     assert square_wave(x, footprint) == pytest.approx(expected, abs=2e-3)
-
-
-@given(x=PLACES, footprint=FOOTPRINTS, low=PLACES, width=st.floats(0.0, 10.0))
-@settings(max_examples=60)
-def test_a_band_is_the_share_of_the_footprint_inside(x, footprint, low, width):
-    points = x + footprint * ((np.arange(20_000) + 0.5) / 20_000 - 0.5)
     expected = np.mean((points >= low) & (points <= low + width))
     assert box_coverage(x, low, low + width, footprint) == pytest.approx(expected, abs=2e-3)
 

@@ -51,19 +51,19 @@ _SECOND_SHADES = {
 """Second colour of a material as a multiple of the first."""
 
 
-def fur(colour: Colour, *, scale: float = 1.0) -> Material:
+def fur(colour: Colour) -> Material:
     """Hairs along the part's local z."""
-    return made_of(Texture.FUR, colour, scale=scale)
+    return made_of(Texture.FUR, colour)
 
 
-def cloth(colour: Colour, *, scale: float = 1.0) -> Material:
+def cloth(colour: Colour) -> Material:
     """Woven, with folds."""
-    return made_of(Texture.CLOTH, colour, scale=scale)
+    return made_of(Texture.CLOTH, colour)
 
 
-def skin(colour: Colour, *, scale: float = 1.0) -> Material:
+def skin(colour: Colour) -> Material:
     """Skin of people."""
-    return made_of(Texture.SKIN, colour, scale=scale)
+    return made_of(Texture.SKIN, colour)
 
 
 @dataclass(frozen=True)

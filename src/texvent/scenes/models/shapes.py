@@ -43,11 +43,6 @@ def ball(material: Material, centre: Point, size: Point) -> ModelPart:
     return part(Shape.ELLIPSOID, material, placed_upright(centre, size))
 
 
-def post(material: Material, centre: Point, size: Point) -> ModelPart:
-    """An upright cylinder."""
-    return part(Shape.CYLINDER, material, placed_upright(centre, size))
-
-
 def rod(
     material: Material, start: Point, end: Point, radius: float, *, side_radius: float | None = None
 ) -> ModelPart:
