@@ -26,7 +26,7 @@ from texvent.scenes.raycast.acceleration import CUBE
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.render import render, world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
-from texvent.scenes.read.lexicon import lexicon_of
+from texvent.scenes.read.lexicon import lexicon_of, word_set
 from texvent.scenes.scene import Camera, Float64Array, Ground, Primitives, Scene, Texture
 from texvent.scenes.spec.data import PLACING
 from texvent.scenes.staging.actors import assemble
@@ -119,7 +119,8 @@ def without_words(words: Sequence[str], faults: Sequence[Unheld]) -> tuple[str, 
 
 def _meanings(word: str) -> Iterator[tuple[str, str | None]]:
     """Kinds and values, as of `Unheld`, of all senses of a word."""
-    for sense in lexicon_of(None).get(tuple(word.split()), ()):
+    phrase = tuple(one for one in word.split() if one not in word_set("senses", "articles"))
+    for sense in lexicon_of(None).get(phrase, ()):
         if sense.kind == "verb":
             one = sense.value
             yield from (("relation", one.relation), ("direction", one.direction))
