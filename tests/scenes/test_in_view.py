@@ -38,7 +38,9 @@ def test_what_is_behind_the_camera_is_out_of_view_and_copies_are_counted():
 
 @pytest.mark.parametrize(("aim_m", "found"), [(3.0, ()), (6.0, ("car (cut off)",))])
 def test_what_is_hardly_inside_the_image_is_cut_off(aim_m, found):
-    assert unseen_from(CAR, position=(0.0, -9.0, 1.5), target=(aim_m, 0.0, 1.0)).out_of_view == found
+    assert (
+        unseen_from(CAR, position=(0.0, -9.0, 1.5), target=(aim_m, 0.0, 1.0)).out_of_view == found
+    )
 
 
 def test_pixels_of_small_things_are_counted_one_by_one():
