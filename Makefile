@@ -4,6 +4,7 @@ VENV := .venv
 TORCH_VENV := .venv-torch
 DATASET_VENV := .venv-dataset
 DOCS_VENV := .venv-docs
+NEWEST_VENV := .venv-newest
 GPL_VENV := .venv-gpl
 LLM_VENV := .venv-llm
 AUDIT_VENV := .venv-audit
@@ -42,11 +43,14 @@ COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version
 # Tests start many processes: without compiled modules each would compile texvent anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test fuzz test-torch test-dataset test-docs test-gpl test-llm docs linkcheck dist lint lint-workflows licences sbom requirements format clean
+.PHONY: help demo test nightly coverage test-newest fuzz test-torch test-dataset test-docs test-gpl test-llm docs linkcheck dist lint lint-workflows licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
 	@echo "make test    the default test suite, of texvent and of lab/"
+	@echo "make nightly      tests that take minutes each: extreme inputs, killed runs, no POSIX, damaged files"
+	@echo "make coverage     make test, with the share of the code that it runs; fails below the floor"
+	@echo "make test-newest  make test with the newest release of every dependency, in $(NEWEST_VENV)"
 	@echo "make fuzz    thousands of damaged inputs for every reader, and a table of what became of them"
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
 	@echo "make test-dataset the tests of Ray, of data sets in other libraries, of Parquet and blosc, in $(DATASET_VENV)"
@@ -72,6 +76,21 @@ demo: $(VENV)/.base
 test: $(VENV)/.dev
 	$(VENV)/bin/python -m pytest -q -n 2 --dist worksteal --durations=5
 
+nightly: $(VENV)/.dev
+	$(VENV)/bin/python -m pytest -q -n 2 -m nightly
+	$(VENV)/bin/python -m tests.soak.kills --kills 50
+	$(VENV)/bin/python -m tests.fuzz
+
+coverage: $(VENV)/.dev
+	$(VENV)/bin/coverage erase
+	$(VENV)/bin/coverage run -m pytest -q -n 2 --dist worksteal
+	$(VENV)/bin/coverage combine --quiet
+	$(VENV)/bin/coverage report --skip-covered --sort=cover
+
+test-newest: $(NEWEST_VENV)/bin/python
+	$(NEWEST_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --upgrade --upgrade-strategy eager -e '.[dev]' -e lab
+	$(NEWEST_VENV)/bin/python -m pytest -q -n 2 --dist worksteal
+
 fuzz: $(VENV)/.dev
 	$(VENV)/bin/python -m tests.fuzz
 
@@ -86,7 +105,7 @@ test-docs: $(DOCS_VENV)/.docs-test
 	$(DOCS_VENV)/bin/python -m pytest -q -m docs tests/notebooks tests/contract
 
 test-gpl: $(GPL_VENV)/.gpl
-	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io tests/dataset/loading
+	$(GPL_VENV)/bin/python -m pytest -q -m gpl tests/io
 
 test-llm: $(LLM_VENV)/.llm
 	$(LLM_VENV)/bin/python -m pytest -q -m llm tests/scenes/llm
@@ -124,7 +143,7 @@ format: $(VENV)/.dev
 
 licences: $(AUDIT_VENV)/.audit $(VENV)/.dev
 	$(AUDIT_VENV)/bin/reuse lint --quiet || { $(AUDIT_VENV)/bin/reuse lint; exit 1; }
-	$(AUDIT_VENV)/bin/python -m tools.licences check $(sort $(VENV) $(filter-out $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV),$(wildcard .venv*)))
+	$(AUDIT_VENV)/bin/python -m tools.licences $(sort $(VENV) $(filter-out $(NEWEST_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV),$(wildcard .venv*)))
 
 sbom: $(AUDIT_VENV)/.audit
 	rm -rf $(SBOM_VENV)
@@ -143,10 +162,10 @@ requirements: $(AUDIT_VENV)/.audit
 	printf '%s\n' $(AUDIT_TOOLS) | $(COMPILE) -o requirements/audit.txt -
 
 clean:
-	rm -rf $(VENV) $(TORCH_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf $(VENV) $(NEWEST_VENV) $(TORCH_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
 # One rule makes every environment.
-$(VENV)/bin/python $(TORCH_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(LLM_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
+$(VENV)/bin/python $(NEWEST_VENV)/bin/python $(TORCH_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(LLM_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
 	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 

@@ -17,13 +17,14 @@ import texvent
 
 DOCS = Path(__file__).parent
 MADE = DOCS / "_build" / "made"
-sys.path.insert(0, str(DOCS / "site"))
+sys.path[:0] = [str(DOCS / "site"), str(DOCS.parent)]  # making.py uses tools/licences.py
 # Executed pages call `texvent` by name.
 os.environ["PATH"] = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
 # What commands print in executed pages: no bars that move, no colours.
 os.environ.update(TTY_COMPATIBLE="0", NO_COLOR="1", COLUMNS="90")
 
-import making  # noqa: E402 - docs/site is on the path only now
+import camera_tables  # noqa: E402 - docs/site is on the path only now
+import making  # noqa: E402
 import scene_fields  # noqa: E402
 
 project = "texvent"
@@ -119,22 +120,14 @@ CHILDREN = {
         f"simulators/{name}"
         for name in ("texvent", "esim", "v2e", "physical", "cameras", "voltmeter", "senpi", "v2ce")
     ],
+    # Pages of results are made by docs/site/making.py.
     "benchmark": ["results/fidelity"],
     "real-data": ["results/real-slider_depth", "results/real-davis346"],
     "digits": ["results/digits", "results/digits-all"],
-    "datasets": [
-        "datasets-load",
-        "datasets-publish",
-        "datasets-cluster",
-        "datasets-nt-imagenet",
-    ],
-    "training": [
-        "training-classification",
-        "training-reconstruction",
-        "training-depth-flow",
-        "latents",
-        "training-results",
-    ],
+    "metrics": ["results/selftest"],
+    "speed": ["results/speed"],
+    "datasets": ["datasets-load"],
+    "training": ["latents"],
     "notebooks": ["notebooks/your-video", "notebooks/train-a-network"],
     "site/architecture": ["design"],
 }
@@ -153,6 +146,8 @@ def adapt_page(_: Sphinx, page: str, source: list[str]) -> None:
         text += unlisted(text)
     if page == "scenes":
         text = scene_fields.with_tables(text)
+    if page == "simulators/cameras":
+        text = camera_tables.with_tables(text)
     if CHILDREN.get(page):
         names = "\n".join(f"/{child}" for child in CHILDREN[page])
         text += f"\n```{{toctree}}\n:hidden:\n\n{names}\n```\n"

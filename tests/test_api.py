@@ -58,12 +58,6 @@ def test_packets_can_be_saved_and_read_again(events, tmp_path):
     assert packets.collect().equals(events)  # simulated a second time
 
 
-def test_what_is_no_path_is_refused_by_name():
-    for value in (3, np.zeros(2)):
-        with pytest.raises(InputError, match="give the path of an event file or folder"):
-            texvent.open(value)
-
-
 def of_a_generator():
     frames = np.random.default_rng(1).integers(0, 256, (12, 8, 10), dtype=np.uint8)
     return texvent.simulate((frame for frame in frames), fps=60, as_packets=True)

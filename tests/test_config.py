@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import pytest
 
-from texvent.config import CaptureConfig, InterpolateConfig, RunConfig, check_range
+from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
 from texvent.errors import ConfigError
 
 
@@ -21,8 +21,3 @@ from texvent.errors import ConfigError
 def test_options_out_of_range_are_refused(bad):
     with pytest.raises(ConfigError, match="must be"):
         bad()
-
-
-def test_what_is_no_number_is_refused_as_an_option_out_of_range_is() -> None:
-    with pytest.raises(ConfigError, match="rate is 'a'; it must be a number"):
-        check_range("rate", "a", 0.0)

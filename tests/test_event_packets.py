@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError, InputError
+from texvent.errors import InputError
 from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
 from texvent.io.files import load, open_events, save
@@ -108,14 +108,6 @@ def test_packets_give_an_array_per_number_of_events(whole, packets):
     arrays = list(packets.represent("event-frame", count=250, kind="count"))
     assert [int(array.sum()) for array in arrays] == [250, 250, 100]
     np.testing.assert_array_equal(arrays[0], whole[:250].represent("event-frame", kind="count"))
-
-
-@pytest.mark.parametrize("lengths", [{}, {"duration_us": 5, "count": 5}])
-def test_slices_need_one_length(packets, lengths):
-    with pytest.raises(ConfigError, match="either duration_us or count"):
-        packets.represent("event-frame", **lengths)
-    with pytest.raises(ConfigError, match="no option 'bims'"):
-        packets.represent("voxel-e2vid", count=5, bims=5)
 
 
 def test_lazy_packets_are_made_anew_for_each_pass(whole):

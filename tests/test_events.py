@@ -131,37 +131,12 @@ def test_wrong_values_fail_with_the_value_and_what_is_allowed(change, message):
         stream([1], **change)
 
 
-def test_decreasing_time_names_the_event():
-    with pytest.raises(InputError, match=r"time decreases after event 1 \(5 → 4 µs\)"):
-        stream([1, 5, 4])
-
-
 def test_unequal_lengths_and_fractional_coordinates_are_refused():
     zeros = np.zeros(2, np.int64)
     with pytest.raises(InputError, match="equally long"):
         EventStream(zeros, zeros, zeros, zeros[:1], SIZE)
     with pytest.raises(InputError, match="x must hold integers; got float64"):
         EventStream(zeros + 0.5, zeros, zeros, zeros, SIZE)
-
-
-def test_concatenating_nothing_or_two_sizes_is_refused():
-    with pytest.raises(InputError, match="at least one"):
-        EventStream.concat([])
-    with pytest.raises(InputError, match="8x6 and 4x4"):
-        EventStream.concat([EventStream.empty(SIZE), EventStream.empty(SensorSize(4, 4))])
-
-
-def test_the_representation_fits_one_line():
-    assert repr(stream([1, 5])) == "EventStream(2 events, 8x6, t 1..5 µs)"
-    assert repr(EventStream.empty(SIZE)) == "EventStream(0 events, 8x6)"
-
-
-def test_errors_say_what_to_do_about_polarities_of_one_and_times_in_seconds():
-    zero = np.zeros(2, int)
-    with pytest.raises(InputError, match=r"p runs from -1 to 1.*\(p \+ 1\) // 2"):
-        EventStream(zero, zero, zero, np.array([-1, 1]), SensorSize(4, 3))
-    with pytest.raises(InputError, match=r"t must hold integers, µs.*float64"):
-        EventStream(zero, zero, np.array([0.1, 0.2]), zero, SensorSize(4, 3))
 
 
 def test_streams_are_equal_by_size_and_events():
@@ -171,11 +146,3 @@ def test_streams_are_equal_by_size_and_events():
     for other in (stream([1, 3], label=[0, 1]), stream([1, 2], label=[1, 1]), stream([1, 2]), [1]):
         assert events != other
     assert EventStream.empty((3, 2)) != EventStream.empty((2, 3))
-
-
-@pytest.mark.parametrize("add", [lambda one: one + one, lambda one: sum([one, one])])
-def test_adding_events_names_what_joins_them(add):
-    events = stream([1, 2])
-    for one in (events, EventPackets([events], SIZE)):
-        with pytest.raises(TypeError, match=r"EventStream\.concat.*merge EventPackets"):
-            add(one)

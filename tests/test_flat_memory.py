@@ -89,6 +89,7 @@ print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
 """
 
 
+@pytest.mark.nightly
 def test_truth_of_twice_the_clip_takes_no_more_memory(tmp_path):
     peaks = []
     for count in (100, 200):

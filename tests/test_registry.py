@@ -3,7 +3,7 @@
 import pytest
 
 from texvent import _registry
-from texvent._registry import CODECS, INTERPOLATORS, REGISTRIES, SIMULATORS, load_object, suggest
+from texvent._registry import CODECS, INTERPOLATORS, REGISTRIES, SIMULATORS, load_object
 from texvent.errors import ConfigError
 
 
@@ -18,12 +18,6 @@ def test_an_unknown_name_is_refused_with_the_known_ones():
         ConfigError, match=r"unknown simulator 'v3e'; allowed: .*did you mean 'v2e'"
     ):
         SIMULATORS.load("v3e")
-
-
-def test_the_start_of_a_name_suggests_it():
-    assert suggest("gen", ("simulate", "generate")).endswith("did you mean 'generate'?")
-    assert "did you mean" not in suggest("", ("simulate", "generate"))
-    assert "did you mean" not in suggest("g", ("simulate", "generate"))
 
 
 def test_another_package_adds_a_part_but_cannot_replace_one(tmp_path, monkeypatch):

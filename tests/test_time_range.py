@@ -6,7 +6,7 @@ import warnings
 import numpy as np
 import pytest
 
-from texvent.errors import InputError, TexventWarning
+from texvent.errors import TexventWarning
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.files import open_events
@@ -70,11 +70,3 @@ def test_what_lies_inside_is_taken_without_a_word(opened):
         assert count(opened.between(10_001, 10_002)) == 0
         assert count(opened.between(0, 2**62)) == 4001
         assert len(EventStream.empty(SIZE).between(0, 10**12)) == 0
-
-
-def test_a_reversed_range_is_refused(opened):
-    with pytest.raises(InputError, match="from 300_000 to 100_000 µs is reversed"):
-        opened.between(300_000, 100_000)
-    for wrong in ("0.1", None, float("nan")):
-        with pytest.raises(InputError, match="the start of the range is"):
-            opened.between(wrong, 5)

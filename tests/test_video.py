@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.errors import InputError
-from texvent.video import Frame, FrameStream, StreamChecker, Video, frame_time_us
+from texvent.video import Frame, FrameStream, Video, frame_time_us
 
 
 def test_convention_time_comes_from_the_index_and_never_drifts():
@@ -71,18 +71,6 @@ def test_nan_infinite_and_negative_intensities_are_refused_with_a_count(bad):
         Video(pixels, [0, 5])
 
 
-def test_times_must_strictly_increase():
-    with pytest.raises(InputError, match=r"frame 2 .* must strictly increase"):
-        Video(np.zeros((3, 2, 2), np.uint8), [0, 5, 5])
-
-
-def test_a_changing_size_is_refused():
-    checker = StreamChecker()
-    checker.check(Frame(np.zeros((2, 2), np.uint8), 0))
-    with pytest.raises(InputError, match=r"frame 1 .* is 3x2, the frames before it are 2x2"):
-        checker.check(Frame(np.zeros((2, 3), np.uint8), 1))
-
-
 def test_empty_videos_and_miscounted_times_are_refused():
     with pytest.raises(InputError, match="no frame"):
         Video(np.zeros((0, 2, 2), np.uint8), [])
@@ -90,9 +78,3 @@ def test_empty_videos_and_miscounted_times_are_refused():
         Video(np.zeros((3, 2, 2), np.uint8), [0, 1])
     with pytest.raises(InputError, match=r"\[N, H, W\]"):
         Video(np.zeros((2, 2), np.uint8), [0, 1])
-
-
-def test_metadata_that_name_an_unknown_transfer_are_refused():
-    pixels = np.zeros((2, 4, 5), np.uint8)
-    with pytest.raises(InputError, match="say transfer 'srgb'; allowed: gamma, linear"):
-        Video(pixels, [0, 1000], metadata={"transfer": "srgb"})

@@ -1,8 +1,8 @@
-"""Licences of the packages that texvent installs: checked, and listed in docs/licences.md.
+"""Licences of the packages that texvent installs: checked, and listed on a page of the site.
 
-    python -m tools.licences check VENV ...   every package there has an allowed licence
-    python -m tools.licences write VENV ...   the page, from environments that hold the extras
+    python -m tools.licences VENV ...   every package there has an allowed licence
 
+`docs/site/making.py` writes the page from the environments of a checkout.
 `licences.toml` has the allowed licences, and those that metadata do not tell. What nothing tells is
 an error. Only metadata are read: a wheel may hold libraries that they do not name.
 """
@@ -22,7 +22,6 @@ from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
 ROOT = Path(__file__).parents[1]
-PAGE = ROOT / "docs" / "licences.md"
 RULES = tomllib.loads((ROOT / "tools" / "licences.toml").read_text(encoding="utf-8"))
 OWN = ("texvent", "texvent-lab")
 
@@ -34,7 +33,7 @@ Packages that texvent and its extras install, with the licences that they state,
 
 * `make licences` fails on a package whose licence is not in `tools/licences.toml`, such as GPL,
   AGPL, non-commercial or unknown ones. CI runs it over every environment that it makes.
-* `python -m tools.licences write .venv ...` writes this page; name all environments.
+* `make docs` writes this page from the environments of the checkout.
 * A wheel may hold libraries of others under licences that its metadata do not tell. The table says
   what we know of them. PyAV's wheels hold x264 and x265, under the GPL, and texvent writes .mp4
   files by x264. Who passes on PyAV's wheel passes them on too; texvent's wheel holds neither.
@@ -215,9 +214,8 @@ def page(packages: dict[str, Package]) -> str:
 
 
 def main(words: list[str] | None = None) -> int:
-    """Check or write; 1 if a licence is not allowed."""
+    """Check; 1 if a licence is not allowed."""
     parser = argparse.ArgumentParser(prog="python -m tools.licences", description=__doc__)
-    parser.add_argument("action", choices=["check", "write"])
     parser.add_argument("environments", nargs="+", type=Path, metavar="VENV")
     arguments = parser.parse_args(words)
     packages: dict[str, Package] = {}
@@ -227,10 +225,7 @@ def main(words: list[str] | None = None) -> int:
     if lines:
         sys.stderr.write("".join(f"error: {line}\n" for line in lines))
         return 1
-    if arguments.action == "write":
-        PAGE.write_text(page(packages), encoding="utf-8")
-    else:
-        sys.stdout.write(f"{len(packages)} packages, every licence allowed\n")
+    sys.stdout.write(f"{len(packages)} packages, every licence allowed\n")
     return 0
 
 

@@ -1,27 +1,41 @@
-"""What the site shows and the repository does not hold: a film by texvent, plots of the results.
+"""Parts of the site that the repository does not hold: a film, plots, and pages of tables.
 
-Sphinx calls `make_all` before it reads pages. A film that is there already is kept.
+Sphinx calls `make_all` before it reads pages. Files newer than their sources are kept.
 """
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any
 
 import matplotlib
 
 import texvent
+from texvent.cli.app import main
 from texvent.view.render import RenderConfig, render_events
 
+ROOT = Path(__file__).parents[2]
+RESULTS = ROOT / "docs/results"
 PROMPT = "a red car drives left past two trees at dusk"
+BENCHMARKS = {
+    "fidelity": (),
+    "real-slider_depth": ("--baseline", "texvent accurate, flow"),
+    "real-davis346": ("--baseline", "texvent accurate, flow"),
+    "digits": (),
+    "digits-all": (),
+}
+"""Results that `texvent bench page` turns into a page of the same name, and its options."""
 
 
 def make_all(folder: Path) -> None:
-    """Make the film of the start page and the plots of the benchmark page, in a folder."""
+    """Make the film of the start page and plots, in a folder; pages of results and licences."""
     matplotlib.use("agg")
     import plots
 
     (folder / "static").mkdir(parents=True, exist_ok=True)
     make_film(folder / "static")
     plots.make_plots(folder)
+    make_result_pages()
+    make_licences()
 
 
 def make_film(folder: Path) -> None:
@@ -34,6 +48,70 @@ def make_film(folder: Path) -> None:
     events = texvent.generate(PROMPT, interpolate="flow", **options)
     render_events(events, film, frames=frames, config=RenderConfig(speed=0.5), overwrite=True)
     render_events(events, still, frames=frames, overwrite=True)
+
+
+def make_result_pages() -> None:
+    """Write a page beside each stored result: of benchmarks, the self-test and speed."""
+    for name, options in BENCHMARKS.items():
+        if _is_old(RESULTS / f"{name}.md", [RESULTS / f"{name}.json.gz"]):
+            result = str(RESULTS / f"{name}.json.gz")
+            if main(["bench", "page", result, *options, "--overwrite"]):
+                raise RuntimeError(f"texvent bench page {result} failed")
+    make_selftest_page()
+    make_speed_page()
+
+
+def make_selftest_page() -> None:
+    """Table and chart of the stored self-test of the metrics."""
+    from texvent_lab.bench.selftest.table import read_selftest, selftest_chart, selftest_table
+
+    rows = read_selftest(RESULTS / "selftest.json.gz")
+    (RESULTS / "selftest.svg").write_bytes(selftest_chart(rows))
+    text = [
+        "# Self-test of the metrics: the table",
+        "Written from `docs/results/selftest.json.gz`; [metrics.md](../metrics.md#self-test) "
+        "describes the test. Found: perturbations scored more than 3 sd worse than the floor. "
+        "Monotone: series of growing damage along which the metric worsens at every step.",
+        selftest_table(rows).rstrip(),
+        "![Standard deviations worse than the floor](selftest.svg)",
+    ]
+    (RESULTS / "selftest.md").write_text("\n\n".join(text) + "\n", encoding="utf-8")
+
+
+def make_speed_page() -> None:
+    """All tables of the stored measurement of speed."""
+    from texvent_lab.bench.document import read_document
+    from texvent_lab.measure.speed.tables import as_markdown
+
+    text = [
+        "# Speed: the tables",
+        "Written from `docs/results/speed.json.gz`; [speed.md](../speed.md) has the summary. "
+        "`floor`: the time of the memory bandwidth. `clip`: one thread; `clips`: two threads with "
+        "a clip each. `drawn` draws every intermediate frame; `fused`, which runs use, computes "
+        "only pixels that may fire. Peers below 1 are faster than texvent.",
+        as_markdown(read_document(RESULTS / "speed.json.gz")).replace("\n### ", "\n## "),
+    ]
+    (RESULTS / "speed.md").write_text("\n\n".join(text) + "\n", encoding="utf-8")
+
+
+def make_licences() -> None:
+    """The page of licences, from every environment of this checkout, else the running one."""
+    import sys
+
+    from tools import licences
+
+    found = [path for path in sorted(ROOT.glob(".venv*")) if list(path.glob("lib/python3*"))]
+    packages: dict[str, licences.Package] = {}
+    for folder in found or [Path(sys.prefix)]:
+        packages |= licences.environment(folder)
+    (ROOT / "docs" / "licences.md").write_text(licences.page(packages), encoding="utf-8")
+
+
+def _is_old(page: Path, sources: Iterable[Path]) -> bool:
+    """Whether a page is missing, or older than one of its sources."""
+    return not page.exists() or any(
+        source.stat().st_mtime > page.stat().st_mtime for source in sources
+    )
 
 
 def reset_matplotlib(gallery_conf: dict[str, Any], file: str) -> None:

@@ -153,7 +153,9 @@ def digits(colours: tuple[str, ...]) -> Figure:
 
 def speed(colours: tuple[str, ...]) -> Figure:
     """Time of the cores per pair of frames, beside other programs."""
-    peers = [row for row in read("speed.json")["peers"] if "with flow" not in row["ours"]["name"]]
+    peers = [
+        row for row in read("speed.json.gz")["peers"] if "with flow" not in row["ours"]["name"]
+    ]
     rows = [
         f"{row['clip']}\n{row['size']}, {row['ours']['name'].removeprefix('texvent, ')}"
         for row in peers

@@ -336,7 +336,7 @@ def _simulation(
         options: as given; vectors, depth and ids may be arrays.
         config: a file with options.
     """
-    from texvent.capture.motion_vectors.attach import (
+    from texvent.capture.motion_vectors.frames import (
         find_motion_sidecar,  # brings the readers of frames
     )
 

@@ -3,7 +3,7 @@
 import pytest
 
 from texvent.batch.list_files import ListEntry, read_list
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import FileFormatError
 
 
 def written(tmp_path, name, text):
@@ -50,14 +50,6 @@ def test_a_line_may_name_a_scene_file(tmp_path, name, text):
     assert (scene.prompt, scene.name) == ("a car", "car")
     assert scene.scene.objects[0].noun == "car"
     assert (dog.prompt, dog.scene) == ("a dog", None)
-
-
-def test_a_wrong_scene_file_and_a_scene_with_a_prompt_are_refused(tmp_path):
-    written(tmp_path, "car.toml", '[[objects]]\nnoun = "car"\nsiz = 2\n')
-    with pytest.raises(ConfigError, match=r"car\.toml: objects\[0\] has no field 'siz'"):
-        read_list(written(tmp_path, "s.txt", "car.toml\n"))
-    with pytest.raises(FileFormatError, match="line 2 has a scene and a prompt"):
-        read_list(written(tmp_path, "s.csv", "scene,prompt\ncar.toml,a car\n"))
 
 
 @pytest.mark.parametrize("column", ["text", "caption"])
@@ -109,15 +101,3 @@ def test_a_wrong_line_is_named(tmp_path, name, text, why):
     with pytest.raises(FileFormatError, match=why) as caught:
         read_list(written(tmp_path, name, text))
     assert len(str(caught.value).replace(str(tmp_path), "")) < 300
-
-
-def test_files_that_hold_nothing_are_refused(tmp_path):
-    with pytest.raises(InputError, match="holds no prompt"):
-        read_list(written(tmp_path, "p.txt", "\n\n"))
-    with pytest.raises(InputError, match="cannot read"):
-        read_list(tmp_path / "none.txt")
-    with pytest.raises(InputError, match=r"must end in \.txt, \.csv, \.jsonl"):
-        read_list(written(tmp_path, "p.yaml", "a"))
-    (tmp_path / "p.txt").write_bytes(b"\xff\xfe\xff")
-    with pytest.raises(FileFormatError, match="not UTF-8"):
-        read_list(tmp_path / "p.txt")

@@ -2,7 +2,7 @@ import math
 
 import pytest
 
-from texvent.calibrate.distance import NOTHING, interval_distance, measure_distance
+from texvent.calibrate.search import NOTHING, interval_distance, measure_distance
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 

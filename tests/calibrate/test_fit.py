@@ -2,11 +2,10 @@ import dataclasses
 
 import pytest
 
-from texvent.calibrate.distance import measure_distance
-from texvent.calibrate.estimates import describe_estimates
-from texvent.calibrate.fit import fit_sensor
-from texvent.calibrate.preset import describe_fit, write_preset
+from texvent.calibrate.estimates import describe_estimates, write_preset
+from texvent.calibrate.fit import describe_fit, fit_sensor
 from texvent.calibrate.recording import Recording
+from texvent.calibrate.search import measure_distance
 from texvent.config import InterpolateConfig
 from texvent.errors import OutputError
 from texvent.events import EventStream

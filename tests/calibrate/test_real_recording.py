@@ -4,9 +4,9 @@ import dataclasses
 
 import pytest
 
-from texvent.calibrate.distance import measure_distance
 from texvent.calibrate.fit import fit_sensor
 from texvent.calibrate.recording import Recording, simulate_span
+from texvent.calibrate.search import measure_distance
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig, InterpolateConfig
 from texvent.data.pull import pull

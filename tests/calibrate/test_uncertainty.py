@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.calibrate.estimates import Estimate, Kept
+from texvent.calibrate.estimates import Estimate, UnidentifiedOption
 from texvent.calibrate.recording import TimeSpan
 from texvent.calibrate.uncertainty import FARTHEST, cut_blocks, vertex, widen
 
@@ -43,5 +43,5 @@ def test_a_line_says_value_unit_and_interval():
     )
     assert Estimate("balance", 160.0, 135.0, math.inf).interval == "135 or more"
     assert Estimate("balance", 2.0, -math.inf, 3.0).interval == "3 or less"
-    assert str(Kept("noise_curve", "1:2 3:4", "too dark")) == "noise_curve: too dark"
-    assert str(Kept("balance", 20.0, "too dark")) == "balance 20: too dark"
+    assert str(UnidentifiedOption("noise_curve", "1:2 3:4", "too dark")) == "noise_curve: too dark"
+    assert str(UnidentifiedOption("balance", 20.0, "too dark")) == "balance 20: too dark"

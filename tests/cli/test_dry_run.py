@@ -7,7 +7,7 @@ import pytest
 
 import texvent
 from texvent.cli.app import main
-from texvent.cli.dry_run import MOST_PAIRS, measure_start, size_text
+from texvent.cli.dry_run import MOST_PAIRS, measure_start
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
 from texvent.video import Video
@@ -36,17 +36,6 @@ def test_the_first_pairs_are_counted():
     assert tried.seconds > 0
     assert f"about {len(first) / MOST_PAIRS * 6:,.0f} events in " in tried.describe()
     assert "4 of 6 pairs" in tried.describe()
-
-
-def test_a_single_frame_gives_no_events():
-    assert dry_run(FRAMES[:1]).describe().startswith("no events: there is one frame only")
-
-
-@pytest.mark.parametrize(
-    ("size", "text"), [(512, "0 KB"), (3 * 2**20, "3.0 MB"), (1.5 * 2**40, "1.5 TB")]
-)
-def test_sizes_for_people(size, text):
-    assert size_text(size) == text
 
 
 def test_a_dry_run_says_what_is_shown_of_the_prompt(capsys):

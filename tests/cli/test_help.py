@@ -11,7 +11,7 @@ from typing import ClassVar
 import pytest
 
 from texvent.cli.app import COMMANDS, main
-from texvent.cli.help import asked_help, first_sentence, render_help
+from texvent.cli.help import first_sentence, render_help
 
 COLUMNS, LINES = 80, 40
 EVERY_COMMAND = [
@@ -79,13 +79,6 @@ def test_the_options_of_a_named_simulator_are_shown(show):
     assert "--cutoff-hz" not in show("simulate", "--help", "all")
 
 
-def test_a_word_behind_help_that_is_no_section_belongs_to_the_command(show):
-    assert show("simulate", "--help", "clip.mp4") == show("simulate", "-h")
-    assert asked_help(["generate", "--help", "a red ball"], ["run", "output"]) == "main"
-    assert asked_help(["--out", "all"], ["run"]) is None
-    assert asked_help(["a.mp4", "--help", "--seed", "3"], ["run"]) == "main"
-
-
 @dataclass(frozen=True, kw_only=True)
 class Example:
     """What to do."""
@@ -118,13 +111,3 @@ def test_help_is_readable_where_the_terminal_knows_ascii_only():
     done = subprocess.run(words, env=plain, capture_output=True, check=False)
     assert done.returncode == 0, done.stderr.decode()
     assert b"--contrast-threshold" in done.stdout
-
-
-@pytest.mark.parametrize(
-    "words", [("simulate", "--help", "qwertz"), ("render", "--help=qwertz"), ("view", "--help=qw")]
-)
-def test_an_unknown_section_is_refused_with_the_sections(capsys, words):
-    assert main(list(words)) == 2
-    said = capsys.readouterr().err
-    assert said.startswith("error: help has no section 'qw")
-    assert "allowed: all, input" in said

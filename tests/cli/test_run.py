@@ -10,7 +10,6 @@ from texvent.cli.app import main
 from texvent.errors import OutputError
 from texvent.io import block_writer
 from texvent.io.hdf5.storage import Hdf5Writer
-from texvent.view.preview import Preview
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 
@@ -34,10 +33,3 @@ def test_a_full_disk_stops_the_run_and_leaves_nothing(tmp_path, monkeypatch, cap
     assert said.out == ""
     assert not list(tmp_path.iterdir())
     assert not [one for one in threading.enumerate() if one.name.startswith("texvent-writer")]
-
-
-def test_a_preview_that_fails_leaves_no_event_file_either(tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(Preview, "append", fail_in_a_thread)
-    assert simulate(tmp_path, "--interpolate", "none") == OutputError.exit_code
-    assert "the disk is full" in capsys.readouterr().err.splitlines()[-1]
-    assert not list(tmp_path.iterdir())

@@ -19,16 +19,6 @@ def test_the_list_has_families_other_names_and_assets_first(tmp_path, capsys, mo
     assert "automobile" in car
 
 
-def test_in_a_pipe_a_noun_and_all_its_names_are_one_line(capsys, monkeypatch) -> None:
-    monkeypatch.delenv("COLUMNS", raising=False)
-    assert main(["scenes", "list"]) == 0
-    lines = capsys.readouterr().out.splitlines()
-    row = next(line for line in lines if "minivan" in line)
-    assert row.split("  ")[0] == "vehicles"
-    assert " van " in row
-    assert not any(line.endswith(" ") for line in lines)
-
-
 def test_show_draws_views_side_by_side(tmp_path, capsys) -> None:
     path = tmp_path / "cube.png"
     assert main(["scenes", "show", "block", "-o", str(path), "--views", "2"]) == 0
@@ -44,7 +34,7 @@ def test_show_draws_views_side_by_side(tmp_path, capsys) -> None:
         (["draw"], "unknown action 'scenes draw'"),
         (["show", "saxofone", "-o", "x.png"], "did you mean 'saxophone'"),
         (["show", "car", "-o", "x.jpg"], "must end in .png"),
-        (["show", "car"], "show needs -o PATH, --output PATH (The image to write"),
+        (["show", "car"], "show needs --output"),
         (["show", "car", "-o", "x.png", "--views", "0"], "must be 1 to 12"),
         (["list", "--assets", "nowhere"], "does not exist"),
     ],

@@ -54,25 +54,6 @@ def test_a_prompt_of_which_nothing_is_understood_is_refused(capsys):
     assert not Path("a.h5").exists()
 
 
-def test_words_without_effect_are_a_line_of_their_own(capsys):
-    words = ["generate", "a wug and a red ball bounce", "--duration", 0.1, "-o", "a.h5", *SMALL]
-    assert run(*words) == 0
-    lines = capsys.readouterr().err.splitlines()
-    assert lines[0] == "warning  prompt words not understood: wug"
-    assert sum("not understood" in line for line in lines) == 1
-    with pytest.warns(texvent.TexventWarning, match="not understood: wug") as caught:
-        texvent.generate("a red ball bounces. A wug.", sensor="48x36", duration=0.1)
-    assert caught[0].filename == __file__
-
-
-def test_info_says_what_is_not_shown_of_the_prompt(capsys):
-    words = ["a wug and a red ball bounce", "--duration", 0.1, "-o", "a.h5", *SMALL]
-    assert run("generate", *words) == 0
-    capsys.readouterr()
-    assert run("info", "a.h5") == 0
-    assert "prompt_report      not understood: wug" in capsys.readouterr().out
-
-
 def test_strict_refuses_what_is_not_shown_as_it_says(capsys):
     said = error_of(capsys, "generate", "a wug and a red ball", "--strict", "-o", "a.h5", *SMALL)
     assert "not understood: wug" in said
@@ -123,12 +104,6 @@ def test_a_time_outside_of_the_recording_is_refused(capsys, recording, source, c
     assert not Path(out[-1]).exists()
 
 
-def test_a_quiet_part_gives_an_empty_file_and_a_warning(capsys, recording):
-    (said,) = warnings_of(capsys, "convert", "a.h5", "b.h5", "--time", "0.00001,0.00002")
-    assert said.startswith("b.h5 holds no event")
-    assert len(texvent.load("b.h5")) == 0
-
-
 @pytest.fixture
 def others(recording):
     still_video("mine.mp4")
@@ -159,13 +134,6 @@ def test_a_file_of_another_kind_is_named_with_the_command_that_takes_it(
     assert said in error_of(capsys, *words)
 
 
-def test_python_names_the_kind_too(others):
-    with pytest.raises(texvent.InputError, match="it is a video; texvent simulate"):
-        texvent.load("mine.mp4")
-    with pytest.raises(texvent.InputError, match="an event file; texvent render"):
-        texvent.simulate("a.h5")
-
-
 def test_a_preview_is_not_taken_for_a_source_without_a_word(capsys, recording):
     for name in ("demo.events.mp4", "slow.mp4"):
         assert run("render", "a.h5", "-o", name) == 0
@@ -192,35 +160,6 @@ def test_an_empty_recording_is_not_sound(capsys, folder):
     said = capsys.readouterr()
     assert said.out.startswith("empty\n")
     assert said.err == "warning  empty.h5 is empty: it holds no event\n"
-
-
-def test_a_config_file_of_another_command_is_named(capsys, recording):
-    Path("gen.toml").write_text('generator = "procedural"\n')
-    said = error_of(capsys, "simulate", "a.mp4", "-o", "b.h5", "--config", "gen.toml")
-    assert said.startswith("config file gen.toml is for texvent generate")
-    assert "generator" in error_of(capsys, "simulate", "a.mp4", "-o", "b.h5", "--generator", "x")
-
-
-def test_info_says_ten_lines_and_the_rest_on_request(capsys, folder):
-    words = ["generate", "a red ball bounces", "--duration", 0.1, "-o", "a.h5", "-q", *SMALL]
-    assert run(*words) == 0
-    assert run("info", "a.h5") == 0
-    *lines, more = capsys.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines] == [
-        *("sensor", "events", "on_share", "first_us", "last_us", "seconds", "events_per_second"),
-        *("prompt", "seed", "simulator"),
-    ]
-    assert more.startswith("... ")
-    assert more.endswith(" more: --all")
-    assert run("info", "a.h5", "--all") == 0
-    assert "contrast_threshold" in capsys.readouterr().out
-
-
-def test_info_shows_a_seed_as_it_is_typed(capsys, folder):
-    events = texvent.EventStream([1], [1], [1], [1], texvent.SensorSize(4, 4))
-    events.with_metadata({"seed": 7318535299775495767}).save("a.h5")
-    assert run("info", "a.h5") == 0
-    assert "7318535299775495767" in capsys.readouterr().out
 
 
 HOSTILE = "a red ball bounces past a \x1b[31mwug\x1b]0;t\x07 \u202egnp.exe über 🦩\nevents  9"

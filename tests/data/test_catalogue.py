@@ -5,24 +5,6 @@ import pytest
 
 from texvent.data.catalogue import DATA_SETS
 
-WANTED = {
-    "slider_depth",
-    "davis346",
-    "dvxplorer",
-    "bikes",
-    "bigbuckbunny",
-    "carphone",
-    "vtest",
-    "tree",
-    "mouse250",
-    "evk4",
-    "gen3",
-}
-
-
-def test_the_promised_data_sets_are_there():
-    assert set(DATA_SETS) >= WANTED
-
 
 @pytest.mark.parametrize("name", DATA_SETS)
 def test_every_entry_is_complete_and_safe(name):

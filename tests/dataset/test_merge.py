@@ -9,11 +9,11 @@ from tests.dataset.conftest import make_set
 
 import texvent.dataset
 from texvent.cli.app import main
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.stored_events import read_events
 from texvent.dataset.generation.recipe import load_recipe
-from texvent.dataset.generation.tar_shard import read_members
+from texvent.dataset.generation.shards import read_members
 from texvent.dataset.merge import merge
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.reading.stored_events import read_events
 from texvent.dataset.verify import verify
 from texvent.errors import ConfigError, InputError, OutputError, TexventWarning
 
@@ -33,7 +33,7 @@ def birds(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def classes_of(folder: Path) -> dict[str, bytes]:
     return {
         f"{sample.label} {sample.key}": read_members(shard.path, sample.members)["cls"]
-        for shard in MadeSet.open(folder).shards()
+        for shard in StoredDataset.open(folder).shards()
         for sample in shard.samples
     }
 
@@ -41,10 +41,10 @@ def classes_of(folder: Path) -> dict[str, bytes]:
 def test_a_merged_set_holds_every_sample_and_is_sound(
     cars: Path, birds: Path, tmp_path: Path
 ) -> None:
-    merged = merge([MadeSet.open(cars), MadeSet.open(birds)], tmp_path / "all")
+    merged = merge([StoredDataset.open(cars), StoredDataset.open(birds)], tmp_path / "all")
     assert (merged.samples, merged.shards) == (10, 5)
-    assert verify(MadeSet.open(tmp_path / "all")).is_sound
-    made = MadeSet.open(tmp_path / "all")
+    assert verify(StoredDataset.open(tmp_path / "all")).is_sound
+    made = StoredDataset.open(tmp_path / "all")
     assert (made.labels, made.splits) == (("bird", "bus", "car"), ("train", "test"))
     assert made.simulator_of("esim") == "esim"
     for key, number in classes_of(tmp_path / "all").items():
@@ -58,29 +58,31 @@ def test_a_merged_set_holds_every_sample_and_is_sound(
         for sample in shard.samples
     }
     for source in (cars, birds):
-        for shard in MadeSet.open(source).shards():
+        for shard in StoredDataset.open(source).shards():
             for sample in shard.samples:
                 assert (events[sample.key].t == read_events(shard.path, sample).t).all()
 
 
 def test_shards_whose_classes_stay_are_linked(cars: Path, birds: Path, tmp_path: Path) -> None:
-    merged = merge([MadeSet.open(birds), MadeSet.open(cars)], tmp_path / "all", name="both")
+    merged = merge(
+        [StoredDataset.open(birds), StoredDataset.open(cars)], tmp_path / "all", name="both"
+    )
     # "bird" is the first of all classes too, so its shard stays; those of cars move by one.
     assert merged.rewritten == 4
     shard = tmp_path / "all" / "esim" / "train-000000.tar"
     assert shard.stat().st_ino == (birds / "esim" / "train-000000.tar").stat().st_ino
-    assert MadeSet.open(tmp_path / "all").name == "both"
+    assert StoredDataset.open(tmp_path / "all").name == "both"
 
 
 def test_what_would_break_the_set_is_refused(cars: Path, birds: Path, tmp_path: Path) -> None:
-    made = MadeSet.open(cars)
+    made = StoredDataset.open(cars)
     with pytest.raises(InputError, match="same prompt in a variant of the same name"):
-        merge([made, MadeSet.open(cars)], tmp_path / "all")
+        merge([made, StoredDataset.open(cars)], tmp_path / "all")
     with pytest.raises(InputError, match="two data sets or more"):
         merge([made], tmp_path / "all")
     (tmp_path / "all").mkdir()
     with pytest.raises(OutputError, match="exists already"):
-        merge([made, MadeSet.open(birds)], tmp_path / "all")
+        merge([made, StoredDataset.open(birds)], tmp_path / "all")
 
 
 def test_incomplete_sets_and_sets_half_with_classes_are_refused(
@@ -88,10 +90,10 @@ def test_incomplete_sets_and_sets_half_with_classes_are_refused(
 ) -> None:
     (copied / "esim" / "test-000000.tar").unlink()
     with pytest.raises(InputError, match=r"lacks 1 shards, such as esim/test-000000\.tar"):
-        merge([MadeSet.open(copied), MadeSet.open(birds)], tmp_path / "all")
+        merge([StoredDataset.open(copied), StoredDataset.open(birds)], tmp_path / "all")
     plain = make_set(tmp_path / "plain", **{**APE, "sources": [{"prompts": ["a dog runs right"]}]})
     with pytest.raises(InputError, match=r"has classes and .* has none"):
-        merge([MadeSet.open(birds), MadeSet.open(plain)], tmp_path / "all")
+        merge([StoredDataset.open(birds), StoredDataset.open(plain)], tmp_path / "all")
 
 
 def test_prompts_that_get_into_several_splits_are_said(cars: Path, tmp_path: Path) -> None:
@@ -103,7 +105,7 @@ def test_prompts_that_get_into_several_splits_are_said(cars: Path, tmp_path: Pat
         license="cc0-1.0",
     )
     with pytest.warns(TexventWarning) as said:
-        merge([MadeSet.open(cars), MadeSet.open(again)], tmp_path / "all")
+        merge([StoredDataset.open(cars), StoredDataset.open(again)], tmp_path / "all")
     assert "2 prompts or videos are now in several splits" in str(said[0].message)
     assert "the licences differ (cc-by-4.0, cc0-1.0)" in str(said[1].message)
 

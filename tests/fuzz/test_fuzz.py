@@ -11,7 +11,7 @@ from .outcomes import BAD, Outcome, table
 from .readers import readers
 from .supervisor import Supervisor
 
-INPUTS = 8
+INPUTS = 4
 FINDINGS = sorted(Path(__file__).with_name("findings").glob("*/*"))
 """FORMAT/FILE: what was found once, or made by hand, is refused for ever."""
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import subprocess
 import sys
 
@@ -11,7 +10,6 @@ import pytest
 
 import texvent
 from texvent.cli.app import main
-from texvent.errors import ConfigError, InputError
 from texvent.run.regeneration import render_again
 from texvent.scenes import Camera, CameraMove, Motion, Place, Scene, SceneObject, load_scene
 
@@ -106,23 +104,6 @@ def test_wrong_files_are_one_line(content, message, tmp_path, capsys, monkeypatc
     assert main(["generate", "scene.toml", *FLAGS]) == 2
     (line,) = capsys.readouterr().err.splitlines()
     assert line.startswith(f"error: {message}")
-
-
-def test_scenes_of_programs_are_checked_too():
-    with pytest.raises(ConfigError, match="objects is"):
-        texvent.generate(Scene(objects=SceneObject(noun="car")), **OPTIONS)
-    with pytest.raises(ConfigError, match=r"objects\[0\]\.count is 0"):
-        texvent.generate(Scene(objects=(SceneObject(noun="car", count=0),)), **OPTIONS)
-    with pytest.raises(ConfigError, match="takes a prompt, not a scene"):
-        texvent.generate(Scene(), generator="wan-1.3b")
-    with pytest.raises(InputError, match="the prompt is a int"):
-        texvent.generate(3, **OPTIONS)
-
-
-def test_the_schema_is_printed(capsys):
-    assert main(["scenes", "--schema"]) == 0
-    schema = json.loads(capsys.readouterr().out)
-    assert "car" in schema["$defs"]["noun"]["examples"]
 
 
 def test_reading_a_scene_file_loads_no_numba(tmp_path):

@@ -39,13 +39,6 @@ def test_blend_works_on_luma_of_colour_and_16_bit_frames(pair, config, stream):
     assert frame.pixels == pytest.approx(float(Fraction(51_401, 2 * 257)), abs=1e-4)
 
 
-def test_blend_of_equal_frames_is_the_frame(pair, config, stream):
-    image = np.random.default_rng(0).uniform(0, 255, (9, 7)).astype(np.float32)
-    frames = BlendInterpolator(config(), stream).between(*pair(image, image), [1, 333, 999])
-    for frame in frames:
-        np.testing.assert_array_equal(frame.pixels, image)
-
-
 def test_blend_leaves_the_frames_alone(pair, config, stream):
     a, b = np.zeros((3, 3), np.float32), np.ones((3, 3), np.float32)
     list(BlendInterpolator(config(), stream).between(*pair(a, b), [500]))

@@ -113,25 +113,6 @@ def test_intermediate_frames_are_float_luma(interpolate):
     assert all(f.pixels.shape == (12, 14) and f.pixels.dtype == np.float32 for f in inner)
 
 
-def test_none_adds_nothing_and_looks_for_nothing(flashing):
-    seen = []
-    options = InterpolateConfig(interpolate="none", count="fixed", fixed_count=5)
-    frames = run(flashing, options, on_scene_change=lambda *change: seen.append(change))
-    assert [frame.is_source for frame in frames] == [True] * 4
-    assert seen == []
-
-
-def test_fixed_count_does_not_look_at_the_change():
-    options = InterpolateConfig(interpolate="blend", count="fixed", fixed_count=3)
-    frames = run(field([7, 7], [0, 1000]), options)
-    assert [frame.t_us for frame in frames] == [0, 250, 500, 750, 1000]
-
-
-def test_the_count_has_a_cap():
-    options = InterpolateConfig(interpolate="blend", max_intermediate=6)
-    assert len(run(field([0, 255], [0, 10_000]), options)) - 2 == 6
-
-
 @given(
     st.lists(st.tuples(st.integers(1, 40), st.integers(0, 255)), min_size=1, max_size=6),
     st.sampled_from(["brightness", "fixed"]),
@@ -143,10 +124,6 @@ def test_times_strictly_increase_whatever_the_intervals(steps, count):
     frames = run(video, options, threshold=0.05)
     assert all(a.t_us < b.t_us for a, b in pairwise(frames))
     assert [frame.t_us for frame in frames if frame.is_source] == times_us
-
-
-def test_one_frame_stays_one_frame():
-    assert [frame.t_us for frame in run(field([9], [3]))] == [3]
 
 
 def test_a_flash_of_one_frame_and_a_cut_are_three_jumps(flashing):

@@ -7,7 +7,6 @@ import pytest
 
 from texvent.errors import ConfigError
 from texvent.interpolate.exact import ExactInterpolator
-from texvent.interpolate.none import NoInterpolator
 from texvent.video import Frame, Video
 
 
@@ -37,8 +36,3 @@ def test_exact_frames_are_what_the_scene_shows_then(renderable, config):
 def test_exact_fails_on_a_recorded_video_and_names_the_choices(stream, config):
     with pytest.raises(ConfigError, match="use flow, blend or none"):
         ExactInterpolator(config(interpolate="exact"), stream)
-
-
-def test_none_adds_no_frame(stream, config):
-    none = NoInterpolator(config(interpolate="none"), stream)
-    assert list(none.between(stream[0], stream[1], [500])) == []

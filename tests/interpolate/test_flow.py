@@ -78,12 +78,6 @@ def test_images_drawn_together_are_those_drawn_alone(moving_texture, flow, monke
         np.testing.assert_array_equal(frame.pixels, found.image(index))
 
 
-def test_equal_frames_give_the_frame(moving_texture, flow):
-    image = moving_texture(0)
-    for frame in flow.between(Frame(image, 0), Frame(image, 1000), [1, 400, 999]):
-        np.testing.assert_array_equal(frame.pixels, image)
-
-
 def test_much_of_unrelated_frames_is_blended(moving_texture, psnr, flow, blend):
     first, second = moving_texture(0), moving_texture(0)[::-1, ::-1]
     moved, mixed = middle(flow, first, second), middle(blend, first, second)

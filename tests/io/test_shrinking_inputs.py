@@ -12,7 +12,7 @@ import pytest
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError
-from texvent.io.arrays import evreal_folder
+from texvent.io.arrays import folders
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.files import open_events, save
 
@@ -43,7 +43,7 @@ def test_the_images_of_an_evreal_folder(tmp_path: Path) -> None:
 
 
 def test_the_events_of_an_evreal_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(evreal_folder, "PACKET_EVENTS", 1000)
+    monkeypatch.setattr(folders, "PACKET_EVENTS", 1000)
     path = write_evreal(tmp_path / "e", random_events(20_000, CASE_OF["evreal"].sensor))
     packets = iter(open_events(path))
     next(packets)

@@ -39,12 +39,6 @@ def test_spread_events_are_sound() -> None:
     assert (report.events, report.duplicates, report.hot_pixels) == (20_000, 0, ())
 
 
-def test_no_event_is_sound() -> None:
-    report = check(EventStream.empty(SIZE))
-    assert report.complaints() == []
-    assert np.isnan(report.on_share)
-
-
 def test_duplicates_and_contradictions_are_counted_by_hand() -> None:
     # (1, 1, 5, ON) three times, (1, 1, 5, OFF) once, (2, 1, 5, ON) once, (1, 1, 6, ON) once.
     x, t, p = [1, 1, 1, 1, 2, 1], [5, 5, 5, 5, 5, 6], [1, 0, 1, 1, 1, 1]

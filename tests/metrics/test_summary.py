@@ -9,12 +9,6 @@ def test_summary_counts_undefined_values_instead_of_replacing_them():
     assert math.isclose(summary.standard_error, 1 / math.sqrt(3))
 
 
-def test_summary_of_nothing_is_undefined():
-    assert math.isnan(summarise([]).mean)
-    assert math.isnan(summarise([math.nan]).mean)
-    assert math.isnan(summarise([4.0]).standard_error)
-
-
 def test_normalised_score_is_one_at_the_floor_and_zero_at_the_null():
     lower = {"floor": 0.15, "null": 0.85, "better": "lower"}
     assert normalise(0.15, **lower) == 1.0

@@ -1,9 +1,6 @@
-import math
-
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
 from texvent.metrics.uncertainty import score_windows
@@ -73,17 +70,3 @@ def test_infinite_and_undefined_windows_are_left_out():
     scores = windows_of({"a": TRUTH}, "ef_psnr", "fwl")
     assert np.isnan(scores.values["ef_psnr", "a"]).all()  # equal frames: infinite
     assert scores.mean("fwl", "a").windows == 0
-
-
-def test_a_reference_without_events_has_no_windows():
-    scores = windows_of({"a": TRUTH}, "stpp", reference=EventStream.empty(SIZE))
-    assert scores.starts_us == []
-    assert math.isnan(scores.mean("stpp", "a").mean)
-
-
-def test_other_sensors_and_lengths_are_refused():
-    with pytest.raises(InputError, match="sensor"):
-        windows_of({"a": EventStream.empty(SensorSize(9, 6))}, "stpp")
-    for length in (0, -50_000, 70_000):
-        with pytest.raises(ConfigError, match="multiple of"):
-            windows_of({"a": TRUTH}, "stpp", window_us=length)

@@ -1,9 +1,7 @@
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.represent.event_frame import binary_event_image
 from texvent.sensor import SensorSize
@@ -29,8 +27,3 @@ def test_it_equals_its_definition(events, size):
     np.testing.assert_array_equal(
         binary_event_image(events), definitions.binary_event_image(events, events.size)
     )
-
-
-def test_a_size_of_nothing_is_refused():
-    with pytest.raises(ConfigError, match="0"):
-        binary_event_image(EventStream.empty(SensorSize(2, 2)), size=(0, 4))

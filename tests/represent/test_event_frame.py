@@ -5,7 +5,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.represent.event_frame import count_events, event_frame
 from texvent.sensor import SensorSize
@@ -32,18 +31,6 @@ def test_each_kind_matches_its_definition_by_hand(
     frame = event_frame(EVENTS, kind)
     assert frame.dtype == dtype
     assert frame.tolist() == expected
-
-
-@pytest.mark.parametrize("kind", ["signed", "binary", "polarity", "count"])
-def test_no_events_give_the_background(kind: str) -> None:
-    frame = event_frame(EventStream.empty(SIZE), kind)
-    assert frame.shape == ((2, 2, 3) if kind == "count" else (2, 3))
-    assert set(np.unique(frame)) == {0.5 if kind == "polarity" else 0}
-
-
-def test_an_unknown_kind_lists_the_known_ones() -> None:
-    with pytest.raises(ConfigError, match=r"unknown event frame 'sign'.*did you mean 'signed'"):
-        event_frame(EVENTS, "sign")
 
 
 @given(st.lists(st.tuples(st.integers(0, 2), st.integers(0, 1), st.integers(0, 1)), max_size=40))

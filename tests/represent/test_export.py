@@ -1,10 +1,7 @@
-import sys
-
-import numpy as np
 import pandas
 import pytest
 
-from texvent.errors import InputError, MissingDependencyError
+from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
@@ -47,26 +44,3 @@ def test_a_dataframe_has_the_columns_and_their_types():
     assert whole["t"].tolist() == [10, 2**40]
     whole.loc[0, "p"] = 0
     assert EVENTS.p.tolist() == [1, 0]
-
-
-def test_no_events_give_empty_containers():
-    nothing = EventStream.empty(SIZE)
-    assert (
-        len(nothing.to_structured()) == len(nothing.to_tonic()) == len(nothing.to_dataframe()) == 0
-    )
-
-
-@pytest.mark.parametrize(("package", "extra"), [("pandas", "pandas"), ("torch", "torch")])
-def test_without_the_package_the_error_names_the_extra(package, extra, monkeypatch):
-    monkeypatch.setitem(sys.modules, package, None)
-    convert = EVENTS.to_dataframe if package == "pandas" else EVENTS.to_torch
-    with pytest.raises(MissingDependencyError, match=rf"pip install 'texvent\[{extra}\]'"):
-        convert()
-
-
-def test_a_stream_represents_itself():
-    grid = EVENTS.represent("voxel-zhu", bins=2)
-    assert grid.shape == (2, 6, 8)
-    assert grid.dtype == np.float32
-    assert grid[0, 0, 3] == 1
-    assert grid[1, 5, 4] == -1

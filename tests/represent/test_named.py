@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from texvent._registry import REPRESENTATIONS
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.represent.named import represent
 
@@ -52,19 +52,6 @@ def test_unknown_names_and_options_suggest_the_closest():
         represent("voxel-zu", EventStream.empty(SMALL))
     with pytest.raises(ConfigError, match=r"voxel-e2vid has no option 'bin'.*did you mean 'bins'"):
         represent("voxel-e2vid", EventStream.empty(SMALL), bin=5)
-
-
-@pytest.mark.parametrize("device", [None, "cpu"])
-def test_arrays_that_are_no_stream_are_refused(device):
-    records = random_events(1, 3, SMALL).to_structured()
-    with pytest.raises(InputError, match="EventStream or EventTensors; got ndarray"):
-        represent("event-frame", records, device=device)
-
-
-@pytest.mark.parametrize("bins", [2.5, "5", None, True, float("inf"), [5]])
-def test_options_of_another_type_are_refused_in_one_line(bins):
-    with pytest.raises(ConfigError, match=r"voxel-e2vid: bins is .*; it must be a whole number"):
-        represent("voxel-e2vid", EventStream.empty(SMALL), bins=bins)
 
 
 def test_every_representation_refuses_options_of_another_type():

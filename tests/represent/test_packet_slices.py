@@ -3,12 +3,11 @@
 import itertools
 from fractions import Fraction
 
-import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.represent.slices import slice_between, slice_by_count, slice_regularly
 from texvent.sensor import SensorSize
@@ -72,19 +71,8 @@ def test_events_are_read_no_further_than_needed():
     assert read == [0, 10, 20]
 
 
-def test_instants_that_do_not_increase_are_refused():
-    with pytest.raises(InputError, match="20 µs comes after 20 µs"):
-        list(slice_between([], [10, 20, 20], size=SIZE))
-
-
 def test_empty_slices_are_refused():
     with pytest.raises(ConfigError, match="at least 1"):
         list(slice_regularly([], step_us=Fraction(1, 2), size=SIZE))
     with pytest.raises(ConfigError, match="at least 1"):
         list(slice_by_count([], count=0, size=SIZE))
-
-
-def test_a_recording_without_events_has_no_slice():
-    assert list(slice_regularly([stream([])], step_us=Fraction(10), size=SIZE)) == []
-    assert list(slice_by_count([], count=3, size=SIZE)) == []
-    assert np.all([len(events) == 0 for _, events in slice_between([], [0, 5], size=SIZE)])

@@ -5,7 +5,6 @@ from hypothesis import strategies as st
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.represent.slices import slices
-from texvent.sensor import SensorSize
 
 from .definitions import SMALL, streams
 
@@ -37,12 +36,6 @@ def test_a_partial_slice_can_be_left_out():
 
 def test_slices_of_a_number_of_events_overlap():
     assert times(slices(stream(1, 2, 3, 4), count=3, overlap=2)) == [[1, 2, 3], [2, 3, 4]]
-
-
-def test_no_events_give_no_slice():
-    nothing = EventStream.empty(SensorSize(2, 2))
-    assert list(slices(nothing, duration_us=10, start_us=0)) == []
-    assert list(slices(nothing, count=10)) == []
 
 
 @given(streams(least=1), st.integers(1, 6))

@@ -1,9 +1,7 @@
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.represent.histogram import stacked_histogram
 from texvent.sensor import SensorSize
@@ -31,18 +29,7 @@ def test_counts_stop_at_the_cutoff_instead_of_wrapping():
     assert stacked_histogram(events, cutoff=255)[10, 0, 0] == 255
 
 
-def test_no_events_give_an_empty_histogram():
-    assert not stacked_histogram(EventStream.empty(SIZE)).any()
-
-
 @given(streams(), st.integers(1, 12), st.integers(1, 3))
 def test_it_equals_its_definition(events, bins, cutoff):
     expected = definitions.stacked_histogram(events, bins, cutoff)
     np.testing.assert_array_equal(stacked_histogram(events, bins=bins, cutoff=cutoff), expected)
-
-
-def test_wrong_bins_and_cutoffs_are_refused():
-    with pytest.raises(ConfigError, match="bins is 0"):
-        stacked_histogram(EventStream.empty(SIZE), bins=0)
-    with pytest.raises(ConfigError, match=r"cutoff is 256; it must be 1\.\.255"):
-        stacked_histogram(EventStream.empty(SIZE), cutoff=256)

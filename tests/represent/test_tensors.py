@@ -106,10 +106,3 @@ def test_wrong_tensors_fail_with_the_value_and_what_is_allowed(change, message):
     tensors = {name: torch.tensor(one) for name, one in columns.items()}
     with pytest.raises(InputError, match=message):
         EventTensors(**tensors, size=SMALL)
-
-
-def test_an_unknown_device_is_one_clear_error():
-    with pytest.raises(ConfigError, match="torch cannot put events on device 'gpu'"):
-        represent("event-frame", random_events(1, 5, SMALL), device="gpu")
-    with pytest.raises(ConfigError, match="device 'cuda:99'"):
-        random_events(1, 5, SMALL).to_torch("cuda:99")

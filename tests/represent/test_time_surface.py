@@ -1,11 +1,9 @@
 import math
 
 import numpy as np
-import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.represent.time_surface import time_surface
 
@@ -57,10 +55,3 @@ def test_it_equals_its_definition(events, tau_us, decay, offset_us):
     instant = at_us if at_us is not None else int(events.t[-1]) if len(events) else 0
     expected = definitions.time_surface(events, tau_us, decay, instant)
     np.testing.assert_array_max_ulp(surface, expected, maxulp=1)
-
-
-def test_wrong_options_name_what_is_allowed():
-    with pytest.raises(ConfigError, match="tau_us is 0"):
-        time_surface(EventStream.empty(SMALL), tau_us=0)
-    with pytest.raises(ConfigError, match="unknown decay 'exp'; allowed: exponential, linear"):
-        time_surface(EventStream.empty(SMALL), decay="exp")

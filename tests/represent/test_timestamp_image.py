@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.events import EventStream
-from texvent.represent.dist import dist
 from texvent.represent.time_surface import (
+    dist,
     event_image,
     sorted_time_surface,
     timestamp_image,

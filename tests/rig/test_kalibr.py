@@ -184,7 +184,7 @@ def test_a_time_shift_is_named(tmp_path: Path) -> None:
         ("rostopic", "rostopik", "unknown name 'rostopik'"),
         ("[-0.28, 0.07, 0.0002, 1.0e-05]", "[1, 2]", "has 2 numbers; radtan takes 4"),
         ("[0.9999, -0.0023", "[0.5, -0.0023", "no rigid motion"),
-        ("  T_cn_cnm1:\n", "  baseline: 0.1\n  T_cn_cnm1:\n", "both tell its place"),
+        ("  T_cn_cnm1:\n", "  baseline: 0.1\n  T_cn_cnm1:\n", "both state its place"),
         ("[0.0, -1.0, 0.0, 0.01]", "[0.0, -1.0, 0.0]", "must be 4 numbers"),
         ("cam0:", "cam/0:", "a camera's name must be"),
     ],

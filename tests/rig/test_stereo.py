@@ -16,9 +16,8 @@ from texvent.errors import ConfigError
 from texvent.generate.procedural import ProceduralConfig, ProceduralVideo
 from texvent.rig.config import RigConfig
 from texvent.rig.description import ImuNoise, Rig, RigCamera
-from texvent.rig.layouts.dsec import write_disparity
+from texvent.rig.layouts.dsec import raw_points, rectified_points, rectify, write_disparity
 from texvent.rig.recording import Recording
-from texvent.rig.rectify import raw_points, rectified_points, rectify
 from texvent.runtime.progress import NO_PROGRESS
 from texvent.scenes.lens import Lens
 from texvent.scenes.projection import project

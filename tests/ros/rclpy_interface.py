@@ -14,7 +14,7 @@ from types import ModuleType, SimpleNamespace
 import numpy as np
 import yaml
 
-from texvent.io.ros.bags import message_types
+from texvent.io.ros.bag_writer import message_types
 
 TYPES = message_types(2)
 BASE, NAME = 1, 2

@@ -11,7 +11,7 @@ from texvent_ros.messages import PacketMaker
 from texvent_ros.node import fill_packet
 
 import texvent
-from texvent.errors import ConfigError, InputError
+from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.ros.messages import open_event_packet, pack_event_packet
@@ -170,12 +170,6 @@ def test_another_size_begins_a_new_recording():
     assert warned == ["images are 16x6 now, they were 16x12: a new recording begins"]
     packets = logic.take(image(FRAMES[2][:6], 2 * STEP_NS), 0).packets
     assert {packet.size for packet in packets} == {SensorSize(16, 6)}
-
-
-def test_a_sensor_that_evt3_cannot_hold_is_refused():
-    logic, _ = make()
-    with pytest.raises(ConfigError, match=r"the images are 2049x1; EVT3.* ends at 2048 pixels"):
-        logic.take(image(np.zeros((1, 2049), np.uint8), 0), 0)
 
 
 def test_a_bad_image_leaves_the_recording_as_it_was():

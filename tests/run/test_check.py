@@ -7,10 +7,7 @@ import pytest
 from tests.video_check.made_clips import frames, pan
 
 import texvent
-from texvent.capture.array_frames import ArrayFrames
-from texvent.errors import ConfigError
-from texvent.interpolate.dis_flow.estimator import DisFlow
-from texvent.run.check import check_frames, check_source, moved_px, open_source
+from texvent.run.check import check_frames, check_source, open_source
 from texvent.runtime.progress import NoProgress
 from texvent.settings.resolution import resolve
 
@@ -95,34 +92,8 @@ def test_a_stream_is_read_once_and_may_be_of_unknown_length(images):
     assert found.report.measurements["motion_px"] == pytest.approx(3.0, abs=0.1)
 
 
-def test_progress_counts_the_frames(images):
-    told = []
-    video = ArrayFrames(images, settings_times(25))
-    check_source(video, progress=lambda done, total, what: told.append((done, total, what)))
-    assert told == [(i, 60, "check") for i in range(1, 61)]
-
-
-def settings_times(fps):
-    from fractions import Fraction
-
-    from texvent.capture.frame_times import FrameTimes
-
-    return FrameTimes(fps=Fraction(fps))
-
-
 def test_two_frames_are_enough_and_one_is_refused(images):
     found = check_source(video_of(images[:2]), noise="none", progress=False)
     assert found.report.measurements["rate_hz"] > 0
     with pytest.raises(texvent.InputError, match="only one frame"):
         check_source([images[0]], fps=25, progress=False)
-
-
-def test_what_does_not_change_moves_by_nothing():
-    still = pan(1)[0]
-    assert moved_px(still, still, DisFlow()).size == 0
-
-
-@pytest.mark.parametrize("option", [{"target_rate": 1e5}, {"camera": "shake"}])
-def test_options_that_a_check_does_not_have_are_refused(images, option):
-    with pytest.raises(ConfigError, match=next(iter(option))):
-        check_source(video_of(images), **option)

@@ -54,18 +54,6 @@ def test_an_impossible_backend_is_refused_before_a_generator_starts(tmp_path, pr
     assert prompts == []
 
 
-@pytest.mark.parametrize("command", ["generate", "batch"])
-def test_commands_refuse_an_impossible_backend_before_a_generator_starts(
-    tmp_path, monkeypatch, prompts, capsys, command
-):
-    monkeypatch.chdir(tmp_path)
-    (tmp_path / "prompts.txt").write_text(PROMPT, encoding="utf-8")
-    subject = {"generate": PROMPT, "batch": "prompts.txt"}[command]
-    assert main([command, subject, *words(IMPOSSIBLE)]) == ConfigError.exit_code
-    assert "simulator v2e has no backend gpu" in capsys.readouterr().err
-    assert prompts == []
-
-
 def test_missing_weights_are_named_before_a_generator_starts(tmp_path, prompts):
     options = {**SMALL, "simulator": "v2ce", "weights": str(tmp_path / "none.pt")}
     with pytest.raises((InputError, MissingDependencyError), match=r"no such|none\.pt|torch"):

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError, InputError
+from texvent.errors import InputError
 from texvent.pipeline import video_to_events
 from texvent.run.rate_search import (
     HIGHEST,
@@ -81,20 +81,6 @@ def test_only_the_start_of_the_clip_is_simulated():
         for one in (video, Video(video.pixels, np.add(video.times_us, 10**6)))
     )
     assert early == late
-
-
-def test_what_cannot_be_matched_fails_clearly():
-    class Live(Video):
-        is_live = True
-
-    video = moving_waves(3)
-    with pytest.raises(InputError, match="live source"):
-        match_rate(simulation(Live(video.pixels, video.times_us), simulator="physical"), 1e4)
-    with pytest.raises(InputError, match="two frames"):
-        match_rate(simulation(moving_waves(1), simulator="physical"), 1e4)
-    for target in (0.0, -5.0, float("nan")):
-        with pytest.raises(ConfigError, match="target_rate"):
-            match_rate(simulation(simulator="physical"), target)
 
 
 def test_a_higher_threshold_never_gives_a_higher_rate():

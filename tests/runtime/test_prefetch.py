@@ -103,10 +103,6 @@ def test_two_stages_end_together():
     assert not own_threads()
 
 
-def test_a_plain_iterator_needs_no_close():
-    assert list(prefetch(iter([1, 2, 3]), depth=2)) == [1, 2, 3]
-
-
 def test_a_process_that_forgets_a_reader_still_ends():
     script = (
         "import itertools, time\n"

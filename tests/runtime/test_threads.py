@@ -6,7 +6,6 @@ import time
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.runtime import threads
 from texvent.runtime.threads import count_threads, run_parts, split
 
 VARIABLES = ("TEXVENT_NUM_THREADS", "NUMBA_NUM_THREADS")
@@ -65,9 +64,3 @@ def test_the_number_of_threads_is_a_setting(monkeypatch):
         monkeypatch.setenv("TEXVENT_NUM_THREADS", wrong)
         with pytest.raises(ConfigError, match=r"TEXVENT_NUM_THREADS is .* at least 1"):
             count_threads()
-
-
-def test_systems_without_affinity_count_their_cores(monkeypatch):
-    monkeypatch.delattr(threads.os, "sched_getaffinity", raising=False)
-    monkeypatch.setattr(threads.os, "cpu_count", lambda: None)
-    assert count_threads() == 1

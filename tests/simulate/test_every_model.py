@@ -60,7 +60,7 @@ def test_no_model_is_forgotten():
 
 
 @pytest.mark.parametrize("model", NOISY)
-@pytest.mark.parametrize(("fps", "inner"), [(24, 0), (24, 1), (24, 20), (240, 0), (240, 3)])
+@pytest.mark.parametrize(("fps", "inner"), [(24, 0), (24, 20), (240, 3)])
 def test_noise_has_its_rate_for_any_frame_rate_and_number_of_inner_frames(model, fps, inner):
     shape = (24, 32)
     frames = np.full((fps + 1, *shape), DARK, np.float32)
@@ -104,7 +104,7 @@ def test_impossible_options_fail_by_name(model):
                 dataclasses.replace(config, **{name: wrong})
 
 
-@pytest.mark.parametrize("model", CLEAN)
+@pytest.mark.parametrize("model", ["texvent", "esim", "senpi"])  # compiles kernels of its own
 def test_a_whole_number_may_be_an_int(model):
     kind = SIMULATORS.load(model)
     config = dataclasses.replace(kind.config_type(), **NOISY.get(model, {}))
@@ -122,31 +122,29 @@ def test_a_whole_number_may_be_an_int(model):
 def test_signal_and_noise_alone_are_the_parts_of_the_whole(model):
     options = {"simulator": model, **NOISY.get(model, {})}
     both = texture(**options)
-    signal = texture(events="signal", **options)
+    signal = texture(keep_events="signal", **options)
     says_none = contextlib.nullcontext()
     if model not in NOISY:
         says_none = pytest.warns(texvent.TexventWarning, match="those of noise alone")
     with says_none:
-        noise = texture(events="noise", **options)
+        noise = texture(keep_events="noise", **options)
     assert len(signal) > 0
     assert (len(noise) > 0) == (model in NOISY)
     assert both[both.label == SIGNAL].equals(signal)
     assert both[both.label == NOISE].equals(noise)
 
 
-@pytest.mark.parametrize("model", CLEAN)
 @pytest.mark.parametrize("name", ["e.h5", "e.npz"])
-def test_labels_are_stored_and_read_back(model, name, tmp_path):
-    events = texture(simulator=model, **NOISY.get(model, {}))
+def test_labels_are_stored_and_read_back(name, tmp_path):
+    events = texture(simulator="physical", **NOISY["physical"])
     back = texvent.load(save(tmp_path / name, events))
     assert back.label is not None
     assert np.array_equal(back.label, events.label)
     assert back.equals(events)
 
 
-@pytest.mark.parametrize("model", CLEAN)
-def test_the_command_line_stores_labels_only_if_asked(model, tmp_path):
-    words = ["simulate", str(CLIP), "--simulator", model, "--interpolate", "none", "--stop", "0.2"]
+def test_the_command_line_stores_labels_only_if_asked(tmp_path):
+    words = ["simulate", str(CLIP), "--simulator", "v2e", "--interpolate", "none", "--stop", "0.2"]
     words += ["--events-only", "-q"]
     asked, unasked = tmp_path / "asked.h5", tmp_path / "unasked.h5"
     assert main([*words, "--label-noise", "-o", str(asked)]) == 0
@@ -155,13 +153,3 @@ def test_the_command_line_stores_labels_only_if_asked(model, tmp_path):
     assert labelled.label is not None
     assert plain.label is None
     assert labelled.without_label().equals(plain)
-
-
-@pytest.mark.parametrize("model", [name for name in CLEAN if name != "texvent"])
-def test_events_lie_on_the_sensor_inside_the_clip(model):
-    events = texture(simulator=model, seed=5, **NOISY.get(model, {}))
-    assert events.size == (40, 30)
-    assert events.x.max() < 40
-    assert events.y.max() < 30
-    assert 0 <= events.t.min() <= events.t.max() < round(5e6 / 24)
-    assert (np.diff(events.t) >= 0).all()

@@ -25,18 +25,6 @@ def test_lines_and_modules_are_counted(tree: Path) -> None:
     assert "3 / 3" in table(ceilings(), tree)
 
 
-def test_what_belongs_to_other_rooms_is_not_counted(tree: Path) -> None:
-    assert measure(["room"], tree, ("room/data",)) == Size(3, 0, 1)
-    (tree / "room" / "data" / "more.py").write_text("z = 3\n")
-    room = {**ceilings()["room"], "without": ["room/data"], "data": 0}
-    assert faults({"room": room}, {}, tree) == []
-
-
-def test_a_room_at_its_ceiling_passes(tree: Path) -> None:
-    assert faults(ceilings(), {}, tree) == []
-    assert faults(ceilings(), ceilings(python=4), tree) == []
-
-
 def test_a_room_above_its_ceiling_is_named(tree: Path) -> None:
     assert faults(ceilings(data=1), {}, tree) == ["room: 2 (data); the ceiling is 1"]
 
@@ -51,8 +39,3 @@ def test_a_raised_ceiling_is_named(tree: Path) -> None:
     assert faults(ceilings(python=9), ceilings(python=3), tree) == [
         "room: the ceiling of python was 3; keep it"
     ]
-
-
-def test_a_path_that_is_not_there_is_named(tree: Path) -> None:
-    with pytest.raises(ValueError, match="rooms, which is not there"):
-        measure(["rooms"], tree)

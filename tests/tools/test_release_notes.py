@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from tools.release_notes import checked_version, cut_notes, main
+from tools.release_notes import checked_version, cut_notes
 
 LOG = """# Changelog
 
@@ -40,10 +40,6 @@ def test_a_section_ends_where_the_next_begins() -> None:
     assert cut_notes(LOG, "Unreleased") == "### Added\n- Not yet.\n"
 
 
-def test_link_definitions_at_the_end_are_no_notes() -> None:
-    assert cut_notes(LOG, "0.1.0") == "- First.\n"
-
-
 def test_a_tag_is_v_and_the_version() -> None:
     assert checked_version("v0.2.0", SOURCE) == "0.2.0"
     for tag in ("0.2.0", "v0.2", "v0.3.0", "v0.2.0rc1", ""):
@@ -51,10 +47,3 @@ def test_a_tag_is_v_and_the_version() -> None:
             checked_version(tag, SOURCE)
     with pytest.raises(ValueError, match="no line"):
         checked_version("v0.2.0", "version = 1\n")
-
-
-def test_a_tag_of_another_version_prints_no_notes(capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["v999.0.0"]) == 2
-    output = capsys.readouterr()
-    assert output.out == ""
-    assert output.err.startswith("error: the tag is 'v999.0.0'")

@@ -26,10 +26,6 @@ def pins(text: str) -> dict[str, set[str]]:
 CONSTRAINTS = pins((ROOT / "constraints.txt").read_text(encoding="utf-8"))
 
 
-def test_there_is_a_file_for_every_environment():
-    assert [path.stem for path in FILES] == ["audit", "base", "build", "readers", "test"]
-
-
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_versions_are_those_of_the_constraints(path):
     hashed = pins(path.read_text(encoding="utf-8"))

@@ -21,7 +21,6 @@ from texvent.transform.augment import (
     DropTime,
     FlipX,
     JitterTime,
-    Rotate,
     Shift,
 )
 
@@ -135,16 +134,6 @@ def test_places_of_a_random_crop_are_all_reached_and_the_centre_is_one() -> None
     assert middle.equals(events.crop(2, 2, 4, 2))
     with pytest.raises(InputError, match="crop is 9x2 and the events are of 8x6"):
         Crop(width=9, height=2).apply(events, rng)
-
-
-def test_sensors_that_are_not_square_keep_their_size() -> None:
-    rng = np.random.default_rng(0)
-    events = many(100)
-    assert {Rotate().apply(events, rng).size for _ in range(40)} == {SIZE}
-    sizes = {tuple(Rotate(square_only=False).apply(events, rng).size) for _ in range(40)}
-    assert sizes == {(8, 6), (6, 8)}
-    square = EventStream([1], [0], [1], [1], SensorSize(4, 4))
-    assert len({rows_of(Rotate().apply(square, rng))[0] for _ in range(60)}) == 4
 
 
 def test_jitter_has_the_deviation_that_is_asked_for() -> None:

@@ -9,11 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.errors import ConfigError, InputError, TexventError
+from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
-from texvent.transform.augment import Augment
 from texvent.transform.downsample import block_pixels
 from texvent.transform.downsample_cpu import fire_blocks
 from texvent.transform.edits import flip_polarity, reverse_time, shift, start_at_zero
@@ -182,36 +181,3 @@ def test_what_cannot_be_done_is_refused() -> None:
         events.downsample(2, how="sum")
     with pytest.raises(InputError, match="does not lie inside the sensor of 8x6"):
         events.crop(6, 0, 3, 3)
-
-
-class Wrong:
-    """A filter that gives something else than a mask."""
-
-    def start(self, events: object) -> Callable[[EventStream], object]:
-        return lambda packet: np.arange(len(packet))
-
-
-@pytest.mark.parametrize(
-    ("edit", "why"),
-    [
-        (lambda e: e.crop(0.5, 0, 4, 4), "x is 0.5; it must be a whole number"),
-        (lambda e: e.crop("0", 0, 4, 4), "x is '0'; it must be a whole number"),
-        (lambda e: e.crop(0, 0, float("inf"), 4), "width is inf; it must be a whole number"),
-        (lambda e: e.filter(None), "None is no filter; give a name"),
-        (lambda e: e.filter(5), "5 is no filter; give a name"),
-        (lambda e: e.filter(Wrong), "is no filter; give a name"),
-        (lambda e: e.filter(Wrong()), "the filter Wrong gave int64 of shape"),
-        (lambda e: reverse_time(packets(e, [1])), r"reverse_time takes an EventStream, .*collect"),
-        (lambda e: Augment(["flip-x"])(packets(e, [1]), 0), "Augment takes an EventStream"),
-        (lambda e: Augment(["flip-x"])(e, "a"), "number is 'a'; it must be a whole number"),
-        (lambda e: Augment(["flip-x"])(e, 1.5), "number is 1.5; it must be a whole number"),
-        (lambda e: Augment(None), "steps is None; give a list"),
-        (lambda e: Augment(["flip-x"], seed="a"), "seed is 'a'; it must be a whole number"),
-        (lambda e: e.plot("cloud", max_events=10.5), "max_events is 10.5; it must be a whole"),
-    ],
-)
-def test_values_of_another_type_are_refused_in_one_line(
-    edit: Callable[[EventStream], object], why: str
-) -> None:
-    with pytest.raises(TexventError, match=why):
-        edit(stream([(0, 0, 1, 1), (3, 2, 4, 0)]))

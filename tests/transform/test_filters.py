@@ -86,12 +86,6 @@ def test_a_window_holds_whole_events(count: int, window_us: int) -> None:
         assert less.most == count - 1
 
 
-def test_a_window_of_the_length_that_the_message_names_holds_an_event() -> None:
-    with pytest.raises(ConfigError, match=r"give window_us of at least 33$"):
-        RateLimitFilter(rate_hz=30303.0303030303, window_us=5)
-    assert RateLimitFilter(rate_hz=30303.0303030303, window_us=33).most == 1
-
-
 @pytest.mark.parametrize(
     ("shape", "hot"),
     [
@@ -178,16 +172,6 @@ def test_the_compiled_filters_equal_the_reference(
     found = kernels_cpu.find_rested(events.x, events.y, t, kept[1], window)
     np.testing.assert_array_equal(found, expected)
     np.testing.assert_array_equal(*kept)
-
-
-@given(streams(), st.integers(0, 20), st.integers(1, 3))
-def test_more_time_keeps_more_and_more_support_keeps_less(
-    events: EventStream, window: int, support: int
-) -> None:
-    kept = set(rows_of(events.filter("background-activity", window_us=window, support=support)))
-    longer = events.filter("background-activity", window_us=window + 1, support=support)
-    stricter = events.filter("background-activity", window_us=window, support=support + 1)
-    assert set(rows_of(stricter)) <= kept <= set(rows_of(longer))
 
 
 def test_a_filter_by_text() -> None:

@@ -132,14 +132,6 @@ def test_merging_keeps_the_label_only_if_all_have_one() -> None:
     assert merge([packets(labelled), packets(plain)]).collect().label is None
 
 
-def test_merging_other_sensors_or_nothing_is_refused() -> None:
-    other = EventPackets([], SensorSize(9, 6))
-    with pytest.raises(InputError, match="cannot merge sensors of 8x6 and 9x6"):
-        merge([packets(stream([])), other])
-    with pytest.raises(InputError, match="nothing to merge"):
-        merge([])
-
-
 ECD = Calibration(199.1, 198.8, 132.2, 110.7, -0.368, 0.151, -0.0003, -0.0018, 0.0)
 """The order of magnitude of a DAVIS240C's calibration."""
 

@@ -5,6 +5,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
+from texvent.capture.camera_path.motion import rotation_matrix
 from texvent.scenes.lens import Lens
 from texvent.scenes.projection import project
 from texvent.scenes.scene import Camera
@@ -14,7 +15,6 @@ from texvent.truth.poses import (
     pose_matrix,
     pose_row,
     quaternion,
-    rotation_matrix,
 )
 
 from .hand_video import SIZE, level

@@ -117,13 +117,6 @@ def test_what_cannot_be_is_one_line_before_any_work(folder, capsys, words, messa
     assert not list(folder.iterdir())
 
 
-def test_a_recorded_video_knows_no_truth(folder, capsys):
-    assert run("generate", "a red ball bounces", "--video-only", "-o", "v.avi", *QUICK[:-3]) == 0
-    assert run("simulate", "v.avi", "-o", "v.h5", "--truth", "flow", "--interpolate", "none") != 0
-    assert "truth 'flow' is not known of the frame at 0 µs" in capsys.readouterr().err
-    assert [path.name for path in folder.iterdir()] == ["v.avi"]
-
-
 def test_each_sample_of_a_batch_has_its_truth(folder, capsys):
     (folder / "p.txt").write_text("a red ball bounces\na dog runs\n")
     words = ("batch", "p.txt", "-o", "out", "--truth", "boxes,events", *QUICK)

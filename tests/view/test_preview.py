@@ -41,16 +41,6 @@ def test_video_image_and_page_appear_beside_the_stem(tmp_path: Path, steps: Step
     assert f"{sum(len(packet) for _, packet in steps):,} events" in page
 
 
-def test_only_the_kinds_asked_for_are_written(tmp_path: Path, steps: Steps) -> None:
-    write_preview(tmp_path / "out", steps, kinds=("gif",))
-    assert [path.name for path in tmp_path.iterdir()] == ["out.gif"]
-
-
-def test_one_frame_gives_all_previews(tmp_path: Path, steps: Steps) -> None:
-    preview = write_preview(tmp_path / "out", steps[:1])
-    assert all(path.stat().st_size > 500 for path in preview.paths)
-
-
 def test_no_frame_is_an_input_error_and_leaves_nothing(
     tmp_path: Path, folder_is_clean: Callable[[], bool]
 ) -> None:

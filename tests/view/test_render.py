@@ -70,12 +70,6 @@ def test_a_contact_sheet_shows_moments_in_reading_order(tmp_path: Path, panels: 
     assert cv2.imread(str(path)).shape[1] > 600
 
 
-def test_a_page_is_written_by_extension(tmp_path: Path) -> None:
-    page = render_events(moving_dot(), tmp_path / "out.html").read_text("utf-8")
-    assert "1,000 events" in page
-    assert "data:image/png" in page
-
-
 @pytest.mark.parametrize("extension", [".mp4", ".gif", ".png"])
 def test_no_events_are_an_input_error(
     tmp_path: Path, extension: str, folder_is_clean: Callable[[], bool]
@@ -100,12 +94,6 @@ def test_panels_are_refused_where_nothing_has_panels(tmp_path: Path, extension: 
     with pytest.raises(ConfigError, match=r"panels is 4; only \.png files have panels"):
         render_events(moving_dot(), path, config=RenderConfig(panels=4))
     assert not path.exists()
-
-
-def test_slices_of_equal_count_give_an_image_each(tmp_path: Path) -> None:
-    config = RenderConfig(events_per_image=100, render_fps=Fraction(20))
-    path = render_events(moving_dot(), tmp_path / "out.mp4", config=config)
-    assert video_times(path) == [index * 50_000 for index in range(10)]
 
 
 def test_fading_events_leave_a_trail(tmp_path: Path) -> None:
@@ -142,13 +130,6 @@ def test_the_video_is_shown_on_the_left(tmp_path: Path, extension: str, panels: 
         image = cv2.imread(str(path))
     is_green = (image[..., 1] > 180) & (image[..., [0, 2]].max(axis=2) < 30)
     assert 0.3 < is_green.mean() < 0.5
-
-
-def test_a_page_holds_the_frames_of_the_video(tmp_path: Path) -> None:
-    video = Video(np.zeros((3, *SIZE.shape), dtype=np.uint8), [0, 100_000, 200_000])
-    page = render_events(moving_dot(), tmp_path / "out.html", frames=video).read_text("utf-8")
-    assert page.count("data:image/jpeg") == 3
-    assert "3 of 3 frames are in this page" in page
 
 
 @pytest.mark.parametrize(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import http.client
 import json
 import os
@@ -35,7 +36,8 @@ def ask(page, path="/", method="GET", body=None, **headers):
     """Status, headers and body of an answer."""
     connection = http.client.HTTPConnection(urlsplit(page.address).netloc, timeout=60)
     named = {name.replace("_", "-"): value for name, value in headers.items()}
-    connection.request(method, path, body=body, headers=named)
+    with contextlib.suppress(BrokenPipeError):  # refused before all of the body was sent
+        connection.request(method, path, body=body, headers=named)
     answer = connection.getresponse()
     result = answer.status, dict(answer.getheaders()), answer.read()
     connection.close()
@@ -107,11 +109,6 @@ def test_mistakes_are_one_line(page, prompt, options, message):
     state, text = generate(page, prompt, **options)
     assert state == "failed"
     assert message in text
-
-
-def test_a_field_that_is_no_number_is_refused(page):
-    status, _, body = ask(page, "/generate", "POST", json.dumps({"prompt": "x", "seed": "one"}))
-    assert (status, body) == (400, b"seed is 'one'; it must be a number")
 
 
 def test_a_damaged_video_harms_nothing(page):
@@ -224,8 +221,3 @@ def test_the_command_serves_the_page_and_leaves_nothing(tmp_path):
 def test_bad_options_are_one_line(capsys, words, message):
     assert main(["app", *words]) == 2
     assert message in capsys.readouterr().err
-
-
-def test_a_port_that_is_taken_is_refused(page):
-    with pytest.raises(texvent.InputError, match="choose another --port"):
-        PageServer(port=urlsplit(page.address).port)

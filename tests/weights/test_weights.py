@@ -14,13 +14,11 @@ import pytest
 
 from texvent.cli.app import main
 from texvent.data.catalogue import Archive, DataFile
-from texvent.errors import ConfigError, FileFormatError
+from texvent.errors import FileFormatError
 from texvent.metrics import lpips
 from texvent.metrics.lpips import Lpips, lpips_distance, read_lpips_weights
-from texvent.runtime.cache_folder import cache_folder
-from texvent.weights import fetch
 from texvent.weights.fetch import pull_weights
-from texvent.weights.published import LPIPS_ALEX, RIFE, WEIGHTS, find_weights
+from texvent.weights.published import LPIPS_ALEX, RIFE, WEIGHTS
 
 RIFE_LAYOUTS = ("4.0", "4.6", "4.25")
 
@@ -141,15 +139,6 @@ def test_an_archive_with_another_digest_is_refused(published):
         pull_weights("toy", client=index)
 
 
-@pytest.mark.torch
-def test_the_command_prints_the_path(published, folders, monkeypatch, capsys):
-    pytest.importorskip("safetensors")
-    index = published()
-    monkeypatch.setattr(fetch, "fetch_archive", fetch_from(index, folders))
-    assert main(["weights", "pull", "toy", "-q"]) == 0
-    assert capsys.readouterr().out.strip().endswith("toy.safetensors")
-
-
 def test_weights_without_torch_are_fetched_by_the_base_install(folders, monkeypatch):
     content = pickle.dumps(published_alex())
     buffer = io.BytesIO()
@@ -184,15 +173,6 @@ def published_alex():
     return {"AlexNet_0": convolutions, **heads}
 
 
-def fetch_from(index, folders):
-    def fetch(archive, folder, **_):
-        path = folders / archive.filename
-        path.write_bytes(index.content)
-        return path
-
-    return fetch
-
-
 def test_the_list_says_what_is_here(folders, capsys):
     assert main(["weights", "list"]) == 0
     before = capsys.readouterr().out
@@ -205,32 +185,6 @@ def test_the_list_says_what_is_here(folders, capsys):
     assert "yes" in capsys.readouterr().out
 
 
-def test_the_command_explains_itself(capsys):
-    assert main(["weights"]) == 2
-    assert main(["weights", "--help"]) == 0
-    assert "texvent weights pull NAME" in capsys.readouterr().out
-
-
-@pytest.mark.parametrize(
-    ("arguments", "complaint"),
-    [
-        (["weights", "fetch"], "unknown action 'weights fetch'"),
-        (["weights", "list", "x"], "takes no arguments"),
-        (["weights", "pull"], "needs NAME"),
-    ],
-)
-def test_wrong_words_fail_in_one_line(arguments, complaint, capsys):
-    assert main(arguments) == 2
-    said = capsys.readouterr().err
-    assert complaint in said
-    assert said.count("\n") == 1
-
-
-def test_an_unknown_name_suggests_the_closest():
-    with pytest.raises(ConfigError, match="did you mean 'rife'"):
-        find_weights("rif")
-
-
 @pytest.mark.parametrize("name", list(WEIGHTS))
 def test_every_entry_is_complete(name):
     entry = WEIGHTS[name]
@@ -239,16 +193,6 @@ def test_every_entry_is_complete(name):
     lpips_layouts = [layout.name for layout in lpips.LAYOUTS]
     assert entry.layout in {"rife": RIFE_LAYOUTS, "lpips": lpips_layouts}[entry.kind]
     assert entry.source.caveat
-
-
-def test_the_cache_follows_the_environment(monkeypatch, tmp_path):
-    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "mine"))
-    assert cache_folder("weights") == tmp_path / "mine" / "weights"
-    monkeypatch.delenv("TEXVENT_CACHE")
-    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "user"))
-    assert cache_folder("weights") == tmp_path / "user" / "texvent" / "weights"
-    monkeypatch.delenv("XDG_CACHE_HOME")
-    assert cache_folder("weights") == Path.home() / ".cache" / "texvent" / "weights"
 
 
 @pytest.mark.network

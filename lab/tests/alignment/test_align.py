@@ -23,7 +23,7 @@ from texvent.cli.app import main  # noqa: E402
 from texvent.events import EventStream  # noqa: E402
 from texvent.generate.videos.clip_model import ClipModel, _prepare  # noqa: E402
 from texvent.sensor import SensorSize  # noqa: E402
-from texvent_lab.alignment.align import align, alignment_table  # noqa: E402
+from texvent_lab.alignment.align import align  # noqa: E402
 from texvent_lab.alignment.recordings import (  # noqa: E402
     DrawnEvents,
     Recording,
@@ -181,28 +181,3 @@ def test_reconstructed_images_are_scored_beside_drawn_events(
     assert drawn != made
     assert found["network"] == "firenet"
     assert len(found["weights_sha256"]) == 64
-
-
-def test_long_texts_are_counted(clip: Path) -> None:
-    model = ClipModel(clip)
-    assert model.count_tokens("a cat " * 30) > model.most_tokens
-
-
-def test_a_table_gives_the_control_below_each_score(clip: Path, data: Path) -> None:
-    rows = align(list_samples(data / "events"), {"drawn": DrawnEvents()}, ClipModel(clip))
-    lines = alignment_table(rows).splitlines()
-    assert len(lines) == 4
-    assert lines[0].split()[:3] == ["events", "seen", "as"]
-    assert lines[3].split()[:4] == ["chance", "0.333", "1.000", "1.000"]
-
-
-def test_mistakes_are_named(
-    clip: Path, data: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    def said(*words: str) -> str:
-        assert main(["align", *words]) == 2
-        return capsys.readouterr().err
-
-    assert "nothing to score" in said("--clip", str(clip))
-    assert "need their texts" in said("--n-imagenet", str(data / "N"), "--clip", str(clip))
-    assert "there is no CLIP model in" in said(str(data / "events"), "--clip", str(tmp_path))

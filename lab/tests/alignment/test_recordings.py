@@ -120,12 +120,6 @@ def test_runs_hold_the_same_number_of_events_spread_over_the_recording(
         assert runs[-1].t[-1] == count - 1
 
 
-def test_runs_follow_the_size_of_the_sensor() -> None:
-    draw = DrawnEvents(images=1)
-    assert len(draw.runs(stream(100_000, SensorSize(640, 480)))[0]) == 70_000
-    assert len(draw.runs(stream(100_000, SensorSize(320, 240)))[0]) == 17_500
-
-
 def test_events_are_drawn_on_white_also_where_there_are_none() -> None:
     size = SensorSize(8, 6)
     (image,) = DrawnEvents()(EventStream([2, 3], [1, 1], [0, 5], [1, 0], size))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from typing import Any
 
@@ -12,7 +11,6 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from texvent.errors import InputError
 from texvent_lab.alignment.align import Retrieval, RetrievalReport, score_retrieval
 
 BY_HAND = np.array(
@@ -54,14 +52,6 @@ def test_ranks_by_hand() -> None:
     assert measured.mean_similarity == pytest.approx((0.9 + 0.4 + 0.1 + 0.1) / 4)
 
 
-def test_recordings_may_share_a_text() -> None:
-    similarity = np.array([[0.9, 0.1], [0.2, 0.8], [0.3, 0.4]])
-    report = score(similarity, np.array([0, 1, 0]))
-    assert (report.recordings, report.texts) == (3, 2)
-    assert report.measured.recall[1] == pytest.approx(2 / 3)
-    assert report.chance.recall[1] == 0.5
-
-
 def test_the_bootstrap_interval_is_that_of_a_share() -> None:
     count = 400
     rng = np.random.default_rng(1)
@@ -92,16 +82,6 @@ def test_exchanged_texts_come_out_at_chance_and_the_p_value_tells_pairs_from_non
 
 @given(matrices())
 @settings(max_examples=60)
-def test_perfect_pairs_give_one(matrix: NDArray[np.float64]) -> None:
-    report = score(matrix + 3.0 * np.eye(len(matrix)))
-    assert set(report.measured.recall.values()) == {1.0}
-    assert report.measured.median_rank == 1.0
-    assert close(report.measured, dataclasses.replace(
-        report.low, mean_similarity=report.measured.mean_similarity))  # fmt: skip
-
-
-@given(matrices())
-@settings(max_examples=60)
 def test_all_cyclic_exchanges_together_are_exactly_chance(matrix: NDArray[np.float64]) -> None:
     side = len(matrix)
     chance = score(matrix).chance
@@ -126,14 +106,6 @@ def test_the_order_of_pairs_and_the_scale_do_not_matter(
     assert scaled.median_rank == before.median_rank
 
 
-@given(st.integers(1, 30))
-def test_a_model_that_sees_no_difference_is_at_chance(side: int) -> None:
-    report = score(np.full((side, side), 0.25))
-    assert close(report.measured, report.chance)
-    assert close(report.shuffled, report.chance)
-    assert report.p_value == 1.0
-
-
 def test_exchanges_within_classes_leave_what_the_classes_give() -> None:
     groups = np.repeat(["cat", "dog", "fish"], 20)
     by_class = (groups[:, None] == groups).astype(float)
@@ -151,12 +123,3 @@ def test_exchanges_within_classes_leave_what_the_classes_give() -> None:
     alone = score(by_class + np.eye(60), groups=np.arange(60))
     assert alone.within is not None
     assert close(alone.within, alone.measured), "nothing to exchange with"
-
-
-def test_mistakes_are_named() -> None:
-    with pytest.raises(InputError, match=r"shape \(0, 3\)"):
-        score(np.empty((0, 3)))
-    with pytest.raises(InputError, match="NaN or infinity"):
-        score(np.array([[np.nan]]))
-    with pytest.raises(InputError, match="2 recordings and 1 texts"):
-        score(np.ones((2, 1)))

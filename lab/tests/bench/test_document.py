@@ -7,7 +7,7 @@ import math
 import pytest
 
 from texvent.errors import FileFormatError
-from texvent_lab.bench.document import DIGITS, read_document, result_name, write_document
+from texvent_lab.bench.document import DIGITS, read_document, write_document
 
 DOCUMENT = {"schema": "any-1", "value": math.pi, "undefined": math.nan, "seeds": (7, 21)}
 
@@ -30,10 +30,6 @@ def test_a_name_that_ends_in_gz_compresses_and_rounds_with_equal_bytes_each_time
     assert content == (tmp_path / "b.json.gz").read_bytes()
     assert json.loads(gzip.decompress(content))["value"] == round(math.pi, DIGITS - 1)
     assert read_document(tmp_path / "a.json.gz")["seeds"] == [7, 21]
-
-
-def test_a_page_is_named_after_either_kind_of_file():
-    assert result_name("fidelity.json") == result_name("fidelity.json.gz") == "fidelity"
 
 
 @pytest.mark.parametrize(

@@ -35,14 +35,3 @@ def test_a_result_is_written_and_becomes_a_page_with_its_images(tmp_path, monkey
     assert "allowed: esim, none" in capsys.readouterr().err
     assert main(["bench", "page", "r.json"]) != 0
     assert "exists already" in capsys.readouterr().err
-
-
-def test_a_page_needs_a_result_of_the_benchmark(tmp_path, capsys):
-    assert main(["bench", "page", str(tmp_path / "none.json")]) != 0
-    assert "there is no result" in capsys.readouterr().err
-    (tmp_path / "other.json").write_text('{"schema": "texvent-other-1"}')
-    assert main(["bench", "page", str(tmp_path / "other.json")]) != 0
-    assert "'texvent-other-1'" in capsys.readouterr().err
-    (tmp_path / "broken.json").write_text("{")
-    assert main(["bench", "page", str(tmp_path / "broken.json")]) != 0
-    assert "no JSON document" in capsys.readouterr().err

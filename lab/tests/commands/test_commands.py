@@ -54,9 +54,3 @@ def test_mistakes_are_one_clear_line(tmp_path, monkeypatch, capsys, words, messa
     said = capsys.readouterr().err.strip()
     assert message in said
     assert "\n" not in said
-
-
-def test_bench_lists_its_benchmarks(capsys):
-    assert main(["bench", "--help"]) == 0
-    assert "selftest" in capsys.readouterr().out
-    assert main(["bench"]) == 2

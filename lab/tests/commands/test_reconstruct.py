@@ -92,13 +92,6 @@ def test_wrong_options_are_refused_before_any_work(words, message, events, weigh
     assert not out.exists()
 
 
-def test_who_has_no_weights_is_told_what_to_get(events, tmp_path, capsys):
-    code, said = run(capsys, "reconstruct", events, "-o", tmp_path / "x.mp4")
-    assert code == 2
-    assert "e2vid needs its weights" in said.err
-    assert "ercanburak/EVREAL" in said.err
-
-
 def test_the_benchmark_prints_its_tables_and_keeps_every_value(
     recording, weights, tmp_path, capsys
 ):
@@ -124,10 +117,3 @@ def test_events_and_frames_of_a_recording_may_lie_apart(recording, weights, caps
     )
     assert code == 0
     assert "### events, firenet (4 images)" in said.out
-
-
-def test_a_recording_without_frames_is_refused(tmp_path, weights, capsys):
-    (tmp_path / "empty").mkdir()
-    code, said = run(capsys, "bench", "reconstruction", tmp_path / "empty", *network(weights))
-    assert code == 2
-    assert "has no events.txt" in said.err

@@ -8,11 +8,8 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.errors import InputError
-from texvent.video import Frame, Video
+from texvent.video import Frame
 from texvent_lab.latents.change import BrightnessChange, measure_change
-
-STILL = Video(np.zeros((9, 2, 2), np.uint8), list(range(9)), Fraction(24))
 
 
 class Ramp:
@@ -56,21 +53,3 @@ def test_frames_repeat_the_changes_of_the_scene() -> None:
 def test_a_pixel_that_falls_below_black_stays_black() -> None:
     change = BrightnessChange(np.full((1, 2, 1, 1), -3, np.float32), Fraction(24), 4)
     assert [float(one.pixels[0, 0]) for one in change.frames()] == pytest.approx([255, 0, 0])
-
-
-@pytest.mark.parametrize(
-    ("video", "frames_per_latent", "message"),
-    [
-        (STILL, 4, "embedded generator"),
-        (Ramp(), 9, "has 9 frames; a latent frame needs 10"),
-    ],
-    ids=["frames alone", "too short"],
-)
-def test_measuring_refuses(video, frames_per_latent: int, message: str) -> None:
-    with pytest.raises(InputError, match=message):
-        measure_change(video, 4, frames_per_latent=frames_per_latent)
-
-
-def test_voxels_of_another_shape_are_refused() -> None:
-    with pytest.raises(InputError, match=r"got shape \[2, 3\]"):
-        BrightnessChange(np.zeros((2, 3), np.float32), Fraction(24), 4)

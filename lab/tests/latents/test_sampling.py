@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 
 import texvent
-from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent_lab.latents.change import BrightnessChange, node_grid, sample_packets
 
@@ -110,8 +109,3 @@ def test_no_change_gives_empty_packets() -> None:
     packets = list(sample_packets(change_of(np.zeros((3, 2, 4, 5)))))
     assert [len(one) for one in packets] == [0, 0, 0]
     assert packets[0].size == (5, 4)
-
-
-def test_a_threshold_out_of_range_is_refused() -> None:
-    with pytest.raises(ConfigError, match="contrast_threshold"):
-        next(sample_packets(change_of(np.zeros((1, 1, 1, 1))), contrast_threshold=0))

@@ -36,28 +36,3 @@ def test_every_figure_is_measured_and_stored():
     assert document["rife_pairs"][0]["frames_per_pair"] == 2
     text = gpu.as_text(document)
     assert text.count("paper") == len(plan.densities) + len(plan.batches)
-
-
-def test_targets_are_judged_where_they_were_measured():
-    row = {"model": "paper", "pixels": "uint8", "density": 0.01, "batch": 8, "size": "1280x720"}
-    fast, slow = ({**row, "us_per_frame": {"median": one}} for one in (1.5, 2.5))
-    pair = {"size": "640x480", "ms_per_pair": {"median": 7.0}}
-    assert [one["is_met"] for one in gpu.check_targets([fast, slow], [pair])] == [
-        True,
-        False,
-        False,
-    ]
-    assert gpu.check_targets([{**fast, "batch": 4}], []) == []
-
-
-def test_without_a_gpu_it_says_so_in_one_line(capsys):
-    try:
-        import torch
-    except ImportError:
-        torch = None
-    if torch is not None and torch.cuda.is_available():
-        pytest.skip("there is a GPU here")
-    assert gpu.main([]) == 2
-    lines = capsys.readouterr().err.strip().splitlines()
-    assert len(lines) == 1
-    assert lines[0].startswith("nothing was measured: ")

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import pytest
 
-from texvent.errors import InputError
 from texvent_lab.measure.prompts import public
 from texvent_lab.measure.prompts.__main__ import main
 from texvent_lab.measure.prompts.sheet import read_prompts
@@ -59,21 +58,3 @@ def test_the_order_of_the_lines_does_not_matter():
     drawn = public.draw(SUBJECTS, "short", "test")
     assert drawn == public.draw(SUBJECTS[::-1] * 2, "short", "test")
     assert drawn[0].id == "V41"
-
-
-def test_the_graded_prompts_are_known_by_their_digests():
-    known = public.read_digests(Path(public.__file__).parent / "public" / "digests.csv")
-    assert len(known) == len(public.STYLES) * len(public.DRAWS) * public.PER_DRAW
-    assert len(set(known.values())) == len(known)
-    assert all(len(one) == 64 for one in known.values())
-
-
-def test_files_of_another_form_are_refused(tmp_path, monkeypatch, capsys):
-    options = write_sources(tmp_path, count=3)
-    assert run(monkeypatch, "public", *options, "-o", str(tmp_path / "out")) == 2
-    assert "at least 40 are needed" in capsys.readouterr().err
-    tmp_path.joinpath("coco.json").write_text("[]")
-    assert run(monkeypatch, "public", *options, "-o", str(tmp_path / "out")) == 2
-    assert "is no file of COCO captions" in capsys.readouterr().err
-    with pytest.raises(InputError, match="cannot read"):
-        public._lines(tmp_path / "missing.txt")

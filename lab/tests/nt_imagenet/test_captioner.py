@@ -16,7 +16,6 @@ from tests.generate import tiny_pipelines  # noqa: E402
 
 from texvent.batch.list_files import read_list  # noqa: E402
 from texvent.cli.app import main  # noqa: E402
-from texvent.errors import FileFormatError, InputError, TexventError  # noqa: E402
 from texvent_lab.nt_imagenet.captioner import Captioner, find_images  # noqa: E402
 
 TEMPLATE = (
@@ -70,15 +69,6 @@ def test_captions_become_a_file_of_prompts(model, images, tmp_path, capsys):
     assert capsys.readouterr().out.strip() == lines[0].prompt
 
 
-def test_images_of_one_name_and_two_kinds_stay_apart(model, images, tmp_path):
-    (images / "p1.jpg").write_bytes((images / "p1.png").read_bytes())
-    out = tmp_path / "prompts.csv"
-    assert (
-        main(["caption", str(images), "--model", str(model), "--longest", "8", "-o", str(out)]) == 0
-    )
-    assert [line.name for line in read_list(out)] == ["p1.jpg", "p1.png", "p2"]
-
-
 def test_a_damaged_image_does_not_cost_the_captions_of_the_others(model, images, capsys):
     (images / "p0.png").write_bytes(b"damaged")
     out = images / "prompts.csv"
@@ -91,20 +81,3 @@ def test_a_damaged_image_does_not_cost_the_captions_of_the_others(model, images,
     out.unlink()
     assert main(["caption", str(images / "p0.png"), *words]) == 2
     assert not out.exists()
-
-
-def test_mistakes_are_named(model, images, tmp_path, capsys):
-    with pytest.raises(InputError, match="there is no image-and-text model in"):
-        Captioner(str(tmp_path / "none"))
-    with pytest.raises(TexventError, match="hf download someone/model"):
-        Captioner("hub:someone/model")
-    with pytest.raises(InputError, match="there is no image at"):
-        find_images(tmp_path / "none")
-    captioner = Captioner(str(model), device="cpu")
-    with pytest.raises(InputError, match="cannot be read as an image"):
-        captioner.caption(images / "notes.txt")
-    (tmp_path / "bad").mkdir()
-    (tmp_path / "bad" / "config.json").write_text("{}")
-    with pytest.raises(FileFormatError, match="cannot be loaded as an image-and-text model"):
-        Captioner(str(tmp_path / "bad"))
-    assert main(["caption", str(images), "--model", str(model), "-o", "x.txt"]) == 2

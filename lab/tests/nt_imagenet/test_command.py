@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 from texvent.cli.app import main
-from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent_lab.nt_imagenet.files import read_captioned, read_streams
 
 from .tiny_data import WNIDS, contents, stream_id, write_imagenet, write_n_imagenet
@@ -81,13 +81,6 @@ def test_the_report_counts_problems_and_leaves_nothing_out(built: Path) -> None:
     assert "may not be redistributed" in " ".join(text.split())
 
 
-def test_captions_are_left_out_only_on_request(data: Path, tmp_path: Path) -> None:
-    assert nt(data, tmp_path / "nt", "--leave-out", "duplicate,class") == 1
-    captioned = read_captioned(tmp_path / "nt" / "captions.jsonl")
-    assert [one.id for one in captioned] == [stream_id(2)]
-    assert len(report(tmp_path / "nt")["left_out"]) == 3
-
-
 def test_the_same_command_twice_gives_the_same_files_and_keeps_the_specification(
     data: Path, tmp_path: Path
 ) -> None:
@@ -116,7 +109,7 @@ def test_the_captions_become_events_that_stand_beside_their_streams(
     with (built / "pairs.csv").open() as file:
         pairs = list(csv.DictReader(file))
     (built / "pairs.csv").unlink()
-    shards = MadeSet.open(events).shards()
+    shards = StoredDataset.open(events).shards()
     samples = {one.key: (shard, one) for shard in shards for one in shard.samples}
     assert len(pairs) == len(samples) == 4 * 2 * 2
     for pair in pairs:
@@ -128,16 +121,3 @@ def test_the_captions_become_events_that_stand_beside_their_streams(
         assert int(pair["events"]) == sample.events
         assert sample.label == pair["label"]
     assert {pair["id"] for pair in pairs} == {stream_id(number) for number in CAPTIONS}
-
-
-def test_events_of_other_prompts_are_refused(
-    built: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    other = tmp_path / "other.toml"
-    other.write_text(
-        'name = "other"\noptions = {duration = 0.1, sensor = "32x24"}\n'
-        '[[sources]]\nprompts = ["a dog runs"]\n'
-    )
-    assert main(["dataset", "make", str(other), "-o", str(tmp_path / "o"), "-q"]) == 0
-    assert main(["nt-imagenet", "-o", str(built), "--events", str(tmp_path / "o")]) == 2
-    assert "was not made from these captions" in capsys.readouterr().err

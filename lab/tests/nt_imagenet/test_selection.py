@@ -35,13 +35,6 @@ def test_streams_in_range_are_taken_in_order_of_their_ids(n_imagenet: Path) -> N
     assert chosen.incomplete(3) == {wnid: 2 for wnid in WNIDS[:2]}
 
 
-def test_the_folder_of_classes_itself_is_as_good(n_imagenet: Path) -> None:
-    inside = n_imagenet / "extracted_val"
-    assert (
-        select_streams(inside, WNIDS[:1]).streams == select_streams(n_imagenet, WNIDS[:1]).streams
-    )
-
-
 def test_the_first_classes_in_order_of_their_ids_are_taken_unless_named(
     n_imagenet: Path, tmp_path: Path
 ) -> None:

@@ -4,9 +4,6 @@ import math
 
 import pytest
 
-from texvent.errors import ConfigError
-from texvent_lab.registries import RECONSTRUCTORS
-
 from .network_files import HEADS, network_class, small_shapes
 
 
@@ -41,8 +38,3 @@ def test_shapes_follow_the_width_of_the_file(name):
     narrow, published = small_shapes(name), network_class(name).tensor_shapes({})
     assert narrow.keys() == published.keys()
     assert narrow[HEADS[name]] != published[HEADS[name]]
-
-
-def test_an_unknown_network_is_refused_with_the_nearest_name():
-    with pytest.raises(ConfigError, match="did you mean 'firenet'"):
-        RECONSTRUCTORS.load("fire-net")

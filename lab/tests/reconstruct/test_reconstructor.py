@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
-from texvent_lab.reconstruct.reconstructor import load_reconstructor, stretch
+from texvent_lab.reconstruct.reconstructor import load_reconstructor
 from texvent_lab.registries import RECONSTRUCTORS
 
 from .network_files import HEADS, random_tensors, save_published, small_shapes
@@ -77,11 +77,6 @@ def test_only_e2vid_stretches_its_images(folder):
     assert (image == 1).mean() == pytest.approx(0.01, abs=0.01)
 
 
-def test_a_constant_image_is_not_stretched():
-    flat = np.full((4, 4), 0.3, np.float32)
-    np.testing.assert_array_equal(stretch(flat), flat)
-
-
 def test_a_reset_network_begins_anew(folder):
     reconstructor = load(folder, "e2vid+")
     first = reconstructor.reconstruct(noise())
@@ -138,13 +133,3 @@ def test_output_that_is_not_finite_is_refused(tmp_path):
     reconstructor = load_reconstructor("firenet", tmp_path / "huge.pth", device="cpu")
     with pytest.raises(FileFormatError, match="NaN or infinite"):
         reconstructor.reconstruct(noise())
-
-
-def test_cuda_is_refused_where_there_is_none(folder, monkeypatch):
-    monkeypatch.setattr(torch.cuda, "is_available", lambda: False)
-    with pytest.raises(ConfigError, match="torch finds no GPU"):
-        load_reconstructor("firenet", folder / "firenet.pth", device="cuda")
-
-
-def test_an_unknown_file_is_not_called_the_published_one(folder):
-    assert not load(folder, "firenet").is_published

@@ -1,10 +1,8 @@
 """Who has no weights is told which file it is, where it comes from and where to put it."""
 
-import sys
-
 import pytest
 
-from texvent.errors import InputError, MissingDependencyError
+from texvent.errors import InputError
 from texvent_lab.reconstruct.reconstructor import load_reconstructor
 from texvent_lab.registries import RECONSTRUCTORS
 
@@ -20,15 +18,3 @@ def test_without_weights_the_message_says_where_they_come_from_and_go(name, tmp_
     assert "`weights`" in message
     assert str(tmp_path / "weights" / f"{name}.pth") in message
     assert "\n" not in message
-
-
-def test_a_file_that_is_not_there_is_named(tmp_path):
-    with pytest.raises(InputError, match=r"there is no weights file .*nothing\.pth"):
-        load_reconstructor("firenet", tmp_path / "nothing.pth")
-
-
-def test_without_torch_the_extra_is_named(tmp_path, monkeypatch):
-    (tmp_path / "some.pth").write_bytes(b"x")
-    monkeypatch.setitem(sys.modules, "torch", None)
-    with pytest.raises(MissingDependencyError, match=r"pip install 'texvent\[torch\]'"):
-        load_reconstructor("firenet", tmp_path / "some.pth")

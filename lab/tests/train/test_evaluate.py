@@ -60,13 +60,6 @@ def test_other_samples_need_no_training_split(trained: Path) -> None:
     assert evaluate(trained, specification="other.toml") == 0
 
 
-def test_results_are_not_overwritten(trained: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    (trained / "scores.json").write_text("mine")
-    assert evaluate(trained, "-o", str(trained / "scores.json")) == 3
-    assert "exists" in capsys.readouterr().err
-    assert (trained / "scores.json").read_text() == "mine"
-
-
 def change_classes(path: Path) -> None:
     content = torch.load(path, weights_only=True)
     torch.save({**content, "classes": ["cat", "dog"]}, path)

@@ -26,7 +26,7 @@ from texvent_lab.train.flow.e_raft import make_e_raft  # noqa: E402
 from texvent_lab.train.run import read_training, train_from_file  # noqa: E402
 from texvent_lab.train.schedule import Hardware  # noqa: E402
 
-from .sequences.windowed_specification import TEXT, write_specification  # noqa: E402
+from .sequences.windowed_specification import write_specification  # noqa: E402
 
 pytestmark = pytest.mark.torch
 TASK_NAMES = ("depth", "flow")
@@ -160,19 +160,3 @@ def test_videos_have_no_truth(
     error = capsys.readouterr().err
     assert f"tiny.toml simulates videos, whose {task} is not known; give prompts" in error
     assert len(error.strip().splitlines()) == 1
-
-
-@pytest.mark.parametrize("split", ["train", "validation"])
-@pytest.mark.parametrize("task", TASK_NAMES)
-def test_an_empty_split_is_refused(
-    task: str, split: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = write_training(tmp_path)
-    shares = {"train": 1.0, "validation": 1.0, split: 0.0}
-    table = ", ".join(f"{name} = {share}" for name, share in shares.items())
-    write_specification(tmp_path, TEXT.replace("train = 0.5, validation = 0.5", table))
-    assert main(["train", task, str(path), "-o", str(tmp_path / "run"), "-q"]) == 2
-    error = capsys.readouterr().err
-    assert f"split {split} of {tmp_path / 'tiny.toml'} has no clips; give it a larger" in error
-    assert len(error.strip().splitlines()) == 1
-    assert not (tmp_path / "run").exists()

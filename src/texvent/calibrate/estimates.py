@@ -1,12 +1,19 @@
-"""Constants of a sensor as an estimate gives them: value, interval, or why the old value stays."""
+"""Estimates of sensor constants, and the preset file that keeps them."""
 
 from __future__ import annotations
 
 import dataclasses
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from pathlib import Path
 from typing import Any, NamedTuple
 
+import tomli_w
+
+from texvent._version import full_version
+from texvent.io.atomic import atomic_file
+from texvent.options.values import plain
+from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
 
 
@@ -36,12 +43,12 @@ class Estimate(NamedTuple):
         return f"{self.low:.3g} to {self.high:.3g}"
 
 
-class Kept(NamedTuple):
-    """A constant that the recording does not tell."""
+class UnidentifiedOption(NamedTuple):
+    """A constant that this recording cannot identify."""
 
     name: str
     value: object
-    """That of the start preset."""
+    """Value of the start preset."""
     reason: str
 
     def __str__(self) -> str:
@@ -57,6 +64,65 @@ def with_estimates(config: PhysicalConfig, found: Iterable[Estimate]) -> Physica
     return dataclasses.replace(config, **values)
 
 
-def describe_estimates(found: Iterable[Estimate], kept: Iterable[Kept]) -> list[str]:
+def describe_estimates(found: Iterable[Estimate], kept: Iterable[UnidentifiedOption]) -> list[str]:
     """One line per constant, the measured ones first."""
     return [*(f"found {one}" for one in found), *(f"kept {one}" for one in kept)]
+
+
+NOT_OF_THE_SENSOR = ("gamma", "sensor_seed")
+"""Options that stay out of the file: how the frames of a later run are coded, and which specimen
+of the sensor it has."""
+
+
+def write_preset(
+    config: PhysicalConfig,
+    lines: Sequence[str],
+    path: str | Path,
+    *,
+    size: SensorSize,
+    overwrite: bool = False,
+) -> Path:
+    """Write options as TOML, for `texvent simulate --sensor FILE`.
+
+    Args:
+        config: what was found.
+        lines: what is known of it, for the comment at the top.
+        path: file to write.
+        size: of the sensor.
+        overwrite: replace an existing file.
+
+    Returns:
+        The path.
+
+    Raises:
+        OutputError: the file exists already, or cannot be written.
+    """
+    options = plain(config)
+    for name in NOT_OF_THE_SENSOR:
+        options.pop(name, None)
+    tables = {"run": {"simulator": "physical", "sensor": str(size)}, "simulate": options}
+    comment = "\n".join(f"# {line}" for line in lines)
+    with atomic_file(path, overwrite=overwrite) as part:
+        part.write_text(f"{comment}\n\n{tomli_w.dumps(tables)}", encoding="utf-8")
+    return Path(path)
+
+
+def describe_scene(
+    found: Iterable[Estimate],
+    kept: Iterable[UnidentifiedOption],
+    remarks: Iterable[str],
+    source: str,
+) -> list[str]:
+    """Constants and remarks of a measurement without frames, one line each.
+
+    Args:
+        found: measured constants.
+        kept: options that the recording cannot identify.
+        remarks: further lines.
+        source: file of the events, and the scene.
+    """
+    return [
+        f"Measured from {' '.join(source.split())}, by texvent {full_version()}.",
+        *describe_estimates(found, kept),
+        *remarks,
+    ]

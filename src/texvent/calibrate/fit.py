@@ -2,7 +2,7 @@
 
 The noise curve is measured directly. For any balance and cutoff, the two thresholds follow from
 the counts of ON and OFF events; balance and cutoff are those with the least distance, searched
-one at a time with steps that shrink. What the recording does not tell stays as it was.
+one at a time with steps that shrink. Options that the recording cannot identify stay.
 """
 
 from __future__ import annotations
@@ -11,17 +11,17 @@ import dataclasses
 from collections.abc import Collection, Mapping
 from typing import NamedTuple
 
-from texvent.calibrate.distance import Distance, measure_distance
-from texvent.calibrate.estimates import Estimate, Kept
+from texvent._version import full_version
+from texvent.calibrate.estimates import Estimate, UnidentifiedOption
 from texvent.calibrate.noise import LEAST_EXPOSURE_S, MeasuredNoise, measure_noise
 from texvent.calibrate.recording import Recording, TimeSpan, simulate_span
-from texvent.calibrate.search import COORDINATES, Report, Search
-from texvent.calibrate.uncertainty import Judgement, judge_fit
+from texvent.calibrate.search import COORDINATES, Distance, Report, Search, measure_distance
+from texvent.calibrate.uncertainty import FitSummary, judge_fit
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
 
 MOST_ON = 0.95
-"""Share of ON among noise above which OFF events no longer tell how much there is."""
+"""Share of ON among noise above which OFF events no longer measure it."""
 LEAST_EVENTS = 100
 """Fewer recorded events than this of either polarity fit no threshold."""
 NOT_FITTED = (
@@ -31,16 +31,16 @@ NOT_FITTED = (
     "noise_on_fraction",
     "leak_rate_decades",
 )
-"""Options that frames and events of a moving scene do not tell."""
+"""Options that frames and events of a moving scene cannot identify."""
 
 
 class Fit(NamedTuple):
-    """What the fit found."""
+    """Fitted model, its noise and its distance to the recording."""
 
     config: PhysicalConfig
     """The fitted model."""
     offset_us: int
-    """What was added to the frame times, µs; it belongs to the recording, not to the sensor."""
+    """Offset added to the frame times, µs; it belongs to the recording, not to the sensor."""
     noise: MeasuredNoise | None
     """Noise and leak of still pixels; None if they are those the fit started with."""
     span: TimeSpan
@@ -51,8 +51,8 @@ class Fit(NamedTuple):
     """"start" and "fitted" → distance on the fitted and on the held-out part."""
     found: tuple[Estimate, ...]
     """Measured constants with their intervals."""
-    kept: tuple[Kept, ...]
-    """Constants that the recording does not tell."""
+    kept: tuple[UnidentifiedOption, ...]
+    """Constants that the recording cannot identify."""
     compared: tuple[EventStream, EventStream]
     """Recorded and simulated events of the held-out part."""
 
@@ -71,8 +71,8 @@ def fit_sensor(
         recording: frames and events.
         start: where the search starts; options that are not searched keep their value.
         seconds: how much of each half is simulated.
-        keep: of `COORDINATES`, those that another recording told better.
-        report: told of every step in one line.
+        keep: of `COORDINATES`, those that another recording measured better.
+        report: receives one line per step.
 
     Raises:
         InputError: the recording is too short.
@@ -122,14 +122,16 @@ def _fit_circuit(
     span: TimeSpan,
     first: PhysicalConfig,
     start: PhysicalConfig,
-) -> Judgement:
+) -> FitSummary:
     """Thresholds, balance and cutoff, if there are events enough."""
     on = int(truth.p.sum())
     off = len(truth) - on
     if min(on, off) < LEAST_EVENTS:
         names = ("contrast_threshold", "on_off_ratio", *COORDINATES)
         reason = f"{on} ON and {off} OFF events; {LEAST_EVENTS} of each are needed"
-        return Judgement(first, (), tuple(Kept(n, getattr(start, n), reason) for n in names))
+        return FitSummary(
+            first, (), tuple(UnidentifiedOption(n, getattr(start, n), reason) for n in names)
+        )
     search.find_offset(search.match_counts(first).config)
     best = search.run(search.match_counts(first))
     return judge_fit(search, truth, span, best.config, start)
@@ -144,11 +146,37 @@ def _with_noise(config: PhysicalConfig, noise: MeasuredNoise) -> PhysicalConfig:
     )
 
 
-def _noise_constants(noise: MeasuredNoise | None, start: PhysicalConfig) -> Judgement:
+def _noise_constants(noise: MeasuredNoise | None, start: PhysicalConfig) -> FitSummary:
     """Noise and leak with their intervals, or why they stay."""
-    kept = [Kept(n, getattr(start, n), "needs a recording without frames") for n in NOT_FITTED]
+    kept = [
+        UnidentifiedOption(n, getattr(start, n), "needs a recording without frames")
+        for n in NOT_FITTED
+    ]
     if noise is None:
         reason = f"no still pixels for {LEAST_EXPOSURE_S:g} pixel-seconds in two ranges of light"
-        kept += [Kept(n, getattr(start, n), reason) for n in ("noise_curve", "leak_rate_hz")]
-        return Judgement(start, (), tuple(kept))
-    return Judgement(start, noise.estimates(), tuple(kept))
+        kept += [
+            UnidentifiedOption(n, getattr(start, n), reason)
+            for n in ("noise_curve", "leak_rate_hz")
+        ]
+        return FitSummary(start, (), tuple(kept))
+    return FitSummary(start, noise.estimates(), tuple(kept))
+
+
+def describe_fit(fit: Fit, source: str) -> list[str]:
+    """The fit in a few lines: what was fitted, how well, and how well elsewhere."""
+    lines = [
+        f"Fitted to {' '.join(source.split())} by texvent {full_version()}.",
+        f"Frame times were moved by {fit.offset_us} µs; noise was "
+        + (
+            "measured at still pixels."
+            if fit.noise is not None
+            else "not measured: too few still pixels."
+        ),
+        "Distance to the recording: 1-STPP + intervals (decades) + |ln| of both count ratios.",
+    ]
+    for title, span, place in (("fitted  ", fit.span, 0), ("held out", fit.held_out, 1)):
+        lines.append(
+            f"{title} {span.start_us / 1e6:.3f}..{span.stop_us / 1e6:.3f} s: "
+            f"{fit.distances['start'][place]} before, {fit.distances['fitted'][place]} after"
+        )
+    return lines

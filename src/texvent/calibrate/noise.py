@@ -39,7 +39,7 @@ BoolArray = NDArray[np.bool_]
 
 
 class MeasuredNoise(NamedTuple):
-    """What still pixels do."""
+    """Noise and leak of still pixels."""
 
     curve: NoiseCurve
     """Noise, ON and OFF together, by intensity."""
@@ -72,7 +72,7 @@ def measure_noise(
         recording: frames and events.
         span: which part.
         gamma: exponent that makes the frames linear.
-        on_fraction: share of ON among noise events, below 1; a recording at rest tells it.
+        on_fraction: share of ON among noise events, below 1; a recording at rest gives it.
 
     Returns:
         The noise, or None if fewer than two ranges of intensity had still pixels for long enough.

@@ -51,7 +51,7 @@ class Recording:
     frames: FrameStream
     events: EventStream
     interpolate: InterpolateConfig
-    """How intermediate frames are made."""
+    """Interpolation of intermediate frames."""
 
     def __post_init__(self) -> None:
         if self.frames.size != self.events.size:

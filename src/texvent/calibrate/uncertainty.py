@@ -1,8 +1,8 @@
-"""How well a recording of frames and events determines what was fitted to it.
+"""Uncertainty of options fitted to frames and events.
 
 The fitted part is cut into 20 blocks, fewer of 10 ms if it is short, and the bootstrap draws
 blocks. Thresholds follow from counts: an interval of the count ratio is one of the threshold, by
-the power with which the count falls. For balance and cutoff, the least distance lies at the vertex
+the power with which the count falls. For balance and cutoff, the least distance is at the vertex
 of a parabola through the distances at half, once and twice the value. Thresholds change with both:
 how far they would, from end to end of those intervals, adds to their own in quadrature.
 """
@@ -16,10 +16,9 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.calibrate.bootstrap import Float64Array, bootstrap
-from texvent.calibrate.distance import measure_distance
-from texvent.calibrate.estimates import Estimate, Kept
+from texvent.calibrate.estimates import Estimate, UnidentifiedOption
 from texvent.calibrate.recording import TimeSpan
-from texvent.calibrate.search import COORDINATES, STEPS, Search
+from texvent.calibrate.search import COORDINATES, STEPS, Search, measure_distance
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
 
@@ -38,17 +37,17 @@ LEAST_POWER = 0.3
 """The least power with which counts fall that is believed."""
 
 
-class Judgement(NamedTuple):
-    """What is known of the fitted options."""
+class FitSummary(NamedTuple):
+    """Fitted options with their intervals, and those that stay."""
 
     config: PhysicalConfig
-    """The model; options that the recording does not tell have the value they started with."""
+    """The model; options that the recording cannot identify keep their start value."""
     found: tuple[Estimate, ...]
-    kept: tuple[Kept, ...]
+    kept: tuple[UnidentifiedOption, ...]
 
 
-class Uncertain(NamedTuple):
-    """How well the distance determines an option, in the logarithm."""
+class Interval(NamedTuple):
+    """Interval of an option, in the logarithm, and its effect on the thresholds."""
 
     low: float
     """Lower end of the 95 % interval from the value, 0 or less; −∞ where the distance does not
@@ -71,7 +70,7 @@ class Uncertain(NamedTuple):
 
 def judge_fit(
     search: Search, truth: EventStream, span: TimeSpan, best: PhysicalConfig, start: PhysicalConfig
-) -> Judgement:
+) -> FitSummary:
     """Intervals of thresholds, balance and cutoff.
 
     Args:
@@ -79,11 +78,11 @@ def judge_fit(
         truth: the recorded events of the span.
         span: the part that was fitted.
         best: the fitted model.
-        start: where options come from that the recording does not tell.
+        start: source of options that the recording cannot identify.
     """
     blocks = cut_blocks(span)
     found: list[Estimate] = []
-    kept: list[Kept] = []
+    kept: list[UnidentifiedOption] = []
     others = np.zeros((2, 2))
     for name in search.coordinates:
         option = _judge_option(search, truth, blocks, best, name)
@@ -92,7 +91,7 @@ def judge_fit(
         if option.is_unknown:
             best = dataclasses.replace(best, **{name: getattr(start, name)})
             reason = "half and twice the value fit as well"
-            kept.append(Kept(name, getattr(start, name), reason))
+            kept.append(UnidentifiedOption(name, getattr(start, name), reason))
         else:
             unit = "Hz" if name.endswith("hz") else ""
             low, high = value * math.exp(option.low), value * math.exp(option.high)
@@ -100,12 +99,12 @@ def judge_fit(
     if kept:
         best = search.match_counts(best).config
     kept += [
-        Kept(name, getattr(best, name), "as asked")
+        UnidentifiedOption(name, getattr(best, name), "as asked")
         for name in COORDINATES
         if name not in search.coordinates
     ]
     thresholds = _thresholds(search, truth, blocks, best, others)
-    return Judgement(best, (*thresholds, *found), tuple(kept))
+    return FitSummary(best, (*thresholds, *found), tuple(kept))
 
 
 def cut_blocks(span: TimeSpan) -> list[TimeSpan]:
@@ -127,11 +126,11 @@ def _judge_option(
     blocks: list[TimeSpan],
     best: PhysicalConfig,
     name: str,
-) -> Uncertain:
+) -> Interval:
     """The 95 % interval of an option, and what thresholds do along it."""
     value = getattr(best, name)
     if value == 0:  # unlimited
-        return Uncertain(-math.inf, math.inf, np.zeros(2))
+        return Interval(-math.inf, math.inf, np.zeros(2))
     distances, thresholds = np.empty((3, len(blocks))), []
     for row, factor in enumerate((1 / FACTOR, 1.0, FACTOR)):
         config = dataclasses.replace(best, **{name: value * factor})
@@ -142,7 +141,7 @@ def _judge_option(
     slopes = (thresholds[2] - thresholds[0]) / (2 * math.log(FACTOR))
     shifts = bootstrap(lambda weights: np.array([vertex(distances @ weights)]), (len(blocks),))
     low, high = shifts[:, 0].tolist()
-    return Uncertain(
+    return Interval(
         -math.inf if low <= -FARTHEST else min(low, -NEAREST),
         math.inf if high >= FARTHEST else max(high, NEAREST),
         slopes,
@@ -150,7 +149,7 @@ def _judge_option(
 
 
 def vertex(distances: Float64Array) -> float:
-    """Where a parabola through distances at −ln 2, 0 and ln 2 is least.
+    """Vertex of a parabola through distances at −ln 2, 0 and ln 2.
 
     Args:
         distances: [3].

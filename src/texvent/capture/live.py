@@ -4,12 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import re
-import signal
 import sys
-import threading
 import time
 from collections.abc import Iterator
-from types import FrameType
 from typing import Any
 
 import av
@@ -18,10 +15,11 @@ from av.error import FFmpegError
 from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
-from texvent.capture.decode import coding_facts, decoded_pixels
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
+from texvent.capture.video_file import coding_facts, decoded_pixels
 from texvent.errors import InputError
+from texvent.runtime.interrupts import stop_on_interrupt
 from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, Frame
@@ -87,7 +85,7 @@ class LiveFrames(FrameSource):
 
     def _run(self, arrivals: Iterator[tuple[VideoFrame, int]]) -> Iterator[Frame]:
         last_us = -1
-        with self._container, interrupts_noted() as interrupted:
+        with self._container, stop_on_interrupt() as request:
             for index, (frame, arrived_us) in enumerate(arrivals):
                 t_us = self._time_us(index, frame, arrived_us)
                 if t_us > last_us:
@@ -95,7 +93,7 @@ class LiveFrames(FrameSource):
                     last_us = t_us
                 else:
                     self._metadata["frames_dropped"] += 1
-                if interrupted.is_set():
+                if request.number is not None:
                     return
 
     def _arriving(self) -> Iterator[tuple[VideoFrame, int]]:
@@ -128,29 +126,6 @@ def without_password(address: str) -> str:
         'rtsp://camera/stream'
     """
     return re.sub(r"(?<=://)[^/@]*@", "", address)
-
-
-@contextlib.contextmanager
-def interrupts_noted() -> Iterator[threading.Event]:
-    """An event that the first Ctrl-C sets; the second interrupts as usual.
-
-    Outside the main thread, where signals cannot be caught, Ctrl-C keeps its usual meaning.
-    """
-    interrupted = threading.Event()
-    if threading.current_thread() is not threading.main_thread():
-        yield interrupted
-        return
-    usual = signal.getsignal(signal.SIGINT)
-
-    def note(number: int, frame: FrameType | None) -> None:
-        interrupted.set()
-        signal.signal(signal.SIGINT, usual)
-
-    signal.signal(signal.SIGINT, note)
-    try:
-        yield interrupted
-    finally:
-        signal.signal(signal.SIGINT, usual)
 
 
 def _open_live(address: str, name: str) -> InputContainer:

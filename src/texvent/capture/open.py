@@ -13,13 +13,12 @@ from typing import Any, NamedTuple
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.camera_path.opening import check_no_camera, field_of, is_still, open_photo
-from texvent.capture.dsec_frames import DsecFrames, is_dsec
-from texvent.capture.evreal_frames import EvrealFrames, is_evreal
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
 from texvent.capture.image_folder import ImageFolder
 from texvent.capture.linear_light import AUTO, decode_light
-from texvent.capture.motion_vectors.attach import attach_motion
+from texvent.capture.motion_vectors.frames import attach_motion
 from texvent.capture.prepare import PreparedFrames
+from texvent.capture.recorded_frames import DsecFrames, EvrealFrames, is_dsec, is_evreal
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.io.arrays.npy_file import StoredArray

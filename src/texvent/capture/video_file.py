@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -11,18 +12,21 @@ from pathlib import Path
 from typing import Any
 
 import av
+import numpy as np
 from av.container import InputContainer
 from av.error import FFmpegError
+from av.video.format import VideoFormat
 from av.video.frame import VideoFrame
+from av.video.reformatter import ColorRange
 from av.video.stream import VideoStream
 
-from texvent.capture.decode import coding_facts, decoded_pixels
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
+from texvent.capture.linear_light import CODING, HALF, LINEAR, VIDEO_CODINGS
 from texvent.errors import FileFormatError, warn
 from texvent.io.input_checks import refuse_missing
 from texvent.sensor import checked_size
-from texvent.video import MICROSECONDS, PREVIEW_MARK, Frame, frame_time_us
+from texvent.video import MICROSECONDS, PREVIEW_MARK, Frame, PixelArray, frame_time_us
 
 SLACK_US = 100_000
 """A file may end this much before its header says, or three frames, before it counts as cut."""
@@ -246,3 +250,62 @@ def _count_by_duration(stream: VideoStream, container: InputContainer) -> int | 
     rate = stream.average_rate or stream.guessed_rate
     end_us = _promised_end_us(stream, Fraction(0)) or container.duration
     return round(Fraction(end_us, MICROSECONDS) * rate) if end_us and rate else None
+
+
+QUARTER_TURN = 90
+UNSPECIFIED = 2
+"""libav's number of an unknown transfer characteristic."""
+
+
+def decoded_pixels(frame: VideoFrame) -> PixelArray:
+    """Pixels of a decoded frame, turned as its display matrix says.
+
+    Args:
+        frame: any video frame that libav decodes.
+
+    Returns:
+        [H, W] for grey formats, else [H, W, 3] RGB; uint8 for up to 8 bits per component, uint16
+        (65535 is white) for more. Alpha is dropped. YUV becomes RGB by the matrix and range that
+        the file states; files that state none are read as BT.601 limited range, as libav does.
+        libav's 16-bit RGB of deep YUV has its white at 65283, 0.4 % below full scale.
+    """
+    image = frame.reformat(format=pixel_format(frame.format), dst_color_range=ColorRange.JPEG)
+    pixels = image.to_ndarray()
+    turns = round(frame.rotation / QUARTER_TURN) % 4
+    return np.ascontiguousarray(np.rot90(pixels, turns)) if turns else pixels
+
+
+def coding_facts(frame: VideoFrame, comment: str = "") -> dict[str, str]:
+    """How a decoded frame is coded, for a source's metadata: nothing where it is gamma-coded.
+
+    Args:
+        frame: it says its transfer characteristic.
+        comment: of the file; texvent writes facts there as JSON, and light as half floats.
+    """
+    try:
+        facts = json.loads(comment)
+    except (ValueError, RecursionError):
+        facts = None
+    if isinstance(facts, dict) and (facts.get("transfer"), facts.get(CODING)) == (LINEAR, HALF):
+        return {CODING: HALF}
+    # PyAV 16 and older do not tell.
+    coding = VIDEO_CODINGS.get(int(getattr(frame, "color_trc", UNSPECIFIED)))
+    return {} if coding is None else {CODING: coding}
+
+
+def pixel_format(source: VideoFormat) -> str:
+    """The libav format that keeps the precision and the colour of `source`.
+
+    Args:
+        source: format of a decoded frame.
+
+    Returns:
+        `gray`, `gray16le`, `rgb24` or `rgb48le`.
+    """
+    # Palettes (GIF, PNG) have one component, but it is an index, not a grey level.
+    planes = [component for component in source.components if not component.is_alpha]
+    is_grey = len(planes) == 1 and planes[0].is_luma and not source.has_palette
+    is_deep = max(component.bits for component in planes) > 8
+    if is_grey:
+        return "gray16le" if is_deep else "gray"
+    return "rgb48le" if is_deep else "rgb24"

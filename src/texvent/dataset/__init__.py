@@ -13,10 +13,8 @@ import importlib
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
-    from texvent.dataset.generation.api import make
-    from texvent.dataset.loading.open_samples import open
-    from texvent.dataset.loading.stored_samples import StoredSample, StoredSamples
-    from texvent.dataset.loading.tonic_style import EventClips
+    from texvent.dataset.generation.make import make
+    from texvent.dataset.loading.stored_samples import StoredSample, StoredSamples, open
     from texvent.dataset.samples import SimulatedSamples
     from texvent.dataset.specification.reading import read_specification
     from texvent.dataset.specification.specification import (
@@ -27,7 +25,6 @@ if TYPE_CHECKING:
     )
 
 _HOME_OF = {
-    "EventClips": "loading.tonic_style",
     "Filters": "specification.specification",
     "SampleSource": "specification.specification",
     "SimulatedSamples": "samples",
@@ -35,13 +32,12 @@ _HOME_OF = {
     "StoredSample": "loading.stored_samples",
     "StoredSamples": "loading.stored_samples",
     "Variant": "specification.specification",
-    "make": "generation.api",
-    "open": "loading.open_samples",
+    "make": "generation.make",
+    "open": "loading.stored_samples",
     "read_specification": "specification.reading",
 }
 
 __all__ = [
-    "EventClips",
     "Filters",
     "SampleSource",
     "SimulatedSamples",

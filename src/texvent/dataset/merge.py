@@ -1,4 +1,4 @@
-"""Several data sets put together as one: shards linked, shards and classes numbered anew."""
+"""Merge of data sets: shards are linked; shards and classes get new numbers."""
 
 from __future__ import annotations
 
@@ -13,11 +13,16 @@ from pathlib import Path
 from typing import Any
 
 from texvent._version import full_version
-from texvent.dataset.contents.made_set import SHARDS, MadeSet, MadeShard
-from texvent.dataset.contents.statistics import in_several_splits
 from texvent.dataset.generation.recipe import SPECIFICATION_FILE
-from texvent.dataset.generation.records import ShardRecord, write_record
-from texvent.dataset.generation.tar_shard import EXTENSION, TarShardWriter, read_members
+from texvent.dataset.generation.shards import (
+    EXTENSION,
+    ShardRecord,
+    TarShardWriter,
+    read_members,
+    write_record,
+)
+from texvent.dataset.reading.stored_dataset import SHARDS, StoredDataset, StoredShard
+from texvent.dataset.statistics import in_several_splits
 from texvent.errors import InputError, shown, warn
 from texvent.io.atomic import atomic_folder
 
@@ -26,7 +31,7 @@ CLASS = "cls"
 
 @dataclass(frozen=True)
 class Merged:
-    """What came of it."""
+    """Counts of a merge."""
 
     samples: int
     shards: int
@@ -34,7 +39,7 @@ class Merged:
     """Shards whose class numbers changed; the others are links or copies."""
 
 
-def merge(sources: Sequence[MadeSet], folder: Path, *, name: str | None = None) -> Merged:
+def merge(sources: Sequence[StoredDataset], folder: Path, *, name: str | None = None) -> Merged:
     """Put data sets together in a new folder; the sources stay as they are.
 
     Samples, records and their versions are kept. Videos are left out: nothing further can be made
@@ -80,7 +85,7 @@ def merge(sources: Sequence[MadeSet], folder: Path, *, name: str | None = None) 
     return Merged(samples.total(), numbers.total(), rewritten)
 
 
-def _refuse_incomplete(sources: Sequence[MadeSet]) -> None:
+def _refuse_incomplete(sources: Sequence[StoredDataset]) -> None:
     if len(sources) < 2:
         raise InputError("merging takes two data sets or more; name their folders")
     for source in sources:
@@ -92,9 +97,9 @@ def _refuse_incomplete(sources: Sequence[MadeSet]) -> None:
             )
 
 
-def _refuse_shared_samples(sources: Sequence[MadeSet]) -> None:
+def _refuse_shared_samples(sources: Sequence[StoredDataset]) -> None:
     """A sample's key says its prompt, repeat, variant and seed number: no two may share one."""
-    owner: dict[str, MadeSet] = {}
+    owner: dict[str, StoredDataset] = {}
     for source in sources:
         for shard in source.shards():
             for sample in shard.record.samples:
@@ -109,7 +114,7 @@ def _refuse_shared_samples(sources: Sequence[MadeSet]) -> None:
                     )
 
 
-def _labels(sources: Sequence[MadeSet]) -> tuple[str, ...]:
+def _labels(sources: Sequence[StoredDataset]) -> tuple[str, ...]:
     labelled = [source.folder for source in sources if source.labels]
     if 0 < len(labelled) < len(sources):
         without = next(source.folder for source in sources if not source.labels)
@@ -126,7 +131,7 @@ def _link(path: Path, target: Path) -> None:
 
 
 def _with_classes(
-    shard: MadeShard, record: ShardRecord, target: Path, labels: tuple[str, ...]
+    shard: StoredShard, record: ShardRecord, target: Path, labels: tuple[str, ...]
 ) -> ShardRecord:
     """Copy a shard with the class numbers of the merged set."""
     numbers = {label: number for number, label in enumerate(labels)}
@@ -146,7 +151,7 @@ def _with_classes(
 
 
 def _facts(
-    sources: Sequence[MadeSet],
+    sources: Sequence[StoredDataset],
     name: str,
     identity: str,
     labels: tuple[str, ...],
@@ -179,14 +184,14 @@ def _facts(
     }
 
 
-def _simulator(sources: Sequence[MadeSet], variant: str) -> str | dict[str, list[str | None]]:
-    """The one of all sources, else which there are."""
+def _simulator(sources: Sequence[StoredDataset], variant: str) -> str | dict[str, list[str | None]]:
+    """The one of all sources, else a choice of them."""
     names = {source.simulator_of(variant) for source in sources if variant in source.variants}
     (first, *others) = sorted(names, key=str)
     return first if first is not None and not others else {"choice": [first, *others]}
 
 
-def _warn_of_differences(sources: Sequence[MadeSet]) -> None:
+def _warn_of_differences(sources: Sequence[StoredDataset]) -> None:
     shared = in_several_splits(shard for source in sources for shard in source.shards())
     if shared:
         warn(

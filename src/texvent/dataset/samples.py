@@ -1,24 +1,112 @@
-"""Samples for training: prompt or video → events → arrays, each made from its number alone."""
+"""Simulated samples for training: prompt or video → events → arrays, made from their numbers."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias, get_args
+from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent._registry import suggest
 from texvent.api import Source
 from texvent.config import check_range
-from texvent.dataset.targets import Clip, Target, record_clip, target_of
-from texvent.dataset.windows import check_representation, stack_windows
+from texvent.dataset.loading.stored_samples import check_representation, stack_windows
 from texvent.errors import ConfigError, InputError, shown
+from texvent.events import EventStream
 from texvent.pipeline import Simulation
 from texvent.represent.named import represent_window
 from texvent.run.prepare import prepare_prompt, prepare_source
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.random.draws import frame_key
+from texvent.video import Frame, FrameStream, RenderableStream
+
+Target: TypeAlias = Literal["frame", "flow", "depth", "instance"]
+Window: TypeAlias = tuple[int, int]
+"""Start (included) and end (excluded), µs."""
+
+
+@dataclass(frozen=True, eq=False)
+class SlicedClip:
+    """A simulation that has run, cut into windows of equal length."""
+
+    video: FrameStream
+    events: EventStream
+    frames: Mapping[int, Frame]
+    """End of each window, µs → the last dense frame until then."""
+    start_us: int
+    """Start of the first window, µs: the time of the first frame."""
+
+    @property
+    def windows(self) -> tuple[Window, ...]:
+        """All windows in time order."""
+        ends = tuple(self.frames)
+        return tuple(zip((self.start_us, *ends), ends, strict=False))
+
+
+def record_clip(simulation: Simulation, slice_us: int | None) -> SlicedClip:
+    """Run a simulation and cut it into whole windows.
+
+    Args:
+        simulation: the run.
+        slice_us: length of a window, µs; None: one window over the whole clip.
+
+    Raises:
+        InputError: the clip is shorter than one window, or a frame cannot be read.
+    """
+    packets: list[EventStream] = []
+    frames: dict[int, Frame] = {}
+    start_us = last_us = end_us = 0
+    latest: Frame | None = None
+    for frame, packet in simulation.steps():
+        packets.append(packet)
+        if latest is None:
+            start_us = frame.t_us
+            end_us = start_us + (slice_us or 0)
+        # A frame at the very end of a window still belongs to it.
+        while slice_us and latest is not None and frame.t_us > end_us:
+            frames[end_us] = _drawn(latest)
+            end_us += slice_us
+        latest, last_us = frame, frame.t_us
+    if latest is not None and start_us < last_us >= end_us:
+        frames[end_us if slice_us else last_us] = _drawn(latest)
+    if not frames:
+        raise InputError(
+            f"the clip lasts {last_us - start_us} µs, less than one slice of {slice_us or 1} µs; "
+            "make it longer, or slice_us shorter"
+        )
+    return SlicedClip(simulation.video, EventStream.concat(packets), frames, start_us)
+
+
+def _drawn(frame: Frame) -> Frame:
+    """The frame, drawn: an undrawn intermediate frame keeps its source frames alive."""
+    frame.pixels  # noqa: B018
+    return frame
+
+
+def target_of(clip: SlicedClip, target: Target, window: Window) -> NDArray[Any]:
+    """Ground truth of a window; `SimulatedSamples.make` describes each target.
+
+    Raises:
+        ConfigError: the video does not know it.
+    """
+    start, stop = window
+    if target == "frame":
+        video = clip.video
+        frame = video.at(stop) if isinstance(video, RenderableStream) else clip.frames[stop]
+        return frame.luma.astype(np.float32)
+    describe = getattr(clip.video, "ground_truth", None)
+    if describe is None:
+        raise ConfigError(
+            f"target {target!r} needs a source that knows its scene, such as prompts with the "
+            "generator 'procedural'; recorded and learned video has frames alone"
+        )
+    truth = describe(start if target == "flow" else stop, stop)
+    if target == "flow":
+        return np.moveaxis(truth.flow, -1, 0)
+    return np.asarray(truth.depth if target == "depth" else truth.instance)
+
 
 Sample: TypeAlias = dict[str, Any]
 MAX_SEED = 2**63 - 1
@@ -46,9 +134,9 @@ class SimulatedSamples:
     """
 
     prompts: Sequence[str] = ()
-    """What to show; see `texvent.generate`."""
+    """Prompts; see `texvent.generate`."""
     videos: Sequence[Source] = ()
-    """What to read instead; see `texvent.simulate`."""
+    """Videos instead of prompts; see `texvent.simulate`."""
     representation: str = "voxel-e2vid"
     """Name of the representation; `texvent._registry.REPRESENTATIONS` lists them."""
     representation_options: Mapping[str, Any] = field(default_factory=dict)
@@ -58,7 +146,7 @@ class SimulatedSamples:
     """Length of a slice, µs. A clip gives as many whole slices as it has, stacked along a first
     axis of time. None: the whole clip is one slice, without that axis."""
     targets: Sequence[Target] = ()
-    """What else each slice comes with; see `make`."""
+    """Further arrays of each slice; see `make`."""
     simulation: Mapping[str, Any] = field(default_factory=dict)
     """Options of `texvent.generate` or `texvent.simulate`, such as `{"sensor": "davis240c",
     "duration": 1.0, "randomize": "stoffregen"}`."""
@@ -102,7 +190,7 @@ class SimulatedSamples:
             * `flow`: displacement (x, y) in pixels over the slice of what each pixel shows at its
               start, [2, H, W] float32; NaN where it ends behind the camera.
             * `depth`: metres at the end of the slice, [H, W] float32; inf for the sky.
-            * `instance`: id of the thing seen at the end of the slice, [H, W] int32.
+            * `instance`: id of the object seen at the end of the slice, [H, W] int32.
             * `stop_us`: end of the slice, µs, int64.
             * `source`: index of the prompt or video.
             * `number`, `seed`: of the sample.
@@ -122,7 +210,7 @@ class SimulatedSamples:
         source = number % len(self.prompts or self.videos)
         return {**arrays, "source": source, "number": number, "seed": self.seed_of(number)}
 
-    def _part(self, clip: Clip, window: tuple[int, int]) -> Sample:
+    def _part(self, clip: SlicedClip, window: tuple[int, int]) -> Sample:
         events = clip.events.cut(*window)
         name, options = self.representation, self.representation_options
         part = {"representation": represent_window(name, events, window, **options)}

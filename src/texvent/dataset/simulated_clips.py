@@ -9,11 +9,10 @@ from pathlib import Path
 from texvent._registry import suggest
 from texvent._version import full_version
 from texvent.batch.identity import digest
-from texvent.dataset.generation.clip_simulation import prepare_clip, with_seed
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.specification.clips import Clip
+from texvent.dataset.generation.sample import prepare_clip, with_seed
+from texvent.dataset.specification.clips import Clip, clip_settings, simulation_seed
 from texvent.dataset.specification.reading import read_specification
-from texvent.dataset.specification.resolve import clip_settings, simulation_seed
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, shown
 from texvent.pipeline import Simulation

@@ -1,4 +1,4 @@
-"""Every file of a data set checked: there, unchanged, of it, each sample sound and there once."""
+"""Verification of a data set: files complete, unchanged and its own; samples sound and unique."""
 
 from __future__ import annotations
 
@@ -12,39 +12,40 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from texvent.dataset.contents.made_set import SHARD_FILE, MadeSet, MadeShard
-from texvent.dataset.contents.statistics import in_several_splits
-from texvent.dataset.contents.stored_events import read_events, read_sample_facts
 from texvent.dataset.generation.recipe import ITEMS_FILE, SPECIFICATION_FILE, VIDEOS
-from texvent.dataset.generation.records import (
+from texvent.dataset.generation.sample import COLUMNS
+from texvent.dataset.generation.shards import (
+    EXTENSION,
     FAILED,
     FILTERED,
+    MADE,
     SampleRecord,
+    read_members,
     read_record,
-    record_path,
 )
-from texvent.dataset.generation.sample import COLUMNS
-from texvent.dataset.generation.shard_log import LOGS
-from texvent.dataset.generation.tar_shard import EXTENSION, read_members
+from texvent.dataset.generation.status import LOGS
 from texvent.dataset.publishing.card import CARD_FILE
 from texvent.dataset.publishing.croissant import CROISSANT_FILE
 from texvent.dataset.publishing.index import INDEX_FILE
+from texvent.dataset.reading.stored_dataset import SHARD_FILE, StoredDataset, StoredShard
+from texvent.dataset.reading.stored_events import read_events, read_sample_facts
+from texvent.dataset.statistics import in_several_splits
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.atomic import is_hidden_part
 
-OWN = (SPECIFICATION_FILE, ITEMS_FILE, CARD_FILE, CROISSANT_FILE, INDEX_FILE, LOGS, "samples.png",
-       "samples.html", "stats.html", ".git", ".gitattributes", ".cache")  # fmt: skip
-"""What may lie in the folder of a data set besides its shards."""
+OWN = (SPECIFICATION_FILE, ITEMS_FILE, CARD_FILE, CROISSANT_FILE, INDEX_FILE, LOGS, "samples.html",
+       "samples.png", ".git", ".gitattributes", ".cache")  # fmt: skip
+"""Files of a data set besides its shards."""
 
 
 @dataclass
 class Findings:
-    """What is wrong, and what is worth knowing."""
+    """Problems and notes."""
 
     missing: list[str] = field(default_factory=list)
     """Shards that belong to the set and are not complete."""
     changed: list[str] = field(default_factory=list)
-    """Shards that are not what their record says, and what says so."""
+    """Shards that differ from their records, and the difference."""
     foreign: list[str] = field(default_factory=list)
     """Files among the shards that are not of this data set; loaders would read them."""
     twice: list[str] = field(default_factory=list)
@@ -52,7 +53,7 @@ class Findings:
     unsound: list[str] = field(default_factory=list)
     """Samples that cannot be used, and why."""
     notes: list[str] = field(default_factory=list)
-    """What does no harm."""
+    """Harmless findings."""
     shards: int = 0
     samples: int = 0
     events: int = 0
@@ -65,23 +66,29 @@ class Findings:
         return not any(problems for _, problems in self.problems())
 
     def problems(self) -> Iterator[tuple[str, list[str]]]:
-        """Kind → what is wrong."""
+        """Kind → problems of that kind."""
         for kind in ("missing", "changed", "foreign", "twice", "unsound"):
             yield kind, getattr(self, kind)
 
+    def count(self, shard: StoredShard, keys: Counter[str]) -> None:
+        """Add the counts of a shard, and the keys of its samples to `keys`."""
+        record = shard.record
+        self.shards += 1
+        # A sample may have the key of its video.
+        prefix = f"{VIDEOS}/" if record.variant == VIDEOS else ""
+        keys.update(prefix + sample.key for sample in record.samples)
+        if not prefix:
+            self.samples += record.count(MADE)
+            self.events += record.events
+            self.filtered += record.count(FILTERED)
+            self.failed += record.count(FAILED)
 
-@dataclass(frozen=True)
-class _ShardFindings:
-    shard: MadeShard
-    changed: str | None
-    unsound: tuple[str, ...]
 
-
-def verify(made: MadeSet, *, workers: int = 1, contents: bool = True) -> Findings:
+def verify(dataset: StoredDataset, *, workers: int = 1, contents: bool = True) -> Findings:
     """Check a data set, as it was made or as a copy of it was published.
 
     Args:
-        made: the data set.
+        dataset: the data set.
         workers: threads that read.
         contents: whether the samples are read, beside the digests of their shards.
 
@@ -89,67 +96,52 @@ def verify(made: MadeSet, *, workers: int = 1, contents: bool = True) -> Finding
         FileFormatError: the specification is damaged.
     """
     findings = Findings()
-    kinds = [*made.variants, *([VIDEOS] if made.has_videos else [])]
-    findings.changed = list(_damaged_records(made, kinds))
+    kinds = [*dataset.variants, *([VIDEOS] if dataset.has_videos else [])]
+    findings.changed = list(_damaged_records(dataset, kinds))
     if findings.changed:
         findings.notes.append("nothing else was checked, because records are damaged")
         return findings
-    findings.missing = made.missing(*kinds)
+    findings.missing = dataset.missing(*kinds)
     keys: Counter[str] = Counter()
-    for found in _checked(made.shards(*kinds), workers, contents=contents):
-        record = found.shard.record
-        if found.changed:
-            findings.changed.append(f"{found.shard.place}: {found.changed}")
-        findings.unsound += [f"{found.shard.place}: {one}" for one in found.unsound]
-        findings.shards += 1
-        # A sample may have the key of its video.
-        prefix = f"{VIDEOS}/" if record.variant == VIDEOS else ""
-        keys.update(prefix + sample.key for sample in record.samples)
-        if not prefix:
-            findings.samples += sum(1 for _ in found.shard.samples)
-            findings.events += record.events
-            findings.filtered += record.count(FILTERED)
-            findings.failed += record.count(FAILED)
+    shards = dataset.shards(*kinds)
+    with ThreadPoolExecutor(workers) as pool:
+        # Some shards at once: the records of millions of samples would not fit into memory.
+        while some := list(itertools.islice(shards, 4 * workers)):
+            problems = pool.map(partial(_check_shard, contents=contents), some)
+            for shard, (changed, unsound) in zip(some, problems, strict=True):
+                findings.changed += [f"{shard.place}: {one}" for one in changed]
+                findings.unsound += [f"{shard.place}: {one}" for one in unsound]
+                findings.count(shard, keys)
     findings.twice = sorted(key for key, count in keys.items() if count > 1)
-    findings.foreign = _foreign_shards(made, kinds, set(findings.missing))
-    findings.notes = [*_other_files(made), *_notes(made)]
-    findings.changed += _differing_description(made)
+    findings.foreign = _foreign_files(dataset, kinds, set(findings.missing))
+    findings.notes = [*_other_files(dataset), *_notes(dataset)]
+    findings.changed += _differing_description(dataset)
     return findings
 
 
-def _damaged_records(made: MadeSet, kinds: Iterable[str]) -> Iterator[str]:
+def _damaged_records(dataset: StoredDataset, kinds: Iterable[str]) -> Iterator[str]:
     for kind in kinds:
-        for path in made.shard_files(kind):
+        for path in dataset.shard_files(kind):
             try:
                 read_record(path)
             except FileFormatError as error:
                 yield str(error)
 
 
-def _checked(
-    shards: Iterator[MadeShard], workers: int, *, contents: bool
-) -> Iterator[_ShardFindings]:
-    """Some shards at once: the records of millions of samples would not fit into memory."""
-    check = partial(_check_shard, contents=contents)
-    with ThreadPoolExecutor(workers) as pool:
-        while some := list(itertools.islice(shards, 4 * workers)):
-            yield from pool.map(check, some)
-
-
-def _check_shard(shard: MadeShard, *, contents: bool) -> _ShardFindings:
-    changed = None
+def _check_shard(shard: StoredShard, *, contents: bool) -> tuple[list[str], list[str]]:
+    """Problems of the file, and of its samples."""
+    changed = []
     try:
         with shard.path.open("rb") as file:
             if hashlib.file_digest(file, "sha256").hexdigest() != shard.record.sha256:
-                changed = "its sha256 is not that of its record"
+                changed.append("its sha256 is not that of its record")
     except OSError as error:
-        changed = f"cannot be read ({one_line(error)})"
+        changed.append(f"cannot be read ({one_line(error)})")
     is_video = shard.record.variant == VIDEOS
-    found = _unsound(shard) if contents and not is_video else ()
-    return _ShardFindings(shard, changed, tuple(found))
+    return changed, list(_unsound(shard)) if contents and not is_video else []
 
 
-def _unsound(shard: MadeShard) -> Iterator[str]:
+def _unsound(shard: StoredShard) -> Iterator[str]:
     for sample in shard.samples:
         try:
             _check_sample(shard.path, sample)
@@ -183,37 +175,25 @@ def _check_sample(path: Path, sample: SampleRecord) -> None:
         raise FileFormatError(f"sample {sample.key}: its caption is not that of its record")
 
 
-def _foreign_shards(made: MadeSet, kinds: Iterable[str], missing: set[str]) -> list[str]:
-    """Tars and records among the shards that are not complete shards of this data set."""
-    own, expected = {shard.path for shard in made.shards(*kinds)}, made.expected()
+def _foreign_files(dataset: StoredDataset, kinds: Iterable[str], missing: set[str]) -> list[str]:
+    """Files among the shards that are not of complete shards of this data set."""
+    own, expected = {shard.place for shard in dataset.shards(*kinds)}, dataset.expected()
     if expected is not None:
-        own = {path for path in own if f"{path.parent.name}/{path.name}" in expected}
+        own &= expected
     found = []
     for kind in kinds:
-        folder = made.folder / kind
+        folder = dataset.folder / kind
         for path in sorted(folder.iterdir()) if folder.is_dir() else ():
-            place = f"{kind}/{path.name}"
-            tar = path.with_suffix(EXTENSION)
-            if tar in own and path in (tar, record_path(tar)):
-                continue
-            if SHARD_FILE.fullmatch(path.name) and f"{kind}/{tar.name}" in missing:
-                continue  # said already: it is not complete
-            if not is_hidden_part(path):
-                found.append(f"{place}: {_why_foreign(made, tar)}")
+            is_shard = SHARD_FILE.fullmatch(path.name) is not None
+            place = f"{kind}/{path.with_suffix(EXTENSION).name}"
+            if not (is_shard and place in own | missing) and not is_hidden_part(path):
+                found.append(f"{kind}/{path.name}")
     return found
 
 
-def _why_foreign(made: MadeSet, tar: Path) -> str:
-    record = read_record(tar) if SHARD_FILE.fullmatch(tar.name) else None
-    if record is None:
-        return "no shard of this data set"
-    is_own = made.is_own(record, tar)
-    return "more than the specification asks for" if is_own else "another shard, or of another set"
-
-
-def _other_files(made: MadeSet) -> Iterator[str]:
-    for path in sorted(made.folder.iterdir()):
-        if path.name in OWN or path.name in made.variants or path.name == VIDEOS:
+def _other_files(dataset: StoredDataset) -> Iterator[str]:
+    for path in sorted(dataset.folder.iterdir()):
+        if path.name in OWN or path.name in dataset.variants or path.name == VIDEOS:
             continue
         if is_hidden_part(path):
             yield f"{path.name} is what a killed process left; it may be deleted"
@@ -221,30 +201,26 @@ def _other_files(made: MadeSet) -> Iterator[str]:
             yield f"{path.name} is not of texvent"
 
 
-def _notes(made: MadeSet) -> Iterator[str]:
-    shared = in_several_splits(made.shards())
+def _notes(dataset: StoredDataset) -> Iterator[str]:
+    shared = in_several_splits(dataset.shards())
     if shared:
         yield (
             f"{len(shared)} prompts or videos are in several splits, such as "
             f"{shown(min(shared))}: tests would see what was trained on"
         )
-    expected = made.expected()
-    if expected is not None and not made.has_videos and any(map(_is_video, expected)):
+    expected = dataset.expected()
+    if not dataset.has_videos and any(one.startswith(f"{VIDEOS}/") for one in expected or ()):
         yield "its videos are not here; no loader needs them"
-    if expected is None and not (made.folder / CROISSANT_FILE).is_file():
+    if expected is None and not (dataset.folder / CROISSANT_FILE).is_file():
         yield (
             "there is neither items.jsonl nor croissant.json, so shards missing at the end of a "
             "split are not noticed"
         )
 
 
-def _is_video(place: str) -> bool:
-    return place.startswith(f"{VIDEOS}/")
-
-
-def _differing_description(made: MadeSet) -> Iterator[str]:
-    """Whether the description that was published is of these shards."""
-    path = made.folder / CROISSANT_FILE
+def _differing_description(dataset: StoredDataset) -> Iterator[str]:
+    """Shards that the published description does not fit."""
+    path = dataset.folder / CROISSANT_FILE
     if not path.is_file():
         return
     try:
@@ -253,7 +229,7 @@ def _differing_description(made: MadeSet) -> Iterator[str]:
     except (ValueError, KeyError, TypeError, OSError, AttributeError):
         yield f"{path.name}: no description that texvent dataset publish wrote"
         return
-    found = {shard.place: shard.record.sha256 for shard in made.shards()}
+    found = {shard.place: shard.record.sha256 for shard in dataset.shards()}
     differing = sorted(place for place in said | found if said.get(place) != found.get(place))
     if differing:
         yield (

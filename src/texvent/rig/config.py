@@ -1,4 +1,4 @@
-"""What a rig records beside events: options of `texvent rig`."""
+"""Options of `texvent rig`: cameras, frames, IMU, layout."""
 
 from __future__ import annotations
 
@@ -29,9 +29,9 @@ class RigConfig:
     frames: Fraction | None = None
     """Frames per second beside the events; without it there are none."""
     exposure: float = 0.0
-    """How long each frame, or each of its rows, sees light, in seconds; what moves is blurred."""
+    """Exposure time of each frame, or of each of its rows, s; moving objects are blurred."""
     shutter: Literal["global", "rolling"] = "global"
-    """Whether all rows of a frame see light at once, or one after the other, from the top."""
+    """Global: all rows are exposed at once; rolling: one after the other, from the top."""
     readout: float = 0.01
     """Rolling shutter: from the first row to the last, in seconds (not measured on any sensor)."""
     imu: float | None = None
@@ -40,9 +40,9 @@ class RigConfig:
     """Noise of the IMU: adis16448 (EuRoC's), none, or a file as Kalibr's imu.yaml. What a rig file
     states under imu0 comes before the default."""
     layout: Layout = "hdf5"
-    """How the folder is laid out: hdf5 (a file per camera), dsec, ecd (text), rosbag1 or mcap."""
+    """Layout of the folder: hdf5 (a file per camera), dsec, ecd (text), rosbag1 or mcap."""
     truth: str = ""
-    """Layout hdf5: what is true of each camera's scene, in cam0/truth/: flow, depth, ids, boxes,
+    """Layout hdf5: ground truth of each camera, in cam0/truth/: flow, depth, ids, boxes,
     poses, events, overlay, with commas between, or all (docs/truth.md)."""
 
     def __post_init__(self) -> None:

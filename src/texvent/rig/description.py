@@ -1,4 +1,4 @@
-"""What a rig is: cameras with lenses, where they sit, and an IMU.
+"""Rig: cameras with lenses and mounts, and an IMU.
 
 Frames of reference are right-handed. A camera's x points right, its y down, its z along the optical
 axis. The IMU's axes are those of the first camera unless the rig says otherwise. A [4, 4] map
@@ -47,11 +47,11 @@ class ImuNoise:
     accelerometer_noise_density: float = 0.0
     """White noise, m/s²/√Hz."""
     accelerometer_random_walk: float = 0.0
-    """Of the bias, m/s³/√Hz."""
+    """Random walk of the bias, m/s³/√Hz."""
     gyroscope_noise_density: float = 0.0
     """White noise, rad/s/√Hz."""
     gyroscope_random_walk: float = 0.0
-    """Of the bias, rad/s²/√Hz."""
+    """Random walk of the bias, rad/s²/√Hz."""
 
 
 NOISE_NAMES = (

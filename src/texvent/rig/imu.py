@@ -1,4 +1,4 @@
-"""What an IMU on the rig measures: exact from the camera path, then with noise.
+"""Samples of an IMU on the rig: exact from the camera path, then with noise.
 
     accelerometer  f = Rᵀ (a − g) + b_a + n_a     specific force, m/s², in the IMU's axes
     gyroscope      ω = vee(Rᵀ Ṙ) + b_g + n_g      rad/s, in the IMU's axes
@@ -67,7 +67,7 @@ def sample_times_us(rate_hz: float, stop_us: int) -> NDArray[np.int64]:
 
 
 def true_samples(scene: Scene, first_from_imu: Float64Array, t_us: NDArray[np.int64]) -> ImuSamples:
-    """What an IMU without noise measures at each instant."""
+    """Samples of an IMU without noise."""
     t_s = t_us / MICROSECONDS
     position, to_world, acceleration, turning = _derivatives(scene, first_from_imu, t_s, STEP_S)
     force = acceleration + np.array([0.0, 0.0, GRAVITY])

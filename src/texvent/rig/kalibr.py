@@ -158,7 +158,7 @@ def camchain(rig: Rig, topics: Mapping[str, str], *, has_imu: bool) -> str:
     Args:
         rig: cameras with lenses.
         topics: camera → topic of its frames.
-        has_imu: whether the IMU's place is told.
+        has_imu: whether the IMU's place is included.
     """
     document = camera_entries(rig, topics, has_imu=has_imu)
     return yaml.safe_dump(document, default_flow_style=None, sort_keys=False, width=200)
@@ -295,19 +295,19 @@ def _from_first(
     where: str,
 ) -> Float64Array:
     """[4, 4] coordinates in the first camera → in this one."""
-    ways = [name for name in ("T_cn_cnm1", "baseline", "rotation") if name in entry]
+    given = [name for name in ("T_cn_cnm1", "baseline", "rotation") if name in entry]
     if not cameras:
-        if ways:
+        if given:
             raise ConfigError(
-                f"{where}: {ways[0]} tells the place in the camera before; the first has none"
+                f"{where}: {given[0]} is the place in the camera before; the first has none"
             )
         return np.eye(4)
     before = cameras[-1].from_first
     if "T_cn_cnm1" in entry:
-        if len(ways) > 1:
-            raise ConfigError(f"{where}: T_cn_cnm1 and {ways[1]} both tell its place; give one")
+        if len(given) > 1:
+            raise ConfigError(f"{where}: T_cn_cnm1 and {given[1]} both state its place; give one")
         return _map(entry["T_cn_cnm1"], f"{where}: T_cn_cnm1") @ before
-    if ways:
+    if given:
         return _placed(entry, where) @ before
     if first_from_imu is not None and "T_cam_imu" in entry:
         return _map(entry["T_cam_imu"], f"{where}: T_cam_imu") @ np.linalg.inv(first_from_imu)

@@ -30,7 +30,7 @@ class LoadedCamera:
     """One camera of a recorded rig."""
 
     folder: Path
-    """Where its files lie."""
+    """Folder of its files."""
     mount: RigCamera
     """Its name, size, lens and place."""
 
@@ -95,7 +95,7 @@ class LoadedRig:
     rig: Rig
     """Lenses and places."""
     facts: Mapping[str, Any]
-    """What made it: rig.json."""
+    """Provenance: rig.json."""
 
     @property
     def cameras(self) -> tuple[LoadedCamera, ...]:

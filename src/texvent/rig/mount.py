@@ -65,7 +65,7 @@ def path_lens(scene: Scene, camera: RigCamera, duration_s: float) -> Lens:
 def body_poses(
     scene: Scene, first_from_imu: Float64Array, t_s: NDArray[Any]
 ) -> tuple[Float64Array, Float64Array]:
-    """Where the IMU is along the scene's camera path.
+    """Poses of a body along the scene's camera path.
 
     Args:
         scene: the scene.

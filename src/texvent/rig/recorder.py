@@ -100,7 +100,7 @@ def record_rig(
 
 
 def _own_files(out: Path) -> Callable[[Path], bool]:
-    """Tells the files of the recording that lies there, by its rig.json."""
+    """Tells the files of a recording there from others, by its rig.json."""
     try:
         listed = json.loads((out / FACTS).read_text(encoding="utf-8"))["files"]
         own = {str(name) for name in listed}

@@ -42,7 +42,7 @@ from texvent.settings.resolution import Settings, sensor_preset
 from texvent.video import MICROSECONDS, frame_time_us
 
 POSE_RATE_HZ = 200.0
-"""Of the true poses where there is no IMU."""
+"""Rate of the true poses where there is no IMU."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -91,7 +91,7 @@ class Recording:
         return prepare_video(video, settings, prompt=self.prompt, progress=progress)
 
     def facts(self, camera: RigCamera | None = None) -> dict[str, Any]:
-        """What files say of the rig, under "rig"."""
+        """Facts of the rig, for files, under "rig"."""
         return {
             "camera": camera.name if camera is not None else None,
             "options": plain(self.config),
@@ -101,11 +101,11 @@ class Recording:
         }
 
     def provenance(self) -> dict[str, Any]:
-        """What made the recording as a whole."""
+        """Provenance of the recording as a whole."""
         return describe_run(self.settings, prompt=self.prompt, source=self.video.metadata)
 
     def shutter_of(self, camera: RigCamera) -> Shutter:
-        """When the rows of a camera's frames see light."""
+        """Shutter of a camera's frames."""
         return make_shutter(self.config, camera.size)
 
     def frame_times(self, camera: RigCamera) -> list[int]:
@@ -144,7 +144,7 @@ class Recording:
 
     @cached_property
     def imu(self) -> ImuSamples | None:
-        """What the IMU measures; None without one.
+        """Samples of the IMU; None without one.
 
         Warns:
             TexventWarning: the camera's path has corners.
@@ -167,7 +167,7 @@ def prepare_recording(
         prompt: what to show: a sentence or a scene.
         settings: of the simulation, as those of `texvent generate`.
         config: what is recorded.
-        progress: told how the generator gets on.
+        progress: receives the progress of the generator.
 
     Raises:
         ConfigError: the generator is not the embedded one, the camera zooms, a lens does not fit

@@ -43,22 +43,22 @@ class ExposedFrame:
     t_us: int
     """The middle of the exposure of the image's middle, µs."""
     first_row_s: float
-    """When the exposure of the first row starts, s."""
+    """Start of the exposure of the first row, s."""
     row_s: float
     """From one row's exposure to the next one's, s; 0 under a global shutter."""
     exposure_s: float
-    """How long each row sees light, s."""
+    """Exposure of each row, s."""
 
     @property
     def end_s(self) -> float:
-        """When the exposure of the last row ends, s."""
+        """End of the exposure of the last row, s."""
         rows = int(self.pixels.shape[0])
         return self.first_row_s + self.exposure_s + self.row_s * (rows - 1)
 
 
 @dataclass(frozen=True)
 class Shutter:
-    """When the rows of an image see light, relative to the frame's time."""
+    """Exposure times of the rows of an image, relative to the frame's time."""
 
     exposure_s: float
     row_s: float

@@ -52,18 +52,6 @@ def quaternion(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(best / np.linalg.norm(best) * (-1.0 if best[3] < 0 else 1.0))
 
 
-def rotation_matrix(unit: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The rotation matrix [3, 3] of a unit quaternion (x, y, z, w)."""
-    x, y, z, w = (float(value) for value in unit)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
 def pose_matrix(camera: Camera) -> NDArray[np.float64]:
     """Camera-to-world, [4, 4], metres."""
     pose = np.eye(4)

@@ -97,7 +97,7 @@ CHECKS = (
         value=lambda one: f"{one['flicker']:.2f} levels",
         limit=f"{FLICKER_LEVELS:g}",
         effect="ON and OFF everywhere in turn; more intermediate frames",
-        help="--deflicker",
+        help="`deflicker`",
     ),
     Check(
         name="flash",

@@ -3,7 +3,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.calibrate.estimates import Estimate
-from texvent.calibrate.events_only.dead_time import find_dead_time
+from texvent.calibrate.events_only.pixel_trains import find_dead_time
 
 
 def test_random_intervals_begin_at_the_dead_time():

@@ -8,8 +8,8 @@ import pytest
 
 from texvent.calibrate.events_only.flicker import NAMES, measure_flicker
 from texvent.calibrate.events_only.flicker_cycles import find_bursts, find_cycles
+from texvent.calibrate.events_only.known_scenes import simulate_flicker
 from texvent.calibrate.events_only.pixel_trains import PixelTrains
-from texvent.calibrate.events_only.replay import replay_flicker
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -32,7 +32,7 @@ TRUTH = dataclasses.replace(
 
 @pytest.fixture(scope="module")
 def recording():
-    return replay_flicker(TRUTH, SIZE, 5.0, ratio=6.0, number=14, seed=4)
+    return simulate_flicker(TRUTH, SIZE, 5.0, ratio=6.0, number=14, seed=4)
 
 
 @pytest.fixture(scope="module")
@@ -99,7 +99,7 @@ def test_what_is_no_flicker_is_refused(recording):
         measure_flicker(recording, START, hz=9.0, ratio=6.0)
     with pytest.raises(InputError, match="needs 3"):
         measure_flicker(recording.cut(0, 700_000), START, hz=5.0, ratio=6.0)
-    weak = replay_flicker(TRUTH, SIZE, 5.0, ratio=1.6, number=5)
+    weak = simulate_flicker(TRUTH, SIZE, 5.0, ratio=1.6, number=5)
     with pytest.raises(InputError, match="brighter against the dark"):
         measure_flicker(weak, START, hz=5.0, ratio=1.6)
 
@@ -108,7 +108,7 @@ def test_a_refractory_period_that_hides_the_burst_keeps_the_old_values():
     hidden = dataclasses.replace(
         TRUTH, cutoff_hz=1000.0, contrast_threshold=0.15, refractory_period_us=300
     )
-    events = replay_flicker(hidden, SensorSize(12, 10), 5.0, ratio=10.0, number=8)
+    events = simulate_flicker(hidden, SensorSize(12, 10), 5.0, ratio=10.0, number=8)
     flicker = measure_flicker(events, START, hz=5.0, ratio=10.0)
     assert not flicker.found
     assert "use less light" in flicker.kept[0].reason
@@ -129,7 +129,7 @@ def test_cycles_and_bursts_of_a_pixel_by_hand():
 
 
 def test_a_region_of_a_few_pixels_gives_the_thresholds_of_the_circuit():
-    events = replay_flicker(TRUTH, SensorSize(3, 2), 5.0, ratio=6.0, number=40)
+    events = simulate_flicker(TRUTH, SensorSize(3, 2), 5.0, ratio=6.0, number=40)
     found = {one.name: one for one in measure_flicker(events, START, hz=5.0, ratio=6.0).found}
     assert found["cutoff_hz"].value == pytest.approx(120, rel=0.1)
     assert found["contrast_threshold"].value == pytest.approx(0.26, rel=0.25)

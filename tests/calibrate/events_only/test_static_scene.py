@@ -5,7 +5,7 @@ import dataclasses
 import numpy as np
 import pytest
 
-from texvent.calibrate.events_only.replay import replay_static
+from texvent.calibrate.events_only.known_scenes import simulate_static
 from texvent.calibrate.events_only.static_scene import find_hot_pixels, measure_static_scene
 from texvent.errors import InputError
 from texvent.events import EventStream
@@ -29,7 +29,7 @@ TRUTH = dataclasses.replace(
 
 def record(config, seconds=8.0, seed=11, size=SIZE) -> EventStream:
     """After two seconds, in which pixels forget the phase that they began with."""
-    events = replay_static(config, size, seconds + 2.0, seed=seed)
+    events = simulate_static(config, size, seconds + 2.0, seed=seed)
     return events.cut(2_000_000, round((seconds + 2) * 1e6))
 
 

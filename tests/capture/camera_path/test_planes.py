@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.capture.camera_path.motion import CameraPose2D, Pose
-from texvent.capture.camera_path.planes import MOST, split_planes
-from texvent.capture.camera_path.view import View
+from texvent.capture.camera_path.view import MOST, View, split_planes
 from texvent.sensor import SensorSize
 
 BAND = slice(4, 7)

@@ -8,8 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from texvent.capture.camera_path.motion import CameraPose2D, Pose
-from texvent.capture.camera_path.planes import Planes
-from texvent.capture.camera_path.view import View, fitted_view
+from texvent.capture.camera_path.view import Planes, View, fitted_view
 from texvent.errors import InputError
 from texvent.sensor import SensorSize
 

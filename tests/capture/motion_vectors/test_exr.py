@@ -5,8 +5,8 @@ import pytest
 from tests.capture.motion_vectors import moving_scene as scene
 
 import texvent
-from texvent.capture.motion_vectors.attach import find_motion_sidecar
 from texvent.capture.motion_vectors.exr_image import exr_frame
+from texvent.capture.motion_vectors.frames import find_motion_sidecar
 from texvent.capture.open import open_frames
 from texvent.cli.app import main
 from texvent.config import CaptureConfig
@@ -111,7 +111,7 @@ def test_a_real_render_of_blender():
     assert np.hypot(*middle.forward.T).max() > 3.0  # the ball
     assert 3.0 < middle.depth.min() < middle.depth.max() < 30.0
     assert len(np.unique(middle.instance)) >= 5
-    with pytest.raises(InputError, match="motion_convention=blender; give that"):
+    with pytest.raises(InputError, match="motion_convention=blender,y-up; give that"):
         open_frames(
             BLENDER, CaptureConfig(motion=BLENDER / "motion", motion_convention="blender,y-down")
         )

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.capture.motion_vectors.attach import find_motion_sidecar
+from texvent.capture.motion_vectors.frames import find_motion_sidecar
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError

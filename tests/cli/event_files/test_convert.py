@@ -152,17 +152,6 @@ def test_info_knows_every_format(
         assert (facts["events"], facts["sensor"], facts["seed"]) == (5000, "346x260", 7)
 
 
-def test_info_always_shows_what_was_done_since(
-    recording: EventStream, capsys: pytest.CaptureFixture[str]
-) -> None:
-    many = {**dict.fromkeys("abcdefghijk", 1), "edits": [{"crop": "0,0,8,8"}]}
-    save("many.h5", recording.with_metadata(many))
-    assert run("info", "many.h5") == 0
-    shown = capsys.readouterr().out.splitlines()
-    assert len(shown) == 11
-    assert [line.split()[0] for line in shown].count("edits") == 1
-
-
 @pytest.mark.parametrize(("name", "has_checksums"), [("out.raw", False), ("in.h5", True)])
 def test_validate_says_whether_the_format_notices_damage(
     recording: EventStream, capsys: pytest.CaptureFixture[str], name: str, has_checksums: bool
@@ -172,20 +161,6 @@ def test_validate_says_whether_the_format_notices_damage(
     run("validate", name)
     said = capsys.readouterr().out
     assert ("the format cannot notice" in said) is not has_checksums
-
-
-@pytest.mark.parametrize(
-    ("words", "why"),
-    [
-        (("--filter",), "--filter: expected at least one argument"),
-        (("--filter", "--crop", "0,0,8,8"), "--filter: expected at least one argument"),
-    ],
-)
-def test_a_list_is_given_once_and_with_values(
-    recording: EventStream, capsys: pytest.CaptureFixture[str], words: tuple[str, ...], why: str
-) -> None:
-    assert why in refused(capsys, "convert", "in.h5", "out.h5", *words)
-    assert not Path("out.h5").exists()
 
 
 def test_filters_run_in_order_and_are_noted(
@@ -222,31 +197,6 @@ def test_hot_pixels_are_written_as_a_mask_that_other_runs_take(
     assert "masks end in .npy, .png or .txt" in said
     assert run("convert", "in.h5", "x.h5", "--save-mask", "hot.png") == 3
     assert not Path("x.h5").exists()
-
-
-@pytest.mark.parametrize(
-    "words",
-    [
-        ("--rotate", "45"), ("--flip", "z"), ("--downsample", "0"), ("--crop", "0,0,999,9"),
-        ("--resize", "0x3"), ("--time", "5,b"), ("--format", "nosuch"), ("--filter", "nosuch"),
-    ],
-    ids=lambda words: words[0],
-)  # fmt: skip
-def test_no_mask_is_written_where_another_option_is_wrong(
-    recording: EventStream, capsys: pytest.CaptureFixture[str], words: tuple[str, str]
-) -> None:
-    refused(capsys, "convert", "in.h5", "out.h5", "--save-mask", "hot.npy", *words)
-    assert [one.name for one in Path().iterdir()] == ["in.h5"]
-
-
-def test_the_filter_mask_is_the_option_mask_on_the_command_line(
-    recording: EventStream, capsys: pytest.CaptureFixture[str]
-) -> None:
-    for text in ("mask", "mask:pixels=hot.npy"):
-        said = refused(capsys, "convert", "in.h5", "out.h5", "--filter", text)
-        assert "use --mask FILE" in said
-    said = refused(capsys, "convert", "in.h5", "out.h5", "--filter", "nosuch")
-    assert "hot-pixels, rate-limit" in said
 
 
 def test_events_are_turned_mirrored_and_put_on_larger_pixels(recording: EventStream) -> None:

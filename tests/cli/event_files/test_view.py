@@ -20,12 +20,6 @@ def run(*words: object) -> int:
 
 
 @pytest.fixture
-def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
-@pytest.fixture
 def recording(folder) -> Path:
     step = np.arange(500)
     size = SensorSize(32, 18)
@@ -47,12 +41,6 @@ def test_view_opens_a_temporary_page(recording, monkeypatch, tmp_path, capsys) -
     page = Path(capsys.readouterr().out.strip())
     assert opened == [page.as_uri()]
     assert "Shows all 500 events." in page.read_text("utf-8")
-
-
-def test_view_says_so_where_no_browser_can_be_opened(recording, monkeypatch, capsys) -> None:
-    monkeypatch.setattr(webbrowser, "open", lambda url: False)
-    assert run("view", recording) == 0
-    assert "open that page yourself" in capsys.readouterr().err
 
 
 def test_view_saves_a_page_with_the_video_beside_and_opens_nothing(recording, monkeypatch) -> None:

@@ -23,12 +23,6 @@ QUICK = (
 )
 
 
-@pytest.fixture
-def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
 def run(*words: object) -> int:
     return main([str(word) for word in words])
 
@@ -126,38 +120,6 @@ def test_a_preview_that_is_missing_is_made_again(folder, capsys):
     assert recordings(folder / "p") == before
 
 
-def test_other_options_are_refused_with_the_difference(folder, capsys):
-    (folder / "p.txt").write_text("a dog runs\n")
-    assert run("batch", "p.txt", *QUICK) == 0
-    assert run("batch", "p.txt", *QUICK, "--contrast-threshold", 0.4) == 2
-    assert (
-        "options: --contrast-threshold was 0.2, is 0.4; name another folder"
-        in capsys.readouterr().err
-    )
-    assert run("batch", "p.txt", *QUICK, "--contrast-threshold", 0.4, "--overwrite") == 0
-
-
-def test_prompts_do_not_go_on_in_a_folder_of_videos(folder, capsys):
-    clips = Path(__file__).parents[2] / "clips"
-    assert run("batch", clips, "-o", "out", "--stop", "0.1", "--events-only") == 0
-    (folder / "p.txt").write_text("a dog runs\n")
-    assert run("batch", "p.txt", "-o", "out", *QUICK) == 2
-    assert "a batch of videos, and this is one of prompts; name" in capsys.readouterr().err
-
-
-def test_empty_names_are_no_folder(folder, capsys):
-    (folder / "a.npy").touch()
-    assert run("batch", "", "-o", "out") == 2
-    assert "SOURCES must not be empty (Lists" in capsys.readouterr().err
-
-
-def test_help_says_that_a_folder_is_written(capsys):
-    assert run("batch", "--help", "all") == 0
-    said = " ".join(capsys.readouterr().out.split())
-    assert "Folder for the event files" in said
-    assert "Event file to write" not in said
-
-
 def test_files_of_others_in_the_folder_are_not_replaced(folder, capsys):
     (folder / "p.csv").write_text("prompt,name\na dog runs,dog\n")
     (folder / "p").mkdir()
@@ -229,8 +191,7 @@ def whole(tmp_path_factory):
     return folder / "whole"
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGKILL])
-@pytest.mark.parametrize("jobs", [1, 2])
+@pytest.mark.parametrize(("number", "jobs"), [(signal.SIGTERM, 1), (signal.SIGKILL, 2)])
 def test_a_killed_batch_goes_on_without_loss(folder, whole, spawn, number, jobs):
     (folder / "p.txt").write_text(TREES)
     words = [sys.executable, "-m", "texvent.cli.app", "batch", "p.txt", "--jobs", str(jobs)]

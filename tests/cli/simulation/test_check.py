@@ -36,14 +36,6 @@ def test_the_table_names_what_was_found_first_and_fits(clip, capsys, monkeypatch
     assert "30 fps" in lines[-2]
 
 
-def test_all_advises_on_every_check(clip, capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "400")
-    assert main(["check", str(clip), "-q", "--all"]) == 0
-    said = capsys.readouterr().out
-    assert "nothing found" not in said
-    assert all(check.effect in said for check in CHECKS)
-
-
 def test_json_has_all_measurements(clip, capsys):
     assert main(["check", str(clip), "-q", "--json", "--sensor", "64x48"]) == 0
     facts = json.loads(capsys.readouterr().out)

@@ -93,36 +93,6 @@ def test_the_list_of_generators_names_size_rate_licence_and_the_extra(folder, ca
     assert "pip install 'texvent[generate]'" in shown
 
 
-def test_a_narrow_terminal_hides_nothing_of_the_list(folder, capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "80")
-    assert run("generators") == 0
-    shown = capsys.readouterr().out
-    starts = {line.split(" ")[0] for line in shown.splitlines()}
-    assert {"procedural", "opensora", *MODELS} <= starts
-    assert "\N{HORIZONTAL ELLIPSIS}" not in shown
-    for model in MODELS.values():
-        assert f"{model.licence_and_terms} ({model.licence_source})" in shown
-
-
-def test_the_list_recommends_24_frames_per_second_in_a_hundred_columns(folder, capsys, monkeypatch):
-    monkeypatch.setenv("COLUMNS", "100")
-    assert run("generators") == 0
-    lines = capsys.readouterr().out.splitlines()
-    tables = lines[
-        : lines.index(
-            "None was run here with its published weights. Every pipeline runs"
-            " in texvent's tests with"
-        )
-    ]
-    assert max(map(len, tables)) <= 100
-    second = next(i for i, line in enumerate(lines) if line.startswith("fewer than 24"))
-    recommended = {line.split()[0] for line in lines[:second] if line.strip()}
-    rows = {line.split()[0]: line for line in lines if line.strip()}
-    assert recommended & set(MODELS) == {name for name, row in MODELS.items() if row.fps >= 24}
-    assert "16 low" in rows["wan-1.3b"]
-    assert {name for name in MODELS if " low " in rows[name]} == set(MODELS) - recommended
-
-
 def test_a_model_of_few_frames_per_second_warns_in_one_line(folder, capsys):
     """Without diffusers the run ends there, with an error of its own."""
     run("generate", PROMPT, "--generator", "cogvideox-2b", "--dry-run")
@@ -154,9 +124,3 @@ def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):
     assert run("generators") == 0
     rows = capsys.readouterr().out.splitlines()
     assert next(line for line in rows if line.startswith("wan-1.3b")).split()[1] == "damaged"
-
-
-def test_the_list_of_generators_has_help_and_refuses_names(capsys):
-    assert run("generators", "--help") == 0
-    assert "--generator ./my-model" in capsys.readouterr().out
-    assert run("generators", "wan") == 2

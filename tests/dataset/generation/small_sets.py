@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from texvent.dataset.generation.engines.protocol import Engine, in_this_process
+from texvent.dataset.generation.engines import Engine, in_this_process
 from texvent.dataset.generation.make import Work, find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.reading import specification_from

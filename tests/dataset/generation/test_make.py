@@ -14,15 +14,13 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.generation.engines.processes import ProcessEngine
-from texvent.dataset.generation.engines.protocol import Engine, in_this_process
+from texvent.dataset.generation.engines import Engine, ProcessEngine, in_this_process
 from texvent.dataset.generation.make import Work, find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe, load_recipe
-from texvent.dataset.generation.records import FAILED, FILTERED, MADE, read_record
 from texvent.dataset.generation.sample import simulate_sample
+from texvent.dataset.generation.shards import FAILED, FILTERED, MADE, read_members, read_record
 from texvent.dataset.generation.status import read_status
-from texvent.dataset.generation.tar_shard import read_members
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Filters
 from texvent.errors import ConfigError, FileFormatError, OutputError
@@ -217,7 +215,7 @@ def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
         (4, 2, 2),  # a still video has the noise of the sensor, and no signal
         (2, 1, 1),
     }
-    (record,) = (one.record for one in MadeSet.open(folder).shards("esim"))
+    (record,) = (one.record for one in StoredDataset.open(folder).shards("esim"))
     reasons = {one.status: one.reason or "" for one in record.samples}
     assert "b.npy" in reasons[FAILED]
     assert reasons[FILTERED] == "fewer than 1 signal events"
@@ -240,13 +238,13 @@ def test_events_of_noise_save_no_sample_from_the_filter(tmp_path: Path, kept: st
     recipe = recipe_of(
         tmp_path,
         sources=[{"videos": "*.npy", "label": "{name}"}],
-        options={"fps": 30, "simulator": "v2e", "shot_noise_rate_hz": 20.0, "events": kept},
+        options={"fps": 30, "simulator": "v2e", "shot_noise_rate_hz": 20.0, "keep_events": kept},
         splits={"train": 1.0},
         filters={},
         variants={"v2e": {}},
     )
     make(recipe, tmp_path / "out")
-    (shard,) = MadeSet.open(tmp_path / "out").shards()
+    (shard,) = StoredDataset.open(tmp_path / "out").shards()
     made, still = sorted(shard.record.samples, key=lambda one: one.label or "")
     assert (made.status, still.status) == (MADE, FILTERED)
     assert still.reason == "fewer than 200 signal events"

@@ -14,11 +14,10 @@ from pathlib import Path
 from tests.dataset.generation.small_sets import clips_recipe, digests, make
 from tests.soak.dataset_kills import descendants
 
-from texvent.dataset.generation.engines.processes import ATTEMPTS, ProcessEngine
-from texvent.dataset.generation.engines.protocol import Task
+from texvent.dataset.generation.engines import ATTEMPTS, ProcessEngine, Task
 from texvent.dataset.generation.make import find_work, make_shards, remove_dead_parts
 from texvent.dataset.generation.recipe import Shard
-from texvent.dataset.generation.shard_log import log_path
+from texvent.dataset.generation.status import log_path
 
 SLOW = {"paper": {"seeds": 60}}
 """A shard takes long enough to be found at work."""

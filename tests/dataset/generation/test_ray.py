@@ -13,9 +13,9 @@ import pytest
 from tests.dataset.generation.small_sets import clips_recipe, digests, make
 
 import texvent
-from texvent.dataset.generation.engines.protocol import Outcome, Task
-from texvent.dataset.generation.engines.ray_cluster import RayEngine
+from texvent.dataset.generation.engines import Outcome, Task
 from texvent.dataset.generation.make import find_work, make_shards, remove_dead_parts
+from texvent.dataset.generation.ray_cluster import RayEngine
 from texvent.dataset.generation.recipe import Recipe, Shard
 from texvent.errors import ConfigError, MissingDependencyError, OutputError
 

@@ -7,7 +7,7 @@ from pathlib import Path
 from tests.dataset.generation.small_sets import clips_recipe, make
 
 from texvent.dataset.generation.recipe import Shard
-from texvent.dataset.generation.records import ShardSummary
+from texvent.dataset.generation.shards import ShardSummary
 from texvent.dataset.generation.status import read_status
 
 

@@ -25,13 +25,13 @@ from tests.dataset.loading.written_set import (
 
 import texvent.dataset
 from texvent import Augment
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.generation.engines.protocol import in_this_process
+from texvent.dataset.generation.engines import in_this_process
 from texvent.dataset.generation.make import find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.loading import shard_files
 from texvent.dataset.loading.stored_samples import StoredSamples
 from texvent.dataset.merge import merge
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.samples import SimulatedSamples
 from texvent.dataset.specification.reading import specification_from
 from texvent.errors import FileFormatError, InputError
@@ -72,14 +72,6 @@ def test_every_sample_comes_back_with_all_that_is_known(samples, written):
         )
     assert [sample.key for sample in samples] == list(written)
     assert samples[-1].key == list(written)[-1]
-
-
-def test_a_notebook_shows_counts_of_the_set(samples, written):
-    page = samples._repr_mimebundle_()["text/html"]
-    assert "StoredSamples · 24 samples" in page
-    for counts in ("bus 16, car 8", "test 12, train 12", "esim 12, paper 12"):
-        assert f"</span>{counts}<" in page
-    assert f"</span>{sum(map(len, written.values())):,}<" in page
 
 
 def test_a_console_shows_counts_of_the_set_and_no_tables(samples):
@@ -237,7 +229,7 @@ def test_a_merged_set_loads_with_its_own_numbers_of_classes(cars, tmp_path):
     """Merging adds a class before the others, so their numbers in the tars change too."""
     ape = {"sources": [{"prompts": ["a bird flies up"], "label": "bird"}], "splits": {"train": 1.0}}
     birds = make_set(tmp_path / "birds", **ape)
-    merge([MadeSet.open(cars), MadeSet.open(birds)], tmp_path / "merged")
+    merge([StoredDataset.open(cars), StoredDataset.open(birds)], tmp_path / "merged")
     samples = texvent.dataset.open(tmp_path / "merged")
     assert samples.labels == ("bird", "bus", "car")
     parts = [*texvent.dataset.open(cars), *texvent.dataset.open(birds)]

@@ -99,8 +99,6 @@ def test_ranks_get_every_sample_once(samples, options, drop_last):
 
 
 def test_no_number_of_workers_changes_a_batch_and_epochs_differ(folder):
-    from texvent.dataset.loading.torch_loader import StoredStream
-
     samples = texvent.dataset.open(folder)
     sharing = {"batch_size": 5, "shuffle": True, "seed": 3, "rank": 1, "world_size": 2}
     alone = samples.loader(**sharing)
@@ -109,21 +107,10 @@ def test_no_number_of_workers_changes_a_batch_and_epochs_differ(folder):
     assert len({str(numbers(epoch)) for epoch in expected}) == 3
     for workers in (1, 2):
         loader = samples.loader(workers=workers, start_method="fork", **sharing)
-        stream = StoredStream(samples, **sharing)
-        streamed = torch.utils.data.DataLoader(
-            stream,
-            batch_size=5,
-            num_workers=workers,
-            persistent_workers=True,
-            collate_fn=lambda batch: [one["number"] for one in batch],
-        )
-        for epoch, batches in enumerate(expected):
+        for batches in expected:
             for batch, other in zip(batches, loader, strict=True):
                 assert batch["key"] == other["key"]
                 assert torch.equal(batch["events"].t, other["events"].t)
-            stream.set_epoch(epoch)
-            assert list(streamed) == numbers(batches)
-    assert len(stream) == 12
 
 
 def test_spawned_workers_read_the_same(samples):
@@ -222,27 +209,12 @@ def test_ranks_of_torch_distributed_are_taken(folder, tmp_path):
 
 
 def test_a_user_s_own_sampler_takes_the_map_style_dataset(samples):
-    from texvent.dataset.loading.collate import collate
-    from texvent.dataset.loading.torch_loader import StoredDataset
+    from texvent.dataset.loading.torch_loader import SampleDataset, collate
 
     loader = torch.utils.data.DataLoader(
-        StoredDataset(samples), sampler=[5, 3, 8], batch_size=2, collate_fn=collate
+        SampleDataset(samples), sampler=[5, 3, 8], batch_size=2, collate_fn=collate
     )
     assert numbers(loader) == [[5, 3], [8]]
-
-
-def test_the_iterable_dataset_gives_tensors_that_collate_takes(samples):
-    from texvent.dataset.loading.collate import collate
-    from texvent.dataset.loading.torch_loader import StoredStream
-
-    stream = StoredStream(samples, batch_size=4)
-    sample = next(iter(stream))
-    assert isinstance(sample["representation"], torch.Tensor)
-    (batch, *_) = torch.utils.data.DataLoader(stream, batch_size=4, collate_fn=collate)
-    (expected, *_) = samples.loader(batch_size=4)
-    assert torch.equal(batch["representation"], expected["representation"])
-    assert torch.equal(batch["stop_us"], expected["stop_us"])
-    assert batch["key"] == expected["key"]
 
 
 @pytest.mark.parametrize("workers", [0, 2])
@@ -259,29 +231,7 @@ def test_augmentations_depend_on_epoch_and_number_and_not_on_workers(samples, wo
                 np.testing.assert_array_equal(array.numpy(), expected)
                 seen.append((epoch, number))
     assert len(set(seen)) == 2 * len(samples)
-    from texvent.dataset.loading.torch_loader import StoredDataset, StoredStream
+    from texvent.dataset.loading.torch_loader import SampleDataset
 
-    stream = StoredStream(changed)
-    stream.set_epoch(1)
-    for sample in stream:
-        expected = changed.make(sample["number"], epoch=1)["representation"]
-        np.testing.assert_array_equal(sample["representation"].numpy(), expected)
-    alone = StoredDataset(changed)[3, 1]["representation"]
+    alone = SampleDataset(changed)[3, 1]["representation"]
     np.testing.assert_array_equal(alone, changed.make(3, epoch=1)["representation"])
-
-
-def test_an_epoch_chosen_during_a_pass_is_that_of_the_next_one(samples):
-    from texvent.dataset.loading.torch_loader import StoredDataset, StoredStream
-
-    changed = samples.augmented(Augment(["flip-x", "shift:pixels=3", "drop-events"], seed=2))
-    stream = StoredStream(changed, shuffle=True)
-    given = []
-    for sample in stream:
-        stream.set_epoch(1)
-        given.append(sample["number"])
-        expected = changed.make(sample["number"], epoch=0)["representation"]
-        np.testing.assert_array_equal(sample["representation"].numpy(), expected)
-    assert given == [sample["number"] for sample in StoredStream(changed, shuffle=True)]
-    assert given != [sample["number"] for sample in stream]
-    alone = StoredDataset(changed)[3]["representation"]
-    np.testing.assert_array_equal(alone, changed.make(3, epoch=0)["representation"])

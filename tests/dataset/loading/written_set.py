@@ -8,9 +8,14 @@ from pathlib import Path
 
 import numpy as np
 
-from texvent.dataset.generation.records import FILTERED, SampleRecord, ShardRecord, write_record
-from texvent.dataset.generation.sample import MadeEvents, sample_members
-from texvent.dataset.generation.tar_shard import TarShardWriter
+from texvent.dataset.generation.sample import SimulatedClip, sample_members
+from texvent.dataset.generation.shards import (
+    FILTERED,
+    SampleRecord,
+    ShardRecord,
+    TarShardWriter,
+    write_record,
+)
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
@@ -47,7 +52,7 @@ def write_shard(
             label = labels[place % len(labels)] if labels else None
             facts = {"prompt": f"a {label} drives left", "key": key, "label": label}
             members = sample_members(
-                MadeEvents(events, start_us, DURATION_US, len(events)),
+                SimulatedClip(events, start_us, DURATION_US, len(events)),
                 facts,
                 class_number=None if label is None else labels.index(label),
                 preview=False,

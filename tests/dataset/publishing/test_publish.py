@@ -12,20 +12,19 @@ import pytest
 import yaml
 
 from texvent.cli.app import main
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.statistics import SetStatistics
-from texvent.dataset.contents.stored_events import read_events
-from texvent.dataset.publishing.card import card_text, hub_name
+from texvent.dataset.publishing.card import PublicationInfo, card_text, hub_name
 from texvent.dataset.publishing.croissant import croissant_text
 from texvent.dataset.publishing.index import index_rows
-from texvent.dataset.publishing.notice import Notice
-from texvent.dataset.publishing.publication import publish
+from texvent.dataset.publishing.publish import publish
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.reading.stored_events import read_events
+from texvent.dataset.statistics import DatasetStatistics
 from texvent.errors import ConfigError, InputError, OutputError, TexventWarning
 
 
 def card_of(folder: Path, **notice: str) -> str:
-    made = MadeSet.open(folder)
-    return card_text(made, SetStatistics.of(made), Notice(**notice), missing=0)
+    made = StoredDataset.open(folder)
+    return card_text(made, DatasetStatistics.of(made), PublicationInfo(**notice), missing=0)
 
 
 def header_of(card: str) -> dict[str, object]:
@@ -34,7 +33,7 @@ def header_of(card: str) -> dict[str, object]:
 
 
 def test_a_row_of_the_index_finds_its_sample(cars: Path) -> None:
-    made = MadeSet.open(cars)
+    made = StoredDataset.open(cars)
     rows = list(index_rows(made))
     samples = [(shard, one) for shard in made.shards() for one in shard.samples]
     assert [row["key"] for row in rows] == [sample.key for _, sample in samples]
@@ -51,7 +50,7 @@ def test_a_row_of_the_index_finds_its_sample(cars: Path) -> None:
 
 
 def test_the_simulator_is_read_from_the_samples_where_it_was_drawn(cars: Path) -> None:
-    made = MadeSet.open(cars)
+    made = StoredDataset.open(cars)
     made.variants["esim"]["options"]["simulator"] = {"choice": ["esim", "v2e"]}  # type: ignore[index]
     assert made.simulator_of("esim") is None
     assert {row["simulator"] for row in index_rows(made) if row["variant"] == "esim"} == {"esim"}
@@ -79,8 +78,10 @@ def test_the_card_has_what_the_hub_reads(cars: Path) -> None:
 def test_the_description_names_every_shard_with_its_digest(cars: Path, tmp_path: Path) -> None:
     index = tmp_path / "index.parquet"
     index.write_bytes(b"index")
-    made = MadeSet.open(cars)
-    text = croissant_text(made, SetStatistics.of(made), Notice(url="https://a.b/c"), index)
+    made = StoredDataset.open(cars)
+    text = croissant_text(
+        made, DatasetStatistics.of(made), PublicationInfo(url="https://a.b/c"), index
+    )
     document = json.loads(text)
     files = {one["@id"]: one for one in document["distribution"]}
     for shard in made.shards():
@@ -93,16 +94,16 @@ def test_the_description_names_every_shard_with_its_digest(cars: Path, tmp_path:
 
 def test_a_date_is_a_day() -> None:
     with pytest.raises(ConfigError, match="date is 'yesterday'; it must be a day"):
-        Notice(date="yesterday")
+        PublicationInfo(date="yesterday")
 
 
 def test_missing_shards_foreign_cards_and_no_licence_are_said(copied: Path) -> None:
     (copied / "esim" / "test-000000.tar").unlink()
     with pytest.raises(InputError, match=r"1 shards are missing, such as esim/test-000000\.tar"):
-        publish(MadeSet.open(copied), Notice())
+        publish(StoredDataset.open(copied), PublicationInfo())
     (copied / "README.md").write_text("my own")
     with pytest.raises(OutputError, match="was not written by texvent"):
-        publish(MadeSet.open(copied), Notice(), partial=True)
+        publish(StoredDataset.open(copied), PublicationInfo(), partial=True)
 
 
 @pytest.mark.dataset
@@ -122,7 +123,7 @@ def test_publishing_again_gives_the_same_bytes(copied: Path) -> None:
     facts["specification"]["license"] = ""
     specification.write_text(json.dumps(facts))
     with pytest.warns(TexventWarning, match="no licence is stated"):
-        publish(MadeSet.open(_without_items(copied)), Notice())
+        publish(StoredDataset.open(_without_items(copied)), PublicationInfo())
 
 
 def _without_items(folder: Path) -> Path:
@@ -135,7 +136,7 @@ def test_a_description_of_other_shards_is_found(
     copied: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     pytest.importorskip("pyarrow")
-    publish(MadeSet.open(copied), Notice())
+    publish(StoredDataset.open(copied), PublicationInfo())
     path = copied / "croissant.json"
     document = json.loads(path.read_text())
     document["distribution"][1]["sha256"] = "0" * 64

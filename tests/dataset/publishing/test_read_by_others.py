@@ -14,11 +14,11 @@ import numpy as np
 import pytest
 import yaml
 
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.stored_events import read_events
-from texvent.dataset.generation.tar_shard import TarShardWriter
-from texvent.dataset.publishing.notice import Notice
-from texvent.dataset.publishing.publication import publish
+from texvent.dataset.generation.shards import TarShardWriter
+from texvent.dataset.publishing.card import PublicationInfo
+from texvent.dataset.publishing.publish import publish
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.reading.stored_events import read_events
 from texvent.events import EventStream
 
 pytestmark = [
@@ -33,14 +33,17 @@ pytestmark = [
 @pytest.fixture
 def published(copied: Path) -> Path:
     pytest.importorskip("pyarrow")
-    publish(MadeSet.open(copied), Notice(date="2026-11-21", creator="A", url="https://a.b/c"))
+    publish(
+        StoredDataset.open(copied),
+        PublicationInfo(date="2026-11-21", creator="A", url="https://a.b/c"),
+    )
     return copied
 
 
 def samples_of(folder: Path, variant: str) -> dict[str, EventStream]:
     return {
         sample.key: read_events(shard.path, sample)
-        for shard in MadeSet.open(folder).shards(variant)
+        for shard in StoredDataset.open(folder).shards(variant)
         for sample in shard.samples
     }
 
@@ -53,7 +56,7 @@ def assert_same(columns: dict[str, Any], events: EventStream) -> None:
 def test_webdataset_reads_the_shards(published: Path) -> None:
     webdataset = pytest.importorskip("webdataset")
     expected, seen = samples_of(published, "paper"), 0
-    for shard in MadeSet.open(published).shards("paper"):
+    for shard in StoredDataset.open(published).shards("paper"):
         for sample in webdataset.WebDataset(str(shard.path), shardshuffle=False).decode():
             columns = {name: sample[f"{name}.npy"] for name in "xytp"}
             assert_same(columns, expected[sample["__key__"]])

@@ -141,7 +141,7 @@ def test_what_is_wrong_is_said_in_one_line(change: dict[str, Any], wanted: str) 
     [
         ([{"template": "a {thing}"}], "has no words for thing"),
         ([{"template": "a car", "words": {"thing": ["a"]}}], "does not use thing"),
-        ([{"template": "a {thing", "words": {"thing": ["a"]}}], "words to fill in stand in {}"),
+        ([{"template": "a {thing", "words": {"thing": ["a"]}}], "write names to fill in as {name}"),
         ([{"template": "{a}", "words": {"a": ["x"]}, "count": 2}], "has 1 combinations"),
         ([{"template": "{a}", "words": {"a": ["x"]}, "label": "{b}"}], "names {b}"),
         ([{"file": "none.txt"}], "no such list"),

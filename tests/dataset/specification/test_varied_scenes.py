@@ -7,13 +7,13 @@ from typing import Any
 
 import pytest
 
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.statistics import in_several_splits
-from texvent.dataset.generation.api import make
+from texvent.dataset.generation.make import make
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.loading.open_samples import open as open_samples
+from texvent.dataset.loading.stored_samples import open as open_samples
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.items import Items, read_items
 from texvent.dataset.specification.reading import read_specification, specification_from
+from texvent.dataset.statistics import in_several_splits
 from texvent.errors import ConfigError, InputError
 
 CAR = """prompt = "a {objects[0].colour} car"
@@ -121,7 +121,7 @@ def test_scenes_with_one_prompt_may_lie_in_several_splits(folder):
     tables = {"name": "balls", "sources": [source], "splits": {"train": 0.5, "test": 0.5},
               "options": {"duration": 0.1, "sensor": "48x36"}}  # fmt: skip
     make(specification_from(tables, folder=folder), folder / "out", workers=1)
-    assert in_several_splits(MadeSet.open(folder / "out").shards()) == set()
+    assert in_several_splits(StoredDataset.open(folder / "out").shards()) == set()
 
 
 def test_wrong_words_are_found_before_any_work(folder):

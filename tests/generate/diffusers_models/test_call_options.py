@@ -18,7 +18,6 @@ diffusers = pytest.importorskip("diffusers")
 from PIL import Image  # noqa: E402
 
 from texvent.cli.app import main  # noqa: E402
-from texvent.errors import ConfigError  # noqa: E402
 from texvent.generate.diffusers_models.pipeline_call import call_pipeline  # noqa: E402
 from texvent.generate.video_config import DiffusersConfig  # noqa: E402
 from texvent.generate.video_models.known_models import MODELS, VideoModel  # noqa: E402
@@ -91,12 +90,6 @@ def test_a_fractional_frame_rate_reaches_the_call():
         call(pipe, fps=fps)
     assert [arguments["fps"] for arguments, _ in calls] == [24, 30_000 / 1001]
     assert isinstance(calls[0][0]["fps"], int)
-
-
-def test_a_negative_prompt_that_would_be_left_out_is_refused():
-    pipe, _ = stand_in("HunyuanVideoPipeline")
-    with pytest.raises(ConfigError, match="distilled to one pass, which follows none"):
-        call(pipe, negative_prompt="dark")
 
 
 def test_guidance_is_that_of_both_transformers_of_wan_22(models):

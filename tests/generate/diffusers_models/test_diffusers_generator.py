@@ -34,7 +34,6 @@ from texvent.errors import (  # noqa: E402
 )
 from texvent.generate.diffusers_models import generator as diffusers_generator  # noqa: E402
 from texvent.generate.diffusers_models import guardrail, pipeline_loading  # noqa: E402
-from texvent.generate.video_models.known_models import MODELS  # noqa: E402
 from texvent.generate.videos.clip_model import measure_clip_score  # noqa: E402
 from texvent.generate.videos.stored_video import write_video  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
@@ -143,24 +142,12 @@ def test_a_batch_of_new_and_known_prompts_loads_its_model_once(models, monkeypat
     assert [line.split()[0] for line in watcher.lines] == ["loading"]
 
 
-def test_diffusers_has_every_pipeline_of_the_table():
-    for model in MODELS.values():
-        for name in filter(None, (model.pipeline, model.image_pipeline)):
-            assert hasattr(tiny_pipelines.diffusers, name), f"{model.name}: {name}"
-
-
 def test_the_frame_rate_is_an_input_of_cosmos_and_only_a_clock_for_wan(models):
     slow, fast = (build(models("cosmos"), fps=fps).generate(PROMPT) for fps in (8, 30))
     assert not np.array_equal(pixels(slow), pixels(fast))
     slow, fast = (build(models("wan"), fps=fps).generate(PROMPT) for fps in (8, 30))
     assert np.array_equal(pixels(slow), pixels(fast))
     assert [frame.t_us for frame in fast][1] == 33_333
-
-
-def test_the_number_format_can_be_chosen(models):
-    video = build(models("wan"), dtype="bfloat16").generate(PROMPT)
-    assert video.metadata["dtype"] == "bfloat16"
-    assert video.frame_count == 5
 
 
 def test_the_decoder_of_wan_stays_in_float32_as_its_page_asks(models, tmp_path):
@@ -270,17 +257,6 @@ def test_a_failed_video_is_refused_or_tried_again_with_other_seeds(name, models)
     warned = build(models(name), on_failure="warn").generate(PROMPT, progress=watcher)
     assert warned.metadata["check"]["problems"]
     assert "looks failed" in watcher.lines[-1]
-
-
-def test_what_a_pipeline_refuses_is_one_clear_error(models):
-    with pytest.raises(ConfigError, match=r"WanPipeline refuses the options: .*divisible"):
-        build(models("wan"), width=36).generate(PROMPT)
-    with pytest.raises(InputError, match="the prompt is empty"):
-        build(models("wan")).generate("  ")
-    with pytest.raises(ConfigError, match=r"frame rate of .* is not known.*fps=16"):
-        build(models("wan"), fps=None).generate(PROMPT)
-    with pytest.raises(ConfigError, match="generator_device is 'warp'"):
-        build(models("wan"), generator_device="warp").generate(PROMPT)
 
 
 def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(capsys):

@@ -139,12 +139,6 @@ def test_the_frame_rate_is_an_input_of_ltx_2_and_cosmos_3(make):
         assert not np.array_equal(slow, fast), name
 
 
-def test_a_model_that_starts_from_an_image_says_so_before_anything_is_fetched():
-    part = MODELS["wan2.2-i2v-a14b"]
-    with pytest.raises(InputError, match="starts from an image; give image=PATH"):
-        build(f"hub:{part.repo}", width=32).generate(PROMPT)
-
-
 def test_the_guardrail_of_cosmos_3_stays_on_whatever_its_index_says(saved, make):
     import json
 

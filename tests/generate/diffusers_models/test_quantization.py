@@ -4,10 +4,7 @@ The libraries refuse to quantise without a GPU, though bitsandbytes computes on 
 last test steps over that check.
 """
 
-import importlib.util
 import os
-import sys
-import types
 
 import numpy as np
 import pytest
@@ -18,7 +15,6 @@ torch = pytest.importorskip("torch")
 torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
 pytest.importorskip("diffusers")
 
-from texvent.generate.diffusers_models import pipeline_loading  # noqa: E402
 from texvent.generate.diffusers_models.pipeline_loading import (  # noqa: E402
     LoadRequest,
     Placement,
@@ -37,27 +33,6 @@ def request(folder, quantize, dtype="bfloat16", **facts):
         placement=Placement("cpu", dtype, "none", tiles_decoder=False, quantize=quantize),
         **facts,
     )
-
-
-@pytest.mark.parametrize(
-    ("name", "parts"), [("wan", ["transformer"]), ("wan22", ["transformer", "transformer_2"])]
-)
-def test_the_transformers_that_a_model_has_are_quantised(name, parts, models, monkeypatch):
-    if importlib.util.find_spec("bitsandbytes") is None:  # what is asked of it needs none
-        monkeypatch.setitem(sys.modules, "bitsandbytes", types.ModuleType("bitsandbytes"))
-    eight = pipeline_loading._quantization(request(models(name), "8bit"))
-    assert (eight.quant_backend, eight.quant_kwargs) == (
-        "bitsandbytes_8bit",
-        {"load_in_8bit": True},
-    )
-    assert eight.components_to_quantize == parts
-    four = pipeline_loading._quantization(request(models(name), "4bit"))
-    assert four.quant_backend == "bitsandbytes_4bit"
-    assert four.quant_kwargs == {
-        "load_in_4bit": True,
-        "bnb_4bit_quant_type": "nf4",
-        "bnb_4bit_compute_dtype": torch.bfloat16,
-    }
 
 
 def test_weights_are_of_that_kind_and_take_an_adapter(models, tmp_path, monkeypatch):

@@ -67,13 +67,6 @@ def test_a_missing_part_is_named_with_the_place_to_put_it(model):
         check_weight_files(model)
 
 
-def test_a_shard_that_the_index_names_and_is_not_there_is_named(model):
-    text = json.dumps({"weight_map": {"w": "weights-00002.safetensors"}})
-    (model / "transformer" / "weights.safetensors.index.json").write_text(text)
-    with pytest.raises(InputError, match=r"weights-00002.safetensors, which .* names"):
-        check_weight_files(model)
-
-
 @pytest.mark.parametrize(
     ("content", "why"),
     [
@@ -96,12 +89,6 @@ def test_weights_that_come_only_as_a_pickle_are_refused(model):
     (model / "transformer" / "weights.safetensors").unlink()
     (model / "transformer" / "diffusion_pytorch_model.bin").write_bytes(b"\x80\x04N.")
     with pytest.raises(InputError, match=r"diffusion_pytorch_model.bin is a pickle"):
-        check_weight_files(model)
-
-
-def test_damaged_json_is_refused_by_name(model):
-    (model / "model_index.json").write_text("{")
-    with pytest.raises(FileFormatError, match=r"model_index\.json is damaged"):
         check_weight_files(model)
 
 

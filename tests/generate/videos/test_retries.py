@@ -9,7 +9,6 @@ from texvent.errors import InputError, TexventError
 from texvent.generate.video_config import GeneratedVideoConfig
 from texvent.generate.videos.retries import generate_checked, nth_seed
 from texvent.generate.videos.stored_video import write_video
-from texvent.generate.videos.video_cache import MEASURES
 
 
 @pytest.fixture
@@ -67,12 +66,6 @@ def test_a_missing_clip_model_is_named_before_anything_is_generated(make, tmp_pa
     assert make.asked == []
 
 
-def test_retrying_gives_up_after_the_last_seed(make):
-    config = GeneratedVideoConfig(on_failure="retry", retries=1)
-    with pytest.raises(TexventError, match="all 2 videos, each of another seed, failed"):
-        generate_checked(make, config, prompt="a pan", seed=0, progress=Told())
-
-
 def test_rejecting_warning_and_ignoring(make):
     told = Told()
     with pytest.raises(TexventError, match=r"failed the check .*frozen, no motion"):
@@ -88,13 +81,3 @@ def test_rejecting_warning_and_ignoring(make):
         make, GeneratedVideoConfig(on_failure="ignore"), prompt="a pan", seed=0, progress=told
     )
     assert "check" not in ignored.metadata
-
-
-def test_measures_of_an_older_cache_are_taken_anew(make):
-    def make_old(seed, progress):
-        return make(seed, progress).with_metadata(**{MEASURES: {"still_share": 0.0}})
-
-    config = GeneratedVideoConfig(on_failure="warn")
-    video = generate_checked(make_old, config, prompt="a pan", seed=0, progress=Told())
-    assert video.metadata["check"]["problems"] == ["frozen", "no motion"]
-    assert video.metadata["check"]["motion"] == 0

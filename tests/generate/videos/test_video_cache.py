@@ -9,9 +9,8 @@ from hypothesis import strategies as st
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import FileFormatError, InputError, OutputError
+from texvent.errors import InputError, OutputError
 from texvent.generate.videos.stored_video import (
-    open_stored,
     reopen,
     to_16_bits,
     write_stream,
@@ -115,12 +114,6 @@ def test_a_video_that_was_cut_short_or_lost_does_not_count(cache):
     assert cache.find("abc", FPS) is None
 
 
-def test_a_note_that_is_no_json_does_not_count(cache):
-    cache.store("abc", noise(), FPS, {})
-    (made_folder("videos") / "abc.json").write_text("{")
-    assert cache.find("abc", FPS) is None
-
-
 def test_without_reuse_nothing_is_kept_in_the_made_folder():
     passing = VideoCache(is_kept=False)
     video = passing.store("abc", noise(), FPS, {})
@@ -134,20 +127,6 @@ def test_the_key_follows_every_fact_and_not_their_order():
     assert content_key(facts) == content_key(dict(reversed(facts.items())))
     keys = {content_key({**facts, name: "other"}) for name in facts} | {content_key(facts)}
     assert len(keys) == 4
-
-
-def test_a_damaged_video_is_refused_by_name(tmp_path):
-    path = tmp_path / "v.mp4"
-    path.write_bytes(b"not a video at all")
-    with pytest.raises(FileFormatError, match=r"v.mp4 cannot be decoded"):
-        open_stored(path, FPS, {})
-
-
-def test_a_cache_folder_that_cannot_be_made_is_named(tmp_path, monkeypatch):
-    (tmp_path / "file").write_text("")
-    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "file"))
-    with pytest.raises(OutputError, match="TEXVENT_CACHE"):
-        made_folder("videos")
 
 
 def test_the_measures_of_the_filter_are_taken_while_writing_and_kept(cache):
@@ -186,12 +165,3 @@ def test_half_floats_end_at_their_highest_and_at_0(tmp_path):
     assert np.unique(next(iter(stored)).pixels).tolist() == [0, 255 * 65504]
     with pytest.raises(InputError, match="NaN"):
         write_video([light * np.nan], path, Fraction(24), facts, overwrite=True)
-
-
-def test_the_cache_keeps_light_above_white(cache):
-    stored = cache.store("b" * 64, linear_clip(), Fraction(24), {"transfer": "linear"})
-    found = cache.find("b" * 64, Fraction(24))
-    assert found is not None
-    assert transfer_of(found) is Transfer.LINEAR
-    assert max(frame.pixels.max() for frame in found) > 255 * 100
-    assert np.isfinite(list(stored.metadata["measures"].values())).all()

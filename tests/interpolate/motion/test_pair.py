@@ -21,7 +21,6 @@ from tests.interpolate.motion.scenes import (
     views,
 )
 
-from texvent.errors import InputError
 from texvent.interpolate.motion.draw_cpu import FOLLOWED, MIXED
 from texvent.interpolate.motion.interpolator import MotionPair, moving_part
 from texvent.video import Frame, Motion
@@ -227,12 +226,6 @@ def test_only_what_moves_is_looked_at():
     assert (rows.start, rows.stop, columns.start, columns.stop) == (0, 9, 3, 14)
     rows, columns = moving_part(field(0, 0), field(0, 0))
     assert rows.stop - rows.start == 0
-
-
-def test_frames_without_vectors_are_refused():
-    plain = Frame(texture().astype(np.float32), 0), Frame(texture().astype(np.float32), 40_000)
-    with pytest.raises(InputError, match="no motion vectors to each other; give `motion`"):
-        MotionPair.of(*plain)
 
 
 @settings(max_examples=25)

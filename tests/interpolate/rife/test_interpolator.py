@@ -9,7 +9,7 @@ import pytest
 
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError
 from texvent.interpolate.densify import densify
 from texvent.interpolate.networks import image_tensors
 from texvent.interpolate.rife.interpolator import RifeInterpolator
@@ -135,23 +135,6 @@ def test_safetensors_hold_the_same_network(files, tmp_path):
         read_rife_weights(path)
 
 
-def test_a_pulled_file_is_found_without_being_named(files, stream, tmp_path, monkeypatch):
-    pytest.importorskip("safetensors")
-    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
-    (tmp_path / "weights").mkdir()
-    write_rife_weights(read_rife_weights(files["4.6"]), tmp_path / "weights" / "rife.safetensors")
-    assert len(frames_of(RifeInterpolator(InterpolateConfig(), stream), *noise())) == 3
-
-
-def test_missing_weights_say_what_to_run(stream, tmp_path, monkeypatch):
-    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
-    with pytest.raises(InputError, match=r"not here: .*run|texvent weights pull rife"):
-        RifeInterpolator(InterpolateConfig(), stream)
-    config = InterpolateConfig(interpolator_weights=tmp_path / "mine.pkl")
-    with pytest.raises(InputError, match=r"no weights file .*mine\.pkl; .*texvent weights pull"):
-        RifeInterpolator(config, stream)
-
-
 def damaged(path):
     path.write_bytes(path.read_bytes()[:10_000])
 
@@ -217,25 +200,6 @@ def test_a_wrong_file_is_refused_by_name(files, tmp_path, spoil, complaint):
         read_rife_weights(path)
     assert str(path) in str(told.value)
     assert "\n" not in str(told.value)
-
-
-def test_overflowing_weights_are_reported_not_returned(build):
-    interpolator = build()
-    with torch.no_grad():
-        interpolator._network.block0.lastconv[0].bias.fill_(float("nan"))
-    with pytest.raises(FileFormatError, match=r"4\.6\.pkl: the network's output is NaN"):
-        frames_of(interpolator, *noise())
-
-
-def test_memory_that_runs_out_says_what_to_change(build, monkeypatch):
-    interpolator = build()
-
-    def fail(*_):
-        raise RuntimeError("CUDA out of memory. Tried to allocate 20 GiB")
-
-    monkeypatch.setattr(interpolator._network, "forward", fail)
-    with pytest.raises(InputError, match=r"memory of device cpu; choose a smaller `sensor`"):
-        frames_of(interpolator, *noise())
 
 
 def test_a_copied_interpolator_gives_the_same_frames(build):

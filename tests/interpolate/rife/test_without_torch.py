@@ -4,17 +4,8 @@ import sys
 
 import pytest
 
-from texvent._registry import INTERPOLATORS
-from texvent.config import InterpolateConfig
 from texvent.errors import MissingDependencyError
 from texvent.weights.fetch import pull_weights
-
-
-def test_without_torch_the_error_names_the_extra(stream, monkeypatch):
-    monkeypatch.setitem(sys.modules, "torch", None)
-    build = INTERPOLATORS.load("rife")
-    with pytest.raises(MissingDependencyError, match=r"pip install 'texvent\[rife\]'"):
-        build(InterpolateConfig(interpolate="rife"), stream)
 
 
 def test_pulling_without_torch_downloads_nothing(monkeypatch, tmp_path):

@@ -36,24 +36,6 @@ def load_or_refuse(path: Path) -> EventStream | None:
     return None
 
 
-@pytest.mark.parametrize("format", FORMATS)
-def test_a_file_cut_at_any_byte_is_refused_or_holds_the_first_events(
-    tmp_path: Path, format: str
-) -> None:
-    path = save(tmp_path / f"e{EXTENSIONS[format]}", SMALL, format=format)
-    content = path.read_bytes()
-    refused = 0
-    for length in range(len(content)):
-        path.write_bytes(content[:length])
-        try:
-            back = load(path)
-        except FileFormatError:
-            refused += 1
-        else:
-            assert back.equals(SMALL[: len(back)])
-    assert refused > len(content) // 3
-
-
 @settings(max_examples=40)
 @given(share=st.floats(0.0, 1.0, exclude_max=True))
 def test_a_truncated_hdf5_file_is_refused(

@@ -52,13 +52,6 @@ def test_the_header_decides_which_half_of_a_word_comes_first(
     assert events_of(load(write_words(tmp_path, "evt21", words, header=header))) == MEANING
 
 
-def test_the_published_byte_example_of_both_orders() -> None:
-    # The documentation sends 0x0102030405060708 as 08 07 … 01, and IMX636 as 04 03 02 01 08 ….
-    word = 0x0102030405060708
-    assert word.to_bytes(8, "little").hex() == "0807060504030201"
-    assert exchange_halves(word).to_bytes(8, "little").hex() == "0403020108070605"
-
-
 def test_neighbours_share_a_word_and_keep_their_order(tmp_path: Path) -> None:
     x, y, t, p = zip(
         *[(31, 0, 9, 1), (32, 0, 9, 1), (63, 0, 9, 1), (40, 0, 9, 1), (41, 0, 9, 0), (42, 1, 9, 0)],

@@ -1,6 +1,5 @@
 """LPIPS against its definition, its properties, and files that are not its weights."""
 
-import math
 import os
 import pickle
 
@@ -15,9 +14,7 @@ from texvent.metrics import lpips
 from texvent.metrics.event_frames import EventFrameLpips
 from texvent.metrics.lpips import (
     ALEX,
-    VGG,
     Lpips,
-    find_lpips_weights,
     lpips_distance,
     read_lpips_weights,
     write_lpips_weights,
@@ -68,14 +65,6 @@ def test_a_grey_image_is_one_with_equal_colours():
     grey = images(3)[..., 0]
     colours = np.repeat(grey[..., None], 3, axis=3)
     assert distance(*grey) == distance(*colours)
-
-
-@pytest.mark.torch
-def test_an_image_too_small_for_the_network_is_undefined():
-    small, enough = np.zeros((30, 90)), np.zeros((31, 90))
-    assert math.isnan(distance(small, small))
-    assert distance(enough, enough) == 0.0
-    assert (ALEX.least_side, VGG.least_side) == (31, 16)
 
 
 @pytest.mark.torch
@@ -130,14 +119,6 @@ def test_a_truncated_file_is_refused_by_name(tmp_path, suffix):
             read_lpips_weights(part)
 
 
-def test_weights_that_were_not_pulled_are_named_with_the_command(tmp_path, monkeypatch):
-    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
-    with pytest.raises(InputError, match=r"texvent weights pull lpips$"):
-        find_lpips_weights()
-    with pytest.raises(InputError, match=r"texvent weights pull lpips-vgg$"):
-        find_lpips_weights("vgg")
-
-
 @pytest.mark.torch
 def test_event_frames_are_compared_as_grey_images(tmp_path):
     write_lpips_weights(WEIGHTS, tmp_path / "narrow.npz")
@@ -152,10 +133,3 @@ def test_event_frames_are_compared_as_grey_images(tmp_path):
     later = EventStream([0], [0], [90_000], [1], size)
     both = [EventStream.concat([one, later]) for one in (a, b)]
     assert metric(*both) == pytest.approx(metric(a, b) / 3)
-
-
-@pytest.mark.torch
-def test_event_frames_of_a_small_sensor_have_no_lpips(tmp_path):
-    write_lpips_weights(WEIGHTS, tmp_path / "narrow.npz")
-    small = random_events(1)
-    assert math.isnan(EventFrameLpips(weights=tmp_path / "narrow.npz")(small, small))

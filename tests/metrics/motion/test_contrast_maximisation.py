@@ -59,10 +59,3 @@ def test_patches_that_move_apart_have_their_own_flow():
     flow = estimate_patch_flow(both, patch_px=60)
     assert flow.shape == (1, 2, 2)
     assert flow[0, :, 0] == pytest.approx([-200, 200], abs=20)
-
-
-def test_too_few_events_have_no_velocity():
-    few = moving_points((100.0, 0.0))[:200]
-    assert estimate_velocity(few) is None
-    assert estimate_velocities(few) == []
-    assert np.isnan(estimate_patch_flow(few)).all()

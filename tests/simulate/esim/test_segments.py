@@ -70,14 +70,6 @@ def test_a_level_that_was_reached_before_fires_at_once(cross):
     assert found.t.tolist() == [10]
 
 
-@kernels
-def test_nothing_is_no_event(cross):
-    nothing = np.empty(0, np.int64)
-    segments = Segments(nothing, nothing, nothing, np.empty(0), np.empty(0))
-    found = cross(segments, CrossingRules(0.2, 0.2, 0), at_rest())
-    assert [len(column) for column in found] == [0, 0, 0]
-
-
 @given(st.integers(0, 2**32), st.sampled_from([0, 3, 50]))
 def test_compiled_kernel_equals_the_definition(seed, refractory_us):
     rng = np.random.default_rng(seed)

@@ -203,13 +203,6 @@ def test_no_clip_hears_of_another(device):
         assert alone.equals(together[clip])
 
 
-def test_frames_at_rest_give_nothing_and_the_first_frame_neither(device):
-    frames = torch.full((1, 3, 4, 4), 60.0, device=device)
-    simulator = GpuSimulator(TexventConfig(noise="none"))
-    assert len(simulator.step(frames[:, :1], [0])) == 0
-    assert len(simulator.step(frames[:, 1:], [10, 20])) == 0
-
-
 def test_after_a_reset_the_next_frame_is_the_first(device):
     clips, times_us = random_clips(np.uint8), random_times()
     frames = torch.from_numpy(clips).to(device)
@@ -251,13 +244,6 @@ def test_frames_and_times_that_cannot_be_used_are_refused(frames, times_us, mess
         GpuSimulator().step(frames, times_us)
 
 
-def test_clips_of_another_size_need_a_reset(device):
-    simulator = GpuSimulator()
-    simulator.step(torch.zeros(1, 1, 4, 4, device=device), [0])
-    with pytest.raises(InputError, match="call reset"):
-        simulator.step(torch.zeros(1, 1, 4, 5, device=device), [1])
-
-
 @pytest.mark.parametrize(
     ("config", "message"),
     [
@@ -270,10 +256,3 @@ def test_clips_of_another_size_need_a_reset(device):
 def test_what_only_the_cpu_does_is_refused_by_name(config, message):
     with pytest.raises(ConfigError, match=message):
         GpuSimulator(config)
-
-
-def test_seeds_must_be_one_per_clip(device):
-    with pytest.raises(ConfigError, match="2 seeds for 1 clips"):
-        GpuSimulator(seed=[1, 2]).step(torch.zeros(1, 1, 4, 4, device=device), [0])
-    with pytest.raises(ConfigError, match="seed"):
-        GpuSimulator(seed=-1)

@@ -3,15 +3,12 @@
 from __future__ import annotations
 
 import dataclasses
-from pathlib import Path
 
 import pytest
 
 from texvent.sensor import SENSORS
 from texvent.simulate.physical.cameras import CAMERAS, NOT_OF_A_CAMERA, PRESETS, camera_table
 from texvent.simulate.physical.config import PhysicalConfig
-
-from .camera_tables import PAGE, tables
 
 
 @pytest.mark.parametrize("name", CAMERAS)
@@ -35,11 +32,3 @@ def test_every_constant_of_a_camera_has_a_source_or_is_unmeasured(name: str) -> 
 def test_every_camera_is_a_sensor_of_that_name() -> None:
     for name, camera in CAMERAS.items():
         assert SENSORS[name].description.split()[0] in camera.description
-
-
-def test_the_tables_of_the_page_are_those_of_the_code() -> None:
-    page = Path(PAGE).read_text(encoding="utf-8")
-    for name, table in tables().items():
-        assert table in page, (
-            f"{name} changed; run: python -m tests.simulate.physical.camera_tables"
-        )

@@ -25,7 +25,7 @@ def test_leak_fires_on_events_at_its_rate_labelled_noise(kernels):
     assert (events.label == NOISE).all()
 
 
-@pytest.mark.parametrize("fps", [24, 240, 1000])
+@pytest.mark.parametrize("fps", [24, 1000])
 def test_the_leak_rate_is_per_second_at_any_frame_rate(fps):
     simulator = clean(
         leak_rate_hz=4.0, leak_rate_decades=0.1, initial_phase="random", threshold_sigma=0.03
@@ -50,7 +50,7 @@ def test_an_event_that_light_made_more_than_leak_is_signal(kernels):
 # Noise.
 
 
-@pytest.mark.parametrize("fps", [24, 240, 1000])
+@pytest.mark.parametrize("fps", [24, 1000])
 @pytest.mark.parametrize(("level", "rate"), [(0.5, 0.46), (3.5, 0.77), (25.0, 0.015)])
 def test_noise_has_the_measured_rate_at_any_frame_rate(fps, level, rate):
     frames = static(level, fps=fps, seconds=0.5, shape=(60, 80))

@@ -1,6 +1,5 @@
 """The physical model: ideal pixels against closed forms, and any options at all."""
 
-import dataclasses
 import math
 
 import numpy as np
@@ -9,9 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.simulate.references import in_both_forms
 
-from texvent.errors import ConfigError
-from texvent.simulate.physical.cameras import PRESETS
-from texvent.simulate.physical.config import RANGES, PhysicalConfig
+from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Frame
 
@@ -56,7 +53,7 @@ def test_a_sinusoid_fires_at_its_levels(kernels):
     assert events.p[:7].tolist() == [1, 1, 0, 0, 0, 0, 1]
 
 
-@pytest.mark.parametrize("fps", [24, 240, 1000])
+@pytest.mark.parametrize("fps", [24, 1000])
 def test_a_static_scene_without_noise_gives_nothing(kernels, fps):
     assert len(run(clean(), static(90.0, fps=fps, seconds=0.2, shape=(3, 4)))) == 0
 
@@ -226,17 +223,3 @@ def test_eq4_counts_in_the_gamma_coded_scale():
     )
     assert simulator.contrast_threshold == pytest.approx(0.2 / 2.2)
     assert simulator.balance == pytest.approx(255 * (100 / 255) ** (1 / 2.2))
-
-
-@pytest.mark.parametrize("preset", PRESETS)
-def test_every_preset_makes_events_of_a_moving_texture(preset):
-    events = run(PhysicalSimulator(PRESETS[preset]), moving_texture())
-    assert len(events) > 100
-
-
-@pytest.mark.parametrize("option", RANGES)
-def test_options_out_of_range_fail_by_name(option):
-    low, high = RANGES[option]
-    for value in (low - 1, high * 2 + 1, float("nan")):
-        with pytest.raises(ConfigError, match=option):
-            dataclasses.replace(PhysicalConfig(), **{option: value})

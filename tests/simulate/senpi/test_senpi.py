@@ -52,17 +52,6 @@ def test_a_sinusoid_fires_at_every_turn_of_the_threshold(kernels):
     assert events.t.tolist() == [k * 250_000 - 1 for k in range(1, 9)]
 
 
-def test_below_the_threshold_nothing_fires(kernels):
-    frames = frames_of([40, 40 * math.exp(0.19), 40, 40 * math.exp(-0.19)], range(0, 4000, 1000))
-    assert len(run(SenpiSimulator(CLEAN), frames)) == 0
-
-
-def test_a_black_scene_stays_black(kernels):
-    # ln 0 does not exist: the original turns it into NaN, here the darkest level is 1.
-    frames = frames_of([0, 0.5, 1, 0], range(0, 4000, 1000))
-    assert len(run(SenpiSimulator(CLEAN), frames)) == 0
-
-
 def test_a_pixel_at_rest_is_not_fired_by_a_change(kernels):
     config = with_only(refractory_period_us=1500)
     frames = frames_of([40, 80, 160, 160], [0, 1000, 2000, 3000])
@@ -92,7 +81,7 @@ def test_noise_memorises_the_present_voltage(kernels):
     assert (events.label == NOISE).all()
 
 
-@pytest.mark.parametrize("fps", [24, 240, 1000])
+@pytest.mark.parametrize("fps", [24, 1000])
 def test_noise_has_its_rate_per_second_at_any_frame_rate(fps):
     config = with_only(noise_rate_hz=5.0)
     frames = static(90.0, fps=fps, seconds=0.5, shape=(60, 80))
@@ -113,7 +102,7 @@ def test_hot_pixels_are_few_and_busy():
     assert counts[hot].mean() == pytest.approx(500, rel=0.03)
 
 
-@pytest.mark.parametrize("fps", [24, 240, 1000])
+@pytest.mark.parametrize("fps", [24, 1000])
 def test_shot_noise_has_the_rate_of_its_tails(fps):
     # sd of ln N at 1 level: 1 / sqrt(58.8) = 0.130; of the difference of two samples 0.184.
     config = with_only(shot_noise=True, dark_electrons=0.0, exposure_us=10_000, noise_rate_hz=20.0)
@@ -137,7 +126,7 @@ def test_shot_noise_spares_bright_pixels_and_grows_with_dark_electrons():
     assert some[0] == pytest.approx(math.erfc(0.2 / 2 / math.sqrt(0.02)) / 2 / 41_667e-6)
 
 
-@pytest.mark.parametrize("fps", [24, 240, 1000])
+@pytest.mark.parametrize("fps", [24, 1000])
 def test_a_static_scene_without_noise_gives_nothing(kernels, fps):
     frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
     assert len(run(SenpiSimulator(CLEAN), frames)) == 0

@@ -57,11 +57,3 @@ def test_eq5_only_pixels_that_fired_change_their_reference():
     by_steps = BrightnessCache(levels(0, 0, 0), policy="global")
     by_steps.update(fired, brightness, step=0.2)
     assert by_steps.calibrate(brightness, 0, is_source=False)[0] == pytest.approx([0.4, 0, -0.6])
-
-
-def test_the_cache_keeps_its_own_copy():
-    first = levels(1, 2)
-    cache = BrightnessCache(first, policy="local")
-    reference = cache.calibrate(first, 0, is_source=True)
-    reference += 1
-    assert first.tolist() == [[1, 2]]

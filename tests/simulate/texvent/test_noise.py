@@ -57,7 +57,7 @@ def test_eq6_noise_has_the_spread_of_a_poisson_number():
 
 
 @pytest.mark.parametrize("kind", ["adaptive", "random", "gaussian"])
-@pytest.mark.parametrize("fps", [24, 240, 1000])
+@pytest.mark.parametrize("fps", [24, 1000])
 def test_noise_rate_is_the_stated_one_at_any_frame_rate(kind, fps):
     """2 Hz · 1.5 over 32×32 pixels and 1 s: mean 3072."""
     times = [frame_time_us(k, fps) for k in range(fps + 1)]

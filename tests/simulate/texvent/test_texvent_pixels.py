@@ -146,8 +146,9 @@ def test_black_without_a_balance_is_refused_at_any_frame(dtype):
     assert len(simulator.step(frame(levels * 2, dtype, 2000))) == 72
 
 
-@pytest.mark.parametrize("place", [0, 63, 64, 4100, 4222])
-@pytest.mark.parametrize("bad", [np.nan, np.inf, -1.0])
+@pytest.mark.parametrize(
+    ("bad", "place"), [(np.nan, 0), (np.inf, 63), (-1.0, 64), (np.nan, 4100), (-1.0, 4222)]
+)
 def test_an_impossible_intensity_is_found_wherever_it_is(bad, place):
     """In a whole run, in the rest after it, and in the last tile; the frame is then forgotten."""
     rng = np.random.default_rng(0)

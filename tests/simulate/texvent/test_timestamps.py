@@ -54,11 +54,6 @@ def test_eq7_scale_multiplies_the_offset():
     assert times("eq7", [0.25, 0.45], scale=0.1) == [1000, 0]
 
 
-def test_no_event_has_no_time():
-    for stamp in ("eq7", "random", "linear", "hyperbolic", "even", "end"):
-        assert times(stamp, []) == []
-
-
 def test_linear_crossing_starts_at_the_previous_brightness():
     """From 0.1 to 0.5 above the reference, δ = 0.2 lies a quarter of the way up."""
     assert times("linear", [0.5], previous=[0.1]) == pytest.approx([2500], abs=1)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from tests.simulate.references import ldati as definition
 
-from texvent.errors import ConfigError, InputError
+from texvent.errors import InputError
 from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati
@@ -244,10 +244,6 @@ def test_a_pixel_draws_alike_in_any_window():
         assert np.array_equal(getattr(inside, name), getattr(part, name))
 
 
-def test_an_empty_grid_has_no_events():
-    assert len(voxel_to_events(np.zeros((2, 10, 3, 4)), 0, 10)) == 0
-
-
 @pytest.mark.parametrize(
     ("voxel", "message"),
     [
@@ -263,10 +259,3 @@ def test_an_empty_grid_has_no_events():
 def test_what_is_no_voxel_grid_fails_once_and_clearly(voxel, message):
     with pytest.raises(InputError, match=message):
         voxel_to_events(voxel, 0, 1000)
-
-
-def test_an_interval_without_time_or_an_impossible_seed_fails():
-    with pytest.raises(InputError, match="empty"):
-        voxel_to_events(column(1, 0), 5, 5)
-    with pytest.raises(ConfigError, match="seed"):
-        voxel_to_events(column(1, 0), 0, 5, seed=-1)

@@ -2,21 +2,18 @@
 
 import copy
 import hashlib
-import itertools
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
 from tests.frame_pairs import advance_through
-from tests.simulate.references import in_both_forms
 
 import texvent
 from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError
-from texvent.events import SIGNAL, EventStream
+from texvent.events import EventStream
 from texvent.options.fields import option_help, option_names
-from texvent.options.values import with_options
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import default_settings, resolve
 from texvent.simulate.packets import FrameInterval, make_packet
@@ -109,19 +106,6 @@ def test_answers_come_a_sequence_late_and_no_later(model):
     assert lag == [0, 3, 2, 1, 0, 3, 2, 1, 0]
 
 
-def test_packets_are_half_open_sorted_and_labelled(model):
-    frames = moving_texture(7)
-    found = list(advance_through(model(sequence_length=4), frames))
-    assert len(found[0][1]) == 0
-    assert found[0][1].label is not None
-    for (before, _), (frame, packet) in itertools.pairwise(found):
-        assert before.t_us <= packet.t.min()
-        assert packet.t.max() < frame.t_us
-        columns = np.stack([packet.t, packet.y, packet.x, packet.p], axis=1).tolist()
-        assert columns == sorted(columns)
-        assert (packet.label == SIGNAL).all()
-
-
 def test_one_frame_gives_an_empty_stream_and_none_gives_nothing(model):
     assert len(answers(model(), ramp(1))) == 0
     assert list(advance_through(model(), [])) == []
@@ -162,15 +146,6 @@ def test_the_seed_decides_everything_random(model):
     events = answers(model(seed=0), frames)
     assert answers(model(seed=0), frames).equals(events)
     assert not answers(model(seed=1), frames).equals(events)
-
-
-@pytest.mark.parametrize("options", [{}, {"rounding": "stochastic"}, {"bidirectional": True}])
-def test_kernels_give_the_events_of_their_definitions(model, options):
-    frames = moving_texture()
-    reference, events = in_both_forms(lambda: answers(model(**options), frames))
-    assert len(reference) > 50
-    assert events.equals(reference)
-    assert options == {} or not answers(model(), frames).equals(reference)
 
 
 def test_reset_forgets_everything(model):
@@ -242,12 +217,6 @@ def test_a_run_uses_whole_sequences(model, weights):
     assert found.equals(expected.without_label())
 
 
-def test_intermediate_frames_can_be_asked_for(model):
-    simulator = model()
-    assert simulator.contrast_threshold > 0
-    assert simulator.balance > 0
-
-
 def test_no_weights_is_one_clear_error_that_says_where_they_are(tmp_path, capsys):
     with pytest.raises(ConfigError, match=r"v2ce_3d\.pt.*V2CE-Toolbox.*weights=PATH"):
         V2ceSimulator()
@@ -260,11 +229,3 @@ def test_no_weights_is_one_clear_error_that_says_where_they_are(tmp_path, capsys
     assert "--weights PATH" in message
     assert "Traceback" not in message
     assert sorted(path.name for path in tmp_path.iterdir()) == ["clip.npy"]
-
-
-@pytest.mark.parametrize(
-    ("option", "value"), [("sequence_length", 0), ("rounding", "down"), ("device", "abacus")]
-)
-def test_impossible_options_fail_by_name(option, value):
-    with pytest.raises(ConfigError, match=option):
-        with_options(V2ceConfig(), {option: value}, where="options")

@@ -11,11 +11,6 @@ def test_the_default_is_the_papers_on_blue_off_red_on_white() -> None:
     assert (paper.on, paper.off, paper.background) == ((0, 0, 255), (255, 0, 0), (255, 255, 255))
 
 
-def test_redblue_is_the_paper_swapped() -> None:
-    paper, swapped = get_palette("paper"), get_palette("redblue")
-    assert (paper.on, paper.off) == (swapped.off, swapped.on)
-
-
 @pytest.mark.parametrize("name", PALETTES)
 def test_polarities_background_and_ink_can_be_told_apart(name: str) -> None:
     palette = get_palette(name)

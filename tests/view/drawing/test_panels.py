@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from texvent.sensor import SENSORS, SensorSize
-from texvent.view.drawing.canvas import blank, fit_text, text_width
+from texvent.view.drawing.canvas import blank
 from texvent.view.drawing.palettes import PALETTES, get_palette
 from texvent.view.drawing.panels import SURROUND, PanelLayout, draw_legend
 
 SIZES = [
-    *(sensor.size for sensor in SENSORS.values()),
+    SENSORS["davis346"].size,
     SensorSize(1, 1),
     SensorSize(33, 17),
     SensorSize(3, 500),
@@ -66,15 +66,3 @@ def test_the_legend_shows_on_before_off_in_the_palettes_colours(name: str) -> No
     assert (middle[first_off : first_off + 12] == palette.off).all()
     # In palettes of black and white, the other polarity may also be the colour of the words.
     assert first_on < first_off or palette.off == palette.ink
-
-
-def test_long_titles_are_cut_and_unicode_is_drawn() -> None:
-    assert fit_text("short", 10, 500) == "short"
-    cut = fit_text("a very long prompt " * 20, 10, 200)
-    assert cut.endswith("...")
-    assert text_width(cut, 10) <= 200
-    assert fit_text("anything", 10, 1) == ""
-    layout = PanelLayout(SensorSize(200, 100), get_palette("v2e"))
-    empty = blank(200, 100, (0, 0, 0))
-    caption = layout.compose(empty, empty, title="Überfahrt 红色 🚗", facts="")
-    assert (caption[: layout.caption_height, : layout.width // 2] != SURROUND).any()

@@ -25,7 +25,7 @@ from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame, Video
 from texvent.view.notebook.displays import busiest_range, shrink_counts
-from texvent.view.page.sample import rate_counts, spread_sample
+from texvent.view.page.sample import rate_counts
 
 SIZE = SensorSize(64, 48)
 MAX_BYTES = 300_000
@@ -145,14 +145,6 @@ def test_rate_counts_by_hand():
     assert rate_counts(EventStream.empty(SIZE), (0, 1), 1).tolist() == [[0], [0]]
 
 
-def test_a_sample_is_even_and_always_the_same():
-    events = some_events(1000)
-    sample = spread_sample(events, 10)
-    assert (sample.t // 5000).tolist() == list(range(10))  # one of every 100 events
-    assert sample.equals(spread_sample(events, 10))
-    assert spread_sample(events, 1000) is events
-
-
 @pytest.mark.parametrize(
     "events",
     [
@@ -177,15 +169,6 @@ def test_a_display_of_many_events_copies_no_column():
     assert peak < 4_000_000  # the times alone hold 16 MB
 
 
-def test_a_long_pause_costs_nothing():
-    events = EventStream.from_columns([1, 1], [1, 1], [0, 10**15], [1, 0], size=SIZE)
-    assert "2 events" in text_of(html_of(events))
-
-
-def test_the_same_events_give_the_same_html():
-    assert html_of(some_events()) == html_of(some_events())
-
-
 @pytest.mark.parametrize("key", ["prompt", "source", "generator", "simulator", "preset"])
 def test_html_of_prompts_and_names_is_escaped(key):
     metadata = {**MADE, key: HOSTILE}
@@ -198,15 +181,6 @@ def test_html_of_prompts_and_names_is_escaped(key):
         page = html_of(shown)
         assert "alert(" not in re.sub(r"&lt;script&gt;alert\(", "", page)
         assert "script" not in Tags(page).names
-
-
-def test_a_long_prompt_is_cut():
-    page = html_of(some_events(5).with_metadata({"prompt": "car " * 10_000}))
-    assert len(page) < 60_000
-
-
-def test_no_events_say_so():
-    assert "no events" in text_of(html_of(EventStream.empty(SIZE)))
 
 
 def test_a_terminal_and_those_who_want_text_get_text_alone():
@@ -230,15 +204,6 @@ def test_packets_that_are_made_when_asked_for_are_not_made():
     packets = texvent.simulate(frames, fps=100, as_packets=True)
     assert "64 × 48 pixels" in text_of(html_of(packets))
     assert "not read through" in text_of(html_of(EventPackets(make(), SIZE)))
-
-
-def test_packets_of_a_file_show_a_moment(tmp_path: Path):
-    path = some_events().save(tmp_path / "out.h5")
-    page = html_of(texvent.open(path))
-    # 40 ms of one event each 50 µs.
-    assert "800 events from 0.480 s on, in 40 ms" in text_of(page)
-    assert "1.000 s" in text_of(page)
-    assert Tags(page).names.count("img") == 2
 
 
 def test_a_damaged_file_still_displays(tmp_path: Path):

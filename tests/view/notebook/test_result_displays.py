@@ -2,18 +2,12 @@
 
 from __future__ import annotations
 
-import gc
 import json
-import math
 import pickle
-import weakref
-
-import numpy as np
 
 import texvent
-from texvent.dataset.loading.stored_samples import StoredSample
 from texvent.events import EventStream
-from texvent.metrics.compare import Scores, load_metric
+from texvent.metrics.compare import load_metric
 from texvent.sensor import SensorSize
 
 EVENTS = EventStream([1, 2], [0, 0], [100, 900], [1, 0], SensorSize(4, 3))
@@ -33,38 +27,3 @@ def test_scores_are_a_dict_and_a_table():
     assert ">1.0000<" in table
     assert ">near 1<" in table
     assert f">0.0000 {load_metric('nearest').unit}<" in table
-
-
-def test_scores_let_their_metrics_go():
-    metric = load_metric("nearest")
-    scores, gone = Scores({"nearest": 1.0}, [metric]), weakref.ref(metric)
-    del metric
-    gc.collect()
-    assert gone() is None
-    assert b"NearestTime" not in pickle.dumps(scores)
-    assert "nearest" in scores._repr_mimebundle_()["text/html"]
-
-
-def test_an_undefined_score_says_so_and_names_are_escaped():
-    table = Scores({"<b>": math.nan}, [])._repr_mimebundle_()["text/html"]
-    assert "undefined" in table
-    assert "&lt;b&gt;" in table
-
-
-def test_a_sample_shows_its_events_and_class():
-    sample = StoredSample(
-        key="s-000001",
-        events=EVENTS.with_metadata({"prompt": "a <b> car"}),
-        caption="a <b> car",
-        label="car",
-        class_number=0,
-        variant="default",
-        split="train",
-        facts={},
-    )
-    page = sample._repr_mimebundle_()["text/html"]
-    assert "<b> car" not in page
-    assert page.count("a &lt;b&gt; car") == 2
-    for fact in ("s-000001", "train", "2 events"):
-        assert fact in page
-    assert np.array_equal(sample.events.t, [100, 900])

@@ -11,8 +11,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError, OutputError
-from texvent.event_packets import EventPackets
+from texvent.errors import OutputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.view.page.writer import PageWriter, show
@@ -98,12 +97,6 @@ def test_the_rate_curve_is_drawn_without_any_script(tmp_path: Path) -> None:
     assert float(areas["on"]) < 100 < float(areas["off"])
 
 
-def test_packets_of_a_file_are_shown_without_collecting_them(tmp_path: Path) -> None:
-    parts = (make_events(100)[start : start + 10] for start in range(0, 100, 10))
-    page = show(EventPackets(parts, SIZE, {"prompt": "p"}), tmp_path / "out.html")
-    assert data_of(page.read_text("utf-8"))["count"] == 100
-
-
 def test_an_existing_page_is_kept_and_an_exception_leaves_none(
     tmp_path: Path, folder_is_clean: Callable[[], bool]
 ) -> None:
@@ -118,13 +111,6 @@ def test_an_existing_page_is_kept_and_an_exception_leaves_none(
     path = show(make_events(5), tmp_path / "out.html")
     with pytest.raises(OutputError, match="exists already"):
         show(make_events(5), path)
-
-
-def test_another_name_than_that_of_a_page_is_refused(tmp_path: Path) -> None:
-    with pytest.raises(ConfigError, match=r"x\.foo; the name of a page ends in \.html or \.htm"):
-        show(make_events(5), tmp_path / "x.foo")
-    assert not list(tmp_path.iterdir())
-    assert show(make_events(5), tmp_path / "x.HTM").exists()
 
 
 def test_without_a_path_the_browser_opens_a_temporary_page(

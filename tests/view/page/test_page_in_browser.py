@@ -15,7 +15,7 @@ from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Video
 from texvent.view.page.writer import show
-from texvent.view.render import RenderConfig, render_events
+from texvent.view.render import render_events
 
 SIZE = SensorSize(64, 48)
 WAIT_S = 20
@@ -344,12 +344,3 @@ def test_a_recording_without_events_says_so(browser: Any, tmp_path: Path) -> Non
     assert browser.find_element("id", "cloud-fallback").text == "This recording holds no events."
     assert not browser.find_element("id", "controls").is_displayed()
     assert browser.get_log("browser") == []
-
-
-def test_a_thinned_cloud_says_so(browser: Any, tmp_path: Path) -> None:
-    target = render_events(cube_of_events(), tmp_path / "out.html", config=RenderConfig(points=500))
-    browser.get(target.as_uri())
-    note = browser.find_element("class name", "note").text
-    assert note.startswith("Shows 500 of 20,000 events, drawn uniformly at random")
-    open_whole(browser, target)
-    assert text(browser, "shown-text").startswith("500 of the cloud's 500 events")

@@ -18,13 +18,6 @@ def ramp(count: int, step_us: int = 1) -> EventStream:
     return EventStream(index % 100, index // 100 % 100, index * step_us, index % 2, SIZE)
 
 
-def test_few_events_are_all_kept_in_order() -> None:
-    sample = UniformSample(SIZE, limit=1000)
-    sample.append(ramp(1000))
-    assert sample.events().equals(ramp(1000))
-    assert sample.seen == 1000
-
-
 @pytest.mark.parametrize("packet_events", [1, 7, 333, 5000])
 def test_packet_sizes_do_not_change_the_sample(packet_events: int) -> None:
     events = ramp(5000)
@@ -85,9 +78,3 @@ def test_the_rate_curve_counts_every_event_in_its_bin(
             curve.counts[p], np.bincount(bins[polarity == p], minlength=bins[-1] + 1)
         )
     assert curve.bin_us == FIRST_BIN_US or curve.counts.shape[1] > RATE_BINS // 2
-
-
-def test_no_events_give_an_empty_curve() -> None:
-    curve = RateCurve()
-    curve.append(EventStream.empty(SIZE))
-    assert curve.counts.shape == (2, 0)

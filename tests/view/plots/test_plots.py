@@ -9,7 +9,6 @@ import matplotlib as mpl
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.view.plots import pixel_intervals
@@ -19,7 +18,6 @@ EVENTS = EventStream.from_columns(
     [0, 0, 3, 0, 3], [0, 0, 2, 0, 2], [0, 10, 20, 110, 399], [1, 1, 0, 1, 0], size=SIZE
 )
 """Pixel (0, 0): ON at 0, 10 and 110 µs; pixel (3, 2): OFF at 20 and 399 µs."""
-KINDS = ("frame", "cloud", "rate", "isi", "polarity")
 
 
 @pytest.fixture(autouse=True)
@@ -42,12 +40,6 @@ def test_a_frame_shows_blue_where_on_and_red_where_off():
     # √(2 events / a ceiling of 8) = 0.5: half of the way from white to red.
     faint = EVENTS.plot("frame", ceiling=8).images[0].get_array()
     assert faint[2, 3].tolist() == [255, 128, 128]
-
-
-def test_a_frame_takes_a_palette():
-    image = EVENTS.plot("frame", palette="v2e").images[0].get_array()
-    assert image[0, 0].tolist() == [255, 255, 255]
-    assert image[1, 1].tolist() == [128, 128, 128]
 
 
 def test_rates_are_events_per_second_on_above_and_off_below():
@@ -76,11 +68,6 @@ def test_intervals_are_between_events_of_one_pixel():
     assert ax.get_xscale() == "log"
 
 
-def test_events_of_a_pixel_in_the_same_us_count_as_1_us_apart():
-    twice = EventStream.from_columns([1, 1], [1, 1], [7, 7], [1, 1], size=SIZE)
-    assert twice.plot("isi", bins=1).patches[0].get_data().values.tolist() == [1]
-
-
 def test_bars_of_polarity_are_as_high_as_the_counts():
     ax = EVENTS.plot("polarity")
     assert [bar.get_height() for bar in ax.patches] == [3, 2]
@@ -105,24 +92,3 @@ def test_a_cloud_of_more_events_is_an_even_sample():
     assert len(t) == 2
     assert t[0] < 15 < t[1]  # one of the first two events, one of the last three
     assert ax.get_title() == "2 of 5 events"
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_every_kind_draws_into_axes_of_mine_and_gives_them_back(kind, pyplot):
-    options = {"projection": "3d"} if kind == "cloud" else {}
-    ax = pyplot.figure().add_subplot(**options)
-    assert EVENTS.plot(kind, ax=ax) is ax
-    ax.figure.canvas.draw()
-
-
-@pytest.mark.parametrize("kind", KINDS)
-def test_no_events_give_empty_axes(kind):
-    ax = EventStream.empty(SIZE).plot(kind)
-    ax.figure.canvas.draw()
-
-
-def test_a_cloud_needs_3d_axes_and_only_a_cloud(pyplot):
-    with pytest.raises(ConfigError, match=r"plot cloud cannot be drawn.*projection"):
-        EVENTS.plot("cloud", ax=pyplot.figure().add_subplot())
-    with pytest.raises(ConfigError, match="plot rate cannot be drawn"):
-        EVENTS.plot("rate", ax=pyplot.figure().add_subplot(projection="3d"))

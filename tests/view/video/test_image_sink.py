@@ -75,10 +75,3 @@ def test_an_error_half_way_leaves_nothing(tmp_path):
     with pytest.raises(RuntimeError):
         write(tmp_path / "frames", some=broken())
     assert list(tmp_path.iterdir()) == []
-
-
-def test_times_before_zero_are_written_with_their_sign(tmp_path):
-    some = [(-1_500_000, np.zeros(SIZE.shape)), (-1, np.zeros(SIZE.shape))]
-    write(tmp_path / "frames", some=some)
-    lines = (tmp_path / "frames" / "timestamps.txt").read_text().splitlines()
-    assert [line.split()[0] for line in lines] == ["-1.500000", "-0.000001"]

@@ -14,7 +14,6 @@ from texvent.errors import InputError, OutputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent.view.drawing.panels import title_of
 from texvent.view.video.encoder import VideoEncoder
 from texvent.view.video.writer import VideoWriter
 from texvent.view.windows import EventWindow, WindowCollector
@@ -147,14 +146,6 @@ def test_an_existing_video_is_kept_unless_overwriting_is_allowed(
     assert len(read_video(path)[0]) == 5
 
 
-def test_a_writer_outside_its_with_block_says_so(tmp_path: Path) -> None:
-    encoder = VideoEncoder(
-        tmp_path / "out.mp4", width=32, height=32, fps=Fraction(30), overwrite=False
-    )
-    with pytest.raises(OutputError, match="with block"):
-        encoder.write(np.zeros((32, 32, 3), dtype=np.uint8), 0)
-
-
 def test_a_full_disk_while_encoding_is_one_clear_line(
     tmp_path: Path,
     steps: Steps,
@@ -168,11 +159,3 @@ def test_a_full_disk_while_encoding_is_one_clear_line(
     with pytest.raises(OutputError, match="the disk is full"):
         write_video(tmp_path / "out.mp4", steps)
     assert folder_is_clean()
-
-
-def test_the_title_is_the_prompt_or_else_the_source() -> None:
-    assert title_of({"prompt": " a\ncar "}) == "a car"
-    assert title_of({"prompt": None, "source": {"path": "x"}, "title": "t"}) == "t"
-    assert title_of({"prompt": None, "source": {"source": "/a/b/clip.mp4"}}) == "clip.mp4"
-    assert title_of({"source": {"kind": "array"}}) == ""
-    assert title_of({}) == ""

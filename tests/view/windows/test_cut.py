@@ -68,11 +68,6 @@ def test_windows_side_by_side_hold_every_event_once(
         assert sum(count for *_, count in found) == len(times)
 
 
-def test_no_event_gives_no_window() -> None:
-    assert counted([EventStream.empty(SIZE)], Fraction(10), 10) == []
-    assert time_range(EventPackets([EventStream.empty(SIZE)], SIZE)) is None
-
-
 def test_the_range_is_half_open_over_all_packets() -> None:
     packets = EventPackets([at_times(7, 8), EventStream.empty(SIZE), at_times(9)], SIZE)
     assert time_range(packets) == (7, 10)

@@ -3,7 +3,6 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError
 from texvent.scenes.raycast.ground_truth import Box, GroundTruth
 from texvent.sensor import SensorSize
 from texvent.video import Video
@@ -77,12 +76,6 @@ def test_each_interval_gets_the_frame_that_was_on_show_when_it_began() -> None:
     beside = SourceOverlay(video(), "none", size=SIZE)
     shown = beside.add_frames(EventWindow(t, t + 1, counts) for t in starts)
     assert [int(one.image.mean()) for one in shown] == [0, 0, 0, 50, 100]
-
-
-def test_an_overlay_without_ground_truth_is_refused() -> None:
-    for frames in (None, video(Video)):
-        with pytest.raises(ConfigError, match="embedded generator"):
-            SourceOverlay(frames, "both", size=SIZE)
 
 
 @pytest.mark.parametrize(

@@ -13,8 +13,8 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.stored_events import read_events
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.reading.stored_events import read_events
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.arrays.n_imagenet import load_stream
@@ -52,7 +52,7 @@ def list_samples(
         FileFormatError: the record of a shard is damaged.
     """
     found: dict[str, list[Recording]] = {}
-    for shard in MadeSet.open(folder).shards():
+    for shard in StoredDataset.open(folder).shards():
         if split not in (None, shard.record.split):
             continue
         for sample in shard.samples:

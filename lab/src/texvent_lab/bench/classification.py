@@ -17,8 +17,6 @@ from texvent.events import EventStream
 from texvent.io.arrays.n_imagenet import load_stream
 from texvent.io.files import event_extensions
 from texvent.networks.layer_shapes import Shape
-from texvent.networks.layers import EXTRA, Layers
-from texvent.networks.resnet34 import BLOCKS, count_stages, resnet_scores, resnet_shapes
 from texvent.networks.weight_files import (
     Tensor,
     check_finite,
@@ -30,6 +28,8 @@ from texvent.networks.weight_files import (
 )
 from texvent.represent.event_frame import binary_event_image
 from texvent_lab.bench.jobs import Progress, no_progress
+from texvent_lab.networks.layers import EXTRA, Layers
+from texvent_lab.networks.resnet34 import BLOCKS, count_stages, resnet_scores, resnet_shapes
 
 REPRESENTATION, CHANNELS = "binary-event-image", 2
 WHERE_FROM = (

@@ -47,7 +47,7 @@ prompts.
   texvent dataset make nt/specification.toml -o nt-events
   texvent nt-imagenet -o nt --events nt-events
 
-The same command goes on where it was stopped. docs/datasets-nt-imagenet.md explains it."""
+The same command goes on where it was stopped. docs/datasets.md explains it."""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -23,7 +23,7 @@ import numpy as np
 
 import texvent
 from texvent.capture.image_folder import find_images_folder, list_images
-from texvent.capture.motion_vectors.attach import find_motion_sidecar
+from texvent.capture.motion_vectors.frames import find_motion_sidecar
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.events import EventStream

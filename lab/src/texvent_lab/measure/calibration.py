@@ -14,7 +14,7 @@ from typing import Any
 
 from texvent.calibrate.estimates import Estimate
 from texvent.calibrate.events_only.flicker import measure_flicker
-from texvent.calibrate.events_only.replay import replay_flicker, replay_static
+from texvent.calibrate.events_only.known_scenes import simulate_flicker, simulate_static
 from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
@@ -78,7 +78,7 @@ def _found() -> Iterator[tuple[str, float, Estimate]]:
             yield from _at_rest(config, seed)
         for ratio, options in FLICKERING:
             config = dataclasses.replace(START, **{"noise_curve": "128:0.05", **options})
-            events = replay_flicker(
+            events = simulate_flicker(
                 config, FLICKER_SIZE, FLICKER_HZ, ratio=ratio, number=CYCLES, seed=seed
             )
             flicker = measure_flicker(events, START, hz=FLICKER_HZ, ratio=ratio)
@@ -87,7 +87,7 @@ def _found() -> Iterator[tuple[str, float, Estimate]]:
 
 
 def _at_rest(config: PhysicalConfig, seed: int) -> Iterator[tuple[str, float, Estimate]]:
-    events = replay_static(config, REST_SIZE, REST_S + WARM_UP_S, seed=seed)
+    events = simulate_static(config, REST_SIZE, REST_S + WARM_UP_S, seed=seed)
     events = events.cut(round(WARM_UP_S * 1e6), round((REST_S + WARM_UP_S) * 1e6))
     scene = measure_static_scene(events, START)
     for one in scene.found:

@@ -18,11 +18,10 @@ from pathlib import Path
 
 import numpy as np
 
-from texvent.calibrate.estimates import describe_estimates
+from texvent.calibrate.estimates import describe_estimates, describe_scene, write_preset
 from texvent.calibrate.events_only.flicker import measure_flicker
 from texvent.calibrate.events_only.static_scene import measure_static_scene
-from texvent.calibrate.fit import fit_sensor
-from texvent.calibrate.preset import describe_fit, describe_scene, write_preset
+from texvent.calibrate.fit import describe_fit, fit_sensor
 from texvent.calibrate.recording import Recording
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
@@ -94,9 +93,12 @@ def main() -> None:
     fit = fit_sensor(recording, start=start, keep=["cutoff_hz"], report=print)
     # Its camera has no grain, so pixels may begin anywhere; entries name the map's place.
     config = dataclasses.replace(fit.config, initial_phase="random", threshold_map=None)
+    source = "the benchmark's sensor"
     lines = [
-        *describe_scene(rest, "the benchmark's sensor", "a field at rest"),
-        *describe_scene(flicker, "the benchmark's sensor", "a field that flickers"),
+        *describe_scene(rest.found, rest.kept, rest.remarks, f"{source}, a field at rest"),
+        *describe_scene(
+            flicker.found, flicker.kept, flicker.remarks, f"{source}, a field that flickers"
+        ),
         *describe_fit(
             fit,
             "a texture of which one half moves, see lab/src/texvent_lab/measure/oracle_sensor.py",

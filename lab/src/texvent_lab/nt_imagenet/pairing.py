@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 from io import StringIO
 from pathlib import Path
 
-from texvent.dataset.contents.made_set import MadeSet
 from texvent.dataset.generation.recipe import ITEMS_FILE, read_facts
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.clips import clip_key, video_seed
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent_lab.nt_imagenet.files import Captioned, Pair
@@ -32,7 +32,7 @@ def list_pairs(
     ids = ids_of_clips(folder, captioned)
     by_id = {stream.id: stream for stream in streams}
     pairs = []
-    for shard in MadeSet.open(folder).shards():
+    for shard in StoredDataset.open(folder).shards():
         for sample in shard.samples:
             stream = by_id.get(ids.get(sample.clip, ""))
             if stream is not None:

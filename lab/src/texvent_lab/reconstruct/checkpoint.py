@@ -10,7 +10,6 @@ from typing import Any
 
 from texvent.errors import FileFormatError, InputError
 from texvent.networks.layer_shapes import Shape
-from texvent.networks.layers import EXTRA
 from texvent.networks.weight_files import (
     StandIn,
     Tensor,
@@ -21,6 +20,7 @@ from texvent.networks.weight_files import (
     state_tensors,
 )
 from texvent.runtime.cache_folder import cache_folder
+from texvent_lab.networks.layers import EXTRA
 from texvent_lab.reconstruct.protocol import PublishedNetwork
 from texvent_lab.registries import RECONSTRUCTORS
 

@@ -7,19 +7,16 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from texvent.networks.layer_shapes import (
-    Shape,
-    Shapes,
+from texvent.networks.layer_shapes import Shape, Shapes, layer_norm, linear
+from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layer_shapes import (
     attention,
     conv_layer,
     conv_lstm,
     convolution,
     count_blocks,
-    layer_norm,
-    linear,
 )
-from texvent.networks.layers import Layers
-from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layers import Layers
 
 SCALES = 3
 HEADS = 8

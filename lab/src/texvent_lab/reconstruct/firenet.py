@@ -6,15 +6,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from texvent.networks.layer_shapes import (
-    Shape,
-    Shapes,
-    conv_gru,
-    conv_layer,
-    residual_block,
-)
-from texvent.networks.layers import Layers
+from texvent.networks.layer_shapes import Shape, Shapes
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layer_shapes import conv_gru, conv_layer, residual_block
+from texvent_lab.networks.layers import Layers
 
 PUBLISHED_HEAD = (16, 5, 3, 3)
 """Shape of the first kernel: channels, bins, side, side."""

@@ -14,11 +14,10 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.extending import require
-from texvent.networks.layers import EXTRA
-from texvent.networks.padding import Padding
 from texvent.networks.weight_files import Tensor
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
+from texvent_lab.networks.layers import EXTRA, Padding
 from texvent_lab.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
 from texvent_lab.reconstruct.protocol import PublishedNetwork
 from texvent_lab.registries import RECONSTRUCTORS

@@ -6,9 +6,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from texvent.networks.layer_shapes import (
-    Shape,
-    Shapes,
+from texvent.networks.layer_shapes import Shape, Shapes
+from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layer_shapes import (
     batch_norm,
     conv_gru,
     conv_layer,
@@ -17,8 +17,7 @@ from texvent.networks.layer_shapes import (
     count_blocks,
     residual_block,
 )
-from texvent.networks.layers import Layers
-from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layers import Layers
 
 ATOMS = 6
 """Kernels per pixel, of which every output channel takes its own mixture."""

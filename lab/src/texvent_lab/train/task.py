@@ -10,8 +10,8 @@ from typing import Any, ClassVar, Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.loading.collate import collate
-from texvent.dataset.loading.order import epoch_order
+from texvent.dataset.loading.epoch_sampler import epoch_order
+from texvent.dataset.loading.torch_loader import collate
 from texvent.errors import TexventError
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor

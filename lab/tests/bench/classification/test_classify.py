@@ -6,7 +6,6 @@ import pytest
 from texvent.cli.app import main
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.networks.resnet34 import resnet_shapes
 from texvent.sensor import SensorSize
 from texvent_lab.bench.classification import (
     Sample,
@@ -15,6 +14,7 @@ from texvent_lab.bench.classification import (
     read_resnet_weights,
     take_slice,
 )
+from texvent_lab.networks.resnet34 import resnet_shapes
 
 from .torch_resnet import torch_resnet
 
@@ -143,8 +143,3 @@ def test_the_command_states_both_accuracies(folder, checkpoint, tmp_path, capsys
     assert printed.startswith("top-1 ")
     assert "top-5 1.0000" in printed  # of three classes the right one is always among five
     assert '"count": 6' in (tmp_path / "result.json").read_text()
-
-
-def test_weights_that_are_not_there_are_named_with_their_source(tmp_path):
-    with pytest.raises(InputError, match="82magnolia/n_imagenet"):
-        read_resnet_weights(tmp_path / "none.tar")

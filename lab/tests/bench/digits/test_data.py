@@ -8,8 +8,8 @@ import zipfile
 import numpy as np
 import pytest
 
-from texvent.capture.camera_path.saccades import DURATION_US, digit_corner
-from texvent.errors import FileFormatError, InputError
+from texvent.capture.camera_path.motion import DURATION_US, digit_corner
+from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.run.prepare import prepare_video
 from texvent.sensor import SensorSize
@@ -162,18 +162,6 @@ def test_idx_files_are_read_compressed_or_not(tmp_path):
     found = read_mnist(tmp_path / "mnist")
     assert np.array_equal(found.images, images)
     assert found.labels.tolist() == [*range(10)] * 2
-
-
-def test_mnist_that_is_incomplete_is_refused(tmp_path):
-    with pytest.raises(InputError, match=r"no t10k-images-idx3-ubyte\.gz in"):
-        read_mnist(tmp_path)
-    write_mnist(tmp_path / "m", 20)
-    write_idx(tmp_path / "m" / "t10k-labels-idx1-ubyte", np.zeros(19))
-    with pytest.raises(FileFormatError, match="20 images and labels of shape"):
-        read_mnist(tmp_path / "m")
-    write_idx(tmp_path / "m" / "t10k-images-idx3-ubyte.gz", np.zeros((19, 30, 28)))
-    with pytest.raises(FileFormatError, match="must be 28x28"):
-        read_mnist(tmp_path / "m")
 
 
 EVENTS = encode([1, 2], [3, 4], [10, 70_000], [1, 0])

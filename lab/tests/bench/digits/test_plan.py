@@ -8,7 +8,7 @@ import pytest
 
 from texvent_lab.bench.digits.arms import ARMS, Cell
 from texvent_lab.bench.digits.networks import choose_recordings
-from texvent_lab.bench.digits.plan import DigitsPlan, Run, Training, list_trainings
+from texvent_lab.bench.digits.plan import DigitsPlan, Run, Training
 
 
 def plan(**changes):
@@ -66,14 +66,6 @@ def test_steps_depend_on_what_they_compute_and_on_nothing_else():
     assert run(seeds=9).set_step(cell).digest == a_set
     assert run(held_out=10).set_step(cell).digest != a_set
     assert run().set_step(dataclasses.replace(cell, choice="random")).digest != a_set
-
-
-def test_networks_are_listed_once_and_sets_before_seeds():
-    listed = list_trainings(plan(arms=("texvent paper", "esim"), choices=("matched", "random")))
-    assert len(set(listed)) == len(listed)
-    simulated = [one for one in listed if one.cell and not one.shots]
-    assert [one.seed for one in simulated] == sorted(one.seed for one in simulated)
-    assert sum(one.fold is not None for one in listed) == 10 * 2 * 2
 
 
 def test_few_shots_are_nested_and_balanced_and_folds_cover_all():

@@ -1,18 +1,12 @@
 """The whole benchmark on ten made-up figures: trained, resumed, shown, refused."""
 
-import sys
-
 import numpy as np
 import pytest
 
 from texvent.cli.app import main
-from texvent.errors import FileFormatError, MissingDependencyError
-from texvent.options.fields import option_names
-from texvent.simulate.physical.config import PhysicalConfig
 from texvent_lab.bench.digits.arms import find_arm
 from texvent_lab.bench.digits.inputs import read_mnist
 from texvent_lab.bench.digits.page import page_files
-from texvent_lab.bench.digits.pair_fit import COORDINATES
 from texvent_lab.bench.digits.plan import DigitsPlan
 from texvent_lab.bench.digits.results import read_report
 from texvent_lab.bench.digits.run import run_digits
@@ -124,13 +118,6 @@ def test_the_page_shows_what_the_document_holds(report, tmp_path):
     assert (tmp_path / "digits.md").read_bytes() == files["digits.md"]
 
 
-def test_results_of_other_benchmarks_are_refused():
-    with pytest.raises(FileFormatError, match="no result of texvent bench digits"):
-        read_report({"schema": "texvent-classify-1"})
-    with pytest.raises(FileFormatError, match="the result lacks environment"):
-        read_report({"schema": "texvent-digits-1"})
-
-
 def test_counts_fall_with_the_threshold(data):
     mnist = read_mnist(data[0])
     counts = [
@@ -141,29 +128,3 @@ def test_counts_fall_with_the_threshold(data):
     ]
     assert counts == sorted(counts, reverse=True)
     assert counts[0] > 3 * counts[-1]
-
-
-def test_torch_is_asked_for_before_any_work(data, tmp_path, monkeypatch):
-    monkeypatch.setitem(sys.modules, "torch", None)
-    with pytest.raises(MissingDependencyError, match="train"):
-        run_digits(tiny_plan(data, tmp_path / "work"))
-    assert not (tmp_path / "work").exists()
-
-
-@pytest.mark.torch
-def test_the_command_refuses_missing_files_in_one_line(data, tmp_path, capsys):
-    pytest.importorskip("torch")
-    words = ["bench", "digits", "--mnist", str(tmp_path), "--nmnist", str(data[1]), "--work"]
-    assert main([*words, str(tmp_path / "work"), "--quick"]) != 0
-    error = capsys.readouterr().err
-    assert "no t10k-images-idx3-ubyte.gz in" in error
-    assert len(error.strip().splitlines()) == 1
-    assert not (tmp_path / "work").exists()
-    (tmp_path / "result.json").write_text("{}")
-    words[3] = str(data[0])
-    assert main([*words, str(tmp_path / "work"), "-o", str(tmp_path / "result.json")]) != 0
-    assert "exists already" in capsys.readouterr().err
-
-
-def test_the_searched_options_are_those_of_the_physical_model():
-    assert set(COORDINATES) <= set(option_names(PhysicalConfig))

@@ -3,11 +3,10 @@
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.sensor import SensorSize
 from texvent_lab.bench.oracle.pixel import IDEAL, NOISY, PixelArray, PixelModel
-from texvent_lab.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, record, render_video
+from texvent_lab.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, render_video
 from texvent_lab.bench.oracle.scenes import (
     PROMPTS,
     SCENES,
@@ -84,10 +83,6 @@ def test_two_recordings_share_the_sensor_but_not_the_noise():
     assert not first.equals(second)
 
 
-def test_a_static_scene_gives_an_ideal_sensor_no_event():
-    assert len(record(oracle_scene("static", 7), {"ideal": (IDEAL, 1)})["ideal"]) == 0
-
-
 @pytest.mark.parametrize("name", SCENES)
 def test_every_scene_is_finite_positive_and_its_own_per_seed(name):
     scene = build_scene(name, 7, SIZE)
@@ -138,11 +133,6 @@ def test_true_frames_are_the_film_before_rounding_at_any_instant():
         assert np.abs(exact.pixels - rounded.pixels).max() <= 0.501
     np.testing.assert_array_equal(true.at(41_667).pixels, list(true)[1].pixels)
     assert not true.at(41_667).is_source
-
-
-def test_an_unknown_scene_is_refused():
-    with pytest.raises(ConfigError, match="did you mean 'mixed'"):
-        build_scene("mixd", 0, SIZE)
 
 
 def test_a_prompt_is_a_scene_that_the_camera_films_as_the_generator_drew_it():

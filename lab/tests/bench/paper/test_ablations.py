@@ -3,7 +3,6 @@ from pathlib import Path
 
 import pytest
 
-from texvent.errors import ConfigError, InputError
 from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent_lab.bench.fidelity.run import FidelityPlan, run_fidelity
 from texvent_lab.bench.fidelity.table import fidelity_tables
@@ -69,14 +68,3 @@ def test_ablations_run_and_are_compared_with_a_row_of_choice(tmp_path):
     text = fidelity_tables(report, baseline="quiet")
     assert "STPP − quiet" in text
     assert "STPP −" not in fidelity_tables(report)  # the default baseline did not run
-
-
-def test_a_folder_without_config_files_fails(tmp_path):
-    with pytest.raises(InputError, match="no config file in"):
-        read_ablations(tmp_path)
-
-
-def test_a_wrong_config_file_fails_by_its_name(tmp_path):
-    (tmp_path / "E1.toml").write_text("balanse = 3.0\n")
-    with pytest.raises(ConfigError, match=r"E1\.toml.*did you mean 'balance'"):
-        read_ablations(tmp_path)

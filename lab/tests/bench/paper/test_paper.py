@@ -7,23 +7,19 @@ import numpy as np
 import pytest
 
 from texvent.cli.app import main
-from texvent.errors import ConfigError, InputError
+from texvent.errors import InputError
 from texvent.metrics.compare import compare
 from texvent.metrics.event_frames import EventFrameLpips
 from texvent_lab.bench.paper import tables
 from texvent_lab.bench.paper.config_entry import read_ablations
 from texvent_lab.bench.paper.published_tables import (
     TABLES,
-    OurFigures,
-    compare_with_paper,
-    join_figures,
 )
 from texvent_lab.bench.paper.run import PaperInputs, measure_table
 from texvent_lab.bench.paper.tables import (
     ablation_figures,
     accuracy_figures,
     event_frame_figures,
-    leave_out_other_tables,
 )
 from texvent_lab.bench.real.recording import RecordingPart, open_scene
 
@@ -53,22 +49,6 @@ def test_every_row_of_a_table_has_a_figure_per_column():
     assert TABLES[9].rows["Acc@5 ↑"][-1] == 0.5458
     *_, random_times, own = TABLES[5].rows["EQS ↑"]
     assert own - random_times == pytest.approx(0.0021)
-
-
-def test_our_figures_stand_below_the_papers_with_notes_and_what_is_missing():
-    ours = OurFigures(
-        {"EQS ↑": {"V2E": "0.5000"}, "more": {"Texvent": "7"}}, ["how"], ["eqs: FILE"]
-    )
-    lines = compare_with_paper(TABLES[2], ours).splitlines()
-    paper = next(index for index, line in enumerate(lines) if line.startswith("| EQS ↑ | paper"))
-    assert lines[paper].endswith("| 0.8824 | 0.8851 |")
-    assert lines[paper + 1] == "|  | here | – | 0.5000 | – | – | – | – |"
-    assert "| more | here | – | – | – | – | – | 7 |" in lines
-    assert lines[-2:] == ["- how", "- Not measured: eqs: FILE"]
-    # A row without a figure of ours has no empty line below it.
-    assert sum("| here |" in line for line in lines) == 2
-    joined = join_figures([ours, ours, OurFigures({"x": {}}, ["again"])])
-    assert (joined.notes, joined.needs) == (("how", "again"), ("eqs: FILE",))
 
 
 def test_ablations_give_scores_and_paired_differences_to_the_papers_setting():
@@ -122,72 +102,12 @@ def test_tables_say_which_input_is_missing(monkeypatch, tmp_path):
         assert word in " ".join(found.needs)
 
 
-def test_the_network_of_a_table_is_named_with_the_place_of_its_weights(
-    monkeypatch, tmp_path, pan_folder
-):
-    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
-    inputs = PaperInputs(recordings=(str(pan_folder),))
-    found = measure_table(8, inputs, silent)
-    assert "et-net" in found.needs[0]
-    with pytest.raises(ConfigError, match="unknown reconstructor 'e3vid'"):
-        dataclasses.replace(inputs, network="e3vid")
-    with pytest.raises(InputError, match="no weights file"):
-        measure_table(8, dataclasses.replace(inputs, weights=tmp_path / "none.pth"), silent)
-
-
-def test_seconds_per_pair_are_measured_for_what_runs(monkeypatch):
-    keep_few(monkeypatch)
-    monkeypatch.setattr(tables, "TIMED_PAIRS", 2)
-    found = measure_table(2, PaperInputs(), silent)
-    seconds = {column: float(value) for column, value in found.figures["time, s"].items()}
-    assert set(seconds) == {"VID2E", "Texvent"}
-    assert all(value > 0 for value in seconds.values())
-    assert any("EQS" in need for need in found.needs)
-
-
-def test_weights_that_are_missing_are_refused_before_anything_is_timed(tmp_path):
-    steps = []
-    with pytest.raises(InputError, match="no weights file"):
-        measure_table(2, PaperInputs(rvt_weights=tmp_path / "none.ckpt"), steps.append)
-    assert steps == []
-
-
-def test_missing_weights_are_told_before_the_event_frames(monkeypatch, tmp_path, pan_folder):
-    keep_few(monkeypatch)
-    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
-    steps = []
-    found = measure_table(1, PaperInputs(recordings=(str(pan_folder),)), steps.append)
-    assert "images; " in steps[0]
-    assert "event frames: MSE ↓" in found.figures
-    assert found.needs[-1].startswith("images; ")
-
-
-def test_one_table_runs_its_own_rows_alone(tmp_path):
-    for name in ("E7", "E9", "Texvent", "mine"):
-        (tmp_path / f"{name}.toml").write_text('interpolate = "none"\n')
-    entries = read_ablations(tmp_path)
-    names = [{one.name for one in leave_out_other_tables(table, entries)} for table in (4, 5)]
-    assert names == [{"E7", "Texvent", "mine"}, {"E9", "Texvent", "mine"}]
-
-
-def test_a_baseline_that_does_not_run_is_refused_at_once(capsys, pan_folder, tmp_path):
-    (tmp_path / "E1.toml").write_text('interpolate = "none"\n')
-    words = ["--configs", str(tmp_path), "--no-oracle", "--recordings", str(pan_folder)]
-    assert main(["bench", "paper", *words, "--baseline", "E7"]) != 0
-    assert "baseline 'E7' does not run; allowed: E1" in capsys.readouterr().err
-
-
-def test_a_table_that_the_paper_lacks_is_refused(capsys):
-    assert main(["bench", "paper", "--table", "3"]) != 0
-    assert "the tables are 1, 2, 4, 5, 7, 8, 9" in capsys.readouterr().err
-
-
 @pytest.mark.torch
 def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path):
     torch = pytest.importorskip("torch")
     from texvent.events import EventStream
-    from texvent.networks.resnet34 import resnet_shapes
     from texvent.sensor import SensorSize
+    from texvent_lab.networks.resnet34 import resnet_shapes
 
     for name in ("n01", "n02"):
         place = tmp_path / "streams" / "texvent" / name
@@ -209,20 +129,3 @@ def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path):
         accuracy_figures(
             tmp_path / "empty", tmp_path / "weights.tar", classes=None, progress=silent
         )
-
-
-def test_ablations_with_windows_enough_have_intervals():
-    report = synthetic_report()
-    steps = [0.50, 0.52, 0.51, 0.53, 0.50, 0.52]
-    values = {"Texvent": steps, "E12": [one + 0.1 for one in steps]}
-    bounds = {"floor": {"stpp": [0.9] * 6}, "null": {"stpp": [0.2] * 6}}
-    report = dataclasses.replace(
-        report,
-        references=[dataclasses.replace(report.references[0], **bounds)],
-        scores=[
-            dataclasses.replace(report.scores[0], entry=name, values={"stpp": one})
-            for name, one in values.items()
-        ],
-    )
-    figures = ablation_figures(5, report).figures
-    assert figures["− Texvent, mixed, noisy pixels"]["E12"] == "+0.100 [+0.100, +0.100]"

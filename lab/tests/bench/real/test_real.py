@@ -1,14 +1,12 @@
 """Recordings of real sensors in the benchmark, on a small one made here in the usual layouts."""
 
 import json
-import shutil
 
 import numpy as np
 import pytest
 from tests.capture.dsec_sequence import write_sequence
 
-from texvent.cli.app import main
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent_lab.bench.fidelity.entries import Entry
@@ -106,26 +104,6 @@ def test_true_frames_are_refused_for_recordings(pan_folder):
     with pytest.raises(ConfigError, match="true frames"):
         run_real([open_scene(str(pan_folder))], plan)
     assert all(entry.track == "frames" for entry in real_entries())
-
-
-def test_recordings_that_are_missing_or_too_short_are_refused(pan_folder, tmp_path, monkeypatch):
-    with pytest.raises(InputError, match=r"share 0\.100 s in the part"):
-        open_scene(str(pan_folder), RecordingPart(seconds=0.2))
-    monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
-    with pytest.raises(InputError, match="texvent data pull slider_depth"):
-        open_scene("slider_depth")
-    copy = shutil.copytree(pan_folder, tmp_path / "other")
-    (copy / "events.txt").write_text("".join(f"{9 + i / 1e3:.6f} 1 1 1\n" for i in range(9)))
-    with pytest.raises(InputError, match="same clock"):
-        open_scene(str(copy))
-
-
-def test_an_unknown_name_and_an_unknown_baseline_are_refused_with_what_is_allowed(capsys):
-    assert main(["bench", "real", "slider_dept"]) != 0
-    assert "the name of a data set: slider_depth, davis346" in capsys.readouterr().err
-    words = ["--simulators", "esim", "--interpolations", "none", "--baseline", "esim"]
-    assert main(["bench", "real", "slider_dept", *words]) != 0
-    assert "baseline 'esim' does not run; allowed: esim, none" in capsys.readouterr().err
 
 
 def test_a_dsec_sequence_opens_as_a_scene_with_display_gamma(tmp_path):

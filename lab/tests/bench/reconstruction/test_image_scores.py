@@ -67,11 +67,6 @@ def test_where_nothing_counts_an_error_says_so():
         score_images([(0, image(0))], [frame(0, 90_000)], ScoreCollector(MSE))
 
 
-def test_another_size_is_refused():
-    with pytest.raises(InputError, match="the image at 0 µs is 3x2, the frame 5x4"):
-        score_images([(0, np.zeros((2, 3)))], [frame(0, 0)], ScoreCollector(MSE))
-
-
 def test_every_frame_of_several_recordings_counts_the_same():
     short = ImageScores(t_us=[0], values={"mse": [1.0]})
     long = ImageScores(t_us=[0, 1, 2], values={"mse": [0.0, 0.0, math.nan]})

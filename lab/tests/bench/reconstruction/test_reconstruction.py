@@ -7,7 +7,6 @@ import math
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError
 from texvent.metrics.image_measures import load_measures
 from texvent_lab.bench.fidelity.entries import Entry
 from texvent_lab.bench.reconstruction.noise_robustness import NoiseLevel, noise_curve
@@ -15,14 +14,11 @@ from texvent_lab.bench.reconstruction.run import (
     DEFAULT_SKIP,
     RECORDED,
     ReconstructionPlan,
-    ReconstructionReport,
-    ReconstructionRow,
     ReconstructionScorer,
     recorded_rate_hz,
     run_reconstruction,
     simulate_recording,
 )
-from texvent_lab.bench.reconstruction.scores import ImageScores, ReconstructionGrid
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent_lab.bench.selftest.run import add_background, scatter
 
@@ -113,11 +109,6 @@ def test_frames_of_a_sensor_are_linear_for_models_that_ask():
     assert simulate_recording(moving_bar(), entry, plan).settings.simulate.gamma == 1.5
 
 
-def test_an_unknown_simulator_is_refused_before_any_work():
-    with pytest.raises(ConfigError, match="unknown simulator"):
-        ReconstructionPlan(entries=(Entry(simulator="esimm", interpolate="none"),))
-
-
 def test_more_noise_degrades_the_images_more():
     levels = [NoiseLevel("scattered", share) for share in (0.0, 0.1, 0.5)]
     levels += [NoiseLevel("background", rate_hz) for rate_hz in (0.0, 5.0, 50.0)]
@@ -157,12 +148,6 @@ def test_scattered_events_keep_their_number_and_the_others_stay():
     assert background.equals(events)
 
 
-@pytest.mark.parametrize(("kind", "amount"), [("scattered", 1.1), ("background", -1.0)])
-def test_noise_out_of_range_is_refused(kind, amount):
-    with pytest.raises(ConfigError, match=kind):
-        NoiseLevel(kind, amount)
-
-
 def test_tables_and_document_state_every_figure():
     recordings = [moving_bar("one"), moving_bar("two")]
     report = run_reconstruction(recordings, scorer())
@@ -183,62 +168,3 @@ def test_tables_and_document_state_every_figure():
         "sha256": "0" * 64,
         "is_published": False,
     }
-
-
-def test_the_grid_shows_frames_and_every_source():
-    cv2 = pytest.importorskip("cv2")
-    recording = moving_bar()
-    grid = ReconstructionGrid(recording, [90_000, 300_000])
-    grid("bar", RECORDED, 120_000, np.full(SIZE.shape, 1.0))
-    grid("bar", RECORDED, 160_000, np.full(SIZE.shape, 0.0))  # not one of the instants
-    grid("other", "esim", 120_000, np.full(SIZE.shape, 0.0))
-    image = cv2.imdecode(np.frombuffer(grid.png(), np.uint8), cv2.IMREAD_GRAYSCALE)
-    height, width = image.shape
-    assert width == 2 * (SIZE.width + 6) + 6
-    assert height == 2 * (SIZE.height + 11 + 12) + 6
-    top = 6 + 11 + 6
-    frame = image[top : top + SIZE.height, 6 : 6 + SIZE.width]
-    assert frame[0, 3] == 178
-    assert frame[0, 8] == 128
-    below = top + SIZE.height + 11 + 12
-    assert (image[below : below + SIZE.height, 6 : 6 + SIZE.width] == 255).all()
-
-
-def test_tables_mark_the_best_simulated_source_and_those_like_it():
-    rng = np.random.default_rng(0)
-    noise = rng.normal(0, 0.01, (3, 40))
-    mse = {
-        RECORDED: noise[0] + 0.05,
-        "best": noise[0] + 0.1,
-        "like it": noise[1] + 0.1001,
-        "behind": noise[2] + 0.2,
-        "drifting": noise[0] + 0.2 + np.linspace(0, 0.5, 40),
-    }
-    rows = [
-        ReconstructionRow(
-            recording="r",
-            source=source,
-            events=10,
-            scores=ImageScores(t_us=range(40), values={"mse": values.tolist()}),
-        )
-        for source, values in mse.items()
-    ]
-    short = ImageScores(t_us=range(9), values={"mse": [0.01] * 9})
-    rows.append(dataclasses.replace(rows[1], source="elsewhere", scores=short))
-    report = ReconstructionReport(
-        network="n", sha256="", is_published=False, plan=ReconstructionPlan(entries=()), rows=rows
-    )
-    lines = {line.split(" | ")[0].strip("| "): line for line in report.markdown().splitlines()}
-    ends = {source: lines[source].rpartition(" | ")[2] for source in mse}
-    assert "(" not in ends[RECORDED] + ends["behind"]
-    assert "(best)" in ends["best"]
-    assert "(≈)" in ends["like it"]
-    assert "(?)" in ends["drifting"]
-    assert lines["elsewhere"].endswith("| 0.0100 |")  # of other frames, so not compared
-    assert "(≈): no significant difference" in report.markdown()
-    behind = {row["source"]: row["behind_best"] for row in reconstruction_document(report)["rows"]}
-    assert behind["best"]["mse"] is None
-    assert (behind["behind"]["mse"]["best"], behind["behind"]["mse"]["is_significant"]) == (
-        "best",
-        True,
-    )

@@ -16,7 +16,6 @@ from texvent_lab.train.classification.samples import augment, take_run
 
 pytestmark = pytest.mark.torch
 pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
-NONE = Augmentation(shift=0)
 
 
 class Chance:
@@ -50,10 +49,6 @@ def test_mirrored_events_are_at_the_other_side() -> None:
 def test_what_is_shifted_out_is_dropped() -> None:
     found = augment(events(), Augmentation(shift=2), Chance(shift=(1, -1)))
     assert rows(found) == [(2, 1, 14, 0)]
-
-
-def test_nothing_is_changed_that_is_not_asked_for() -> None:
-    assert augment(events(), NONE, Chance(time=True, x=True)).equals(events())
 
 
 @given(streams(), st.booleans(), st.booleans())

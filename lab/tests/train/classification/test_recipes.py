@@ -14,6 +14,7 @@ from texvent.dataset.specification.reading import read_specification
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from texvent_lab.train.classification.config import ClassificationConfig  # noqa: E402
+from texvent_lab.train.reconstruction.config import ReconstructionConfig  # noqa: E402
 from texvent_lab.train.run import read_training  # noqa: E402
 
 pytestmark = pytest.mark.torch
@@ -69,12 +70,11 @@ def test_the_first_example_is_a_specification_and_a_training_of_it() -> None:
 
 
 def test_the_training_files_of_the_page_are_read(tmp_path: Path) -> None:
-    page = (ROOT / "docs" / "training-classification.md").read_text(encoding="utf-8")
+    page = (ROOT / "docs" / "training.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```toml\n# ([\w-]+\.toml).*?\n(.*?)```", page, re.DOTALL)
-    assert [name for name, _ in blocks] == ["digits.toml", "table6.toml", "table6-extra.toml"]
+    assert [name for name, _ in blocks] == ["cars.toml", "digits.toml", "film.toml"]
     for name, text in blocks:
         (tmp_path / name).write_text(text)
-        if "[[sources]]" in text:
-            read_specification(tmp_path / name)
-        else:
-            read_training(tmp_path / name, ClassificationConfig())
+    for name in ("cars.toml", "digits.toml"):
+        read_training(tmp_path / name, ClassificationConfig())
+    read_training(tmp_path / "film.toml", ReconstructionConfig())

@@ -202,33 +202,6 @@ def test_a_sample_without_events_is_an_image_of_zeros(tmp_path: Path) -> None:
         assert train(path) == 0
 
 
-def test_classes_that_only_one_split_has_are_refused(tmp_path, capsys) -> None:
-    write_recordings(tmp_path / "rec")
-    path = write(tmp_path / "spec.toml", RECORDED)
-    (tmp_path / "rec" / "train" / "dog").mkdir()
-    dog = tmp_path / "rec" / "train" / "dog" / "a.npz"
-    bar(1, 3).save(dog)
-    assert "rec/train has samples of class 'dog', which" in error_of(path, capsys)
-    (tmp_path / "rec" / "val" / "dog").mkdir()
-    dog.rename(tmp_path / "rec" / "val" / "dog" / "a.npz")
-    assert "has samples of class 'dog', and" in error_of(path, capsys)
-    assert not (tmp_path / "spec").exists()
-
-
-def test_sizes_that_differ_are_refused(tmp_path, capsys) -> None:
-    write_recordings(tmp_path / "rec")
-    path = write(tmp_path / "spec.toml", RECORDED)
-    small = EventStream([1], [1], [1], [1], SensorSize(8, 6))
-    small.save(tmp_path / "rec" / "val" / "car" / "0.npz", overwrite=True)
-    error = error_of(path, capsys)
-    assert "val/car/0.npz has 8x6, others 16x12; give image_size" in error
-    assert not (tmp_path / "spec").exists()
-    for one in (tmp_path / "rec" / "val").glob("*/*.npz"):
-        small.save(one, overwrite=True)
-    assert "samples to train on have 16x12, those of" in error_of(path, capsys)
-    assert not (tmp_path / "spec").exists()
-
-
 def test_sizes_within_a_data_set_are_all_checked(tmp_path, capsys) -> None:
     write_bars(tmp_path / "made")
     odd = {"odd0": bar(0, 1), "odd1": EventStream([1], [1], [1], [1], SensorSize(8, 6))}
@@ -246,14 +219,6 @@ def test_a_damaged_file_is_named_in_one_line(tmp_path, capsys, workers: str) -> 
     path = write(tmp_path / "spec.toml", RECORDED)
     (tmp_path / "rec" / "train" / "car" / "2.npz").write_bytes(b"PK\x03\x04damaged")
     assert "rec/train/car/2.npz" in error_of(path, capsys, "--workers", workers)
-
-
-def test_another_size_later_on_is_named(tmp_path, capsys) -> None:
-    write_recordings(tmp_path / "rec")
-    path = write(tmp_path / "spec.toml", RECORDED)
-    small = EventStream([1], [1], [1], [1], SensorSize(8, 6))
-    small.save(tmp_path / "rec" / "train" / "car" / "2.npz", overwrite=True)
-    assert "car/2.npz has 8x6, others 16x12" in error_of(path, capsys)
 
 
 @pytest.mark.parametrize(
@@ -294,20 +259,6 @@ def test_samples_that_do_not_fit_are_refused_in_one_line(
     assert not (tmp_path / "spec").exists()
 
 
-@pytest.mark.parametrize("labels", [(), ("bus", None)])
-def test_samples_without_a_class_are_refused(tmp_path, capsys, labels) -> None:
-    samples = {f"k{number}": bar(0, number) for number in range(4)}
-    for split in ("train", "test"):
-        record = write_shard(tmp_path / "made", "paper", split, 0, samples, labels=("bus", "car"))
-        if labels != ("bus", "car"):
-            facts = json.loads(record.with_suffix(".json").read_text())
-            facts["samples"][-1]["label"] = None
-            record.with_suffix(".json").write_text(json.dumps(facts))
-    error = error_of(write(tmp_path / "spec.toml", 'folder = "made"'), capsys)
-    assert "1 of 4 samples of split test of" in error
-    assert "have no class, such as sample k3; give all sources a label" in error
-
-
 def test_training_begins_with_given_weights_and_a_new_last_layer_for_other_classes(
     tmp_path: Path,
 ) -> None:
@@ -324,13 +275,3 @@ def test_training_begins_with_given_weights_and_a_new_last_layer_for_other_class
     assert torch.equal(network.tensors["conv1.weight"], weights(first)["conv1.weight"])
     assert network.tensors["linear.weight"].shape == (3, 64)
     assert train(again) == 0
-
-
-def test_weights_that_do_not_fit_cannot_be_begun_with(tmp_path, capsys) -> None:
-    write_recordings(tmp_path / "rec")
-    first = write(tmp_path / "first.toml", RECORDED, "network = {width = 4}")
-    assert train(first) == 0
-    again = write(tmp_path / "again.toml", RECORDED, 'start_from = "first/weights.pt"')
-    assert "first/weights.pt does not fit the network: it has conv0" in error_of(again, capsys)
-    missing = write(tmp_path / "missing.toml", RECORDED, 'start_from = "none.pt"')
-    assert "there is no weights file" in error_of(missing, capsys)

@@ -109,15 +109,3 @@ def test_mirrored_pairs_are_latents_of_mirrored_frames(tmp_path: Path) -> None:
         shown = frames if is_plain else frames[:, :, ::-1]
         expected = pairs.autoencoder.encode(shown, change.fps).values
         np.testing.assert_allclose(one[LATENTS], expected, rtol=0, atol=1e-6)
-
-
-def test_a_training_without_an_autoencoder_is_refused_in_one_line(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = write_training(tmp_path)
-    path.write_text(TRAINING.replace('"vae"', '"missing"'))
-    assert main(["train", "latents", str(path), "-o", str(tmp_path / "head")]) != 0
-    message = capsys.readouterr().err
-    assert "missing does not have config.json" in message
-    assert message.count("\n") == 1
-    assert not (tmp_path / "head").exists()

@@ -259,12 +259,3 @@ def test_videos_train_without_flow(tmp_path: Path) -> None:
     assert "flow" not in next(batches.epoch(0))
     state = train_from_file(ReconstructionConfig, path, tmp_path / "run", CPU)
     assert np.isfinite(state.rows[-1]["training loss"])
-
-
-def test_a_crop_that_the_encoders_cannot_halve_is_refused(
-    folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    text = TRAINING.replace('"firenet"', '"e2vid"').replace("crop = 16", "crop = 20")
-    path = write(folder, text, "wrong.toml")
-    assert main(["train", "reconstruction", str(path), "-o", str(tmp_path / "run"), "-q"]) == 2
-    assert "20x20 px; give a crop of at least 11 px that 8 divides" in capsys.readouterr().err

@@ -10,9 +10,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from texvent.dataset.samples import record_clip, target_of
 from texvent.dataset.simulated_clips import SimulatedClips
-from texvent.dataset.targets import record_clip, target_of
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import ConfigError, InputError
 from texvent_lab.train.sequences.clips import WindowedClips
 from texvent_lab.train.sequences.config import SequenceData
 
@@ -126,12 +126,3 @@ def test_short_clips_large_crops_and_wrong_names_are_refused(data: SequenceData)
         WindowedClips.open(data, "test", TARGETS)
     with pytest.raises(ConfigError, match="length is 0"):
         replace(data, length=0)
-
-
-def test_a_damaged_file_is_named(data: SequenceData) -> None:
-    clips = WindowedClips.open(data, "train", TARGETS)
-    (name,) = stored(data)
-    path = data.cache / name
-    path.write_bytes(path.read_bytes()[:1000])
-    with pytest.raises(FileFormatError, match=name):
-        clips.read(0)

@@ -1,10 +1,15 @@
 """Crops and mirror images of maps."""
 
 import numpy as np
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
+
 from texvent_lab.train.sequences.truth import crop_randomly, flip, flip_randomly
+
+pytestmark = pytest.mark.torch
 
 
 def maps(height: int, width: int) -> dict[str, np.ndarray]:
@@ -35,11 +40,6 @@ def test_every_square_is_drawn() -> None:
         for seed in range(200)
     }
     assert drawn == {0, 1, 2, 4, 5, 6}
-
-
-def test_without_a_side_nothing_is_cut() -> None:
-    whole = maps(3, 4)
-    assert crop_randomly(whole, None, np.random.default_rng(0)) == whole
 
 
 def test_mirrored_flow_points_to_the_mirrored_pixel() -> None:

@@ -1,10 +1,10 @@
 """A flat field that switches between two brightnesses: thresholds, bandwidth, refractory period.
 
-`burst_fit.py` gives bandwidth, refractory period and the thresholds of pixels up to a factor per
-polarity, because the instant of the step is not known. The factors follow from the first event of
-each burst. At the step, the output of a pixel lies somewhere between its last reset and the next
-opposite threshold, on average half of that away; so the first ON event comes when the output has
-changed by θ_on + θ_off / 2, and the first OFF event likewise.
+`step_response_fit.py` gives bandwidth, refractory period and the thresholds of pixels up to a
+factor per polarity, because the instant of the step is not known. The factors follow from the first
+event of each burst. At the step, the output of a pixel is somewhere between its last reset and
+the next opposite threshold, on average half of that away; so the first ON event comes when the
+output has changed by θ_on + θ_off / 2, and the first OFF event likewise.
 """
 
 from __future__ import annotations
@@ -16,21 +16,21 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.calibrate.bootstrap import Float64Array, bootstrap
-from texvent.calibrate.estimates import Estimate, Kept, with_estimates
-from texvent.calibrate.events_only.burst_fit import (
+from texvent.calibrate.estimates import Estimate, UnidentifiedOption, with_estimates
+from texvent.calibrate.events_only.flicker_cycles import Bursts, Cycles, find_bursts, find_cycles
+from texvent.calibrate.events_only.pixel_trains import PixelTrains
+from texvent.calibrate.events_only.step_response_fit import (
     FITTED_PAIRS,
     WEIGHED_PAIRS,
-    BurstFit,
     Pairs,
+    StepResponseFit,
     find_influence,
     find_pairs,
     find_slowness,
-    fit_bursts,
+    fit_step_response,
     pair_thresholds,
     pixel_means,
 )
-from texvent.calibrate.events_only.flicker_cycles import Bursts, Cycles, find_bursts, find_cycles
-from texvent.calibrate.events_only.pixel_trains import PixelTrains
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -51,7 +51,7 @@ WIDEST = 3.0
 """Upper over lower end of an interval from which on the old value stays."""
 MUCH_BETTER = 0.5
 """Squared disagreement over that with the model's bandwidth in the dark half, below which the one
-that the bursts tell is taken."""
+of the bursts is taken."""
 NAMES = (
     "contrast_threshold",
     "on_off_ratio",
@@ -70,15 +70,15 @@ EXCESS_ERROR = 0.05
 
 
 class Flicker(NamedTuple):
-    """What a flickering field tells."""
+    """Measurement of a flickering field."""
 
     config: PhysicalConfig
     found: tuple[Estimate, ...]
-    kept: tuple[Kept, ...]
+    kept: tuple[UnidentifiedOption, ...]
     remarks: tuple[str, ...]
     cycles: Cycles
     thresholds: ThresholdMap
-    """Of every pixel, over the mean of all."""
+    """Thresholds of every pixel, over the mean of all."""
 
 
 class _Polarity(NamedTuple):
@@ -94,12 +94,12 @@ class _Polarity(NamedTuple):
 def measure_flicker(
     events: EventStream, start: PhysicalConfig, *, hz: float, ratio: float | None
 ) -> Flicker:
-    """Measure what a recording of a flickering field tells.
+    """Measure thresholds, bandwidth and refractory period in a flickering field.
 
     Args:
         events: of a sensor whose whole field switches between two brightnesses, bright and dark for
             half of each cycle.
-        start: where what the recording does not tell comes from; its balance is taken for true.
+        start: source of options that the recording cannot identify; its balance is taken for true.
         hz: frequency of the light, within 2 %.
         ratio: bright over dark; without it thresholds are known only relative to one another.
 
@@ -156,15 +156,15 @@ def _check(off: Pairs, on: Pairs) -> None:
         )
 
 
-def _fit(off: Pairs, on: Pairs, ratio: float | None, balance: float) -> BurstFit:
+def _fit(off: Pairs, on: Pairs, ratio: float | None, balance: float) -> StepResponseFit:
     """The fit with the bandwidth of the dark half that the model has for that ratio.
 
-    Where the one that bursts tell fits much better, that is taken.
+    Where the bandwidth of the bursts fits much better, it is taken.
     """
-    free = fit_bursts([off._replace(slowness=find_slowness(off, on)), on])
+    free = fit_step_response([off._replace(slowness=find_slowness(off, on)), on])
     if ratio is None:
         return free
-    modelled = fit_bursts([off._replace(slowness=_modelled_slowness(ratio, balance)), on])
+    modelled = fit_step_response([off._replace(slowness=_modelled_slowness(ratio, balance)), on])
     is_better = free.disagreement < MUCH_BETTER * modelled.disagreement
     return free if is_better else modelled
 
@@ -224,21 +224,23 @@ def _estimate(
 
 def _judge(
     values: Float64Array, ends: Float64Array, start: PhysicalConfig, ratio: float | None
-) -> tuple[list[Estimate], list[Kept]]:
-    """Which constants the bursts tell."""
+) -> tuple[list[Estimate], list[UnidentifiedOption]]:
+    """Constants that the bursts identify, and the other options."""
     found, kept = [], []
     for place, (name, unit) in enumerate(zip(NAMES, UNITS, strict=True)):
         low, high = ends[:, place]
         if name == "contrast_threshold" and ratio is None:
-            kept.append(Kept(name, start.contrast_threshold, "--flicker-ratio is not given"))
+            kept.append(
+                UnidentifiedOption(name, start.contrast_threshold, "--flicker-ratio is not given")
+            )
         elif not math.isfinite(values[place]) or not high <= WIDEST * low:
             reason = f"bursts allow {low:.3g} to {high:.3g} {unit}".rstrip()
-            kept.append(Kept(name, getattr(start, name), reason))
+            kept.append(UnidentifiedOption(name, getattr(start, name), reason))
         else:
             found.append(Estimate(name, float(values[place]), low, high, unit))
-    reason = "a flickering field does not tell it"
+    reason = "a flickering field cannot identify it"
     kept += [
-        Kept(name, getattr(start, name), reason)
+        UnidentifiedOption(name, getattr(start, name), reason)
         for name in ("noise_curve", "leak_rate_hz", "hot_pixel_fraction")
     ]
     return found, kept
@@ -263,17 +265,19 @@ def _with_limit(found: list[Estimate], excess: float) -> list[Estimate]:
     return [*found, *limit]
 
 
-def _lost(fit: BurstFit, start: PhysicalConfig, kept: list[Kept]) -> list[Kept]:
-    """Nothing is told where most of the change falls into refractory periods."""
+def _lost(
+    fit: StepResponseFit, start: PhysicalConfig, kept: list[UnidentifiedOption]
+) -> list[UnidentifiedOption]:
+    """Options unidentified because most of the change falls into refractory periods."""
     reason = (
         f"the refractory period lasts {fit.omega * fit.dead_s:.1f} time constants of the "
         f"photoreceptor, at most {MOST_LOST:g} is measured; use less light"
     )
     others = [one for one in kept if one.name not in NAMES]
-    return [*(Kept(name, getattr(start, name), reason) for name in NAMES), *others]
+    return [*(UnidentifiedOption(name, getattr(start, name), reason) for name in NAMES), *others]
 
 
-def _settling(fit: BurstFit, cycles: Cycles, slowness: float) -> list[str]:
+def _settling(fit: StepResponseFit, cycles: Cycles, slowness: float) -> list[str]:
     constants = fit.omega * slowness * 0.5 / cycles.hz
     if constants >= SETTLED:
         return []
@@ -293,7 +297,7 @@ def _remark(slowness: float, ratio: float | None, balance: float) -> list[str]:
     ]
 
 
-def _map_thresholds(fit: BurstFit, size: SensorSize) -> ThresholdMap:
+def _map_thresholds(fit: StepResponseFit, size: SensorSize) -> ThresholdMap:
     off, on = np.full((2, size.width * size.height), np.nan)
     for one, pairs in zip((off, on), fit.pairs, strict=True):
         each = pixel_means(pairs, pair_thresholds(pairs, fit.omega, fit.dead_s))

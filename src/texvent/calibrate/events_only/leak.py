@@ -12,7 +12,7 @@ from texvent.calibrate.events_only.pixel_trains import BoolArray, PixelTrains
 from texvent.video import MICROSECONDS
 
 NODES, WEIGHTS = np.polynomial.hermite_e.hermegauss(9)
-"""Of the mean over a normal distribution."""
+"""Gauss-Hermite quadrature of the mean over a normal distribution."""
 LEAST_PER_PIXEL, LEAST_SHARE = 4, 0.8
 """Intervals that a pixel needs, and pixels that must have them, for the spread of the leak."""
 
@@ -66,7 +66,7 @@ def _factors(decades: float) -> Float64Array:
 
 
 def leak_spread(trains: PixelTrains, leak_hz: float, groups: int) -> Estimate | None:
-    """How far the leak differs between pixels: the spread of their regular intervals.
+    """Spread of the leak over pixels, from their regular intervals.
 
     Most intervals that end in an ON event must be whole leak periods; then their median is the
     pixel's.

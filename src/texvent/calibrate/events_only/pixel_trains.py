@@ -1,4 +1,4 @@
-"""Events pixel by pixel: which follow one another at a pixel, and after how long."""
+"""Events by pixel: their order, intervals and dead time."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.calibrate.estimates import Estimate
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
@@ -51,3 +52,36 @@ class PixelTrains:
         number = self.size.width * self.size.height
         on = np.bincount(self.pixel[self.is_on], minlength=number)
         return np.stack([np.bincount(self.pixel, minlength=number) - on, on])
+
+
+SHORTEST = 50
+"""Intervals at the lower end that are looked at."""
+PRECISION = 0.2
+"""Part of the dead time that the gap above it may be uncertain by."""
+
+
+def find_dead_time(waits_us: Float64Array) -> Estimate | str:
+    """The dead time of pixels that fire at random.
+
+    Random events fill the intervals from the dead time on evenly. With the 50 shortest intervals
+    over a range, the next one below the shortest would be 1/49 of the range away.
+
+    Args:
+        waits_us: inter-event intervals of pixels, both polarities together, µs; NaN is left out.
+
+    Returns:
+        The constant `refractory_period_us`, or why there is none.
+
+    Example:
+        >>> str(find_dead_time(300.0 + np.arange(1, 61)))
+        'refractory_period_us 300 µs (95 %: 298 to 301)'
+    """
+    waits = waits_us[np.isfinite(waits_us)]
+    if waits.size < SHORTEST:
+        return f"{waits.size} intervals; {SHORTEST} are needed"
+    shortest = np.sort(np.partition(waits, SHORTEST - 1)[:SHORTEST])
+    gap = float(shortest[-1] - shortest[0]) / (SHORTEST - 1)
+    low, high = float(shortest[0]) - 3 * gap, float(shortest[0])
+    if 3 * gap > PRECISION * high:
+        return f"intervals near it are too rare; it is at most {high:.0f} µs"
+    return Estimate("refractory_period_us", high - gap, low, high, "µs")

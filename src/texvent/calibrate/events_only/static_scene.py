@@ -15,11 +15,15 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.calibrate.bootstrap import bootstrap
-from texvent.calibrate.estimates import Estimate, Kept, with_estimates
-from texvent.calibrate.events_only.dead_time import find_dead_time
+from texvent.calibrate.estimates import Estimate, UnidentifiedOption, with_estimates
 from texvent.calibrate.events_only.leak import leak_rate, leak_spread
-from texvent.calibrate.events_only.pixel_trains import BoolArray, Float64Array, PixelTrains
-from texvent.calibrate.events_only.rest import find_rest, mains_flicker
+from texvent.calibrate.events_only.pixel_trains import (
+    BoolArray,
+    Float64Array,
+    PixelTrains,
+    find_dead_time,
+)
+from texvent.calibrate.events_only.stationary_blocks import find_rest, mains_flicker
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
@@ -40,17 +44,17 @@ HOT_CHANCE = 0.01
 MOST_DECADES = 1.0
 """Spread of noise rates above which they are not noise."""
 NOT_TOLD = ("contrast_threshold", "on_off_ratio", "threshold_sigma", "cutoff_hz")
-"""Options that a scene at rest does not tell."""
+"""Options that a scene at rest cannot identify."""
 FLAT_LEVEL = 128
 """Level at which the curve of one point is written; it holds at every level."""
 
 
 class StaticScene(NamedTuple):
-    """What a scene at rest tells."""
+    """Measurement of a scene at rest."""
 
     config: PhysicalConfig
     found: tuple[Estimate, ...]
-    kept: tuple[Kept, ...]
+    kept: tuple[UnidentifiedOption, ...]
     remarks: tuple[str, ...]
     is_hot: BoolArray
     """[H, W]."""
@@ -59,12 +63,12 @@ class StaticScene(NamedTuple):
 
 
 class _Counts(NamedTuple):
-    """What the estimates need of a recording; small, whatever its length."""
+    """Sufficient counts of a recording; small, whatever its length."""
 
     sums: Float64Array
     """[windows, groups, 4] ON, OFF, early ON, early OFF events of pixels that are not hot."""
     seconds: float
-    """Of one window."""
+    """Length of one window, s."""
     pixels: Float64Array
     """[groups, 5] pixels, those not hot, and of these Σ OFF, Σ OFF²; events of hot pixels."""
     dead_s: float
@@ -83,11 +87,11 @@ class _Values(NamedTuple):
 
 
 def measure_static_scene(events: EventStream, start: PhysicalConfig) -> StaticScene:
-    """Measure what a recording of a scene at rest tells.
+    """Measure noise, hot pixels, leak and refractory period in a recording at rest.
 
     Args:
         events: of a sensor that sees steady light, or little that moves.
-        start: where what the recording does not tell comes from.
+        start: source of options that the recording cannot identify.
 
     Raises:
         InputError: less than 20 pixel-seconds are at rest.
@@ -124,11 +128,11 @@ def measure_static_scene(events: EventStream, start: PhysicalConfig) -> StaticSc
     spread = leak_spread(calm, values.leak_hz, GROUPS) or "too few leak events per pixel"
     for name, one in (("leak_rate_decades", spread), ("refractory_period_us", dead)):
         if isinstance(one, str):
-            kept.append(Kept(name, getattr(start, name), one))
+            kept.append(UnidentifiedOption(name, getattr(start, name), one))
         else:
             found.append(one)
-    reason = "a scene at rest does not tell it"
-    kept += [Kept(name, getattr(start, name), reason) for name in NOT_TOLD]
+    reason = "a scene at rest cannot identify it"
+    kept += [UnidentifiedOption(name, getattr(start, name), reason) for name in NOT_TOLD]
     return StaticScene(
         _with(start, found, values.noise_hz),
         tuple(found),
@@ -244,8 +248,8 @@ def _judge(
     ends: Float64Array,
     start: PhysicalConfig,
     exposure_s: float,
-) -> tuple[list[Estimate], list[Kept]]:
-    """Which estimates stand on enough events."""
+) -> tuple[list[Estimate], list[UnidentifiedOption]]:
+    """Estimates that rest on enough events, and the other options."""
     off, early = counts.sums[..., 1].sum(), counts.sums[..., 2:].sum()
     least_hz = 3.0 / exposure_s
     # Without an event, a rate of 3 per exposure would have shown one in 95 % of all cases.
@@ -256,7 +260,7 @@ def _judge(
         Estimate("hot_pixel_fraction", values.hot_fraction, ends[0, 4], high[4]),
     ]
     kept = []
-    no_leak = f"not to be told from none; it is at most {high[3]:.2g}/s"
+    no_leak = f"indistinguishable from none; it is at most {high[3]:.2g}/s"
     is_leak = ends[0, 3] > 0 or start.leak_rate_hz > high[3]
     for place, name, is_enough, reason in (
         (3, "leak_rate_hz", is_leak, no_leak),
@@ -268,7 +272,7 @@ def _judge(
             unit = "1/(px s)" if name.endswith("_hz") else ""
             found.append(Estimate(name, values[place], ends[0, place], high[place], unit))
         else:
-            kept.append(Kept(name, getattr(start, name), reason))
+            kept.append(UnidentifiedOption(name, getattr(start, name), reason))
     return found, kept
 
 

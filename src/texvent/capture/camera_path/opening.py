@@ -23,8 +23,8 @@ from texvent.capture.linear_light import (
     linear_facts,
     to_light,
 )
+from texvent.capture.motion_vectors.conventions import metric_depth
 from texvent.capture.motion_vectors.fields import FRAME_EXTENSIONS, read_file
-from texvent.capture.motion_vectors.values import metric_depth
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, shown
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.camera_path.motion import CameraPath, CameraPose
-from texvent.capture.camera_path.planes import Planes, depth_range, split_planes
-from texvent.capture.camera_path.view import View, fitted_view
+from texvent.capture.camera_path.view import Planes, View, depth_range, fitted_view, split_planes
 from texvent.sensor import SensorSize
 from texvent.transfer import WHITE, encode_srgb
 from texvent.video import (

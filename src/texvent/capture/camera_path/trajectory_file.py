@@ -3,18 +3,18 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from abc import ABC
+from collections.abc import Mapping
 from dataclasses import dataclass
-from io import StringIO
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.camera_path.motion import CameraPose2D, Pose
-from texvent.errors import FileFormatError, InputError, one_line, shown
-from texvent.options.values import parse_fraction
+from texvent.capture.camera_path.motion import CameraPose2D, Pose, rotation_matrix
+from texvent.errors import FileFormatError, InputError, one_line
+from texvent.io.text_files import parse_table
 from texvent.runtime.file_names import usable_path
 from texvent.video import LATEST_US, MICROSECONDS
 
@@ -67,11 +67,11 @@ class SmoothRows:
 
 
 @dataclass(frozen=True, eq=False)
-class PlaceFile:
-    """A path in pixels of the sensor."""
+class _PathFile(ABC):
+    """A camera path of a file."""
 
     rows: SmoothRows
-    """x, y, px; roll, radians; natural logarithm of the zoom."""
+    kind: ClassVar[str]
 
     @property
     def start_us(self) -> int:
@@ -81,12 +81,18 @@ class PlaceFile:
     @property
     def seconds(self) -> float:
         """From the first row to the last, s."""
-        return _seconds(self.rows)
+        return float(self.rows.times_us[-1] - self.rows.times_us[0]) / MICROSECONDS
 
     @property
     def facts(self) -> Mapping[str, Any]:
-        """What kind of file it is."""
-        return {"camera": "positions"}
+        """The kind of file."""
+        return {"camera": self.kind}
+
+
+class PlaceFile(_PathFile):
+    """A path in pixels of the sensor: x, y, px; roll, radians; natural logarithm of the zoom."""
+
+    kind: ClassVar[str] = "positions"
 
     def __call__(self, t_us: float) -> CameraPose2D:
         """Between two rows."""
@@ -94,27 +100,13 @@ class PlaceFile:
         return CameraPose2D(x, y, roll, math.exp(log_zoom))
 
 
-@dataclass(frozen=True, eq=False)
-class PoseFile:
-    """A path in space. Poses count from the first one: there the image was taken."""
+class PoseFile(_PathFile):
+    """A path in space: position, m, and unit quaternion x, y, z, w of camera-to-world.
 
-    rows: SmoothRows
-    """Position, m, and unit quaternion x, y, z, w of camera-to-world."""
+    Poses count from the first one: there the image was taken.
+    """
 
-    @property
-    def start_us(self) -> int:
-        """Time of the first row, µs."""
-        return int(self.rows.times_us[0])
-
-    @property
-    def seconds(self) -> float:
-        """From the first row to the last, s."""
-        return _seconds(self.rows)
-
-    @property
-    def facts(self) -> Mapping[str, Any]:
-        """What kind of file it is."""
-        return {"camera": "poses"}
+    kind: ClassVar[str] = "poses"
 
     @property
     def moves(self) -> bool:
@@ -125,8 +117,8 @@ class PoseFile:
     def __call__(self, t_us: float) -> Pose:
         """Between two rows; the quaternion is brought to length 1 again."""
         first, now = self.rows.values[0], self.rows(t_us)
-        to_first = _rotation(first[3:]).T
-        return Pose(to_first @ _rotation(now[3:]), to_first @ (now[:3] - first[:3]))
+        to_first = rotation_matrix(first[3:]).T
+        return Pose(to_first @ rotation_matrix(now[3:]), to_first @ (now[:3] - first[:3]))
 
 
 def read_trajectory(path: Path) -> PlaceFile | PoseFile:
@@ -143,54 +135,36 @@ def read_trajectory(path: Path) -> PlaceFile | PoseFile:
         FileFormatError: a row has other columns, something that is no number, a time that does not
             increase, a zoom that is not above 0, or a quaternion whose length is not 1.
     """
-    rows = list(_rows(path))
-    if len(rows) < 2:
-        raise InputError(f"{path} has {len(rows)} row(s); a camera path needs at least two")
-    times, values = np.array([t for t, _ in rows], np.int64), np.array([one for _, one in rows])
+    table = _read_table(path)
+    if len(table) < 2:
+        raise InputError(f"{path} has {len(table)} row(s); a camera path needs at least two")
+    if table.shape[1] not in (*PLACE_COLUMNS, POSE_COLUMNS):
+        raise FileFormatError(f"{path} has rows of {table.shape[1]} columns; allowed: {COLUMNS}")
+    times, values = table[:, 0] * MICROSECONDS, table[:, 1:]
+    _refuse_rows(
+        path, ~(np.abs(times) <= LATEST_US), "a time that is no number of s below 285 years"
+    )
+    _refuse_rows(
+        path, ~(np.abs(values) <= MOST).all(axis=1), f"a number that is not within ±{MOST:g}"
+    )
+    times_us = np.rint(times).astype(np.int64)
+    later = np.diff(times_us, prepend=times_us[0] - 1) <= 0
+    _refuse_rows(path, later, "a time that is not at least 1 µs after the one before")
     if values.shape[1] == POSE_COLUMNS - 1:
-        return PoseFile(SmoothRows(times, _unit_quaternions(path, values)))
-    whole = np.zeros((len(rows), 4))
+        return PoseFile(SmoothRows(times_us, _unit_quaternions(path, values)))
+    whole = np.zeros((len(table), 4))
     whole[:, 3] = 1.0
     whole[:, : values.shape[1]] = values
     whole[:, 2] = np.radians(whole[:, 2])
-    if not (whole[:, 3] > 0).all():
-        number = int(np.argmin(whole[:, 3]))
-        raise FileFormatError(
-            f"{path}, row {number + 1}: zoom is {whole[number, 3]:g}; it must be above 0"
-        )
+    _refuse_rows(path, whole[:, 3] <= 0, "a zoom that is not above 0")
     whole[:, 3] = np.log(whole[:, 3])
-    return PlaceFile(SmoothRows(times, whole))
+    return PlaceFile(SmoothRows(times_us, whole))
 
 
-def _rows(path: Path) -> Iterator[tuple[int, Sequence[float]]]:
-    """Time in µs and the other columns of each row, checked."""
-    columns, last_us, is_first = 0, None, True
-    for number, line in enumerate(_lines(path), start=1):
-        words = line.replace(",", " ").split()
-        if not words or words[0].startswith("#"):
-            continue
-        where = f"{path}, line {number}"
-        if is_first and not any(map(_is_number, words)):  # names of columns
-            is_first = False
-            continue
-        is_first = False
-        columns = columns or len(words)
-        if len(words) != columns or columns not in (*PLACE_COLUMNS, POSE_COLUMNS):
-            expected = f", those before {columns}" if len(words) != columns else ""
-            raise FileFormatError(f"{where} has {len(words)} columns{expected}; allowed: {COLUMNS}")
-        t_us, values = _time_us(words[0], where), [_number(word, where) for word in words[1:]]
-        if last_us is not None and t_us <= last_us:
-            raise FileFormatError(
-                f"{where}: the time {shown(words[0])} s does not come after the one before "
-                f"({last_us / MICROSECONDS:g} s); times must increase by at least 1 µs"
-            )
-        last_us = t_us
-        yield t_us, values
-
-
-def _lines(path: Path) -> list[str]:
+def _read_table(path: Path) -> Float64Array:
+    """The numbers of a text, without comments and a first line of names."""
     try:
-        lines = list(StringIO(usable_path(path).read_text(encoding="utf-8-sig")))
+        text = usable_path(path).read_text(encoding="utf-8-sig").replace(",", " ")
     except FileNotFoundError:
         raise InputError(f"no such camera path: {path}; check `camera`") from None
     except (OSError, UnicodeDecodeError) as error:
@@ -198,32 +172,12 @@ def _lines(path: Path) -> list[str]:
             f"camera path {path} cannot be read ({one_line(error)}); it must be a text of rows of "
             f"{COLUMNS}"
         ) from error
+    lines = [line for line in text.split("\n") if line.strip() and not line.strip().startswith("#")]
     if len(lines) > MAX_ROWS:
         raise FileFormatError(f"{path} has {len(lines):,} lines; at most {MAX_ROWS:,} are read")
-    return lines
-
-
-def _time_us(word: str, where: str) -> int:
-    """Seconds as whole µs, from the exact decimal number."""
-    try:
-        t_us = round(parse_fraction(word) * MICROSECONDS)
-    except (ValueError, ZeroDivisionError):
-        raise FileFormatError(f"{where}: {shown(word)} is no time in s") from None
-    if abs(t_us) > LATEST_US:
-        raise FileFormatError(f"{where}: {shown(word)} s is too far away; at most 285 years")
-    return t_us
-
-
-def _number(word: str, where: str) -> float:
-    try:
-        value = float(word)
-    except ValueError:
-        raise FileFormatError(f"{where}: {shown(word)} is no number; columns: {COLUMNS}") from None
-    if not abs(value) <= MOST:
-        raise FileFormatError(
-            f"{where}: {shown(word)} is not allowed; it must be ±{MOST:g} or less"
-        )
-    return value
+    if lines and not any(map(_is_number, lines[0].split())):  # names of columns
+        lines = lines[1:]
+    return parse_table("\n".join(lines).encode(), path, rows=f"a camera path of rows {COLUMNS}")
 
 
 def _is_number(word: str) -> bool:
@@ -234,32 +188,17 @@ def _is_number(word: str) -> bool:
     return True
 
 
+def _refuse_rows(path: Path, is_wrong: Any, what: str) -> None:
+    if is_wrong.any():
+        raise FileFormatError(f"{path}, row {int(np.argmax(is_wrong)) + 1}, has {what}")
+
+
 def _unit_quaternions(path: Path, values: Float64Array) -> Float64Array:
     """The rows with quaternions of length 1, signs chosen so that neighbours are near."""
     lengths = np.linalg.norm(values[:, 3:], axis=1)
-    if not (np.abs(lengths - 1) <= UNIT_TOLERANCE).all():
-        number = int(np.argmax(np.abs(lengths - 1)))
-        raise FileFormatError(
-            f"{path}, row {number + 1}: the quaternion qx qy qz qw has length {lengths[number]:g}; "
-            "it must be 1"
-        )
+    is_wrong = ~(np.abs(lengths - 1) <= UNIT_TOLERANCE)
+    _refuse_rows(path, is_wrong, "a quaternion qx qy qz qw whose length is not 1")
     unit = values[:, 3:] / lengths[:, None]
     turns = np.where((unit[1:] * unit[:-1]).sum(axis=1) < 0, -1.0, 1.0)
     unit[1:] *= np.cumprod(turns)[:, None]
     return np.concatenate([values[:, :3], unit], axis=1)
-
-
-def _rotation(quaternion: Float64Array) -> Float64Array:
-    """[3, 3] of a quaternion (x, y, z, w) of any length."""
-    x, y, z, w = quaternion / np.linalg.norm(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
-
-
-def _seconds(rows: SmoothRows) -> float:
-    return float(rows.times_us[-1] - rows.times_us[0]) / MICROSECONDS

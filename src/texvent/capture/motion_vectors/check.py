@@ -11,6 +11,7 @@ import itertools
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -179,17 +180,20 @@ class _Samples:
         return scaled(here, convention, direction, (width, height), factor, seconds)
 
     def difference(self, direction: str, along: FloatArray | None) -> FloatArray:
-        """How much the neighbour differs there from this frame, [n], grey levels."""
-        luma = self.frame.luma
-        here = luma["here"][self.rows, self.columns]
+        """How much the neighbour differs there from this frame, [n], grey levels.
+
+        Places between pixels are interpolated, places outside take the nearest edge.
+        """
+        here, other = self.frame.luma["here"], self.frame.luma[direction]
         if along is None:
-            return np.asarray(
-                np.abs(here - luma[direction][self.rows, self.columns]), dtype=np.float32
-            )
-        return np.asarray(
-            np.abs(here - _sample(luma[direction], self.rows, self.columns, along)),
-            dtype=np.float32,
-        )
+            seen = other[self.rows, self.columns]
+        else:
+            last_row, last_column = other.shape[0] - 1, other.shape[1] - 1
+            x = np.clip(self.columns + along[:, 0], 0, last_column).astype(np.float32)[:, None]
+            y = np.clip(self.rows + along[:, 1], 0, last_row).astype(np.float32)[:, None]
+            warped = cv2.remap(other, x, y, cv2.INTER_LINEAR)
+            seen = np.asarray(warped, np.float32)[:, 0]
+        return np.asarray(np.abs(here[self.rows, self.columns] - seen), np.float32)
 
 
 _Followed = tuple[FloatArray, FloatArray]
@@ -211,22 +215,6 @@ def _errors(
     is_moving = (np.abs(along).max(-1) > MOVING_PX) | (np.abs(along_other).max(-1) > MOVING_PX)
     is_moving &= np.isfinite(along).all(-1) & np.isfinite(along_other).all(-1)
     return differs[is_moving], differs_other[is_moving], still[is_moving]
-
-
-def _sample(
-    image: FloatArray, rows: NDArray[np.intp], columns: NDArray[np.intp], along: FloatArray
-) -> FloatArray:
-    """Bilinear samples at displaced pixels; places outside take the nearest edge."""
-    height, width = image.shape
-    x = np.clip(columns + along[:, 0], 0, width - 1)
-    y = np.clip(rows + along[:, 1], 0, height - 1)
-    left = np.minimum(x.astype(np.intp), max(width - 2, 0))
-    top = np.minimum(y.astype(np.intp), max(height - 2, 0))
-    right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
-    u, v = x - left, y - top
-    upper = image[top, left] * (1 - u) + image[top, right] * u
-    lower = image[bottom, left] * (1 - u) + image[bottom, right] * u
-    return np.asarray(upper * (1 - v) + lower * v, dtype=np.float32)
 
 
 def _mean(errors: FloatArray) -> float:

@@ -10,9 +10,8 @@ from typing import ClassVar
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.exporting.export import export
-from texvent.dataset.exporting.layouts import LAYOUTS
+from texvent.dataset.export import LAYOUTS, export
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import ConfigError
 
 DESCRIPTION = f"""Write the samples of a data set in another layout: {", ".join(LAYOUTS)}. What a
@@ -49,8 +48,8 @@ def run(arguments: Sequence[str]) -> int:
     )
     if options.out is None:
         raise ConfigError("export needs the folder to write; name it with -o")
-    made = MadeSet.open(options.folder)
-    done = export(made, options.format, options.out, variant=options.variant)
+    dataset = StoredDataset.open(options.folder)
+    done = export(dataset, options.format, options.out, variant=options.variant)
     kept = f" ({done.kept:,} were there)" if done.kept else ""
     write_out(f"{options.out}: {done.samples:,} samples as {options.format}{kept}\n")
     for doubt in done.doubts:

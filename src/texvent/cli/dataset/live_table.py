@@ -11,10 +11,10 @@ from rich.console import Console
 from rich.live import Live
 from rich.table import Table
 
-from texvent.dataset.generation.engines.protocol import Outcome
+from texvent.dataset.generation.engines import Outcome
 from texvent.dataset.generation.make import Work
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.generation.records import FAILED, MADE
+from texvent.dataset.generation.shards import FAILED, MADE
 from texvent.dataset.generation.status import StageStatus, read_status
 
 REFRESH_S = 1.0

@@ -15,14 +15,13 @@ from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.statistics import Statistics
-from texvent.dataset.contents.summary import summary_lines
-from texvent.dataset.generation.engines.protocol import Engine, in_this_process
+from texvent.dataset.generation.dry_run import refuse_prompts
+from texvent.dataset.generation.engines import Engine, in_this_process
 from texvent.dataset.generation.make import Work, find_work, make_shards, remove_dead_parts
-from texvent.dataset.generation.prompt_check import refuse_prompts
 from texvent.dataset.generation.recipe import Recipe, load_recipe
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.reading import read_specification
+from texvent.dataset.statistics import Statistics, summary_lines
 from texvent.errors import ConfigError, TexventError, shown
 from texvent.runtime.threads import count_threads
 
@@ -133,13 +132,13 @@ def _open(options: MakeOptions) -> tuple[Recipe, Path]:
 def _engine(options: MakeOptions, work: Work) -> Engine:
     shards = len(work.todo) + len(work.videos_todo)
     if options.ray is not None and shards:
-        from texvent.dataset.generation.engines.ray_cluster import RayEngine
+        from texvent.dataset.generation.ray_cluster import RayEngine
 
         return RayEngine(options.ray, workers=options.workers, memory_gb=options.ray_memory_gb)
     workers = count_threads() if options.workers is None else options.workers
     if workers == 1 or shards < 2:
         return in_this_process()
-    from texvent.dataset.generation.engines.processes import ProcessEngine
+    from texvent.dataset.generation.engines import ProcessEngine
 
     return ProcessEngine(workers)
 
@@ -147,7 +146,7 @@ def _engine(options: MakeOptions, work: Work) -> Engine:
 def _finish(folder: Path, work: Work, options: MakeOptions, *, is_whole: bool) -> int:
     failed = sum(one.failed for one in work.complete.values())
     places = {str(shard.path) for shard in work.complete}
-    shards = (one.record for one in MadeSet.open(folder).shards() if one.place in places)
+    shards = (one.record for one in StoredDataset.open(folder).shards() if one.place in places)
     made = Statistics.of(shards)
     write_out(
         f"{folder}: {made.samples:,} samples, {sum(made.events):,} events in "

@@ -10,8 +10,8 @@ from typing import ClassVar
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.dataset.contents.made_set import MadeSet
 from texvent.dataset.merge import merge
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import ConfigError
 
 DESCRIPTION = """Put data sets together in a new folder. Shards are linked (copied to another disk),
@@ -47,7 +47,7 @@ def run(arguments: Sequence[str]) -> int:
     )
     if options.out is None:
         raise ConfigError("merge needs the folder to write; name it with -o")
-    sources = [MadeSet.open(folder) for folder in options.folders]
+    sources = [StoredDataset.open(folder) for folder in options.folders]
     merged = merge(sources, options.out.absolute(), name=options.name)
     how = f", {merged.rewritten:,} of them with new class numbers" if merged.rewritten else ""
     write_out(

@@ -16,13 +16,11 @@ from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.dataset.contents.statistics import Statistics
-from texvent.dataset.contents.summary import summary_lines
-from texvent.dataset.generation.prompt_check import MOST_READ, tally_prompts
+from texvent.dataset.generation.dry_run import MOST_READ, StageEstimate, tally_prompts, try_samples
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
-from texvent.dataset.generation.records import FILTERED
-from texvent.dataset.generation.trial import StageEstimate, try_samples
+from texvent.dataset.generation.shards import FILTERED
 from texvent.dataset.specification.reading import read_specification
+from texvent.dataset.statistics import Statistics, summary_lines
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.threads import count_threads
 

@@ -10,9 +10,9 @@ from typing import ClassVar
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.publishing.notice import Notice
-from texvent.dataset.publishing.publication import publish
+from texvent.dataset.publishing.card import PublicationInfo
+from texvent.dataset.publishing.publish import publish
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import InputError, one_line
 
 DESCRIPTION = """Write what a data set is published with, into its folder: index.parquet (one row
@@ -54,14 +54,14 @@ def run(arguments: Sequence[str]) -> int:
         prog="texvent dataset publish",
         description=DESCRIPTION,
     )
-    notice = Notice(
+    info = PublicationInfo(
         license=options.license,
         creator=options.creator,
         url=options.url,
         date=options.date,
         notes=_text(options.notes),
     )
-    published = publish(MadeSet.open(options.folder), notice, partial=options.partial)
+    published = publish(StoredDataset.open(options.folder), info, partial=options.partial)
     names = ", ".join(path.name for path in published.files)
     total = published.statistics.total
     write_out(

@@ -11,12 +11,12 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.looking.chosen_samples import Choice, choose_samples
+from texvent.dataset.preview import choose_samples, write_sample_page
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import ConfigError
 
-DESCRIPTION = """Look at some samples, drawn by chance: a contact sheet (PNG) and a page (HTML) with
-images, captions and all facts. Beside the shards, samples.png also appears in the card.
+DESCRIPTION = """Look at some samples, drawn by chance: a page (HTML) with images, captions and all
+facts.
 
   texvent dataset sample cars
   texvent dataset sample cars --variant paper --label bus -n 60 -o buses.html"""
@@ -33,8 +33,7 @@ class SampleOptions:
     folder: Path = REQUIRED
     """Folder of the data set."""
     out: Path | None = None
-    """The page (.html), with the sheet beside it as .png; or the sheet alone (.png). Default:
-    samples.html in the folder."""
+    """The page, .html. Default: samples.html in the folder."""
     count: int = 24
     """How many."""
     variant: str | None = None
@@ -60,26 +59,18 @@ def run(arguments: Sequence[str]) -> int:
         prog="texvent dataset sample",
         description=DESCRIPTION,
     )
-    from texvent.dataset.looking.sample_page import write_contact_sheet, write_sample_page
-    from texvent.io.atomic import check_outputs
-
     out = options.folder / "samples.html" if options.out is None else options.out
-    if out.suffix.lower() not in (".html", ".htm", ".png"):
-        raise ConfigError(f"out is {out}; name a page, .html, or an image, .png")
-    sheet = out.with_suffix(".png")
-    made = MadeSet.open(options.folder)
-    outputs = list(dict.fromkeys([out, sheet]))
-    check_outputs(outputs, overwrite=options.overwrite)
-    choice = Choice(
-        count=options.count,
+    if out.suffix.lower() not in (".html", ".htm"):
+        raise ConfigError(f"out is {out}; name a page, .html")
+    dataset = StoredDataset.open(options.folder)
+    samples = choose_samples(
+        dataset,
+        options.count,
         variant=options.variant,
         split=options.split,
         label=options.label,
         seed=options.seed,
     )
-    samples = choose_samples(made, choice)
-    write_contact_sheet(samples, sheet, overwrite=options.overwrite)
-    if out != sheet:
-        write_sample_page(made, samples, out, overwrite=options.overwrite)
-    write_out(f"{len(samples)} samples of {made.name}: {', '.join(map(str, outputs))}\n")
+    write_sample_page(dataset, samples, out, overwrite=options.overwrite)
+    write_out(f"{len(samples)} samples of {dataset.name}: {out}\n")
     return 0

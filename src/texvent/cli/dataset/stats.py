@@ -16,18 +16,20 @@ from rich.table import Table
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.statistics import COUNTS, MICROSECONDS, SetStatistics, counts_rows
-from texvent.dataset.contents.summary import summary_lines
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.statistics import (
+    COUNTS,
+    MICROSECONDS,
+    DatasetStatistics,
+    counts_rows,
+    summary_lines,
+)
 
 MOST_CLASSES = 12
 WIDTH = 110
 """Of the table, which has ten columns, also where there is no terminal."""
 DESCRIPTION = """Count what a data set holds: samples, events, rates, durations, classes, and why
-samples are not there. The records beside the shards are read, not the samples.
-
-  texvent dataset stats cars
-  texvent dataset stats cars -o cars/stats.html     with plots"""
+samples are not there. The records beside the shards are read, not the samples."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,17 +37,12 @@ class StatsOptions:
     """What to count."""
 
     positional: ClassVar[tuple[str, ...]] = ("folder",)
-    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
-    outputs: ClassVar[tuple[str, ...]] = ("folder", "out")
+    outputs: ClassVar[tuple[str, ...]] = ("folder",)
 
     folder: Path = REQUIRED
     """Folder of the data set."""
-    out: Path | None = None
-    """A page (HTML) with plots."""
     json: bool = False
     """Print JSON."""
-    overwrite: bool = False
-    """Replace the page if it exists."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -56,20 +53,16 @@ def run(arguments: Sequence[str]) -> int:
         prog="texvent dataset stats",
         description=DESCRIPTION,
     )
-    made = MadeSet.open(options.folder)
-    statistics = SetStatistics.of(made)
-    if options.out is not None:
-        from texvent.dataset.looking.statistics_page import write_statistics_page
-
-        write_statistics_page(made, statistics, options.out, overwrite=options.overwrite)
+    dataset = StoredDataset.open(options.folder)
+    statistics = DatasetStatistics.of(dataset)
     if options.json:
         write_out(json.dumps(statistics.tables, indent=1, ensure_ascii=False) + "\n")
     else:
-        _print(made, statistics)
+        _print(dataset, statistics)
     return 0
 
 
-def _print(made: MadeSet, statistics: SetStatistics) -> None:
+def _print(dataset: StoredDataset, statistics: DatasetStatistics) -> None:
     console = Console(file=sys.stdout, highlight=False, soft_wrap=True, width=WIDTH)
     table = Table(box=None, pad_edge=False)
     for number, title in enumerate(COUNTS):
@@ -84,7 +77,7 @@ def _print(made: MadeSet, statistics: SetStatistics) -> None:
     for line in summary_lines(total):
         console.print(escape(line))
     console.print(
-        f"{escape(made.name)}: {total.samples:,} samples of {len(total.clips):,} videos, "
+        f"{escape(dataset.name)}: {total.samples:,} samples of {len(total.clips):,} videos, "
         f"{sum(total.events):,} events in {sum(total.durations_us) / MICROSECONDS:,.1f} s, "
         f"{total.bytes / 1e6:,.1f} MB in {total.shards:,} shards, made in "
         f"{total.seconds / 3600:,.2f} hours of one process"

@@ -13,7 +13,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.dataset.contents.made_set import MadeSet
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.verify import Findings, verify
 from texvent.runtime.threads import count_threads
 
@@ -59,7 +59,9 @@ def run(arguments: Sequence[str]) -> int:
         description=DESCRIPTION,
     )
     workers = count_threads() if options.workers is None else options.workers
-    findings = verify(MadeSet.open(options.folder), workers=workers, contents=options.contents)
+    findings = verify(
+        StoredDataset.open(options.folder), workers=workers, contents=options.contents
+    )
     if options.json:
         facts = {**dataclasses.asdict(findings), "is_sound": findings.is_sound}
         write_out(json.dumps(facts, indent=1) + "\n")

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, Literal
 
 from texvent._registry import suggest
-from texvent.calibrate.estimates import describe_estimates
+from texvent.calibrate.estimates import describe_estimates, describe_scene, write_preset
 from texvent.calibrate.events_only.flicker import measure_flicker
 from texvent.calibrate.events_only.static_scene import measure_static_scene
-from texvent.calibrate.fit import fit_sensor
-from texvent.calibrate.preset import describe_fit, describe_scene, write_preset
+from texvent.calibrate.fit import describe_fit, fit_sensor
 from texvent.calibrate.recording import Recording
-from texvent.calibrate.report.contents import report_fit, report_flicker, report_static
-from texvent.calibrate.report.page import Report, write_report
+from texvent.calibrate.report import (
+    FORMATS,
+    Comparison,
+    compare_fit,
+    compare_flicker,
+    compare_static,
+    write_report,
+)
 from texvent.capture.open import open_frames
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
@@ -47,7 +52,7 @@ FILES = (".toml", ".yaml", ".yml")
 
 @dataclass(frozen=True, kw_only=True)
 class CalibrateOptions:
-    """Which recording, and where the result goes."""
+    """Recording to fit, and files to write."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("frames", "start_preset")
     outputs: ClassVar[tuple[str, ...]] = ("out", "report", "threshold_map")
@@ -73,7 +78,7 @@ class CalibrateOptions:
     out: Path = REQUIRED
     """Config file to write, .toml."""
     report: Path | None = None
-    """Page to write, .html: constants, and the model beside the recording."""
+    """Figure to write, .png, .svg or .pdf: the fitted model beside the recording."""
     threshold_map: Path | None = None
     """File to write, .npz: the thresholds of each pixel, which a flickering field tells. The config
     file then names it, and simulates this very sensor."""
@@ -118,6 +123,8 @@ class CalibrateOptions:
             raise ConfigError("--threshold-map is for --scene flicker")
         if self.threshold_map is not None and self.threshold_map.suffix != ".npz":
             raise ConfigError(f"--threshold-map is {self.threshold_map}; its name must end in .npz")
+        if self.report is not None and self.report.suffix.lower() not in FORMATS:
+            raise ConfigError(f"--report is {self.report}; its name must end in .png, .svg or .pdf")
         if self.scene != "moving" and self.keep:
             raise ConfigError("--keep is for --scene moving")
         if self.scene != "moving" and self.frames is not None:
@@ -167,9 +174,9 @@ def run(arguments: Sequence[str]) -> int:
     if options.scene == "moving":
         frames = open_frames(options.frames, capture)
         recording = Recording(frames, events, interpolate)
-        config, lines, report = _fit(recording, start, options, progress)
+        config, lines, compare = _fit(recording, start, options, progress)
     else:
-        config, lines, report = _measure(events, start, options)
+        config, lines, compare = _measure(events, start, options)
     for line in lines:
         progress.announce(line)
     written = write_preset(
@@ -179,7 +186,7 @@ def run(arguments: Sequence[str]) -> int:
     if options.threshold_map is not None:
         write_out(f"{options.threshold_map}\n")
     if options.report is not None:
-        page = write_report(report, options.report, overwrite=options.overwrite)
+        page = write_report(compare(), options.report, overwrite=options.overwrite)
         write_out(f"{page}\n")
     return 0
 
@@ -189,7 +196,7 @@ def _fit(
     start: PhysicalConfig,
     options: CalibrateOptions,
     progress: ConsoleProgress,
-) -> tuple[PhysicalConfig, list[str], Report]:
+) -> tuple[PhysicalConfig, list[str], Callable[[], Comparison]]:
     """Fit frames and events."""
     fit = fit_sensor(
         recording,
@@ -200,23 +207,24 @@ def _fit(
     )
     source = " and ".join(dict.fromkeys((str(options.frames), str(options.events))))
     lines = describe_fit(fit, source)
-    report = report_fit(fit, start, source, lines)
-    return fit.config, [*lines, *describe_estimates(fit.found, fit.kept)], report
+    return fit.config, [*lines, *describe_estimates(fit.found, fit.kept)], lambda: compare_fit(fit)
 
 
 def _measure(
     events: EventStream, start: PhysicalConfig, options: CalibrateOptions
-) -> tuple[PhysicalConfig, list[str], Report]:
+) -> tuple[PhysicalConfig, list[str], Callable[[], Comparison]]:
     """Measure a known scene from events alone."""
     source, ratio = str(options.events), options.flicker_ratio
     if options.flicker_hz is None:
         static = measure_static_scene(events, start)
-        lines = describe_scene(static, source, "a scene at rest")
-        return static.config, lines, report_static(static, events, start, source)
+        lines = describe_scene(
+            static.found, static.kept, static.remarks, f"{source}, a scene at rest"
+        )
+        return static.config, lines, lambda: compare_static(static, events)
     flicker = measure_flicker(events, start, hz=options.flicker_hz, ratio=ratio)
-    what = f"a field that flickers at {flicker.cycles.hz:.5g} Hz"
-    lines = describe_scene(flicker, source, what)
-    config, report = flicker.config, report_flicker(flicker, events, start, source, ratio=ratio)
+    what = f"{source}, a field that flickers at {flicker.cycles.hz:.5g} Hz"
+    lines = describe_scene(flicker.found, flicker.kept, flicker.remarks, what)
+    config = flicker.config
     if options.threshold_map is not None:
         if not flicker.found:
             raise InputError(f"no threshold map is written: {flicker.kept[0].reason}")
@@ -224,4 +232,4 @@ def _measure(
             flicker.thresholds, options.threshold_map, overwrite=options.overwrite
         )
         config = dataclasses.replace(config, threshold_map=written.resolve())
-    return config, lines, report
+    return config, lines, lambda: compare_flicker(flicker, events, ratio)

@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 from texvent.cli.command import resolve_command
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import take_options
 from texvent.cli.outputs import default_event_file
 from texvent.cli.run import print_settings
 from texvent.cli.subject import read_subject, subject_name
@@ -18,7 +19,7 @@ from texvent.options.fields import option_names
 from texvent.options.values import plain
 from texvent.rig.config import RigConfig, check_generator
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.settings.resolution import Settings
+from texvent.settings.resolution import Settings, base_settings
 
 DESCRIPTION = """Record an embedded scene with a rig: event cameras with lenses, frames beside their
 events, an IMU; one clock, true poses, calibration as Kalibr writes it.
@@ -67,6 +68,10 @@ class RigOutputOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
+    # Before other options are parsed: generators of videos have some of the same name.
+    deciding, _ = take_options(arguments, ("generator", "config"), "texvent rig")
+    named: dict[str, Any] = {**deciding}
+    check_generator(base_settings("generate", **named).generator)
     settings, own, output = resolve_command(
         "generate",
         arguments,
@@ -75,7 +80,6 @@ def run(arguments: Sequence[str]) -> int:
         prog="texvent rig",
         output=RigOutputOptions(),
     )
-    check_generator(settings.generator)
     if output.print_config:
         return print_settings(settings)
     _refuse_sensor(settings, own, arguments)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.capture.motion_vectors.attach import find_motion_sidecar
+from texvent.capture.motion_vectors.frames import find_motion_sidecar
 from texvent.cli.command import resolve_command
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.run import print_settings, run_source

@@ -1,1 +1,1 @@
-"""A data set made shard by shard, resumable at any moment."""
+"""Generation of a data set shard by shard, resumable at any moment."""

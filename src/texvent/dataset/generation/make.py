@@ -1,29 +1,34 @@
-"""A data set made: every shard that is not complete, in two stages where videos are stored."""
+"""A data set made: every incomplete shard, in two stages where videos are stored."""
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable, Iterable
+from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from texvent.dataset.generation.engines.protocol import Engine, Outcome, Task
+from texvent.dataset.generation.dry_run import refuse_prompts
+from texvent.dataset.generation.engines import Engine, Outcome, ProcessEngine, Task, in_this_process
 from texvent.dataset.generation.make_shard import is_complete
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.records import FAILED, ShardSummary
+from texvent.dataset.generation.shards import FAILED, ShardSummary
+from texvent.dataset.specification.reading import read_specification
+from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError
 from texvent.io.atomic import sweep
+from texvent.runtime.progress import ProgressOption, open_progress
 
 OnOutcome = Callable[[Outcome], None]
 
 
 @dataclass
 class Work:
-    """What is to do and what is done."""
+    """Shards to make, complete shards and failures."""
 
     complete: dict[Shard, ShardSummary] = field(default_factory=dict)
     todo: list[Task] = field(default_factory=list)
-    """Of events, in order."""
+    """Shards of events, in order."""
     videos_todo: list[Task] = field(default_factory=list)
     failures: dict[Shard, str] = field(default_factory=dict)
     """Shards that could not be made."""
@@ -32,7 +37,7 @@ class Work:
 def find_work(
     recipe: Recipe, folder: Path, *, part: tuple[int, int] = (1, 1), retry_failed: bool = False
 ) -> Work:
-    """Which shards are complete and which are to make.
+    """Complete shards and those to make.
 
     Args:
         recipe: of the data set.
@@ -69,7 +74,7 @@ def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
     Args:
         work: what is to do; what is done is noted there.
         engine: what makes it.
-        on_outcome: told of every shard.
+        on_outcome: called for every shard.
 
     Raises:
         ConfigError, OutputError, MissingDependencyError: what all shards would meet.
@@ -112,3 +117,42 @@ def _by_video(tasks: Iterable[Task]) -> dict[Shard, list[Task]]:
     for task in tasks:
         waiting.setdefault(_video_of(task.shard), []).append(task)
     return waiting
+
+
+def make(
+    specification: Specification | str | Path,
+    folder: str | Path,
+    *,
+    workers: int = 1,
+    retry_failed: bool = False,
+    progress: ProgressOption = None,
+) -> Work:
+    """Make a data set, or what is missing of it; see docs/datasets.md.
+
+    Args:
+        specification: an object, or a TOML or YAML file.
+        folder: of the data set.
+        workers: processes; 1: this one. A program that uses more needs the usual
+            `if __name__ == "__main__":`, because they import its main module.
+        retry_failed: make samples that failed again.
+        progress: receives every shard.
+
+    Returns:
+        The counts of all complete shards, and why others could not be made.
+
+    Raises:
+        InputError, ConfigError, OutputError: before any work, what all samples would meet.
+    """
+    if not isinstance(specification, Specification):
+        specification = read_specification(specification)
+    recipe, folder = Recipe.of(specification), Path(folder).absolute()
+    refuse_prompts(recipe, folder)
+    recipe.begin(folder)
+    work = find_work(recipe, folder, retry_failed=retry_failed)
+    total = len(work.complete) + len(work.todo) + len(work.videos_todo)
+    engine: Engine = in_this_process() if workers == 1 else ProcessEngine(workers)
+    with open_progress(progress) as shown, closing(engine):
+        make_shards(
+            work, engine, lambda outcome: shown.advance("shards", len(work.complete), total)
+        )
+    return work

@@ -16,23 +16,27 @@ import numpy as np
 from texvent._version import full_version
 from texvent.batch.identity import digest
 from texvent.batch.runner import ENDING_ALL
-from texvent.dataset.generation.clip_simulation import prepare_clip, with_seed
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.records import (
+from texvent.dataset.generation.sample import (
+    prepare_clip,
+    sample_members,
+    simulate_sample,
+    with_seed,
+)
+from texvent.dataset.generation.shards import (
     FAILED,
     FILTERED,
     MADE,
     SampleRecord,
     ShardRecord,
+    TarShardWriter,
+    read_members,
     read_record,
     record_path,
     write_record,
 )
-from texvent.dataset.generation.sample import sample_members, simulate_sample
-from texvent.dataset.generation.tar_shard import TarShardWriter, read_members
-from texvent.dataset.specification.clips import Clip
+from texvent.dataset.specification.clips import Clip, clip_settings, simulation_seed, video_settings
 from texvent.dataset.specification.items import KEY_DIGITS
-from texvent.dataset.specification.resolve import clip_settings, simulation_seed, video_settings
 from texvent.dataset.specification.specification import Variant
 from texvent.errors import InputError, TexventError, warnings_to
 from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
@@ -52,7 +56,7 @@ class _Job:
     """A sample to make."""
 
     record: SampleRecord
-    """What is known before; its status is not."""
+    """All but its status."""
     make: Callable[[], tuple[Members, dict[str, Any]]]
     """Its members, none of one that is left out, and further facts for its record."""
 
@@ -210,19 +214,19 @@ def _events_job(
 
     def make() -> tuple[Members, dict[str, Any]]:
         simulation = source(clip, with_seed(settings, seed))
-        made = simulate_sample(simulation, recipe.specification.filters)
-        told = {
-            "signal_events": made.signal_events,
+        simulated = simulate_sample(simulation, recipe.specification.filters)
+        facts_of_run = {
+            "signal_events": simulated.signal_events,
             REPORT_KEY: simulation.provenance.get(REPORT_KEY),
         }
-        if made.left_out is not None:
-            return {}, {"status": FILTERED, "reason": made.left_out, **told}
+        if simulated.left_out is not None:
+            return {}, {"status": FILTERED, "reason": simulated.left_out, **facts_of_run}
         width, height = simulation.video.size
         known = {
-            **told,
-            "events": len(made.events),
-            "start_us": made.start_us,
-            "duration_us": made.duration_us,
+            **facts_of_run,
+            "events": len(simulated.events),
+            "start_us": simulated.start_us,
+            "duration_us": simulated.duration_us,
             "width": width,
             "height": height,
         }
@@ -236,7 +240,7 @@ def _events_job(
             "label": clip.item.label,
         }
         members = sample_members(
-            made,
+            simulated,
             facts,
             class_number=None if clip.item.label is None else labels[clip.item.label],
             preview=recipe.specification.previews,
@@ -260,7 +264,7 @@ def _record(key: str, clip: Clip, seed: int) -> SampleRecord:
 
 
 def _source(recipe: Recipe, folder: Path, shard: Shard, scratch: Path) -> Source:
-    """Where the clips of a shard come from: recorded, stored, or made now."""
+    """Source of the clips of a shard: recorded, stored, or made now."""
     if recipe.stores_videos:
         stored = _StoredVideos(folder, replace(shard, variant=VIDEOS), scratch)
         return lambda clip, settings: prepare_video(

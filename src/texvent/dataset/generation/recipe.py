@@ -14,11 +14,10 @@ from typing import Any
 from texvent._registry import GENERATORS
 from texvent._version import full_version
 from texvent.batch.manifest import describe_differences
-from texvent.dataset.generation.tar_shard import EXTENSION
-from texvent.dataset.specification.clips import Clip, Clips
+from texvent.dataset.generation.shards import EXTENSION
+from texvent.dataset.specification.clips import Clip, Clips, check_options
 from texvent.dataset.specification.items import Item, Items, read_items
 from texvent.dataset.specification.reading import specification_from
-from texvent.dataset.specification.resolve import check_options
 from texvent.dataset.specification.specification import Specification, Variant
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, one_line
 from texvent.generate.protocol import renders_instants
@@ -229,7 +228,7 @@ def load_recipe_once(folder: Path) -> Recipe:
 
 
 def read_facts(folder: Path) -> Mapping[str, Any]:
-    """What `Recipe.begin` noted in a folder.
+    """Facts that `Recipe.begin` noted in a folder.
 
     Raises:
         InputError: the folder holds no data set.

@@ -1,4 +1,4 @@
-"""One sample: a video simulated, filtered, and put into the columns of its files."""
+"""One sample: a clip simulated, filtered, and stored as the members of a shard."""
 
 from __future__ import annotations
 
@@ -11,19 +11,42 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.dataset.generation.recipe import Recipe
+from texvent.dataset.specification.clips import Clip
 from texvent.dataset.specification.specification import Filters
 from texvent.events import SIGNAL, EventStream
-from texvent.pipeline import Simulation, select_events
+from texvent.pipeline import Simulation, select_events, text_to_video
 from texvent.represent.event_frame import count_events
+from texvent.run.prepare import prepare_source, prepare_video
+from texvent.settings.resolution import Settings
 from texvent.video_check.checks import evaluate
 from texvent.video_check.measurements import VideoMeasurer
+
+
+def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings) -> Simulation:
+    """A clip made ready; its video has the clip's seed, its simulation that of the settings.
+
+    Raises:
+        TexventError: the video cannot be read or made.
+    """
+    prompt = clip.item.prompt
+    if recipe.items.are_videos:
+        return prepare_source(clip.item.video, settings, prompt=prompt, video_seed=clip.seed)
+    video = text_to_video(clip.item.subject, with_seed(settings, clip.seed))
+    return prepare_video(video, settings, prompt=prompt)
+
+
+def with_seed(settings: Settings, seed: int) -> Settings:
+    """The same settings with another seed."""
+    return replace(settings, run=replace(settings.run, seed=seed))
+
 
 COLUMNS = ("x", "y", "t", "p")
 PREVIEW_US, PREVIEW_WIDTH = 50_000, 256
 
 
 @dataclass(frozen=True)
-class MadeEvents:
+class SimulatedClip:
     """The events of a sample, and what is known of its video."""
 
     events: EventStream
@@ -32,12 +55,12 @@ class MadeEvents:
     duration_us: int
     """From the first frame to the last, µs."""
     signal_events: int
-    """Events that the video fired, noise apart; all of them where a simulator does not tell."""
+    """Events that the video fired, without noise; all where a simulator labels none."""
     left_out: str | None = None
-    """Why the filters leave it out; equal reasons are equal words. None: it is kept."""
+    """Reason why the filters leave it out; None: it is kept."""
 
 
-def simulate_sample(simulation: Simulation, filters: Filters) -> MadeEvents:
+def simulate_sample(simulation: Simulation, filters: Filters) -> SimulatedClip:
     """Run a simulation and apply the filters; one with too many events is stopped there.
 
     Raises:
@@ -63,7 +86,7 @@ def simulate_sample(simulation: Simulation, filters: Filters) -> MadeEvents:
         left_out = _too_weak(signal, filters) or _looks_failed(measurer)
     events = EventStream.concat(packets) if packets else EventStream.empty(simulation.video.size)
     start = times[0] if times else 0
-    return MadeEvents(events, start, times[-1] - start if times else 0, signal, left_out)
+    return SimulatedClip(events, start, times[-1] - start if times else 0, signal, left_out)
 
 
 def _count_signal(packet: EventStream) -> int:
@@ -97,23 +120,23 @@ def event_columns(events: EventStream) -> dict[str, NDArray[Any]]:
 
 
 def sample_members(
-    made: MadeEvents, facts: Mapping[str, Any], *, class_number: int | None, preview: bool
+    clip: SimulatedClip, facts: Mapping[str, Any], *, class_number: int | None, preview: bool
 ) -> dict[str, bytes]:
     """The files of a sample: extension → content.
 
     Args:
-        made: its events.
+        clip: its events.
         facts: all that is known of it, for its `.json`; `prompt` becomes the `.txt`.
         class_number: of its label, or None.
         preview: whether there is an image.
     """
-    members = {f"{name}.npy": npy_bytes(one) for name, one in event_columns(made.events).items()}
+    members = {f"{name}.npy": npy_bytes(one) for name, one in event_columns(clip.events).items()}
     members["json"] = json.dumps(facts, sort_keys=True, ensure_ascii=False).encode()
     members["txt"] = (facts.get("prompt") or "").encode()
     if class_number is not None:
         members["cls"] = str(class_number).encode()
     if preview:
-        members["png"] = preview_png(made.events)
+        members["png"] = preview_png(clip.events)
     return members
 
 

@@ -1,1 +1,1 @@
-"""A data set that was made, read for training: by number, in any order, from any process."""
+"""Loading of stored samples: by number, in any order, from any process."""

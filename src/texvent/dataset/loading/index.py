@@ -1,4 +1,4 @@
-"""Which samples a data set has and where their members lie, as columns: small for millions."""
+"""Index of a data set: which samples it has and where their members are, as columns."""
 
 from __future__ import annotations
 
@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._registry import suggest
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.generation.records import MADE, ShardRecord, read_record
+from texvent.dataset.generation.shards import MADE, ShardRecord, read_record
+from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
 
 MEMBERS = ("x.npy", "y.npy", "t.npy", "p.npy", "label.npy", "json", "txt", "cls", "png")
@@ -62,7 +62,7 @@ class Index:
 
     @property
     def identity(self) -> str:
-        """How many samples, and a digest of which, in which order."""
+        """Number of samples, and a digest of them in their order."""
         found = hashlib.sha256(f"{self.shards} {self.key.dtype}".encode())
         for column in (self.shard, self.key):
             found.update(np.ascontiguousarray(column).data)
@@ -92,30 +92,30 @@ def read_index(folder: Path, *, variant: Choice = None, split: Choice = None) ->
             another data set.
         ConfigError: no such variant or split.
     """
-    made = MadeSet.open(folder)
-    variants = choose("variant", variant, tuple(made.variants))
-    splits = choose("split", split, made.splits)
+    dataset = StoredDataset.open(folder)
+    variants = choose("variant", variant, tuple(dataset.variants))
+    splits = choose("split", split, dataset.splits)
     rows = _Rows(folder)
     for name in variants:
-        for path in made.shard_files(name):
+        for path in dataset.shard_files(name):
             record = read_record(path)
             if record is None or record.split not in splits:
                 continue  # still being made, or not asked for
-            _check_shard(made, path, record)
+            _check_shard(dataset, path, record)
             rows.add(path, record)
     if not rows.keys:
         raise InputError(f"{folder} holds no such sample yet; see texvent dataset status")
     return rows.index()
 
 
-def _check_shard(made: MadeSet, path: Path, record: ShardRecord) -> None:
+def _check_shard(dataset: StoredDataset, path: Path, record: ShardRecord) -> None:
     """Refuse a shard that is not as it was made.
 
     Raises:
         FileFormatError: see above.
     """
     remedy = "run texvent dataset verify"
-    if not made.is_own(record, path):
+    if not dataset.is_own(record, path):
         raise FileFormatError(f"{path} belongs to another data set; {remedy}")
     try:
         size = path.stat().st_size

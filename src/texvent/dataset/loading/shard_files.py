@@ -37,7 +37,7 @@ class ShardFiles:
         return ShardFiles, (self._folder, self._paths)
 
     def path(self, shard: int) -> Path:
-        """Where a shard lies."""
+        """Path of a shard."""
         return self._folder / self._paths[shard]
 
     def read(self, shard: int, begin: int, size: int) -> bytes:

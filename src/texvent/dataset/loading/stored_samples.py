@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Collection, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -13,13 +13,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from texvent.config import check_range
-from texvent.dataset.contents.npy_columns import COLUMN_MEMBERS, events_of, npy_column
-from texvent.dataset.loading.index import ABSENT, MEMBERS, Index
+from texvent.dataset.loading.index import ABSENT, MEMBERS, Choice, Index, choose, read_index
 from texvent.dataset.loading.shard_files import ShardFiles
-from texvent.dataset.windows import check_representation, stack_windows
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.reading.stored_events import COLUMN_MEMBERS, events_of, npy_column
+from texvent.errors import ConfigError, FileFormatError, InputError, shown
 from texvent.events import EventStream
-from texvent.represent.named import represent_window
+from texvent.represent.named import load_representation, represent_window
 from texvent.sensor import SensorSize
 from texvent.transform.augment import Augment
 
@@ -30,6 +30,58 @@ NO_CLASS = -1
 Window: TypeAlias = tuple[int, int]
 """Start (included) and end (excluded), µs."""
 _COLUMNS = len(COLUMN_MEMBERS)
+
+
+def open(
+    folder: str | Path,
+    *,
+    variant: Choice = None,
+    split: Choice = None,
+    label: Choice = None,
+    representation: str | None = None,
+    representation_options: Mapping[str, Any] | None = None,
+    slice_us: int | None = None,
+    slice_events: int | None = None,
+) -> StoredSamples:
+    """A data set that `texvent dataset make` made, or as much of it as is made.
+
+    Args:
+        folder: of the data set.
+        variant: only this one, or these; None: all.
+        split: only this one, or these; None: all.
+        label: only this class, or these; None: all.
+        representation: what `make` gives; see `StoredSamples`.
+        representation_options: its options, such as `{"bins": 10}`.
+        slice_us: length of a slice, µs.
+        slice_events: or its number of events.
+
+    Raises:
+        InputError: no such folder, it holds no sample, or a sample is shorter than a slice.
+        FileFormatError: a shard is missing, has another size, or its record is damaged.
+        ConfigError: no such variant, split or label; an unknown representation or option.
+
+    Example: `samples = open("cars", split="train"); samples[0].events`.
+    """
+    folder = Path(folder)
+    index = read_index(folder, variant=variant, split=split)
+    # Of the whole set, so that the numbers of classes do not depend on what is chosen of it.
+    labels = StoredDataset.open(folder).labels
+    if label is not None:
+        chosen = choose("label", label, labels)
+        places = [place for place, one in enumerate(index.labels) if one in chosen]
+        index = index.select(np.flatnonzero(np.isin(index.label, places)))
+        if not len(index):
+            raise InputError(f"{folder} holds no sample of {shown(label)} in what was chosen of it")
+    return StoredSamples(
+        folder=folder,
+        index=index,
+        labels=labels,
+        files=ShardFiles(folder, index.shards),
+        representation=representation,
+        representation_options=representation_options or {},
+        slice_us=slice_us,
+        slice_events=slice_events,
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,16 +100,7 @@ class StoredSample:
     variant: str
     split: str
     facts: Mapping[str, Any] = field(repr=False)
-    """How it was made: prompt, settings, seed, versions."""
-
-    def _repr_mimebundle_(
-        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
-    ) -> dict[str, str]:
-        """What a notebook shows: the events, with class and place in the data set."""
-        from texvent.dataset.loading.notebook_table import sample_html
-        from texvent.view.notebook.bundle import mime_bundle
-
-        return mime_bundle(self, lambda: sample_html(self), include, exclude)
+    """Provenance: prompt, settings, seed, versions."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -73,9 +116,9 @@ class StoredSamples:
     """
 
     folder: Path
-    """Of the data set."""
+    """Folder of the data set."""
     index: Index
-    """What is known of each sample without reading it: `index.events`, `index.duration_us` and
+    """Facts of each sample, known without reading it: `index.events`, `index.duration_us` and
     others."""
     labels: tuple[str, ...]
     """All classes of the data set; a sample's class number is its place here."""
@@ -110,15 +153,6 @@ class StoredSamples:
         elif self.representation_options:
             raise ConfigError("representation_options belong to a representation; name it")
         self._refuse_short()
-
-    def _repr_mimebundle_(
-        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
-    ) -> dict[str, str]:
-        """What a notebook shows: counts of classes, splits and events."""
-        from texvent.dataset.loading.notebook_table import samples_html
-        from texvent.view.notebook.bundle import mime_bundle
-
-        return mime_bundle(self, lambda: samples_html(self), include, exclude)
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -159,7 +193,7 @@ class StoredSamples:
         number = self._checked(number)
         shard, places = int(self.index.shard[number]), self.index.members[number, :_COLUMNS]
         there = [place for place in places.tolist() if place != list(ABSENT)]
-        # The columns stand one after another: one read for all.
+        # The columns are adjacent: one read for all.
         begin = min((first for first, _ in there), default=0)
         end = max((first + size for first, size in there), default=0)
         content = memoryview(self.files.read(shard, begin, end - begin))
@@ -197,7 +231,7 @@ class StoredSamples:
         }
 
     def make(self, number: int, *, epoch: int = 0) -> dict[str, Any]:
-        """What a network is trained with, by name, as `SimulatedSamples.make`.
+        """Arrays by name for training, as `SimulatedSamples.make`.
 
         Args:
             number: of the sample.
@@ -344,3 +378,24 @@ class StoredSamples:
                     f"{unit}, the shortest has {int(known.min()):,}; give shorter slices, or "
                     f"leave samples out: samples.select(samples.index.{name} >= {length})"
                 )
+
+
+def check_representation(name: str, options: Mapping[str, Any], size: SensorSize | None) -> None:
+    """Refuse a representation and options that no sample could have.
+
+    Args:
+        name: of the representation.
+        options: of the representation.
+        size: of the sensor; None if it is not known yet.
+
+    Raises:
+        ConfigError: an unknown name or option, or a value out of range.
+    """
+    load_representation(name, options)
+    if size is not None:
+        represent_window(name, EventStream.empty(size), (0, 1), **options)
+
+
+def stack_windows(parts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """Arrays by name of several windows, along a first axis of time."""
+    return {name: np.stack([part[name] for part in parts]) for name in parts[0]}

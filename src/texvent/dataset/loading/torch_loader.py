@@ -1,113 +1,147 @@
-"""Stored samples for torch; importing this module imports torch (extra `torch`).
+"""Samples in torch: batches, map-style data sets and the loader; imports torch (extra `torch`).
 
-The order of an epoch is known before it begins (see `order`), so the process that trains hands
-out numbers of samples, and workers read. Order and batches are those of one process, whatever the
+The order of an epoch is known before it begins (`EpochSampler`): the process that trains hands out
+numbers of samples, and workers read. Order and batches are those of one process, whatever the
 number of workers; an epoch goes on from any batch; nothing is read twice.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
-from dataclasses import asdict, dataclass
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, replace
 from functools import cached_property
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.batch.manifest import describe_differences
 from texvent.config import check_range
-from texvent.dataset.loading.collate import as_tensors, collate
-from texvent.dataset.loading.order import epoch_order, share_of
+from texvent.dataset.loading.epoch_sampler import EpochSampler
 from texvent.dataset.loading.stored_samples import StoredSamples
 from texvent.errors import ConfigError
+from texvent.events import EventStream
+from texvent.represent.tensors import TENSOR_TYPES, EventTensors, Tensor
+from texvent.sensor import SensorSize
+
+if TYPE_CHECKING:
+    from texvent.dataset.samples import SimulatedSamples
 
 _torch: Any = require("torch", extra="torch")
 _data: Any = require("torch.utils.data", extra="torch")
 _Dataset: Any = _data.Dataset
-_IterableDataset: Any = _data.IterableDataset
-
-MAX_SEED = 2**63 - 1
 
 
-@dataclass(frozen=True, kw_only=True)
-class Sharing:
-    """Which samples a process gets in an epoch, in which order and batches.
+@dataclass(frozen=True, eq=False)
+class EventBatch:
+    """Events of several samples, end to end in four tensors; `batch[i]` are those of sample i.
 
-    Raises:
-        ConfigError: a value out of range, or a shuffle_buffer without shuffle.
+    Four tensors go to a GPU, or from a worker process, in a fraction of the time of four per
+    sample.
     """
 
-    batch_size: int = 1
-    """Samples per batch."""
-    shuffle: bool = False
-    """Whether each epoch has an order of its own."""
-    seed: int = 0
-    """Of the orders."""
-    shuffle_buffer: int | None = None
-    """Shuffle as a buffer of so many samples does, and read shards in sequence, as slow discs and
-    networks like it; None: every order is as likely."""
-    drop_last: bool = False
-    """Whether all processes get the same number of whole batches, as training by
-    DistributedDataParallel needs it; otherwise every sample comes once."""
-    rank: int = 0
-    """Of this training process."""
-    world_size: int = 1
-    """Number of training processes."""
-
-    def __post_init__(self) -> None:
-        check_range("batch_size", self.batch_size, 1)
-        check_range("seed", self.seed, 0, MAX_SEED)
-        check_range("shuffle_buffer", self.shuffle_buffer, 1)
-        check_range("world_size", self.world_size, 1)
-        check_range("rank", self.rank, 0, self.world_size - 1)
-        if self.shuffle_buffer is not None and not self.shuffle:
-            raise ConfigError("shuffle_buffer belongs to shuffle; give shuffle=True with it")
+    x: Tensor
+    """Column, pixels, [n] int32."""
+    y: Tensor
+    """Row, pixels from the top, [n] int32."""
+    t: Tensor
+    """Time, µs, [n] int64; begins again with each sample."""
+    p: Tensor
+    """Polarity, [n] int8: 1 = ON, 0 = OFF."""
+    ends: tuple[int, ...]
+    """End of the events of each sample."""
+    sizes: tuple[SensorSize, ...]
+    """Sensor size of each sample."""
 
     @classmethod
-    def of(cls, rank: int | None, world_size: int | None, **options: Any) -> Sharing:
-        """With rank and world size of torch.distributed where they are not given.
+    def of(cls, streams: Sequence[EventStream]) -> EventBatch:
+        """Copies of the events."""
+        ends = tuple(np.cumsum([len(events) for events in streams]).tolist())
+        x, y, t, p = (_joined(name, streams, ends[-1] if ends else 0) for name in "xytp")
+        return cls(x, y, t, p, ends, tuple(events.size for events in streams))
 
-        Raises:
-            ConfigError: only one of them is given.
-        """
-        if (rank is None) != (world_size is None):
-            raise ConfigError("give both rank and world_size, or none of them")
-        if rank is None or world_size is None:
-            distributed = _torch.distributed
-            rank, world_size = 0, 1
-            if distributed.is_available() and distributed.is_initialized():
-                rank, world_size = distributed.get_rank(), distributed.get_world_size()
-        return cls(rank=rank, world_size=world_size, **options)
+    def __len__(self) -> int:
+        """Number of samples."""
+        return len(self.ends)
 
-    def numbers(self, samples: StoredSamples, epoch: int) -> NDArray[np.int64]:
-        """The samples of this process in an epoch, in order."""
-        if self.shuffle:
-            order = epoch_order(
-                samples.index.shard,
-                seed=self.seed,
-                epoch=epoch,
-                shuffle_buffer=self.shuffle_buffer,
-            )
-        else:
-            order = np.arange(len(samples))
-        return share_of(
-            order,
-            rank=self.rank,
-            world_size=self.world_size,
-            batch_size=self.batch_size,
-            drop_last=self.drop_last,
-        )
+    def __getitem__(self, number: int) -> EventTensors:
+        """The events of a sample, without a copy."""
+        number = range(len(self))[number]
+        part = slice(self.ends[number - 1] if number else 0, self.ends[number])
+        columns = (column[part] for column in (self.x, self.y, self.t, self.p))
+        return EventTensors.unchecked(*columns, size=self.sizes[number])
+
+    def __iter__(self) -> Iterator[EventTensors]:
+        """The events of each sample."""
+        return (self[number] for number in range(len(self)))
+
+    @property
+    def sample(self) -> Tensor:
+        """Number of the sample of each event, [n] int64, on the device of the events."""
+        ends = _torch.tensor(self.ends, device=self.t.device)
+        counts = _torch.diff(ends, prepend=ends.new_zeros(1))
+        return _torch.repeat_interleave(counts)
+
+    def to(self, device: Any, *, non_blocking: bool = False) -> EventBatch:
+        """The same on another device."""
+        return self._mapped(lambda column: column.to(device, non_blocking=non_blocking))
+
+    def pin_memory(self, device: Any = None) -> EventBatch:
+        """The same in memory that a GPU can read; the DataLoader calls it."""
+        return self._mapped(lambda column: column.pin_memory())
+
+    def _mapped(self, change: Any) -> EventBatch:
+        return replace(self, **{name: change(getattr(self, name)) for name in "xytp"})
 
 
-class StoredDataset(_Dataset):
+def collate(samples: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
+    """A batch: name → the values of all samples.
+
+    Arrays of equal shape become one tensor, others a list of tensors; numbers become a tensor;
+    events an `EventBatch`, those of slices a list of one per sample; texts stay a list.
+    """
+    return {name: _collated([sample[name] for sample in samples]) for name in samples[0]}
+
+
+def _collated(values: list[Any]) -> Any:
+    first = values[0]
+    if isinstance(first, EventStream):
+        return EventBatch.of(values)
+    if isinstance(first, tuple):
+        return [EventBatch.of(slices) for slices in values]
+    if isinstance(first, np.ndarray | np.generic | _torch.Tensor):
+        tensors = [_torch.as_tensor(value) for value in values]
+        same = all(value.shape == first.shape for value in values)
+        return _data.default_collate(tensors) if same else tensors
+    if isinstance(first, int):
+        return _torch.tensor(values)
+    return values
+
+
+def _joined(name: str, streams: Sequence[EventStream], count: int) -> Tensor:
+    """A column of all streams."""
+    joined = _new_tensor(count, _torch.from_numpy(np.empty(0, TENSOR_TYPES[name])))
+    column, begin = joined.numpy(), 0
+    for events in streams:
+        column[begin : begin + len(events)] = getattr(events, name)
+        begin += len(events)
+    return joined
+
+
+def _new_tensor(count: int, like: Tensor) -> Tensor:
+    """A tensor, in a worker in the memory that it is handed over in, as torch's own collation."""
+    if _data.get_worker_info() is None or not count:
+        return like.new_empty(count)
+    storage = like._typed_storage()._new_shared(count, device=like.device)
+    return like.new(storage).resize_(count)
+
+
+class SampleDataset(_Dataset):
     """Stored samples as a map-style dataset, for samplers and loaders of your own.
 
-    `[i]` gives what `StoredSamples.make` gives; `collate` puts such samples together. `[i, epoch]`
-    draws the augmentation of that epoch, and `[i]` that of epoch 0: with a sampler that gives
-    numbers alone, augmentations are the same in every epoch. Let it give pairs `(i, epoch)`, or
-    use `Loader` or `StoredStream`.
+    `[i]` gives `StoredSamples.make(i)`; `collate` puts such samples together. `[i, epoch]` draws
+    the augmentation of that epoch, `[i]` that of epoch 0: let a sampler give pairs `(i, epoch)`,
+    or use `Loader`.
     """
 
     def __init__(self, samples: StoredSamples) -> None:
@@ -125,60 +159,56 @@ class StoredDataset(_Dataset):
         return self.samples.make(int(number), epoch=epoch)
 
 
-class StoredStream(_IterableDataset):
-    """Stored samples as an iterable dataset, shared out over ranks and worker processes.
+class SimulatedDataset(_Dataset):
+    """Samples `first` .. `first + count − 1` of `SimulatedSamples`, simulated when asked for.
 
-    Workers take whole batches in turn, so a DataLoader of the same `batch_size` gives the same
-    batches for any number of them.
+    Give `first = epoch · count` for new samples in every epoch.
     """
 
     def __init__(
-        self,
-        samples: StoredSamples,
-        *,
-        rank: int | None = None,
-        world_size: int | None = None,
-        **sharing: Any,
+        self, samples: SimulatedSamples, *, count: int | None = None, first: int = 0
     ) -> None:
-        """Nothing is read yet.
+        """Choose the samples; nothing is simulated yet.
 
         Args:
-            samples: which.
-            rank: of this training process; None: as torch.distributed says.
-            world_size: number of training processes; None: as torch.distributed says.
-            **sharing: further fields of `Sharing`, such as `batch_size=8, shuffle=True`.
+            samples: where they come from.
+            count: how many; None: one per source.
+            first: number of the first.
 
         Raises:
-            ConfigError: as `Sharing`.
+            ConfigError: count below 1, or first below 0.
         """
         super().__init__()
-        self.samples = samples
-        self.sharing = Sharing.of(rank, world_size, **sharing)
-        # Shared with worker processes, which keep their copy of this object between epochs.
-        self._epoch = _torch.zeros(1, dtype=_torch.int64).share_memory_()
-
-    def set_epoch(self, epoch: int) -> None:
-        """Choose order and augmentations of the next pass, also in workers that run already.
-
-        Raises:
-            ConfigError: epoch is below 0.
-        """
-        check_range("epoch", epoch, 0)
-        self._epoch[0] = epoch
+        self.samples, self.first = samples, first
+        self.count = len(samples.prompts or samples.videos) if count is None else count
+        check_range("count", self.count, 1)
+        check_range("first", first, 0)
 
     def __len__(self) -> int:
-        """Number of samples of this rank."""
-        return len(self.sharing.numbers(self.samples, int(self._epoch[0])))
+        """Number of samples."""
+        return self.count
 
-    def __iter__(self) -> Iterator[dict[str, Any]]:
-        """This worker's samples, arrays as tensors; all of the rank's outside a worker."""
-        info = _data.get_worker_info()
-        worker, workers = (0, 1) if info is None else (info.id, info.num_workers)
-        epoch = int(self._epoch[0])  # of the whole pass, whatever set_epoch says meanwhile
-        numbers, size = self.sharing.numbers(self.samples, epoch), self.sharing.batch_size
-        for begin in range(worker * size, len(numbers), workers * size):
-            for number in numbers[begin : begin + size].tolist():
-                yield as_tensors(self.samples.make(number, epoch=epoch))
+    def __getitem__(self, number: int) -> dict[str, Any]:
+        """The arrays of sample `first + number`.
+
+        Raises:
+            IndexError: there is no such sample.
+        """
+        if not 0 <= number < self.count:
+            raise IndexError(f"sample {number} does not exist; there are {self.count}")
+        return self.samples.make(self.first + number)
+
+    def loader(self, *, workers: int = 0, **options: Any) -> Any:
+        """A torch DataLoader of these samples.
+
+        Args:
+            workers: processes that simulate; 0: this one. They are spawned, not forked: a fork of
+                a process in which Numba has run threads can hang.
+            **options: further options of DataLoader, such as `batch_size=8`.
+        """
+        context = "spawn" if workers else None
+        settings = {"num_workers": workers, "multiprocessing_context": context, **options}
+        return _data.DataLoader(self, collate_fn=collate, **settings)
 
 
 class Loader:
@@ -198,7 +228,7 @@ class Loader:
         start_method: str = "spawn",
         rank: int | None = None,
         world_size: int | None = None,
-        **sharing: Any,
+        **order: Any,
     ) -> None:
         """No process is started yet.
 
@@ -207,24 +237,24 @@ class Loader:
             workers: processes that read and make arrays; 0: this one. They run until the loader
                 is deleted.
             prefetch: batches that each worker makes ahead.
-            pin_memory: whether batches lie in memory that a GPU can read while it computes; None:
-                where there is one.
+            pin_memory: whether batches are in page-locked memory, which a GPU copies while it
+                computes; None: where there is one.
             start_method: "spawn", which needs `if __name__ == "__main__":` in a script, or "fork":
                 starts at once, and can hang after Numba or a GPU has been used.
             rank: of this training process; None: as torch.distributed says.
             world_size: number of training processes; None: as torch.distributed says.
-            **sharing: further fields of `Sharing`, such as `batch_size=8, shuffle=True`.
+            **order: further fields of `EpochSampler`, such as `batch_size=8, shuffle=True`.
 
         Raises:
-            ConfigError: a value out of range; see `Sharing`.
+            ConfigError: a value out of range; see `EpochSampler`.
         """
         check_range("workers", workers, 0)
         check_range("prefetch", prefetch, 1)
         self.samples = samples
-        self.sharing = Sharing.of(rank, world_size, **sharing)
+        self.sampler = _sampler(rank, world_size, order)
         self._position = 0
         # It knows nothing of this object: a cycle of references would keep worker processes.
-        self._batches = _Batches(samples, self.sharing)
+        self._batches = _Batches(samples, self.sampler)
         options = {}
         if workers:
             options = {
@@ -233,7 +263,7 @@ class Loader:
                 "multiprocessing_context": start_method,
             }
         self._loader = _data.DataLoader(
-            StoredDataset(samples),
+            SampleDataset(samples),
             batch_sampler=self._batches,
             num_workers=workers,
             collate_fn=collate,
@@ -243,7 +273,7 @@ class Loader:
 
     def __len__(self) -> int:
         """Number of batches of a whole epoch."""
-        return -(-len(self.sharing.numbers(self.samples, 0)) // self.sharing.batch_size)
+        return -(-len(self.sampler.numbers(self.samples.index.shard, 0)) // self.sampler.batch_size)
 
     @property
     def epoch(self) -> int:
@@ -265,7 +295,7 @@ class Loader:
         self._position = 0
 
     def state_dict(self) -> dict[str, Any]:
-        """Where the loader stands: epoch, and samples given out in it. Also while it runs."""
+        """State of the loader: epoch, and samples given out in it; also while it runs."""
         return {"epoch": self.epoch, "position": self._position, "key": self._key}
 
     def load_state_dict(self, state: Mapping[str, Any]) -> None:
@@ -288,8 +318,8 @@ class Loader:
     @cached_property
     def _key(self) -> dict[str, Any]:
         """All that decides which samples this process gets, in which order."""
-        key = {**asdict(self.sharing), "samples": self.samples.index.identity}
-        if not self.sharing.drop_last:
+        key = {**asdict(self.sampler), "samples": self.samples.index.identity}
+        if not self.sampler.drop_last:
             del key["batch_size"]
         return key
 
@@ -299,17 +329,29 @@ class _Batches:
     """Number and epoch of the samples of each batch of an epoch, for the DataLoader."""
 
     samples: StoredSamples
-    sharing: Sharing
+    sampler: EpochSampler
     epoch: int = 0
     begin: int = 0
     """Samples that were given out before."""
 
     def __iter__(self) -> Iterator[list[tuple[int, int]]]:
-        epoch, size = self.epoch, self.sharing.batch_size
-        numbers = self.sharing.numbers(self.samples, epoch)
+        epoch, size = self.epoch, self.sampler.batch_size
+        numbers = self.sampler.numbers(self.samples.index.shard, epoch)
         for begin in range(self.begin, len(numbers), size):
             yield [(number, epoch) for number in numbers[begin : begin + size].tolist()]
 
     def __len__(self) -> int:
-        count = len(self.sharing.numbers(self.samples, self.epoch)) - self.begin
-        return -(-count // self.sharing.batch_size)
+        count = len(self.sampler.numbers(self.samples.index.shard, self.epoch)) - self.begin
+        return -(-count // self.sampler.batch_size)
+
+
+def _sampler(rank: int | None, world_size: int | None, order: Mapping[str, Any]) -> EpochSampler:
+    """A sampler, with the rank and world size of torch.distributed where they are not given."""
+    if (rank is None) != (world_size is None):
+        raise ConfigError("give both rank and world_size, or none of them")
+    if rank is None or world_size is None:
+        distributed = _torch.distributed
+        rank, world_size = 0, 1
+        if distributed.is_available() and distributed.is_initialized():
+            rank, world_size = distributed.get_rank(), distributed.get_world_size()
+    return EpochSampler(rank=rank, world_size=world_size, **order)

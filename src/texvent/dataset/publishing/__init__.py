@@ -1,1 +1,1 @@
-"""What makes a folder of shards a published data set: an index, a card, a description."""
+"""Publication of a data set: index, card and Croissant description."""

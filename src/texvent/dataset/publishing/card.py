@@ -1,65 +1,176 @@
-"""The card of a data set: README.md as the Hugging Face Hub shows and reads it."""
+"""Card of a data set: README.md as the Hugging Face Hub shows and reads it."""
 
 from __future__ import annotations
 
+import datetime
 import json
-from collections.abc import Mapping
-from typing import Any
+from dataclasses import dataclass
+from typing import Any, ClassVar
 
 import yaml
 
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.statistics import SetStatistics, Statistics, number_text
-from texvent.dataset.generation.recipe import VIDEOS
-from texvent.dataset.generation.tar_shard import EXTENSION
-from texvent.dataset.publishing.features import features_of
-from texvent.dataset.publishing.how_to_load import loading_text
-from texvent.dataset.publishing.notice import Notice
+from texvent.dataset.generation.shards import EXTENSION
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.statistics import COUNTS, DatasetStatistics, Statistics, counts_rows
+from texvent.errors import ConfigError, shown
 
 CARD_FILE = "README.md"
 TAGS = ("event-camera", "neuromorphic", "synthetic", "webdataset", "croissant", "texvent")
 SIZES = (("n<1K", 10**3), ("1K<n<10K", 10**4), ("10K<n<100K", 10**5), ("100K<n<1M", 10**6),
          ("1M<n<10M", 10**7), ("10M<n<100M", 10**8))  # fmt: skip
-LARGEST = "n>100M"
 NUMBER = "??????"
-"""Of a shard, as a pattern. A star would also find those of "train-hard" for "train"."""
+"""Pattern of shard numbers. A star would also find those of "train-hard" for "train"."""
+TYPES: dict[str, dict[str, Any]] = {
+    "x.npy": {"list": "uint16"},
+    "y.npy": {"list": "uint16"},
+    "t.npy": {"list": "uint32"},
+    "p.npy": {"list": "uint8"},
+    "label.npy": {"list": "uint8"},
+    "json": {"dtype": "json"},
+    "txt": {"dtype": "string"},
+    "png": {"dtype": "image"},
+}
+"""Member → its type in Hugging Face `datasets`, which would guess it from the first five samples,
+where a list in `.json` may be empty."""
+BODY = """# {name}
+
+{description}
+
+{samples} samples of {clips} videos: {events} simulated events of an event camera in {seconds} s
+({sensors} pixels), each sample with its caption and with all that made it. An event is a column x,
+a row y (from the top left), a time t in µs and a polarity p (1: brighter, 0: darker).
+
+{notes}
+
+## Counts
+
+{counts}
+
+## How to load it
+
+With texvent:
+
+```python
+import texvent.dataset
+
+samples = texvent.dataset.open("DIR", variant="{variant}", split="{split}")
+events, caption = samples[0].events, samples[0].caption
+```
+
+With [webdataset](https://github.com/webdataset/webdataset):
+
+```python
+import webdataset
+
+samples = webdataset.WebDataset("DIR/{first}", shardshuffle=False).decode()
+for sample in samples:
+    x, y, t, p = (sample[f"{{name}}.npy"] for name in "xytp")
+    caption = sample["txt"]
+```
+
+With [datasets](https://github.com/huggingface/datasets) 4.7 or newer, from the Hub or a folder:
+
+```python
+from datasets import load_dataset
+
+samples = load_dataset("DIR", "{variant}", split="{hub_split}")
+times = samples.select_columns(["t.npy"]).with_format("numpy")[0]["t.npy"]
+```
+
+Any sample is read with one seek by `index.parquet`: its columns `x_offset`, `x_bytes` ... locate
+.npy files in the shard.
+
+## How it was made
+
+{making}
+
+## Limits
+
+- Events are simulated, not recorded, and lack what the model of the camera leaves out. Test on
+  recordings.
+- Captions are the prompts that the videos were made from; a video may show less.
+{limits}
+"""
 
 
-def card_text(made: MadeSet, statistics: SetStatistics, notice: Notice, *, missing: int) -> str:
+@dataclass(frozen=True, kw_only=True)
+class PublicationInfo:
+    """Author, licence and address of a published data set.
+
+    Raises:
+        ConfigError: the date is no day.
+    """
+
+    MARK: ClassVar[str] = "<!-- written by texvent dataset publish -->"
+    """In cards of ours, which may be replaced."""
+
+    license: str | None = None
+    """Such as "cc-by-4.0"; None: that of the specification."""
+    url: str | None = None
+    """Its page."""
+    creator: str | None = None
+    """Person or organisation."""
+    date: str | None = None
+    """Day of publication, such as "2026-11-21"."""
+    notes: str = ""
+    """Markdown for the card."""
+
+    def __post_init__(self) -> None:
+        try:
+            datetime.date.fromisoformat(self.date or "2000-01-01")
+        except ValueError as error:
+            raise ConfigError(
+                f"date is {shown(self.date)}; it must be a day, such as 2026-11-21"
+            ) from error
+
+    def license_of(self, dataset: StoredDataset) -> str:
+        """The licence, or nothing."""
+        return self.license or str(dataset.specification.get("license") or "")
+
+
+def card_text(
+    dataset: StoredDataset, statistics: DatasetStatistics, info: PublicationInfo, *, missing: int
+) -> str:
     """The card, header included.
 
     Args:
-        made: the data set.
+        dataset: the data set.
         statistics: of it.
-        notice: what its author says.
-        missing: shards that are not there.
+        info: author, licence, notes.
+        missing: number of shards that are not there.
     """
-    header = yaml.safe_dump(
-        _header(made, statistics, notice), sort_keys=False, allow_unicode=True, width=100
-    )
-    parts = [
-        f"---\n{header}---",
-        notice.MARK,
-        f"# {made.name}",
-        str(made.specification.get("description") or ""),
+    total, (variant, split) = statistics.total, next(iter(statistics.parts))
+    first = next(one for one in dataset.shards(variant) if one.record.split == split)
+    notes = [
         f"{missing} shards are missing: this is a part of the data set." if missing else "",
-        _what(made, statistics.total),
-        "![Samples](samples.png)" if (made.folder / "samples.png").is_file() else "",
-        notice.notes.strip(),
-        "## What there is",
-        _counts(statistics),
-        _classes(statistics.total),
-        "## How to load it",
-        loading_text(made, next(iter(statistics.parts))),
-        "## How it was made",
-        _making(made, statistics.total),
-        "## Limits",
-        _limits(statistics.total),
+        info.notes.strip(),
     ]
-    return "\n\n".join(part for part in parts if part) + "\n"
+    body = BODY.format(
+        name=dataset.name,
+        description=dataset.specification.get("description") or "",
+        samples=f"{total.samples:,}",
+        clips=f"{len(total.clips):,}",
+        events=f"{sum(total.events):,}",
+        seconds=f"{sum(total.durations_us) / 1e6:,.1f}",
+        sensors=", ".join(total.sensors),
+        notes="\n\n".join(note for note in notes if note),
+        counts="\n".join(_table(statistics)),
+        variant=variant,
+        split=split,
+        hub_split=hub_name(split),
+        first=first.place,
+        making=_making(dataset, total),
+        limits="\n".join(f"- {line}" for line in _limits(total)),
+    )
+    header = yaml.safe_dump(
+        _header(dataset, statistics, info), sort_keys=False, allow_unicode=True, width=100
+    )
+    return f"---\n{header}---\n\n{info.MARK}\n\n{body}"
 
 
-def _header(made: MadeSet, statistics: SetStatistics, notice: Notice) -> dict[str, Any]:
+def _header(
+    dataset: StoredDataset, statistics: DatasetStatistics, info: PublicationInfo
+) -> dict[str, Any]:
     configs, features = [], []
     for number, variant in enumerate(dict.fromkeys(one for one, _ in statistics.parts)):
         splits = [split for one, split in statistics.parts if one == variant]
@@ -69,12 +180,13 @@ def _header(made: MadeSet, statistics: SetStatistics, notice: Notice) -> dict[st
         ]
         is_first = {"default": True} if number == 0 else {}
         configs.append({"config_name": variant, **is_first, "data_files": files})
-        features.append({"config_name": variant, "features": features_of(made, variant)})
+        features.append({"config_name": variant, "features": _features(dataset, variant)})
+    samples = statistics.total.samples
     return {
-        "license": notice.license_of(made) or "unknown",
-        "pretty_name": made.name,
+        "license": info.license_of(dataset) or "unknown",
+        "pretty_name": dataset.name,
         "task_categories": ["text-to-video", "other"],
-        "size_categories": [size_category(statistics.total.samples)],
+        "size_categories": [next((name for name, least in SIZES if samples < least), "n>100M")],
         "tags": [*TAGS],
         "configs": configs,
         "dataset_info": features,
@@ -82,94 +194,55 @@ def _header(made: MadeSet, statistics: SetStatistics, notice: Notice) -> dict[st
 
 
 def hub_name(split: str) -> str:
-    """A split as Hugging Face allows it to be called."""
+    """Name of a split that Hugging Face allows."""
     return split.replace("-", "_")
 
 
-def size_category(samples: int) -> str:
-    """As the Hub names sizes.
-
-    Example:
-        >>> size_category(999), size_category(1000)
-        ('n<1K', '1K<n<10K')
-    """
-    return next((name for name, bound in SIZES if samples < bound), LARGEST)
-
-
-def _what(made: MadeSet, total: Statistics) -> str:
-    sensors = ", ".join(total.sensors)
-    seconds = sum(total.durations_us) / 1e6
-    return (
-        f"{total.samples:,} samples of {len(total.clips):,} videos: {sum(total.events):,} "
-        f"simulated events of an event camera in {seconds:,.1f} s ({sensors} pixels), each sample "
-        "with its caption and with all that made it. An event is a column x, a row y (from the "
-        "top left), a time t in µs and a polarity p (1: brighter, 0: darker)."
-    )
+def _features(dataset: StoredDataset, variant: str) -> list[dict[str, Any]]:
+    """Types of the members of a variant, as the Hub writes them."""
+    members, types = dict[str, None](), dict(TYPES)
+    names = {str(number): label for number, label in enumerate(dataset.labels)}
+    types["cls"] = {"dtype": {"class_label": {"names": names}}}
+    for shard in dataset.shards(variant):
+        for sample in shard.samples:
+            members |= dict.fromkeys(sample.members)
+            (_, times), (_, polarities) = sample.members["t.npy"], sample.members["p.npy"]
+            # Both columns have one header and one number per event; times of 8 bytes are int64.
+            if sample.events and times - polarities == 7 * sample.events:
+                types["t.npy"] = {"list": "int64"}
+    known = [{"name": name, **types[name]} for name in members if name in types]
+    return [*known, *({"name": name, "dtype": "string"} for name in ("__key__", "__url__"))]
 
 
-def _counts(statistics: SetStatistics) -> str:
+def _table(statistics: DatasetStatistics) -> list[str]:
+    rows = [list(COUNTS), ["---"] * len(COUNTS), *counts_rows(statistics)]
+    lines = [f"| {' | '.join(row)} |" for row in rows]
+    counts = sorted(statistics.total.classes.values())
+    if counts:
+        lines += ["", f"{len(counts)} classes, {counts[0]:,} to {counts[-1]:,} samples of each; "
+                  "numbers follow the alphabet."]  # fmt: skip
+    return lines
+
+
+def _making(dataset: StoredDataset, total: Statistics) -> str:
+    kept = {name: one for name, one in dataset.specification.items() if name != "sources"}
     lines = [
-        "| variant | split | samples | events | events per sample (median) | seconds per sample "
-        "| events per second (median) | MB |",
-        "|---|---|---:|---:|---:|---:|---:|---:|",
-    ]
-    for (variant, split), part in statistics.parts.items():
-        facts = part.tables
-        lines.append(
-            f"| {variant} | {split} | {part.samples:,} | {sum(part.events):,} | "
-            f"{_median(facts['events_per_sample'])} | {_median(facts['duration_s_per_sample'])} | "
-            f"{_median(facts['events_per_second'])} | {part.bytes / 1e6:,.1f} |"
-        )
-    return "\n".join(lines)
-
-
-def _median(facts: Mapping[str, float]) -> str:
-    return number_text(facts["median"]) if facts else "–"
-
-
-def _classes(total: Statistics) -> str:
-    if not total.classes:
-        return ""
-    counts = sorted(total.classes.values())
-    return (
-        f"{len(counts)} classes, {counts[0]:,} to {counts[-1]:,} samples of each; numbers follow "
-        "the alphabet."
-    )
-
-
-def _making(made: MadeSet, total: Statistics) -> str:
-    versions = ", ".join(sorted(total.versions))
-    kept = {name: one for name, one in made.specification.items() if name != "sources"}
-    lines = [
-        f"With `texvent dataset make` of texvent {versions}, identity `{made.identity[:16]}`. The "
-        "`.json` of a sample holds every option, the seed and the source of that sample; "
-        "`specification.json` holds what decided all of them:",
+        f"With `texvent dataset make` of texvent {', '.join(sorted(total.versions))}, identity "
+        f"`{dataset.identity[:16]}`. The `.json` of a sample holds every option, the seed and the "
+        "source of that sample; `specification.json` holds what decided all of them:",
         f"```json\n{json.dumps(kept, indent=1, ensure_ascii=False)}\n```",
     ]
-    if made.is_merged:
-        names = ", ".join(str(one["specification"]["name"]) for one in made.facts["merged"])
+    if dataset.is_merged:
+        names = ", ".join(str(one["specification"]["name"]) for one in dataset.facts["merged"])
         lines.insert(0, f"Merged from {names} with `texvent dataset merge`.")
-    if made.has_videos:
-        lines.append(
-            f"The videos themselves lie in `{VIDEOS}/` (lossless AVI, one per clip); no loader "
-            "reads them unless it is told to."
-        )
     return "\n\n".join(lines)
 
 
-def _limits(total: Statistics) -> str:
-    lines = [
-        "Events are simulated, not recorded: no sensor was there, and what a model of the camera "
-        "leaves out is not in them. Test on recordings what is trained on these.",
-        "Captions are the prompts that the videos were made from. They say what was asked for, "
-        "not what can be seen; the video may show less.",
-    ]
+def _limits(total: Statistics) -> list[str]:
+    lines = []
     doubtful = sum(total.warnings.values())
     if doubtful:
-        lines.append(
-            f"{doubtful:,} samples carry a warning, such as a word that was not understood: see "
-            "`warnings` in the index."
-        )
+        lines.append(f"{doubtful:,} samples carry a warning: see `warnings` in the index.")
     if total.left_out or total.failed:
         lines.append(
             f"{len(total.left_out):,} samples were left out and {total.failed:,} failed; the "
@@ -177,4 +250,4 @@ def _limits(total: Statistics) -> str:
         )
     if len(total.versions) > 1:
         lines.append("Its shards were made by several versions of texvent, whose events differ.")
-    return "\n".join(f"- {line}" for line in lines)
+    return lines

@@ -1,4 +1,4 @@
-"""A Croissant 1.1 description: what files there are, and the columns of the index, as JSON-LD.
+"""Croissant 1.1 description: files and columns of the index, as JSON-LD.
 
 Source: the Croissant format specification 1.1 and its RAI vocabulary 1.0, MLCommons.
 """
@@ -11,10 +11,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from texvent.dataset.contents.made_set import MadeSet
-from texvent.dataset.contents.statistics import SetStatistics
+from texvent.dataset.publishing.card import PublicationInfo
 from texvent.dataset.publishing.index import FIELDS
-from texvent.dataset.publishing.notice import Notice
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.statistics import DatasetStatistics
 
 CROISSANT_FILE = "croissant.json"
 CONFORMS_TO = ("http://mlcommons.org/croissant/1.1", "http://mlcommons.org/croissant/RAI/1.0")
@@ -40,76 +40,59 @@ CONTEXT: dict[str, Any] = {
     "name": {"@container": "@language"},
     "sc": "https://schema.org/",
 }
-"""What every Croissant 1.1 file begins with."""
+"""Context of every Croissant 1.1 file."""
 
 
-def croissant_text(made: MadeSet, statistics: SetStatistics, notice: Notice, index: Path) -> str:
+def croissant_text(
+    dataset: StoredDataset, statistics: DatasetStatistics, info: PublicationInfo, index: Path
+) -> str:
     """The description, checked by `mlcroissant validate` in the tests.
 
     Args:
-        made: the data set.
+        dataset: the data set.
         statistics: of it.
-        notice: what its author says.
+        info: author, licence, address.
         index: the Parquet index that was written.
     """
     total = statistics.total
+    described = str(dataset.specification.get("description") or "").strip()
+    counts = f"{total.samples:,} simulated event-camera samples of {len(total.clips):,} videos."
     given = {
-        "url": notice.url,
-        "datePublished": notice.date,
-        "creator": notice.creator and {"@type": "sc:Organization", "name": notice.creator},
-        "license": notice.license_of(made) or None,
+        "url": info.url,
+        "datePublished": info.date,
+        "creator": info.creator and {"@type": "sc:Organization", "name": info.creator},
+        "license": info.license_of(dataset) or None,
     }
+    with index.open("rb") as file:
+        sha256 = hashlib.file_digest(file, "sha256").hexdigest()
     document = {
         "@context": CONTEXT,
         "@type": "sc:Dataset",
         "conformsTo": [*CONFORMS_TO],
-        "name": made.name,
-        "description": _description(made, total.samples, len(total.clips)),
+        "name": dataset.name,
+        "description": f"{described} {counts}".strip(),
         **{name: value for name, value in given.items() if value},
-        "version": _version(made),
+        # Another version for other samples: the identity as a build number.
+        "version": f"1.0.0+{dataset.identity[:12]}",
         "isLiveDataset": False,
         "keywords": ["event camera", "neuromorphic vision", "synthetic data", "texvent"],
-        **_responsible_ai(made),
-        "distribution": [_index_file(index), *_shard_files(made), *_file_sets(made)],
+        "rai:dataCollection": "Simulated from videos by models of event cameras; nothing was "
+        "recorded by an event camera. The .json of each sample names every setting.",
+        "rai:dataCollectionType": "Software Collection",
+        "rai:dataBiases": "The content follows the chosen prompts or videos and their generator.",
+        "rai:dataLimitations": "Simulated events lack what the model of the sensor leaves out. "
+        "Captions are prompts; a video may show less.",
+        "distribution": [
+            _file(index.name, "application/x-parquet", index.stat().st_size, sha256),
+            *(
+                _file(shard.place, "application/x-tar", shard.record.bytes, shard.record.sha256)
+                for shard in dataset.shards()
+            ),
+            *_file_sets(dataset),
+        ],
         "recordSet": [_record_set(index.name)],
     }
     return json.dumps(document, indent=1, ensure_ascii=False) + "\n"
-
-
-def _description(made: MadeSet, samples: int, clips: int) -> str:
-    given = str(made.specification.get("description") or "").strip()
-    facts = f"{samples:,} simulated event-camera samples of {clips:,} videos with captions."
-    return f"{given} {facts}".strip()
-
-
-def _version(made: MadeSet) -> str:
-    """One that changes when the samples do: 1.0.0 with the identity as a build number."""
-    return f"1.0.0+{made.identity[:12]}"
-
-
-def _responsible_ai(made: MadeSet) -> dict[str, Any]:
-    words = {
-        "dataCollection": "Simulated from videos by models of event cameras; nothing was recorded "
-        "by an event camera. The .json of each sample names every setting.",
-        "dataCollectionType": "Software Collection",
-        "dataBiases": "The content follows the prompts or videos that were chosen, and the look "
-        "that of their generator. Classes and words are as frequent as the specification has them.",
-        "dataLimitations": "Simulated events lack what the model of the sensor leaves out. "
-        "Captions are prompts: they say what was asked for, not what can be seen.",
-        "dataUseCases": "Training and pre-training of event-based vision; not evidence of how a "
-        "method performs on recordings.",
-        "machineAnnotationTools": [f"texvent {made.facts.get('texvent_version', '')}".strip()],
-        "annotationsPerItem": "1",
-        "personalSensitiveInformation": "None that texvent adds; videos given by the author may "
-        "show people.",
-    }
-    return {f"rai:{name}": value for name, value in words.items()}
-
-
-def _index_file(index: Path) -> dict[str, Any]:
-    with index.open("rb") as file:
-        sha256 = hashlib.file_digest(file, "sha256").hexdigest()
-    return _file(index.name, "application/x-parquet", index.stat().st_size, sha256)
 
 
 def _file(place: str, kind: str, size: int, sha256: str) -> dict[str, Any]:
@@ -124,27 +107,20 @@ def _file(place: str, kind: str, size: int, sha256: str) -> dict[str, Any]:
     }
 
 
-def _shard_files(made: MadeSet) -> Iterator[dict[str, Any]]:
-    for shard in made.shards():
-        record = shard.record
-        yield _file(shard.place, "application/x-tar", record.bytes, record.sha256)
-
-
-def _file_sets(made: MadeSet) -> Iterator[dict[str, Any]]:
-    """What lies in the tars of each variant."""
+def _file_sets(dataset: StoredDataset) -> Iterator[dict[str, Any]]:
+    """Members of the tars of each variant."""
     kinds = {"json": "application/json", "txt": "text/plain", "npy": "application/x-npy"}
-    for variant in made.variants:
-        places = [{"@id": shard.place} for shard in made.shards(variant)]
-        for extension, kind in kinds.items():
-            if places:
-                yield {
-                    "@type": "cr:FileSet",
-                    "@id": f"{variant}-{extension}",
-                    "name": f"{variant}-{extension}",
-                    "containedIn": places,
-                    "encodingFormat": kind,
-                    "includes": f"*.{extension}",
-                }
+    for variant in dataset.variants:
+        places = [{"@id": shard.place} for shard in dataset.shards(variant)]
+        for extension, kind in kinds.items() if places else ():
+            yield {
+                "@type": "cr:FileSet",
+                "@id": f"{variant}-{extension}",
+                "name": f"{variant}-{extension}",
+                "containedIn": places,
+                "encodingFormat": kind,
+                "includes": f"*.{extension}",
+            }
 
 
 def _record_set(index: str) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""One Parquet table of all samples: where each lies, what it shows, how it was made.
+"""Parquet index of all samples: place in the shards, caption, settings.
 
 A sample can be read with it alone: open the shard, seek `x_offset`, read `x_bytes` bytes: a .npy.
 """
@@ -10,14 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from texvent._require import require
-from texvent.dataset.contents.made_set import MadeSet, MadeShard
-from texvent.dataset.contents.stored_events import read_sample_facts
 from texvent.dataset.generation.sample import COLUMNS
+from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
+from texvent.dataset.reading.stored_events import read_sample_facts
 from texvent.io.atomic import atomic_file
 
 INDEX_FILE = "index.parquet"
 ROWS = 20_000
-"""Of a row group."""
+"""Rows of a row group."""
 FIELDS = {
     "key": ("string", "Name of the sample; its members in the shard begin with it"),
     "clip": ("string", "Name of the video; the samples of all variants of it share this"),
@@ -44,7 +44,7 @@ FIELDS = {
 """Column → its type and what it holds."""
 
 
-def write_index(made: MadeSet) -> Path:
+def write_index(dataset: StoredDataset) -> Path:
     """Write the index of all complete shards; equal shards give equal bytes.
 
     Raises:
@@ -54,13 +54,13 @@ def write_index(made: MadeSet) -> Path:
     """
     arrow, parquet = (require(name, extra="dataset") for name in ("pyarrow", "pyarrow.parquet"))
     schema = _schema(arrow)
-    path = made.folder / INDEX_FILE
+    path = dataset.folder / INDEX_FILE
     with (
         atomic_file(path, overwrite=True) as part,
         parquet.ParquetWriter(part, schema, compression="zstd") as writer,
     ):
         rows: list[dict[str, Any]] = []
-        for row in index_rows(made):
+        for row in index_rows(dataset):
             rows.append(row)
             if len(rows) == ROWS:
                 writer.write_table(arrow.Table.from_pylist(rows, schema))
@@ -76,17 +76,17 @@ def _schema(arrow: Any) -> Any:
     return arrow.schema([(name, types[kind]) for name, (kind, _) in FIELDS.items()])
 
 
-def index_rows(made: MadeSet) -> Iterator[dict[str, Any]]:
+def index_rows(dataset: StoredDataset) -> Iterator[dict[str, Any]]:
     """A row for each sample, in the order of variants, splits and shards."""
-    numbers = {label: number for number, label in enumerate(made.labels)}
-    for variant in made.variants:
-        simulator = made.simulator_of(variant)
-        for shard in made.shards(variant):
+    numbers = {label: number for number, label in enumerate(dataset.labels)}
+    for variant in dataset.variants:
+        simulator = dataset.simulator_of(variant)
+        for shard in dataset.shards(variant):
             yield from _rows_of(shard, simulator, numbers)
 
 
 def _rows_of(
-    shard: MadeShard, simulator: str | None, numbers: dict[str, int]
+    shard: StoredShard, simulator: str | None, numbers: dict[str, int]
 ) -> Iterator[dict[str, Any]]:
     for sample in shard.samples:
         places = {

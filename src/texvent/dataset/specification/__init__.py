@@ -1,1 +1,1 @@
-"""What a data set is made of: a file, or a Python object, that decides every sample."""
+"""Specification of a data set: a file, or a Python object, that decides every sample."""

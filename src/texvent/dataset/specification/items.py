@@ -1,4 +1,4 @@
-"""The prompts, scenes or videos that the sources of a specification give."""
+"""Items of a data set: the prompts, scenes and videos that its sources give."""
 
 from __future__ import annotations
 
@@ -7,17 +7,17 @@ import math
 import random
 import string
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from texvent.batch.identity import derived_seed, digest
 from texvent.batch.list_files import ListEntry
 from texvent.batch.samples import entries_of, moved_together
+from texvent.dataset.specification.option_ranges import draw_options, is_range
 from texvent.dataset.specification.specification import SampleSource, Specification
-from texvent.dataset.specification.varied_scenes import read_scenes
 from texvent.errors import ConfigError, InputError, shown
-from texvent.scenes.spec.data import scene_from_data, scene_to_data
+from texvent.scenes.spec.data import get_field, scene_from_data, scene_to_data, with_fields
 from texvent.scenes.spec.scene import Scene
 
 MAX_ITEMS = 10_000_000
@@ -29,7 +29,7 @@ class Item:
     """A prompt, a scene or a video, of which `repeats` videos and all variants are made."""
 
     key: str
-    """What makes it this item, wherever it stands: a digest of what it shows and its label."""
+    """Identity of the item: a digest of its content and label."""
     prompt: str | None = None
     video: str | None = None
     """Path of the video; None: it is generated."""
@@ -43,7 +43,7 @@ class Item:
 
     @property
     def subject(self) -> str | Scene:
-        """What is shown: its scene, or else its prompt."""
+        """Its scene, or else its prompt."""
         return (self.prompt or "") if self.scene is None else scene_from_data(self.scene)
 
     @property
@@ -59,7 +59,7 @@ class Items:
 
     all: tuple[Item, ...]
     duplicates: int = 0
-    """How many were left out because an equal one comes before."""
+    """Number of items left out because an equal one comes before."""
 
     @property
     def are_videos(self) -> bool:
@@ -73,7 +73,7 @@ class Items:
 
 
 def read_items(specification: Specification) -> Items:
-    """What the sources give, in their order; equal prompts once.
+    """Items of the sources, in their order; equal ones once.
 
     Raises:
         InputError: a source does not exist, or holds nothing.
@@ -190,7 +190,7 @@ def _placeholders(template: str) -> list[str]:
         parts = [name for _, name, _, _ in string.Formatter().parse(template) if name is not None]
     except ValueError as error:
         raise ConfigError(
-            f"template {shown(template)}: {error}; words to fill in stand in {{}}"
+            f"template {shown(template)}: {error}; write names to fill in as {{name}}"
         ) from error
     return list(dict.fromkeys(parts))
 
@@ -203,3 +203,72 @@ def _filled(template: str, words: dict[str, str], what: str) -> str:
             )
         template = template.replace(f"{{{name}}}", words[name])
     return template
+
+
+def read_scenes(source: SampleSource, seed: int) -> Iterator[tuple[Scene, str | None]]:
+    """The scenes of a source, in order, each with its label.
+
+    What is drawn depends on the seed, the file's name, the field and the number of the draw.
+
+    Raises:
+        InputError: there is no such file.
+        FileFormatError: a file is damaged.
+        ConfigError: a field is unknown or wrong; the message names the file.
+    """
+    for pattern in source.scene:
+        for entry in entries_of(pattern):
+            if entry.scene is None:
+                raise InputError(f"{entry.where} is no scene file; scene names .toml or .json")
+            try:
+                for scene in _varied_scenes(entry.scene, str(entry.name), source, seed):
+                    yield scene, _with_scene_fields(source.label, scene, str(entry.name))
+            except ConfigError as error:
+                raise ConfigError(f"{entry.where}: {error}") from error
+
+
+def _varied_scenes(scene: Scene, name: str, source: SampleSource, seed: int) -> Iterator[Scene]:
+    """A scene with the values of its varied fields; its sentence with the fields that it names."""
+    if not source.vary:
+        yield scene
+        return
+    for path in source.vary:
+        get_field(scene, path)  # before any value: the nearest right field is named
+    ranges = {path: values for path, values in source.vary.items() if is_range(values)}
+    for number, chosen in enumerate(_combinations(name, source, bool(ranges), seed)):
+        varied = with_fields(scene, chosen | draw_options(ranges, seed, name, number))
+        yield replace(varied, prompt=_with_scene_fields(varied.prompt, varied, name) or "")
+
+
+def _combinations(
+    name: str, source: SampleSource, has_ranges: bool, seed: int
+) -> Iterator[dict[str, Any]]:
+    """Combinations of the values of lists: all in order, or `count` of them in a random order.
+
+    With ranges, combinations come again where `count` asks for more than there are.
+    """
+    lists = {path: list(one) for path, one in source.vary.items() if not is_range(one)}
+    every = [dict(zip(lists, one, strict=True)) for one in itertools.product(*lists.values())]
+    if source.count is None:
+        yield from every
+        return
+    if source.count > len(every) and not has_ranges:
+        raise ConfigError(
+            f"vary has {len(every)} combinations of values, fewer than count = {source.count}; "
+            "give more values or a range, or more videos of each with repeats"
+        )
+    chance = random.Random(derived_seed(seed, "vary", name))
+    rounds = math.ceil(source.count / len(every))
+    drawn = itertools.chain.from_iterable(chance.sample(every, len(every)) for _ in range(rounds))
+    yield from itertools.islice(drawn, source.count)
+
+
+def _with_scene_fields(text: str | None, scene: Scene, name: str) -> str | None:
+    """A label or sentence with the fields of a scene in place of their paths in braces."""
+    if text is None or "{" not in text:
+        return text
+    for path in _placeholders(text):
+        value: Any = name if path == "name" else get_field(scene, path)
+        if value is None or isinstance(value, (Mapping, tuple)):
+            raise ConfigError(f"{shown(text)} names {path}, which has no value to write")
+        text = text.replace(f"{{{path}}}", f"{value:g}" if isinstance(value, float) else str(value))
+    return text

@@ -24,7 +24,7 @@ SOURCE_KINDS = ("prompts", "file", "videos", "template", "scene")
 
 @dataclass(frozen=True, kw_only=True)
 class SampleSource:
-    """Where samples come from: exactly one of prompts, file, videos, template and scene.
+    """Source of samples: exactly one of prompts, file, videos, template and scene.
 
     Raises:
         ConfigError: none or several of them, or a field that does not belong to the one.
@@ -47,12 +47,12 @@ class SampleSource:
     """Path of a field, such as "objects[0].colour", in every scene → a list of its values, or a
     range to draw from, as in `Specification.options`."""
     count: int | None = None
-    """How many combinations of words are drawn, without repetition; None: all of them. For a
+    """Number of combinations of words drawn, without repetition; None: all of them. For a
     scene, how many of each file: combinations of its lists, with values drawn from its ranges."""
     label: str | None = None
     """Class of the samples. In a template, "{thing}" is that word; for a scene,
     "{objects[0].noun}" is that field and "{name}" its file; for videos, "{folder}" is the name of
-    the folder that a video lies in."""
+    the folder of a video."""
     split: str | None = None
     """The split that all of these belong to; None: they are shared out."""
 
@@ -83,12 +83,12 @@ class SampleSource:
 
 @dataclass(frozen=True, kw_only=True)
 class Variant:
-    """One way to simulate every video: a simulator, a sensor, options."""
+    """Variant of the simulation of every video: a simulator, a sensor, options."""
 
     name: str = DEFAULT_VARIANT
     """Name of its folder."""
     seeds: int = 1
-    """How many times each video is simulated, with another seed each."""
+    """Simulations of each video, with another seed each."""
     options: Mapping[str, Any] = field(default_factory=dict)
     """Options that replace those of the data set."""
 
@@ -99,7 +99,7 @@ class Variant:
 
 @dataclass(frozen=True, kw_only=True)
 class Filters:
-    """Which samples are left out."""
+    """Filters that leave samples out."""
 
     min_events: int = FEWEST_SIGNAL
     """Fewest events of a sample that its video fires: those of noise do not count."""
@@ -132,9 +132,9 @@ class Specification:
     name: str
     """Name of the data set."""
     sources: tuple[SampleSource, ...]
-    """What is shown."""
+    """Sources of the samples."""
     description: str = ""
-    """What it is for; stands in the card."""
+    """Purpose, for the card."""
     license: str = ""
     """Licence of what is published, such as "cc-by-4.0"."""
     seed: int = 0
@@ -152,7 +152,7 @@ class Specification:
     variants: tuple[Variant, ...] = field(default_factory=lambda: (Variant(),))
     """Ways to simulate each video."""
     filters: Filters = field(default_factory=Filters)
-    """Which samples are left out."""
+    """Filters that leave samples out."""
     previews: bool = True
     """Whether each sample has an image to look at."""
     store_videos: bool | None = None

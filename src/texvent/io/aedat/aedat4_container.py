@@ -23,6 +23,8 @@ from pathlib import Path
 from types import ModuleType
 from typing import Any, BinaryIO
 
+import lz4.frame
+
 from texvent._require import require
 from texvent.errors import FileFormatError, MissingDependencyError, one_line
 from texvent.io.aedat.aedat4_tables import UNKNOWN, StreamInfo, Table, read_info
@@ -60,24 +62,18 @@ def packing_of(code: int) -> Packing:
     raise FileFormatError(f"its header names compression {code}; AEDAT4 knows 0 to 4")
 
 
-def _keep(data: bytes) -> bytes:
-    return data
-
-
 def _pack_lz4(data: bytes) -> bytes:
-    packed: bytes = _lz4().compress(data, content_checksum=True)
+    packed: bytes = lz4.frame.compress(data, content_checksum=True)
     return packed
 
 
 def _unpack_lz4(data: bytes) -> bytes:
-    lz4 = _lz4()
-    return _unpack(lz4.LZ4FrameDecompressor(), data, RuntimeError, "LZ4")
+    return _unpack(lz4.frame.LZ4FrameDecompressor(), data, RuntimeError, "LZ4")
 
 
 def _pack_zstd(data: bytes) -> bytes:
     zstd = _zstd()
-    options = {zstd.CompressionParameter.checksum_flag: 1}
-    packed: bytes = zstd.compress(data, options=options)
+    packed: bytes = zstd.compress(data, options={zstd.CompressionParameter.checksum_flag: 1})
     return packed
 
 
@@ -108,10 +104,6 @@ def _unpack(decompressor: Any, data: bytes, failure: type[Exception], name: str)
     return parts[0] if len(parts) == 1 else b"".join(parts)
 
 
-def _lz4() -> ModuleType:
-    return require("lz4.frame")
-
-
 def _zstd() -> ModuleType:
     try:
         return require("compression.zstd")
@@ -119,7 +111,7 @@ def _zstd() -> ModuleType:
         return require("backports.zstd", extra="zstd")
 
 
-NONE = Packing("NONE", 0, _keep, _keep)
+NONE = Packing("NONE", 0, bytes, bytes)
 LZ4 = Packing("LZ4", 1, _pack_lz4, _unpack_lz4)
 ZSTD = Packing("ZSTD", 3, _pack_zstd, _unpack_zstd)
 

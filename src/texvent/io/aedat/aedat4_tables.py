@@ -21,7 +21,7 @@ import xml.etree.ElementTree as ElementTree
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -121,7 +121,7 @@ UNKNOWN = -1
 
 _ENTRY = np.dtype(
     {
-        "names": ["vtable", "position", "stream", "bytes", "count", "first", "last"],
+        "names": ["vtable", "position", "stream", "bytes", "events", "first", "last"],
         "formats": ["<i4", "<i8", "<i4", "<i4", "<i8", "<i8", "<i8"],
         "offsets": [0, 4, 12, 16, 20, 28, 36],
         "itemsize": 48,
@@ -130,18 +130,18 @@ _ENTRY = np.dtype(
 _ENTRY_VTABLE = struct.pack("<7H", 14, 44, 4, 12, 20, 28, 36)
 
 
-@dataclass(frozen=True)
-class PacketEntry:
+class PacketEntry(NamedTuple):
     """One line of the list of packets."""
 
     position: int
     """First byte after the packet's head, in the file."""
     bytes: int
     """Length of the packet without its head."""
-    count: int
+    events: int
     """Number of events."""
-    first_us: int
-    last_us: int
+    first: int
+    """Time of the first event, µs; `last`: of the last."""
+    last: int
 
 
 @dataclass(frozen=True)
@@ -186,14 +186,8 @@ def make_list(entries: Sequence[PacketEntry], stream: int) -> bytes:
     places = start + _ENTRY.itemsize * np.arange(count, dtype=np.int64)
     table["vtable"] = places - vtable_at
     table["stream"] = stream
-    for name, field in (
-        ("position", "position"),
-        ("bytes", "bytes"),
-        ("count", "count"),
-        ("first", "first_us"),
-        ("last", "last_us"),
-    ):
-        table[name] = [getattr(entry, field) for entry in entries]
+    for name in PacketEntry._fields:
+        table[name] = [getattr(entry, name) for entry in entries]
     offsets = (places - (EVENTS_START + 4 * np.arange(count))).astype("<u4").tobytes()
     gap = bytes(start - vtable_at - len(_ENTRY_VTABLE))
     rest = offsets + bytes(vtable_at - offsets_end) + _ENTRY_VTABLE + gap + table.tobytes()

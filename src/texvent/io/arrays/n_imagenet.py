@@ -19,10 +19,9 @@ from typing import Any, ClassVar
 
 import numpy as np
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import InputError
 from texvent.events import EventStream
-from texvent.io.arrays.npz import read_arrays, stored_contents
-from texvent.io.block_codec import BlockCodec, FileContents
+from texvent.io.arrays.npz import NpzCodec
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.files import load
 from texvent.io.metadata import metadata_to_json
@@ -32,17 +31,13 @@ from texvent.sensor import SensorSize
 ARRAY = "event_data"
 SENSOR = SensorSize(640, 480)
 """Of the recordings of the data set."""
-FIELDS = ("x", "y", "t", "p")
-OLD_FIELDS = ("x_pos", "y_pos", "timestamp", "polarity")
 EVENT = np.dtype([("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
 
 
-class NImageNetCodec(BlockCodec):
+class NImageNetCodec(NpzCodec):
     """npz of one structured array."""
 
     name: ClassVar[str] = "n-imagenet"
-    has_checksums: ClassVar[bool] = True
-    extensions: ClassVar[tuple[str, ...]] = (".npz",)
     limits: ClassVar[FormatLimits] = FormatLimits("N-ImageNet npz", 1 << 16, 1 << 63)
 
     def recognises(self, path: Path) -> bool:
@@ -52,19 +47,6 @@ class NImageNetCodec(BlockCodec):
                 return f"{ARRAY}.npy" in archive.namelist()
         except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile):
             return False
-
-    def inspect(self, path: Path) -> FileContents:
-        """The archive's arrays, all in memory."""
-        arrays = read_arrays(path)
-        events = arrays.get(ARRAY)
-        names = getattr(getattr(events, "dtype", None), "names", None) or ()
-        fields = next((one for one in (FIELDS, OLD_FIELDS) if {*one} <= {*names}), None)
-        if events is None or events.ndim != 1 or fields is None:
-            raise FileFormatError(f"{path} has no array {ARRAY} with fields x, y, t, p")
-        columns = {name: events[field] for name, field in zip(FIELDS, fields, strict=True)}
-        if columns["p"].dtype.kind == "b":
-            columns["p"] = columns["p"].astype(np.uint8)
-        return stored_contents(path, arrays, columns)
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:

@@ -105,6 +105,11 @@ class StoredArray:
         """The rows, one by one."""
         return (self.rows(index, index + 1)[0] for index in range(len(self)))
 
+    def __getitem__(self, rows: slice) -> NDArray[Any]:
+        """As `rows`, by a slice of step 1."""
+        start, stop, _ = rows.indices(len(self))
+        return self.rows(start, stop)
+
     def rows(self, start: int, stop: int) -> NDArray[Any]:
         """A copy of the rows from `start` to `stop`, or to the end.
 

@@ -38,8 +38,8 @@ from texvent.io.protocol import Columns
 
 SPELLINGS = {
     "t": ("t", "ts", "timestamp", "timestamps", "time", "times", "t_us", "timestamp_us"),
-    "x": ("x", "xs"),
-    "y": ("y", "ys"),
+    "x": ("x", "xs", "x_pos"),
+    "y": ("y", "ys", "y_pos"),
     "p": ("p", "ps", "pol", "polarity", "polarities"),
 }
 """Column → its names, in lower case."""

@@ -1,4 +1,6 @@
-"""Universal HDF5: DSEC's layout with absolute times, read by most event-camera software.
+"""Events in HDF5: the universal layout, DSEC's and v2e's, found by `LAYOUTS` and written.
+
+The universal layout is DSEC's with absolute times, read by most event-camera software:
 
     events/x  u2   events/y  u2   events/t  i8, µs   events/p  u1, 1 = ON
     events/label u1, 1 = noise, if the run stores it
@@ -21,7 +23,12 @@ DSEC's own layout (`dsec`, `dsec-blosc`) has times in u4 after t_offset, the fir
 millisecond, so a file spans at most 2^32 µs (71.6 min), and closes ms_to_idx one entry earlier.
 blosc, as DSEC's files have it, is written and read several times faster, with hdf5plugin.
 
-Source: Gehrig et al., DSEC: A Stereo Event Camera Dataset for Driving Scenarios, RA-L 2021.
+v2e's layout is one data set `events`, u4 [n, 4], rows t (µs), x, y, p. Times stay below 2^32 µs.
+texvent adds the root attributes width, height and texvent; files of v2e itself store no size, and
+after 17 s they have lost the µs, because v2e passes times through float32.
+
+Source: Gehrig et al., DSEC: A Stereo Event Camera Dataset for Driving Scenarios, RA-L 2021; Hu, Liu
+and Delbruck, v2e: From Video Frames to Realistic DVS Events, 2021, and its files.
 """
 
 from __future__ import annotations
@@ -51,10 +58,10 @@ from texvent.io.hdf5.storage import (
     open_hdf5,
 )
 from texvent.io.input_checks import TIMESTAMP_SCALE_MS, check_time_unit, optional_columns
+from texvent.io.layouts import Column, EventLayout
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
 
-"""Milliseconds per unit of events/t: µs."""
 CHUNK_EVENTS = 65_536
 INDEX_CHUNK = 4096
 PACKET_EVENTS = 1_048_576
@@ -67,7 +74,16 @@ MAX_ATTRIBUTE_BYTES = 32_768
 """Longer metadata goes to a dataset: many readers stop at 64 kB per attribute."""
 MAX_PLAIN_ATTRIBUTES = 64
 MAX_PLAIN_BYTES = 2048
+GZIP: Mapping[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
 COLUMN_FORMATS: Mapping[str, str] = {"x": "<u2", "y": "<u2", "t": "<i8", "p": "|u1"}
+UNIVERSAL = EventLayout(
+    "the universal layout (also DSEC's)",
+    {name: Column(f"events/{name}") for name in "xytp"},
+    offset="t_offset",
+)
+V2E = EventLayout("v2e", {name: Column("events", part) for part, name in enumerate("txyp")})
+LAYOUTS = (UNIVERSAL, V2E)
+"""Layouts that are read; the first whose data sets a file has counts."""
 RESERVED = ("width", "height", "timestamp_scale_ms", "texvent")
 
 
@@ -91,7 +107,7 @@ class NativeSink(Hdf5Sink):
     _offset_us = 0
 
     def _filters(self) -> Mapping[str, Any]:
-        return {"compression": "gzip", "compression_opts": 1, "shuffle": True}
+        return GZIP
 
     def _create_layout(self, target: FileTarget) -> None:
         file = self._file
@@ -147,12 +163,33 @@ class NativeSink(Hdf5Sink):
         self._file.attrs["t_offset"] = np.int64(self._offset_us)
 
 
+class V2eSink(Hdf5Sink):
+    """Appends rows to v2e's data set."""
+
+    def _create_layout(self, target: FileTarget) -> None:
+        self._file.attrs["width"], self._file.attrs["height"] = target.size
+        write_metadata(self._file, target.metadata)
+        self._file.create_dataset(
+            "events",
+            shape=(0, 4),
+            maxshape=(None, 4),
+            dtype="<u4",
+            chunks=(CHUNK_EVENTS, 4),
+            **GZIP,
+        )
+
+    def store(self, columns: Columns) -> None:
+        """As `Hdf5Sink.store`."""
+        rows = [columns[name].astype(np.uint32) for name in V2E.columns]
+        self._extend("events", np.stack(rows, axis=1))
+
+
 class Hdf5Codec(Hdf5BlockCodec):
-    """Universal HDF5 and DSEC files."""
+    """HDF5 in any of `LAYOUTS`, written in the universal one."""
 
     name: ClassVar[str] = "hdf5"
     has_checksums: ClassVar[bool] = True
-    limits: ClassVar[OffsetLimits] = OffsetLimits(
+    limits: ClassVar[FormatLimits] = OffsetLimits(
         "HDF5", 1 << 16, 1 << 63, MAX_SPAN_US, keeps_labels=True
     )
     sink: ClassVar[type[Hdf5Sink]] = NativeSink
@@ -160,63 +197,60 @@ class Hdf5Codec(Hdf5BlockCodec):
     def inspect(self, path: Path) -> FileContents:
         """Size and metadata are attributes of the root."""
         with open_hdf5(path) as file:
-            _checked_columns(file, path)
+            find_layout(file, path)
             size, metadata = stored_size(file), read_metadata(file, path) or {}
         rows = partial(_open_rows, path)
         return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
+
+
+def find_layout(file: Any, path: Path) -> tuple[EventLayout, dict[str, Any]]:
+    """The layout of an open file, and its checked data sets.
+
+    Raises:
+        FileFormatError: it has none of `LAYOUTS`, or is damaged.
+        MissingDependencyError: it is compressed by a filter that is not installed.
+    """
+    for layout in LAYOUTS:
+        if all(isinstance(file.get(name), h5py.Dataset) for name in layout.arrays):
+            break
+    else:
+        sound = [one for one in UNIVERSAL.arrays if isinstance(file.get(one), h5py.Dataset)]
+        missing = next(one for one in UNIVERSAL.arrays if one not in sound)
+        raise FileFormatError(
+            f"{path} is HDF5 but has no {missing}; texvent reads events/x, events/y, events/t, "
+            "events/p, or v2e's rows in `events`"
+        )
+    names = list(layout.arrays)
+    if layout is UNIVERSAL:
+        names += [f"events/{name}" for name in optional_columns(file["events"])]
+    arrays = {name: file[name] for name in names}
+    layout.check(path, arrays)
+    for array in arrays.values():
+        check_filters(array, path)
+        check_claims(array, path)
+    check_time_unit(path, file.attrs.get("timestamp_scale_ms", TIMESTAMP_SCALE_MS))
+    return layout, arrays
 
 
 @contextmanager
 def _open_rows(path: Path) -> Iterator[TimedRows]:
     """Not by ms_to_idx: files of others lack it or have it in other units."""
     with open_hdf5(path) as file:
-        columns = _checked_columns(file, path)
-        offset_us = _time_offset(file, path)
-        times = columns["t"]
-
-        def read(start: int, stop: int) -> Columns:
-            block = {name: column[start:stop] for name, column in columns.items()}
-            return {**block, "t": block["t"].astype(np.int64) + offset_us}
-
-        def time_of(index: int) -> int:
-            return int(times[index]) + offset_us
-
-        yield TimedRows(len(times), time_of, read, PACKET_EVENTS)
+        layout, arrays = find_layout(file, path)
+        offset_us = _time_offset(file, path, layout.offset)
+        yield layout.rows(path, arrays, offset_us=offset_us, block=PACKET_EVENTS)
 
 
-def _checked_columns(file: Any, path: Path) -> dict[str, Any]:
-    """The datasets of events, if the file has this layout."""
-    missing = [name for name in COLUMN_FORMATS if f"events/{name}" not in file]
-    if missing:
-        raise FileFormatError(
-            f"{path} is HDF5 but has no events/{missing[0]}; texvent reads the DSEC and universal "
-            "layout: events/x, events/y, events/t, events/p"
-        )
-    names = [*COLUMN_FORMATS, *optional_columns(file["events"])]
-    columns = {name: file[f"events/{name}"] for name in names}
-    shapes = {name: column.shape for name, column in columns.items()}
-    if any(len(shape) != 1 for shape in shapes.values()) or len(set(shapes.values())) != 1:
-        raise FileFormatError(f"{path}: the columns of events differ in length: {shapes}")
-    for name, column in columns.items():
-        if column.dtype.kind not in "iub":
-            raise FileFormatError(f"{path}: events/{name} holds {column.dtype}, not integers")
-        check_filters(column, path)
-        check_claims(column, path)
-    check_time_unit(path, file.attrs.get("timestamp_scale_ms", TIMESTAMP_SCALE_MS))
-    return columns
-
-
-def _time_offset(file: Any, path: Path) -> int:
-    if "t_offset" not in file:
+def _time_offset(file: Any, path: Path, name: str | None) -> int:
+    if name is None or name not in file:
         return 0
-    value = file["t_offset"]
+    value = file[name]
     if value.size != 1 or value.dtype.kind not in "iu":
-        raise FileFormatError(f"{path}: t_offset must be one whole number; it is {shown(value)}")
+        raise FileFormatError(f"{path}: {name} must be one whole number; it is {shown(value)}")
     offset_us = int(np.asarray(value[()]).reshape(-1)[0])
-    if "t_offset" in file.attrs and _whole_attribute(file, "t_offset") != offset_us:
+    if name in file.attrs and _whole_attribute(file, name) != offset_us:
         raise FileFormatError(
-            f"{path} is damaged: t_offset is {offset_us}, written as "
-            f"{shown(file.attrs['t_offset'])}"
+            f"{path} is damaged: {name} is {offset_us}, written as {shown(file.attrs[name])}"
         )
     return offset_us
 
@@ -304,7 +338,7 @@ class DsecCodec(Hdf5Codec):
     name: ClassVar[str] = "dsec"
     has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = ()
-    limits: ClassVar[OffsetLimits] = OffsetLimits(
+    limits: ClassVar[FormatLimits] = OffsetLimits(
         "DSEC HDF5", 1 << 16, 1 << 63, 2**32 - 1, keeps_labels=True, max_absolute_us=0
     )
     sink: ClassVar[type[Hdf5Sink]] = DsecSink
@@ -320,3 +354,19 @@ class DsecBloscCodec(DsecCodec):
     def check_target(self, target: FileTarget) -> None:
         """Refuse to start without hdf5plugin."""
         require("hdf5plugin", extra="blosc")
+
+
+class V2eCodec(Hdf5Codec):
+    """HDF5 as v2e writes it."""
+
+    name: ClassVar[str] = "v2e"
+    limits: ClassVar[FormatLimits] = FormatLimits("v2e HDF5", 1 << 16, 1 << 32)
+    sink: ClassVar[type[Hdf5Sink]] = V2eSink
+
+    def recognises(self, path: Path) -> bool:
+        """True if it is HDF5 with a data set called events."""
+        try:
+            with open_hdf5(path) as file:
+                return isinstance(file.get("events"), h5py.Dataset)
+        except FileFormatError:
+            return False

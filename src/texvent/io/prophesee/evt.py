@@ -19,7 +19,7 @@ from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar, Protocol, TypeAlias
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,48 +35,11 @@ Words: TypeAlias = bytes | memoryview | NDArray[Any]
 """Whole words, as stored in the file."""
 
 
-class WordKernels(Protocol):
-    """Interface of the compiled loops of a format."""
-
-    @property
-    def START(self) -> tuple[int, ...]:  # noqa: N802  # modules name constants in capitals
-        """Words before the first event."""
-        ...
-
-    @property
-    def WORD(self) -> str:  # noqa: N802
-        """NumPy type of the numbers the functions take; a word of the file may be two of them."""
-        ...
-
-    @property
-    def DECODER_STATE(self) -> tuple[int, ...]:  # noqa: N802
-        """State before the first word is read."""
-        ...
-
-    @property
-    def ENCODER_STATE(self) -> tuple[int, ...]:  # noqa: N802
-        """State after the words `START` were written."""
-        ...
-
-    def count_events(self, words: NDArray[Any]) -> int:
-        """At least as many as the words hold."""
-        ...
-
-    def decode_words(
-        self, words: NDArray[Any], state: NDArray[np.int64], columns: tuple[NDArray[Any], ...]
-    ) -> int:
-        """Fill columns x, y, t, p and update the state; returns the number of events."""
-        ...
-
-    def count_words(self, times: NDArray[np.int64], state: NDArray[np.int64]) -> int:
-        """At least as many as the events at these times need."""
-        ...
-
-    def encode_events(
-        self, columns: tuple[NDArray[Any], ...], state: NDArray[np.int64], words: NDArray[Any]
-    ) -> int:
-        """Fill words from columns x, y, t, p and update the state; returns their number."""
-        ...
+WordKernels: TypeAlias = Any
+"""Module of the compiled loops of a format: the words `START` before the first event, the
+NumPy type `WORD` of the numbers that its functions take (a word of the file may be two), the first
+`DECODER_STATE` and `ENCODER_STATE`; `count_events`, `decode_words`, `count_words`, `encode_events`.
+"""
 
 
 class WordDecoder:

@@ -243,8 +243,3 @@ def _read_metadata(file: Any, path: Path) -> dict[str, Any]:
 
 def _text(value: Any) -> str:
     return value.decode("utf-8", errors="replace") if isinstance(value, bytes) else str(value)
-
-
-def _set_text(node: Any, name: str, text: str) -> None:
-    """ASCII of variable length, the only kind OpenEB reads; h5py's own text is UTF-8."""
-    node.attrs.create(name, text, dtype=h5py.string_dtype("ascii"))

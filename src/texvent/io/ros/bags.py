@@ -12,10 +12,9 @@ Needs rosbags: the extra `bags`. A bag whose recorder crashed has no index and i
 
 from __future__ import annotations
 
-import os
 import struct
 from abc import abstractmethod
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -23,35 +22,31 @@ from typing import Any, ClassVar
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, one_line
-from texvent.io.atomic import hidden_folder
-from texvent.io.block_codec import BlockCodec, FileContents, split_by_time
+from texvent.io.block_codec import BlockCodec, FileContents
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.metadata import parse_sidecar, sidecar_text
 from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.protocol import Columns
+from texvent.io.ros.bag_writer import (
+    EXTRA,
+    FACTS_TOPIC,
+    ROSBAG1,
+    ROSBAG2,
+    STRING,
+    BagKind,
+    open_sensor_bag,
+)
 from texvent.io.ros.messages import (
     EVENT_ARRAY,
-    EVENT_ARRAY_TEXT,
     EVENT_PACKET,
-    EVENT_PACKET_TEXT,
-    EVENT_TEXT,
-    FRAME,
-    EventPacket,
     RawMessage,
     bound_chunks,
     open_event_array,
     open_event_packet,
-    pack_event_array,
-    pack_event_packet,
     unpack_event_array,
 )
 
-TOPIC, FACTS_TOPIC = "/dvs/events", "/texvent"
-STRING = "std_msgs/msg/String"
-PACKET_US = 10_000
-NS = 1000
-ROSBAG1, ROSBAG2 = "rosbags.rosbag1", "rosbags.rosbag2"
-EXTRA = "bags"
+TOPIC = "/dvs/events"
 OPEN_MESSAGE = {EVENT_ARRAY: open_event_array, EVENT_PACKET: open_event_packet}
 """Type of message → what finds its parts."""
 
@@ -59,8 +54,9 @@ OPEN_MESSAGE = {EVENT_ARRAY: open_event_array, EVENT_PACKET: open_event_packet}
 class BagCodec(BlockCodec):
     """Base of both kinds of bag."""
 
+    kind: ClassVar[BagKind]
     module: ClassVar[str]
-    """Package that reads and writes the file."""
+    """Package that reads the file."""
     message_type: ClassVar[str]
     """Type of the messages that hold events."""
     text_start: ClassVar[int]
@@ -87,6 +83,26 @@ class BagCodec(BlockCodec):
         """Refuse to start without rosbags."""
         require("rosbags", extra=EXTRA)
 
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
+        """Open a bag; size and metadata have the time of the first event, as players wait."""
+        text = sidecar_text(target.size, target.metadata)
+        with open_sensor_bag(part, self.kind) as bag:
+            write_text = bag.text_topic(FACTS_TOPIC)
+            write_events = bag.events_topic(TOPIC, target.size)
+            is_begun = False
+
+            def write(columns: Columns) -> None:
+                nonlocal is_begun
+                if not is_begun:
+                    write_text(text, int(columns["t"][0]))
+                is_begun = True
+                write_events(columns)
+
+            yield write
+            if not is_begun:
+                write_text(text, 0)
+
     @abstractmethod
     def read_blocks(self, path: Path) -> Iterator[Columns]:
         """Columns of the bag's events."""
@@ -98,6 +114,7 @@ class Rosbag1Codec(BagCodec):
     name: ClassVar[str] = "rosbag1"
     extensions: ClassVar[tuple[str, ...]] = (".bag",)
     limits: ClassVar[FormatLimits] = FormatLimits("rosbag1", 1 << 16, (1 << 32) * 1_000_000)
+    kind: ClassVar[BagKind] = "rosbag1"
     module: ClassVar[str] = ROSBAG1
     message_type: ClassVar[str] = EVENT_ARRAY
     text_start: ClassVar[int] = 4
@@ -107,25 +124,6 @@ class Rosbag1Codec(BagCodec):
         for message in _messages(self, path):
             yield unpack_event_array(message)
 
-    @contextmanager
-    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
-        """Open a bag for writing: rosbags makes the file, so it begins in a folder of its own."""
-        types = message_types(1)
-        text = sidecar_text(target.size, target.metadata).encode("utf-8")
-        message = struct.pack("<I", len(text)) + text
-
-        def pack(columns: Columns, number: int) -> bytes:
-            return pack_event_array(columns, size=target.size, sequence=number)
-
-        with hidden_folder(part.parent) as folder:
-            with require(ROSBAG1, extra=EXTRA).Writer(folder / part.name) as bag:
-                facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
-                events = bag.add_connection(TOPIC, EVENT_ARRAY, typestore=types)
-                start = partial(bag.write, facts, data=message)
-                with _write_messages(bag, events, pack, start) as write:
-                    yield write
-            os.replace(folder / part.name, part)
-
 
 class McapCodec(BagCodec):
     """MCAP files of ROS 2."""
@@ -133,6 +131,7 @@ class McapCodec(BagCodec):
     name: ClassVar[str] = "mcap"
     extensions: ClassVar[tuple[str, ...]] = (".mcap",)
     limits: ClassVar[FormatLimits] = FormatLimits("MCAP with EVT3", 2048, 1 << 42)
+    kind: ClassVar[BagKind] = "mcap"
     module: ClassVar[str] = ROSBAG2
     message_type: ClassVar[str] = EVENT_PACKET
     text_start: ClassVar[int] = 8
@@ -142,72 +141,6 @@ class McapCodec(BagCodec):
         decoder = Evt3Codec().make_decoder()
         for message in _messages(self, path):
             yield decoder.decode(message.payload)
-
-    @contextmanager
-    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
-        """Open a bag for writing: rosbags writes a folder, of which the .mcap is kept."""
-        rosbag2 = require(ROSBAG2, extra=EXTRA)
-        types = message_types(2)
-        text = sidecar_text(target.size, target.metadata).encode("utf-8")
-        message = b"\0\1\0\0" + struct.pack("<I", len(text) + 1) + text + b"\0"
-        encoder = Evt3Codec().make_encoder()
-
-        def pack(columns: Columns, number: int) -> bytes:
-            words = bytes(encoder.encode(columns))
-            words = encoder.start() + words if number == 0 else words
-            stamp_ns = int(columns["t"][0]) * NS
-            return pack_event_packet(EventPacket(stamp_ns, FRAME, target.size, number, 0, words))
-
-        mcap = rosbag2.StoragePlugin.MCAP
-        with hidden_folder(part.parent) as folder:
-            with rosbag2.Writer(folder / "bag", version=9, storage_plugin=mcap) as bag:
-                facts = bag.add_connection(FACTS_TOPIC, STRING, typestore=types)
-                events = bag.add_connection(TOPIC, EVENT_PACKET, typestore=types)
-                start = partial(bag.write, facts, data=message)
-                with _write_messages(bag, events, pack, start) as write:
-                    yield write
-            os.replace(folder / "bag" / "bag.mcap", part)
-
-
-@contextmanager
-def _write_messages(
-    bag: Any, connection: Any, pack: Callable[[Columns, int], bytes], start: Callable[[int], None]
-) -> Iterator[WriteBlock]:
-    """One message per 10 ms.
-
-    Args:
-        bag: rosbags' writer.
-        connection: its connection for the events.
-        pack: makes a message of columns and its number.
-        start: writes the message of size and metadata, at a time in ns: that of the first event,
-            because players wait from one message to the next.
-    """
-    count = 0
-
-    def write(columns: Columns) -> None:
-        nonlocal count
-        if count == 0:
-            start(int(columns["t"][0]) * NS)
-        for part in split_by_time(columns, PACKET_US):
-            bag.write(connection, int(part["t"][0]) * NS, pack(part, count))
-            count += 1
-
-    yield write
-    if count == 0:
-        start(0)
-
-
-def message_types(version: int) -> Any:
-    """The message types of ROS 1 or 2, with those that hold events."""
-    typesys = require("rosbags.typesys", extra=EXTRA)
-    if version == 2:
-        types = typesys.get_typestore(typesys.Stores.ROS2_HUMBLE)
-        types.register(typesys.get_types_from_msg(EVENT_PACKET_TEXT, EVENT_PACKET))
-        return types
-    types = typesys.get_typestore(typesys.Stores.ROS1_NOETIC)
-    types.register(typesys.get_types_from_msg(EVENT_TEXT, "dvs_msgs/msg/Event"))
-    types.register(typesys.get_types_from_msg(EVENT_ARRAY_TEXT, EVENT_ARRAY))
-    return types
 
 
 @contextmanager

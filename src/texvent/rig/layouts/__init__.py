@@ -1,1 +1,1 @@
-"""How a rig's recording is laid out in its folder."""
+"""Layouts of a recorded rig."""

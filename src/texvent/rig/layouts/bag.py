@@ -21,7 +21,7 @@ import numpy as np
 from texvent._require import require
 from texvent.errors import ConfigError
 from texvent.io.metadata import sidecar_text
-from texvent.io.ros.sensor_bag import (
+from texvent.io.ros.bag_writer import (
     EXTENSIONS,
     BagKind,
     CameraFacts,

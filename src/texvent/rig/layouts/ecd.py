@@ -35,7 +35,7 @@ from texvent.truth.poses import seconds_text
 
 
 def check(recording: Recording) -> None:
-    """Refuse lenses that calib.txt cannot tell.
+    """Refuse lenses that calib.txt cannot hold.
 
     Raises:
         ConfigError: a lens is equidistant.

@@ -1,4 +1,4 @@
-"""What several layouts write: events, frames, poses, the IMU, calibrations."""
+"""Files that several layouts share: events, frames, poses, the IMU, calibrations."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ IMU_TOPIC = "/imu0"
 
 @dataclass
 class Tally:
-    """What was written, counted."""
+    """Counts of written events and frames."""
 
     events: dict[str, int] = field(default_factory=dict)
     """Camera → events."""
@@ -75,7 +75,7 @@ def write_events(
     tally: Tally,
     progress: Progress,
 ) -> None:
-    """Simulate a camera into an event file, which tells how; truth goes into `truth` beside it."""
+    """Simulate a camera into an event file with provenance; truth goes into `truth` beside it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     simulation = recording.simulation(camera, progress)
     facts = {**simulation.provenance, "rig": recording.facts(camera)}

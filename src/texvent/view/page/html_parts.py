@@ -6,7 +6,7 @@ import base64
 import html
 import json
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from importlib import resources
 from typing import Any
 
@@ -163,29 +163,6 @@ def facts_html(facts: Mapping[str, Any]) -> str:
             f'<tr><th scope="row">{html.escape(label)}</th><td>{html.escape(str(value))}</td></tr>'
         )
     return "\n".join(rows)
-
-
-def table_html(
-    titles: Sequence[str], rows: Iterable[Sequence[str]], *, kind: str = "numbers"
-) -> str:
-    """A table with a heading in every row; cells are escaped, names may break after "_".
-
-    Args:
-        titles: of the columns.
-        rows: cells, the first of each its heading.
-        kind: class of the page's style that says how cells are laid out.
-    """
-    head = "".join(f'<th scope="col">{html.escape(title)}</th>' for title in titles)
-    lines = [
-        f'<tr><th scope="row">{html.escape(first).replace("_", "_<wbr>")}</th>'
-        + "".join(f"<td>{html.escape(cell)}</td>" for cell in cells)
-        + "</tr>"
-        for first, *cells in rows
-    ]
-    return (
-        f'<div class="wide"><table class="facts {kind}">'
-        f"<thead><tr>{head}</tr></thead><tbody>{''.join(lines)}</tbody></table></div>"
-    )
 
 
 def details_html(metadata: Mapping[str, Any]) -> str:

@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.camera_path.saccades import DURATION_US
+from texvent.capture.camera_path.motion import DURATION_US
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from texvent.calibrate.distance import Distance, measure_distance
+from texvent.calibrate.search import Distance, measure_distance
 from texvent.events import EventStream
 from texvent.run.prepare import prepare_video
 from texvent.settings.resolution import Settings

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.camera_path.saccades import DURATION_US, digit_corner
+from texvent.capture.camera_path.motion import DURATION_US, digit_corner
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame, frame_time_us

@@ -12,7 +12,7 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.loading.order import epoch_order
+from texvent.dataset.loading.epoch_sampler import epoch_order
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor
 from texvent_lab.bench.digits.inputs import CLASSES

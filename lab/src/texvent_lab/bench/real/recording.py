@@ -10,10 +10,8 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.calibrate.recording import WARM_UP_US, TimeSpan
-from texvent.capture.dsec_frames import EVENTS as DSEC_EVENTS
-from texvent.capture.dsec_frames import is_dsec
-from texvent.capture.evreal_frames import is_evreal
 from texvent.capture.open import open_frames
+from texvent.capture.recorded_frames import DSEC_EVENTS, is_dsec, is_evreal
 from texvent.config import CaptureConfig
 from texvent.data.catalogue import DATA_SETS
 from texvent.data.pull import find_pulled

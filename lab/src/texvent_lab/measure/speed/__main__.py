@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-import json
 from pathlib import Path
 
+from texvent_lab.bench.document import write_document
 from texvent_lab.measure.speed.measure import Options, measure
 from texvent_lab.measure.speed.tables import as_markdown
 
@@ -25,7 +25,7 @@ def main() -> None:
             parser.error(f"no such file: {path}")
     document = measure(Options(chosen.quick, chosen.heavy_clip, chosen.video))
     if chosen.json is not None:
-        chosen.json.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
+        write_document(chosen.json, document, overwrite=True)
     print(as_markdown(document))
 
 

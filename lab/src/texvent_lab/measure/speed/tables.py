@@ -1,16 +1,16 @@
-"""The measured figures as Markdown tables; also brings docs/speed.md up to date.
+"""The measured figures as Markdown tables.
 
-python -m texvent_lab.measure.speed.tables docs/results/speed.json docs/speed.md
+python -m texvent_lab.measure.speed.tables docs/results/speed.json.gz
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
+from texvent_lab.bench.document import read_document
 from texvent_lab.measure.speed.stages import STAGES
 from texvent_lab.measure.speed.timing import rounded
 
@@ -151,9 +151,6 @@ def check_targets(document: Document) -> list[Document]:
     return rows
 
 
-BEGIN, END = "<!-- figures: begin -->", "<!-- figures: end -->"
-
-
 def as_markdown(document: Document) -> str:
     """All tables of a document."""
     return "\n\n".join(
@@ -167,19 +164,6 @@ def as_markdown(document: Document) -> str:
             _gpu(document),
         )
     )
-
-
-def put_into_page(page: str, document: Document) -> str:
-    """The page with the tables between its two marks replaced.
-
-    Raises:
-        ValueError: the page lacks a mark.
-    """
-    before, begin, rest = page.partition(BEGIN)
-    _, end, after = rest.partition(END)
-    if not (begin and end):
-        raise ValueError(f"the page must hold {BEGIN} and {END}")
-    return f"{before}{BEGIN}\n\n{as_markdown(document)}\n\n{END}{after}"
 
 
 def _table(head: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
@@ -306,17 +290,10 @@ def _gpu(document: Document) -> str:
 
 
 def main() -> None:
-    """Print the tables of a document, or put them into a page."""
+    """Print the tables of a document."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("json", type=Path)
-    parser.add_argument("page", type=Path, nargs="?")
-    chosen = parser.parse_args()
-    document = json.loads(chosen.json.read_text(encoding="utf-8"))
-    if chosen.page is None:
-        print(as_markdown(document))
-        return
-    page = chosen.page.read_text(encoding="utf-8")
-    chosen.page.write_text(put_into_page(page, document), encoding="utf-8")
+    print(as_markdown(read_document(parser.parse_args().json)))
 
 
 if __name__ == "__main__":

@@ -6,7 +6,7 @@ from pathlib import Path
 
 from texvent.batch.identity import digest
 from texvent.dataset.generation.sample import simulate_sample
-from texvent.dataset.loading.open_samples import open
+from texvent.dataset.loading.stored_samples import open
 from texvent.dataset.simulated_clips import SimulatedClips
 from texvent.dataset.specification.specification import Filters
 from texvent.errors import InputError

@@ -12,13 +12,14 @@ import numpy as np
 
 from texvent.errors import FileFormatError, InputError, shown
 from texvent.extending import require
-from texvent.networks.layer_shapes import Shapes, batch_norm, linear
-from texvent.networks.layers import Layers
-from texvent.networks.resnet34 import BLOCKS, WIDTH, resnet_scores, resnet_shapes
+from texvent.networks.layer_shapes import Shapes, linear
 from texvent.networks.weight_files import Tensor, read_mapping, state_tensors, trained_with
 from texvent.options.values import plain
 from texvent.represent.named import represent_window
 from texvent.transform.edits import resize
+from texvent_lab.networks.layer_shapes import batch_norm
+from texvent_lab.networks.layers import Layers
+from texvent_lab.networks.resnet34 import BLOCKS, WIDTH, resnet_scores, resnet_shapes
 from texvent_lab.train.classification.config import Augmentation, ClassificationConfig
 from texvent_lab.train.classification.samples import (
     ChosenSamples,
@@ -58,7 +59,7 @@ def small_cnn(channels: int, classes: int, seed: int, *, width: int | None = Non
 
 
 def resnet34(channels: int, classes: int, seed: int, *, width: int | None = None) -> TensorNetwork:
-    """See `texvent.networks.resnet34`; arguments as for `small_cnn`, `width` is 64.
+    """See `texvent_lab.networks.resnet34`; arguments as for `small_cnn`, `width` is 64.
 
     Kernels begin as K. He et al., "Delving deep into rectifiers", ICCV 2015, for outputs; the
     first and the last layer as torch's own, because N-ImageNet's program replaces them.

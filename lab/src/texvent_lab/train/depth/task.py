@@ -10,8 +10,8 @@ from typing import Any, ClassVar, Final
 from texvent.extending import require
 from texvent.metrics.dense_errors import FARTHEST_M, DepthError
 from texvent.networks.layer_shapes import Shapes
-from texvent.networks.padding import Padding
 from texvent.networks.weight_files import STATE, Tensor
+from texvent_lab.networks.layers import Padding
 from texvent_lab.reconstruct.recurrent_unet import (
     PUBLISHED_BLOCKS,
     PUBLISHED_ENCODERS,

@@ -6,10 +6,10 @@ import math
 from typing import Any
 
 from texvent.extending import require
-from texvent.networks.layer_shapes import Shapes, batch_norm, convolution
-from texvent.networks.layers import Layers
-from texvent.networks.padding import Padding
+from texvent.networks.layer_shapes import Shapes
 from texvent.networks.weight_files import Tensor
+from texvent_lab.networks.layer_shapes import batch_norm, convolution
+from texvent_lab.networks.layers import Layers, Padding
 from texvent_lab.train.schedule import EXTRA
 from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
 

@@ -9,10 +9,10 @@ from typing import Any, ClassVar, Final
 from texvent.errors import ConfigError
 from texvent.extending import require
 from texvent.metrics.dense_errors import FlowError
-from texvent.networks.layer_shapes import Shapes, conv_layer, residual_block
-from texvent.networks.layers import Layers
-from texvent.networks.padding import Padding
+from texvent.networks.layer_shapes import Shapes
 from texvent.networks.weight_files import STATE, Tensor
+from texvent_lab.networks.layer_shapes import conv_layer, residual_block
+from texvent_lab.networks.layers import Layers, Padding
 from texvent_lab.train.flow.config import FlowConfig
 from texvent_lab.train.flow.e_raft import make_e_raft
 from texvent_lab.train.schedule import EXTRA

@@ -11,7 +11,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.targets import Target
+from texvent.dataset.samples import Target
 from texvent.errors import ConfigError
 from texvent.extending import require
 from texvent.metrics.image_measures import Float64Array, load_measures

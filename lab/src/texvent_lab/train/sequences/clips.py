@@ -13,8 +13,8 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.dataset.samples import SlicedClip, Target, record_clip, target_of
 from texvent.dataset.simulated_clips import SimulatedClips
-from texvent.dataset.targets import Clip, Target, record_clip, target_of
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
@@ -42,7 +42,7 @@ class Windows:
         return len(self.events)
 
 
-def write_clip(path: Path, clip: Clip, targets: Sequence[Target]) -> None:
+def write_clip(path: Path, clip: SlicedClip, targets: Sequence[Target]) -> None:
     """Write a clip as a whole, over a file of that name.
 
     Raises:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.targets import Target
+from texvent.dataset.samples import Target
 from texvent.errors import ConfigError
 from texvent.represent.event_frame import count_events
 from texvent.represent.voxel_grid import voxel_e2vid

@@ -1,1 +1,0 @@
-"""A page that shows how well a fitted model agrees with its recording."""

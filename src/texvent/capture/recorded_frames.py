@@ -1,0 +1,195 @@
+"""Frames of recordings with events: DSEC sequences, and EVREAL's folders of arrays.
+
+Files of a DSEC sequence, once the archives are unpacked into one folder:
+
+    events/left/events.h5          the left event camera, 640x480
+    events/left/rectify_map.h5     rectify_map f4 [480, 640, 2]: raw pixel → rectified (x, y)
+    images/left/rectified/*.png    the left frame camera, rectified, another resolution
+    images/timestamps.txt          µs, on the clock of the events
+    calibration/cam_to_cam.yaml    intrinsics camRect0, camRect1; extrinsics T_10, R_rect0, R_rect1
+
+The two cameras are 4.5 cm apart. The frames are turned into the raw pixels of the event camera
+as if everything were far away: what is near stays displaced (1 px beyond about 25 m).
+
+Images of an EVREAL folder:
+
+    images.npy     u1 [n, H, W] or [n, H, W, 1]
+    images_ts.npy  f8 [n] or [n, 1], seconds, on the clock of the events
+
+Source: Gehrig et al., DSEC: A Stereo Event Camera Dataset for Driving Scenarios, RA-L 2021, and
+its description of calibration files; Ercan et al., EVREAL: Towards a Comprehensive Benchmark and
+Analysis Suite for Event-based Video Reconstruction, CVPRW 2023, and its reader.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent._require import require
+from texvent.capture.frame_source import FrameSource, SourceFacts
+from texvent.capture.frame_times import FrameTimes, listed_times
+from texvent.capture.image_folder import ImageFolder
+from texvent.capture.intensity_scale import usable_pixels
+from texvent.errors import FileFormatError, one_line, shown
+from texvent.io.arrays.npy_file import StoredArray
+from texvent.sensor import SensorSize, checked_size
+from texvent.video import MICROSECONDS, Frame
+
+DSEC_EVENTS = Path("events/left/events.h5")
+RECTIFY_MAP = Path("events/left/rectify_map.h5")
+DSEC_IMAGES = Path("images/left/rectified")
+DSEC_TIMES = Path("images/timestamps.txt")
+CALIBRATION = Path("calibration/cam_to_cam.yaml")
+
+
+def is_dsec(folder: Path) -> bool:
+    """True for the folder of a DSEC sequence."""
+    return (folder / DSEC_IMAGES).is_dir() and (folder / DSEC_EVENTS).is_file()
+
+
+class DsecFrames(FrameSource):
+    """The left frame camera's images in the pixels of the left event camera.
+
+    The calibration is read when the sequence is opened, the images one by one.
+
+    Args:
+        folder: the sequence.
+
+    Raises:
+        InputError: images or times are missing.
+        FileFormatError: the calibration is missing, damaged or lacks an entry.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._images = ImageFolder(folder / DSEC_IMAGES, timestamps=folder / DSEC_TIMES, unit="us")
+        rectified = _read_rectify_map(folder / RECTIFY_MAP)
+        homography = _read_homography(folder / CALIBRATION)
+        height, width = rectified.shape[:2]
+        seen = np.concatenate([rectified, np.ones((height, width, 1))], axis=2) @ homography.T
+        # Column and row of the frame that each pixel of the event camera sees, [480, 640].
+        self._column, self._row = (
+            (seen[..., axis] / seen[..., 2]).astype(np.float32) for axis in (0, 1)
+        )
+        self._facts = SourceFacts(
+            SensorSize(width, height),
+            self._images.fps,
+            self._images.frame_count,
+            {"source": str(folder), "kind": "DSEC sequence"},
+        )
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in order, read one by one; places that no frame shows are black."""
+        import cv2  # only frames of DSEC need it here
+
+        for frame in self._images:
+            pixels = cv2.remap(
+                np.asarray(frame.pixels), self._column, self._row, interpolation=cv2.INTER_LINEAR
+            )
+            yield Frame(np.asarray(pixels), frame.t_us)
+
+
+def _read_rectify_map(path: Path) -> NDArray[np.float64]:
+    from texvent.io.hdf5.storage import check_claims, open_hdf5  # brings h5py
+
+    with open_hdf5(path) as file:
+        stored = file["rectify_map"]
+        if stored.ndim != 3 or stored.shape[2] != 2 or stored.dtype.kind != "f":
+            raise FileFormatError(
+                f"{path}: rectify_map is {shown(stored.dtype)} of shape {shown(stored.shape)}, not "
+                "numbers [H, W, 2]"
+            )
+        check_claims(stored, path)
+        rectified = np.asarray(stored, np.float64)
+    checked_size(rectified.shape[1], rectified.shape[0])
+    if not np.isfinite(rectified).all():
+        raise FileFormatError(f"{path}: rectify_map holds values that are NaN or infinite")
+    return rectified
+
+
+def _read_homography(path: Path) -> NDArray[np.float64]:
+    """Rectified pixel of the event camera → rectified pixel of the frame camera, at infinity.
+
+    `K1 · (R_rect1 · R_10 · R_rect0⁻¹) · K0⁻¹`.
+    """
+    yaml = require("yaml")
+    try:
+        facts = yaml.safe_load(path.read_text(encoding="utf-8"))
+        event, frame = (_camera_matrix(facts["intrinsics"][f"camRect{i}"]) for i in (0, 1))
+        extrinsics = facts["extrinsics"]
+        between = np.asarray(extrinsics["T_10"], np.float64)[:3, :3]
+        turns = [np.asarray(extrinsics[f"R_rect{i}"], np.float64) for i in (0, 1)]
+        turn = turns[1] @ between @ turns[0].T
+    except (OSError, UnicodeDecodeError, yaml.YAMLError) as error:
+        raise FileFormatError(f"calibration {path} cannot be read ({one_line(error)})") from error
+    except (KeyError, TypeError, ValueError, IndexError, RecursionError) as error:
+        raise FileFormatError(f"calibration {path} lacks an entry ({one_line(error)})") from error
+    return np.asarray(frame @ turn @ np.linalg.inv(event))
+
+
+def _camera_matrix(camera: Mapping[str, Any]) -> NDArray[np.float64]:
+    """From DSEC's [fx, fy, cx, cy]."""
+    fx, fy, cx, cy = (float(value) for value in camera["camera_matrix"])
+    return np.array([[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]])
+
+
+IMAGES, TIMES = "images.npy", "images_ts.npy"
+LAST_S = 2**51 / MICROSECONDS
+"""Later times, s, are not kept to the µs by the file's own numbers."""
+
+
+def is_evreal(folder: Path) -> bool:
+    """True for a folder with EVREAL's arrays of images and their times."""
+    return all((folder / name).is_file() for name in (IMAGES, TIMES))
+
+
+class EvrealFrames(FrameSource):
+    """The images of a folder in order; they are read when they are asked for.
+
+    Args:
+        folder: holds images.npy and images_ts.npy.
+        times: frame times that replace the folder's own.
+
+    Raises:
+        FileFormatError: an array is damaged or of another shape.
+        InputError: another number of times is given than there are images, or times that do not
+            increase.
+    """
+
+    def __init__(self, folder: Path, times: FrameTimes | None = None) -> None:
+        self._folder = folder
+        images = StoredArray(folder / IMAGES)
+        if images.ndim not in (3, 4):
+            raise FileFormatError(
+                f"{folder / IMAGES} has shape {shown(images.shape)}; images are [n, H, W]"
+            )
+        self._images = images
+        self._times = times or _read_times(folder / TIMES)
+        self._times.check_count(len(images))
+        self._facts = SourceFacts(
+            checked_size(images.shape[2], images.shape[1]),
+            self._times.fps,
+            len(images),
+            {"source": str(folder), "kind": "EVREAL folder"},
+        )
+
+    def __iter__(self) -> Iterator[Frame]:
+        """Frames in order, read one by one."""
+        for index, image in enumerate(self._images):
+            grey = image[..., 0] if image.shape[2:] == (1,) else image
+            pixels = usable_pixels(grey, str(self._folder / IMAGES))
+            yield Frame(pixels, self._times(index))
+
+
+def _read_times(path: Path) -> FrameTimes:
+    stored = StoredArray(path)
+    if stored.dtype.kind not in "fiu" or stored.ndim == 0:
+        raise FileFormatError(f"{path} holds {shown(stored.dtype)}, not a list of seconds")
+    seconds = stored.rows(0, len(stored)).reshape(-1).astype(np.float64)
+    if not (np.abs(seconds) < LAST_S).all():
+        raise FileFormatError(f"{path} holds {stored.dtype} that are not all seconds")
+    return listed_times(np.rint(seconds * MICROSECONDS).astype(np.int64), path.name)

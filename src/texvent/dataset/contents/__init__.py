@@ -1,1 +1,0 @@
-"""A data set that was made: what its folder holds, checked, counted, put together."""

@@ -1,0 +1,224 @@
+"""Shards and their records."""
+
+from __future__ import annotations
+
+import io
+import json
+import tarfile
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, field, fields
+from pathlib import Path
+from typing import Any, BinaryIO
+
+from texvent.errors import FileFormatError, one_line
+from texvent.io.atomic import atomic_file
+
+MADE, FILTERED, FAILED = "made", "filtered", "failed"
+LAYOUT = 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class SampleRecord:
+    """Result of one sample."""
+
+    key: str
+    clip: str
+    """Key of its video; all variants of it share this."""
+    status: str
+    """made, filtered (left out by the filters) or failed."""
+    seed: int
+    """Seed of its simulation; of its video in a shard of videos."""
+    prompt: str | None = None
+    label: str | None = None
+    is_scene: bool = False
+    """Whether it shows a scene file, of which others may have the same prompt."""
+    reason: str | None = None
+    """Reason for filtering or failure."""
+    warnings: tuple[str, ...] = ()
+    """Warnings, such as words that are not understood."""
+    prompt_report: Mapping[str, Any] | None = None
+    """A `PromptReport` as JSON; None where it is not known."""
+    events: int = 0
+    """Number of stored events."""
+    signal_events: int = 0
+    """Events of the video without noise; also known of a sample that the filters leave out."""
+    duration_us: int = 0
+    start_us: int = 0
+    """Time of the first frame: 0, but for clips cut from a longer video."""
+    width: int = 0
+    height: int = 0
+    members: Mapping[str, tuple[int, int]] = field(default_factory=dict)
+    """Extension → position of its content in the shard, and bytes."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShardSummary:
+    """The counts of a complete shard; small, where its record is not."""
+
+    made: int
+    filtered: int
+    failed: int
+    events: int
+    bytes: int
+    seconds: float
+
+    @property
+    def samples(self) -> int:
+        """All of them, also those that are not there."""
+        return self.made + self.filtered + self.failed
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShardRecord:
+    """A complete shard."""
+
+    name: str
+    """Such as "train-000012"."""
+    split: str
+    variant: str
+    """"videos" for shards of videos."""
+    identity: str
+    """Identity of its data set; see `Recipe.identity`."""
+    sha256: str
+    bytes: int
+    samples: tuple[SampleRecord, ...]
+    seconds: float
+    """Working time, s."""
+    versions: Mapping[str, str] = field(default_factory=dict)
+    """Package → version, of the process that made it."""
+    layout: int = LAYOUT
+
+    def count(self, status: str) -> int:
+        """Number of its samples with a status."""
+        return sum(sample.status == status for sample in self.samples)
+
+    @property
+    def events(self) -> int:
+        """Events of all its samples."""
+        return sum(sample.events for sample in self.samples)
+
+    @property
+    def summary(self) -> ShardSummary:
+        """Its counts."""
+        return ShardSummary(
+            made=self.count(MADE),
+            filtered=self.count(FILTERED),
+            failed=self.count(FAILED),
+            events=self.events,
+            bytes=self.bytes,
+            seconds=self.seconds,
+        )
+
+
+def record_path(shard: Path) -> Path:
+    """Path of the record of a shard."""
+    return shard.with_suffix(".json")
+
+
+def write_record(shard: Path, record: ShardRecord) -> None:
+    """Write the record of a shard, which makes it complete."""
+    tables = asdict(record)
+    for sample in tables["samples"]:
+        if not sample["is_scene"]:  # which versions before scene files do not know
+            del sample["is_scene"]
+    text = json.dumps(tables, ensure_ascii=False, separators=(",", ":"))
+    with atomic_file(record_path(shard), overwrite=True) as part:
+        part.write_text(text + "\n", encoding="utf-8")
+
+
+def read_record(shard: Path) -> ShardRecord | None:
+    """The record of a shard, or None if it has none.
+
+    Raises:
+        FileFormatError: it is damaged.
+    """
+    path = record_path(shard)
+    try:
+        text = path.read_text(encoding="utf-8")
+    except FileNotFoundError:
+        return None
+    except UnicodeDecodeError as error:
+        raise FileFormatError(f"{path} is damaged ({one_line(error)}); {REMEDY}") from error
+    try:
+        tables = json.loads(text)
+        samples = tuple(_sample(one) for one in tables.pop("samples"))
+        known = {one.name for one in fields(ShardRecord)}
+        return ShardRecord(samples=samples, **{k: v for k, v in tables.items() if k in known})
+    except (ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+        raise FileFormatError(f"{path} is damaged ({one_line(error)}); {REMEDY}") from error
+
+
+REMEDY = "delete it, and texvent dataset make makes its shard again"
+
+
+def _sample(tables: Mapping[str, Any]) -> SampleRecord:
+    members = {name: (int(begin), int(size)) for name, (begin, size) in tables["members"].items()}
+    return SampleRecord(
+        **{**tables, "members": members, "warnings": tuple(tables.get("warnings", ()))}
+    )
+
+
+EXTENSION = ".tar"
+MODE = 0o444
+
+
+class TarShardWriter:
+    """Adds samples to a tar."""
+
+    def __init__(self, file: BinaryIO) -> None:
+        self._tar = tarfile.TarFile(fileobj=file, mode="w", format=tarfile.USTAR_FORMAT)
+
+    def add(self, key: str, members: Mapping[str, bytes]) -> dict[str, tuple[int, int]]:
+        """Write the members of a sample.
+
+        Args:
+            key: name before the first dot.
+            members: extension → content.
+
+        Returns:
+            Extension → position of the content in the file, and bytes.
+        """
+        places = {}
+        for extension, content in members.items():
+            info = tarfile.TarInfo(f"{key}.{extension}")
+            info.size, info.mode = len(content), MODE
+            self._tar.addfile(info, io.BytesIO(content))
+            begin = self._tar.offset - size_in_tar(len(content)) + tarfile.BLOCKSIZE
+            places[extension] = (begin, len(content))
+        return places
+
+    def close(self) -> None:
+        """Write the end of the tar."""
+        self._tar.close()
+
+
+def size_in_tar(size: int) -> int:
+    """Bytes that a member takes: its header, and its content in whole blocks of 512 bytes."""
+    return tarfile.BLOCKSIZE * (1 - (-size // tarfile.BLOCKSIZE))
+
+
+def read_members(
+    shard: Path, places: Mapping[str, tuple[int, int]], only: tuple[str, ...] | None = None
+) -> dict[str, bytes]:
+    """The members of one sample.
+
+    Args:
+        shard: the tar.
+        places: as `TarShardWriter.add` returned them.
+        only: extensions that are wanted; None: all.
+
+    Raises:
+        FileFormatError: the file is gone or shorter than it was.
+    """
+    try:
+        with shard.open("rb") as file:
+            members = {}
+            for extension, (begin, size) in places.items():
+                if only is None or extension in only:
+                    file.seek(begin)
+                    members[extension] = file.read(size)
+    except OSError as error:
+        raise FileFormatError(f"cannot read {shard}: {one_line(error)}") from error
+    if any(len(members[name]) < places[name][1] for name in members):
+        raise FileFormatError(f"{shard} is shorter than it was; run texvent dataset verify")
+    return members

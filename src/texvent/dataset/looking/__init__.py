@@ -1,1 +1,0 @@
-"""Data sets to look at: pages, plots, contact sheets."""

@@ -1,0 +1,1 @@
+"""Reading of stored data sets: folder, records, events."""

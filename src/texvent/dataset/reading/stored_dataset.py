@@ -1,0 +1,214 @@
+"""Stored data set: its folder, shards and records, made here or by others."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Any, TypeGuard
+
+from texvent._registry import SIMULATORS, suggest
+from texvent.dataset.generation.recipe import ITEMS_FILE, VIDEOS, read_facts, read_recipe
+from texvent.dataset.generation.shards import (
+    EXTENSION,
+    MADE,
+    SampleRecord,
+    ShardRecord,
+    read_record,
+)
+from texvent.errors import FileFormatError, InputError, shown
+
+SHARD_FILE = re.compile(r"(?P<split>[A-Za-z0-9][A-Za-z0-9_-]*)-(?P<number>\d{6,})\.(tar|json)")
+SHARDS = "shards"
+"""Key of the shard counts in the facts of a merged set."""
+
+
+@dataclass(frozen=True)
+class StoredShard:
+    """A complete shard."""
+
+    path: Path
+    """The tar."""
+    record: ShardRecord
+
+    @property
+    def place(self) -> str:
+        """Its path in the folder of the data set."""
+        return f"{self.path.parent.name}/{self.path.name}"
+
+    @property
+    def samples(self) -> Iterator[SampleRecord]:
+        """Samples that are in it."""
+        return (sample for sample in self.record.samples if sample.status == MADE)
+
+
+@dataclass(frozen=True)
+class StoredDataset:
+    """A data set, whole or in part; records are read when they are asked for."""
+
+    folder: Path
+    facts: Mapping[str, Any]
+    """Content of its specification.json."""
+
+    @classmethod
+    def open(cls, folder: Path) -> StoredDataset:
+        """The data set in a folder.
+
+        Raises:
+            InputError: there is none.
+            FileFormatError: its specification is damaged.
+        """
+        dataset = cls(folder, read_facts(folder))
+        try:
+            dataset.name, dataset.variants, dataset.splits, dataset.identity  # noqa: B018
+        except (KeyError, TypeError, AttributeError) as error:
+            raise FileFormatError(f"{folder / 'specification.json'} is damaged") from error
+        return dataset
+
+    @property
+    def specification(self) -> Mapping[str, Any]:
+        """Its specification as plain values; of a merged set name, splits and variants alone."""
+        tables: Mapping[str, Any] = self.facts["specification"]
+        return tables
+
+    @property
+    def name(self) -> str:
+        """Name of the data set."""
+        return str(self.specification["name"])
+
+    @property
+    def identity(self) -> str:
+        """Identity that its records name."""
+        return str(self.facts["identity"])
+
+    @property
+    def labels(self) -> tuple[str, ...]:
+        """Names of the classes in the order of their numbers."""
+        return tuple(map(str, self.facts.get("labels", ())))
+
+    @property
+    def splits(self) -> tuple[str, ...]:
+        """Names of the splits."""
+        return tuple(self.specification["splits"])
+
+    @cached_property
+    def variants(self) -> Mapping[str, Mapping[str, Any]]:
+        """Name → what the specification says of it."""
+        return {str(one["name"]): one for one in self.specification["variants"]}
+
+    @property
+    def is_merged(self) -> bool:
+        """True if it was put together from others."""
+        return "merged" in self.facts
+
+    @property
+    def has_videos(self) -> bool:
+        """True if its videos are stored."""
+        return (self.folder / VIDEOS).is_dir()
+
+    def simulator_of(self, variant: str) -> str | None:
+        """Name of the simulator of a variant; None where samples differ in it."""
+        default = next(iter(SIMULATORS.builtin))
+        options = self.specification.get("options", {})
+        name = (
+            self.variants[variant]
+            .get("options", {})
+            .get("simulator", options.get("simulator", default))
+        )
+        return name if isinstance(name, str) else None
+
+    def shards(self, *variants: str) -> Iterator[StoredShard]:
+        """The complete shards of some variants (default: all but the videos), in order.
+
+        Raises:
+            FileFormatError: a record is damaged.
+        """
+        for variant in variants or self.variants:
+            for path in self.shard_files(variant):
+                record = read_record(path)
+                if (
+                    self.is_own(record, path)
+                    and path.is_file()
+                    and path.stat().st_size == record.bytes
+                ):
+                    yield StoredShard(path, record)
+
+    def is_own(self, record: ShardRecord | None, path: Path) -> TypeGuard[ShardRecord]:
+        """True if a record is there, of this data set, and of the shard at `path`."""
+        return (
+            record is not None
+            and record.identity == self.identity
+            and (record.variant, record.name) == (path.parent.name, path.stem)
+        )
+
+    def shard_files(self, variant: str) -> list[Path]:
+        """Tars of a variant that are there or have a record, in the order of the splits."""
+        folder = self.folder / variant
+        found = {}
+        for path in folder.iterdir() if folder.is_dir() else ():
+            match = SHARD_FILE.fullmatch(path.name)
+            if match and match["split"] in self.splits:
+                place = self.splits.index(match["split"]), int(match["number"])
+                found[place] = path.with_suffix(EXTENSION)
+        return [found[place] for place in sorted(found)]
+
+    def expected(self) -> set[str] | None:
+        """Places of all shards that belong to it, or None where the folder does not state them."""
+        if self.is_merged:
+            counts = self.facts[SHARDS]
+            return {
+                f"{variant}/{split}-{number:06d}{EXTENSION}"
+                for variant, splits in counts.items()
+                for split, count in splits.items()
+                for number in range(count)
+            }
+        if not (self.folder / ITEMS_FILE).is_file():
+            return None
+        recipe = read_recipe(self.folder)
+        stages = [*([VIDEOS] if recipe.stores_videos else []), *recipe.variants]
+        return {str(shard.path) for stage in stages for shard in recipe.shards(stage)}
+
+    def missing(self, *variants: str) -> list[str]:
+        """Places of shards of some variants (default: all but the videos) that are not complete.
+
+        A copy without items.jsonl is judged by the numbers alone: the last shards are not missed.
+        """
+        variants = variants or tuple(self.variants)
+        there = {shard.place for shard in self.shards(*variants)}
+        expected = self.expected()
+        if expected is None:
+            return sorted(_numbered_until_last(there) - there)
+        return sorted(one for one in expected - there if one.partition("/")[0] in variants)
+
+    def check_variant(self, name: str | None) -> str:
+        """The variant of that name, or the only one.
+
+        Raises:
+            InputError: there is no such, or several and none is named.
+        """
+        names = tuple(self.variants)
+        if name is None:
+            if len(names) > 1:
+                raise InputError(
+                    f"{self.folder} has {len(names)} variants ({', '.join(names)}); choose one "
+                    "with --variant"
+                )
+            return names[0]
+        if name not in names:
+            raise InputError(f"{self.folder} has no variant {shown(name)}; {suggest(name, names)}")
+        return name
+
+
+def _numbered_until_last(places: set[str]) -> set[str]:
+    """All places with the same or a lower number than one that is there."""
+    last: dict[str, int] = {}
+    for place in places:
+        stem, _, number = place.removesuffix(EXTENSION).rpartition("-")
+        last[stem] = max(last.get(stem, 0), int(number))
+    return {
+        f"{stem}-{number:06d}{EXTENSION}"
+        for stem, highest in last.items()
+        for number in range(highest + 1)
+    }

@@ -1,0 +1,286 @@
+"""Statistics of a data set, counted from its records: samples, events, rates, classes, failures."""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from texvent.dataset.generation.shards import (
+    FAILED,
+    FILTERED,
+    MADE,
+    SampleRecord,
+    ShardRecord,
+)
+from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
+from texvent.errors import shown
+from texvent.scenes.report import PromptReport, ReportTally, ranked
+
+QUANTILES = (0.05, 0.5, 0.95)
+MOST_REASONS = 10
+MOST_NAMED = 10
+"""Samples that the summary names of those left out for one reason."""
+MICROSECONDS = 1_000_000
+COUNTS = ("variant", "split", "samples", "left out", "failed", "events", "median events",
+          "median s", "median events/s", "MB")  # fmt: skip
+
+
+class LeftOut(NamedTuple):
+    """A sample that the filters leave out."""
+
+    signal_events: int
+    """Events of its video without noise."""
+    key: str
+    shows: str
+    """Its prompt, or the key of its video."""
+    variant: str
+    reason: str
+
+
+@dataclass
+class Statistics:
+    """Counts of all shards, of a variant, of a split of one, or of a trial."""
+
+    shards: int = 0
+    bytes: int = 0
+    seconds: float = 0.0
+    """Working time that the shards took."""
+    left_out: list[LeftOut] = field(default_factory=list)
+    failed: int = 0
+    events: list[int] = field(default_factory=list)
+    """Number of events of each sample."""
+    durations_us: list[int] = field(default_factory=list)
+    """Duration of each sample, µs."""
+    clips: set[str] = field(default_factory=set)
+    classes: Counter[str] = field(default_factory=Counter)
+    sensors: Counter[str] = field(default_factory=Counter)
+    reasons: Counter[str] = field(default_factory=Counter)
+    """Reasons of filtering and failure, numbers left out."""
+    warnings: Counter[str] = field(default_factory=Counter)
+    reports: ReportTally = field(default_factory=ReportTally)
+    """Understood and other words of prompts; each clip counts once over all variants."""
+    reported: set[str] = field(default_factory=set)
+    """Clips with a report."""
+    unreported: set[str] = field(default_factory=set)
+    """Clips of samples that failed, with no report."""
+    versions: Counter[str] = field(default_factory=Counter)
+    """Version of texvent → shards."""
+
+    @classmethod
+    def of(cls, records: Iterable[ShardRecord]) -> Statistics:
+        """Count some shards."""
+        statistics = cls()
+        for record in records:
+            statistics.add(record)
+        return statistics
+
+    def add(self, record: ShardRecord) -> None:
+        """Count a shard."""
+        self.shards += 1
+        self.bytes += record.bytes
+        self.seconds += record.seconds
+        self.failed += record.count(FAILED)
+        self.versions[record.versions.get("texvent", "unknown")] += 1
+        for sample in record.samples:
+            self.warnings.update(map(without_numbers, sample.warnings))
+            self._add_report(sample)
+            if sample.status == FILTERED:
+                self._leave_out(sample, record.variant)
+            if sample.status == FAILED:
+                self.reasons[f"failed: {without_numbers(sample.reason or '')}"] += 1
+            if sample.status != MADE:
+                continue
+            self.events.append(sample.events)
+            self.durations_us.append(sample.duration_us)
+            self.clips.add(sample.clip)
+            self.sensors[f"{sample.width}x{sample.height}"] += 1
+            if sample.label is not None:
+                self.classes[sample.label] += 1
+
+    def _leave_out(self, sample: SampleRecord, variant: str) -> None:
+        reason, shows = sample.reason or "", sample.prompt or sample.clip
+        self.left_out.append(LeftOut(sample.signal_events, sample.key, shows, variant, reason))
+        self.reasons[f"left out: {reason}"] += 1
+
+    def _add_report(self, sample: SampleRecord) -> None:
+        if sample.prompt_report is None:
+            if sample.status == FAILED:
+                self.unreported.add(sample.clip)
+        elif sample.clip not in self.reported:
+            self.reported.add(sample.clip)
+            self.reports.add(PromptReport.from_json(sample.prompt_report))
+
+    @property
+    def samples(self) -> int:
+        """Number of samples."""
+        return len(self.events)
+
+    @property
+    def prompts(self) -> ReportTally | None:
+        """Counts of clips that show what their prompts say; one that could not be made is refused.
+
+        None for videos, for learned generators, and where every clip failed.
+        """
+        if not self.reported:
+            return None
+        refused = len(self.unreported - self.reported)
+        return replace(self.reports, prompts=self.reports.prompts + refused, refused=refused)
+
+    @property
+    def rates(self) -> list[float]:
+        """Events per second of each sample that lasts."""
+        pairs = zip(self.events, self.durations_us, strict=True)
+        return [events / us * MICROSECONDS for events, us in pairs if us]
+
+    @property
+    def tables(self) -> dict[str, Any]:
+        """Plain values, ready for JSON."""
+        return {
+            "samples": self.samples,
+            "left_out": [one._asdict() for one in sorted(self.left_out)],
+            "failed": self.failed,
+            "clips": len(self.clips),
+            "shards": self.shards,
+            "bytes": self.bytes,
+            "working_seconds": round(self.seconds, 1),
+            "events": sum(self.events),
+            "duration_s": sum(self.durations_us) / MICROSECONDS,
+            "events_per_sample": quantiles(self.events),
+            "duration_s_per_sample": quantiles([us / MICROSECONDS for us in self.durations_us]),
+            "events_per_second": quantiles(self.rates),
+            "sensors": dict(sorted(self.sensors.items())),
+            "classes": dict(sorted(self.classes.items())),
+            "reasons": dict(self.reasons.most_common(MOST_REASONS)),
+            "warnings": dict(self.warnings.most_common(MOST_REASONS)),
+            "prompts": (self.prompts or ReportTally()).tables,
+            "texvent_versions": dict(sorted(self.versions.items())),
+        }
+
+
+@dataclass(frozen=True)
+class DatasetStatistics:
+    """Statistics of a data set, counted in one pass."""
+
+    total: Statistics
+    parts: dict[tuple[str, str], Statistics]
+    """(variant, split) → its own, in the order of the shards."""
+
+    @classmethod
+    def of(cls, dataset: StoredDataset) -> DatasetStatistics:
+        """Read all records.
+
+        Raises:
+            FileFormatError: one is damaged.
+        """
+        total, parts = Statistics(), dict[tuple[str, str], Statistics]()
+        for shard in dataset.shards():
+            total.add(shard.record)
+            place = shard.record.variant, shard.record.split
+            parts.setdefault(place, Statistics()).add(shard.record)
+        return cls(total, parts)
+
+    @property
+    def tables(self) -> dict[str, Any]:
+        """Plain values, ready for JSON."""
+        variants: dict[str, Any] = {}
+        for (variant, split), part in self.parts.items():
+            variants.setdefault(variant, {})[split] = part.tables
+        return {"total": self.total.tables, "variants": variants}
+
+
+def counts_rows(statistics: DatasetStatistics) -> list[list[str]]:
+    """Cells for `COUNTS`: a row for each split of each variant."""
+    rows = []
+    for (variant, split), part in statistics.parts.items():
+        facts = part.tables
+        medians = (
+            facts[name].get("median", 0.0)
+            for name in ("events_per_sample", "duration_s_per_sample", "events_per_second")
+        )
+        counts = (part.samples, len(part.left_out), part.failed, facts["events"])
+        rows.append(
+            [
+                *(variant, split),
+                *(f"{count:,}" for count in counts),
+                *map(number_text, medians),
+                f"{part.bytes / 1e6:,.2f}",
+            ]
+        )
+    return rows
+
+
+def quantiles(values: Sequence[float]) -> dict[str, float]:
+    """Mean, 5 %, median, 95 %, least and most; nothing of no values."""
+    if not values:
+        return {}
+    low, middle, high = np.quantile(values, QUANTILES)
+    facts = {"mean": np.mean(values), "p5": low, "median": middle, "p95": high,
+             "min": min(values), "max": max(values)}  # fmt: skip
+    return {name: float(f"{value:.7g}") for name, value in facts.items()}
+
+
+def number_text(value: float) -> str:
+    """Three digits, or all before the point.
+
+    Example:
+        >>> number_text(0.08333), number_text(23894.5)
+        ('0.0833', '23,894')
+    """
+    return f"{value:,.0f}" if value >= 1000 else f"{value:.3g}"
+
+
+def without_numbers(text: str) -> str:
+    """A message with N for its numbers, so that equal ones count together.
+
+    Example:
+        >>> without_numbers("frame 12 of 1,000 is damaged")
+        'frame N of N is damaged'
+    """
+    return re.sub(r"\b\d[\d,.]*\b", "N", text)
+
+
+def in_several_splits(shards: Iterable[StoredShard]) -> set[str]:
+    """Prompts, or videos, with samples in several splits, so that tests see training data."""
+    split_of: dict[str, str] = {}
+    found = set()
+    for shard in shards:
+        for sample in shard.samples:
+            shows = sample.clip if sample.is_scene else sample.prompt or sample.clip
+            if split_of.setdefault(shows, shard.record.split) != shard.record.split:
+                found.add(shows)
+    return found
+
+
+def summary_lines(statistics: Statistics) -> list[str]:
+    """The counts of a data set, of a part of it, or of the trial of a plan, for people.
+
+    Example:
+        >>> summary_lines(Statistics())
+        ['samples  0 made, 0 left out, 0 failed']
+    """
+    left_out = sorted(statistics.left_out)
+    lines = [
+        f"samples  {statistics.samples:,} made, {len(left_out):,} left out, "
+        f"{statistics.failed:,} failed"
+    ]
+    for reason, count in ranked(statistics.reasons)[:MOST_REASONS]:
+        kind, _, why = reason.partition(": ")
+        lines.append(f"{kind:8} {count:,}: {why}")
+        named = [one for one in left_out if reason == f"left out: {one.reason}"]
+        lines += [
+            f"         {one.variant}/{one.key} {shown(one.shows)}: {one.signal_events:,}"
+            for one in named[:MOST_NAMED]
+        ]
+        if len(named) > MOST_NAMED:
+            lines.append(
+                f"         and {len(named) - MOST_NAMED:,} more: texvent dataset stats --json "
+                "names all"
+            )
+    if statistics.prompts is not None:
+        lines.append(f"prompts  {statistics.prompts.line('clips')}")
+    return lines

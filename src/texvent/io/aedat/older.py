@@ -1,0 +1,334 @@
+"""AEDAT2 (jAER) and AEDAT3.1 (cAER): text lines that start with `#`, then binary records.
+
+Nothing but the first byte of a line says whether it still is text. AEDAT3.1 closes its header by a
+line of its own, jAER closes AEDAT2 by `#End Of ASCII Header`.
+
+AEDAT2, 8 bytes per event, big-endian:
+
+    record       u32 address · u32 time, µs
+    davis346     (259 - y)<<22 | (345 - x)<<12 | p<<11      jAER and v2e; bit 31 or 10: no event
+    jaer-dvs128  (127 - y)<<8 | (127 - x)<<1 | (1 - p)      jAER; bit 31 or 15: no event
+    dvs128       x<<8 | y<<1 | p                            tonic
+    cifar10-dvs  (127 - x)<<8 | (127 - y)<<1 | (1 - p)      SpikingJelly
+
+The layout of the address depends on the camera and the tool; x and y count from the top left here,
+y from the bottom in jAER. A header line `# Layout: davis346` or `# AEChip: ...` names it; any other
+file is read only with the layout's format given, because a wrong one gives wrong events without any
+error. docs/files.md says which recording is read with which.
+
+AEDAT3.1, packets of events, little-endian; DVS128Gesture's:
+
+    packet   i16 type 1 · i16 source · i32 event size 8 · i32 time offset 4 · i32 time turns ·
+             i32 capacity · i32 events · i32 valid events
+    event    u32: 31..17 x · 16..2 y · 1 polarity · 0 valid · u32 time, µs, 31 bits
+
+The time counter turns after 2^31 µs; `time turns` of the packet counts this, so long recordings are
+whole. The sensor's size follows from the camera named in `#Source 1: DVS128` (or from
+`#Size: WIDTHxHEIGHT`), or is asked for. Packets of other types (frames, IMU samples, triggers) and
+events marked invalid are skipped.
+
+Sources: iniVation, AEDAT 2.0 and 3.1 file formats; jAER, DVS128.Extractor (flips x and the
+polarity); the readers named above (formats are facts).
+"""
+
+from __future__ import annotations
+
+import os
+import re
+import struct
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Any, BinaryIO, ClassVar, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import FileFormatError, InputError
+from texvent.io.block_codec import BlockReader, FileContents, read_records
+from texvent.io.input_checks import begins_with
+from texvent.io.metadata import MAX_HEADER_BYTES, metadata_from_json
+from texvent.io.protocol import Columns
+from texvent.sensor import SENSORS, SensorSize
+
+AEDAT2_MAGIC = "#!AER-DAT2.0"
+AEDAT3_MAGIC = "#!AER-DAT3.1"
+AEDAT2_END = "#End Of ASCII Header"
+AEDAT3_END = "#!END-HEADER"
+METADATA = "# texvent "
+
+
+@dataclass(frozen=True)
+class AedatHeader:
+    """The lines before the records."""
+
+    lines: tuple[str, ...]
+    """Without their line ends."""
+    length: int
+    """Bytes up to the first record."""
+
+    def metadata(self, path: Path) -> dict[str, Any]:
+        """Provenance of the events, or the header of another program.
+
+        Raises:
+            FileFormatError: the line of texvent is damaged.
+        """
+        for line in self.lines:
+            if line.startswith(METADATA):
+                return metadata_from_json(path, line.removeprefix(METADATA))
+        return {"header": list(self.lines[1:])} if len(self.lines) > 1 else {}
+
+    def value(self, key: str) -> str | None:
+        """Value of the line `#key: ` or `# key: `, if there is one."""
+        for line in self.lines:
+            name, colon, value = line.removeprefix("#").partition(":")
+            if colon and name.strip() == key:
+                return value.strip()
+        return None
+
+
+def read_aedat_header(path: Path, magic: str, end: str) -> AedatHeader:
+    """The header of a file.
+
+    Args:
+        path: the file.
+        magic: its first line.
+        end: its last line, where the format has one.
+
+    Raises:
+        FileFormatError: the first line is another, or the header does not end.
+    """
+    lines: list[str] = []
+    length = 0
+    with path.open("rb") as file:
+        while True:
+            line = file.readline(MAX_HEADER_BYTES - length + 1)
+            if not line.startswith(b"#"):
+                break
+            if length + len(line) > MAX_HEADER_BYTES:
+                raise FileFormatError(f"{path}: its header is longer than 8 MiB; it is damaged")
+            if not line.endswith(b"\n"):
+                raise FileFormatError(f"{path} ends inside its header; the file was cut off")
+            length += len(line)
+            lines.append(line.decode("latin-1").rstrip("\r\n"))
+            if lines[0] != magic:
+                raise FileFormatError(f"{path} begins with {lines[0][:40]!r}, not with {magic}")
+            if lines[-1] == end:
+                break
+    if not lines:
+        raise FileFormatError(f"{path} does not begin with {magic}")
+    return AedatHeader(tuple(lines), length)
+
+
+RECORD = np.dtype([("address", ">u4"), ("t", ">u4")])
+SPECIAL = 1 << 10
+"""Bit of a DAVIS address that is no pixel's: an external signal."""
+APS = 1 << 31
+"""Bit of a DAVIS address that is an image's or an IMU's; of a DVS128's, jAER's special events."""
+SYNC = 1 << 15
+"""Bit of a DVS128 address that is an external signal's."""
+
+Addresses: TypeAlias = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class AddressLayout:
+    """Pixels and polarity of 32-bit addresses; beyond the sensor, coordinates come out negative."""
+
+    name: str
+    size: SensorSize
+    decode: Callable[[Addresses], dict[str, Addresses]]
+    not_events: int = 0
+    """Addresses with one of these bits are no events."""
+
+
+def _decode_davis(address: Addresses) -> dict[str, Addresses]:
+    x, y = 345 - (address >> 12 & 1023), 259 - (address >> 22 & 511)
+    return {"x": x, "y": y, "p": address >> 11 & 1}
+
+
+def _decode_dvs(address: Addresses) -> dict[str, Addresses]:
+    return {"x": address >> 8, "y": address >> 1 & 127, "p": address & 1}
+
+
+def _decode_jaer_dvs(address: Addresses) -> dict[str, Addresses]:
+    return {"x": 127 - (address >> 1 & 127), "y": 127 - (address >> 8), "p": 1 - (address & 1)}
+
+
+def _decode_cifar(address: Addresses) -> dict[str, Addresses]:
+    # Mirroring x and y and swapping ON and OFF flips all 15 bits.
+    return _decode_dvs(address ^ 0x7FFF)
+
+
+_DVS = SensorSize(128, 128)
+DAVIS346 = AddressLayout("davis346", SensorSize(346, 260), _decode_davis, SPECIAL | APS)
+JAER_DVS128 = AddressLayout("jaer-dvs128", _DVS, _decode_jaer_dvs, APS | SYNC)
+DVS128 = AddressLayout("dvs128", _DVS, _decode_dvs)
+CIFAR10_DVS = AddressLayout("cifar10-dvs", _DVS, _decode_cifar)
+LAYOUTS = {layout.name: layout for layout in (DAVIS346, JAER_DVS128, DVS128, CIFAR10_DVS)}
+
+
+class Aedat2Codec(BlockReader):
+    """AEDAT2 whose header names its layout."""
+
+    name: ClassVar[str] = "aedat2"
+    extensions: ClassVar[tuple[str, ...]] = (".aedat",)
+    layout: ClassVar[AddressLayout | None] = None
+
+    def recognises(self, path: Path) -> bool:
+        """True if the file begins as AEDAT2 does."""
+        return begins_with(path, AEDAT2_MAGIC.encode())
+
+    def inspect(self, path: Path) -> FileContents:
+        """The header names the layout, which has a size, and holds the metadata."""
+        header = read_aedat_header(path, AEDAT2_MAGIC, AEDAT2_END)
+        layout = self.layout or _named_layout(path, header)
+        blocks = partial(_read_addresses, path, header.length, layout)
+        return FileContents(layout.size, header.metadata(path), blocks)
+
+
+class Davis346Codec(Aedat2Codec):
+    """AEDAT2 of a DAVIS346."""
+
+    name: ClassVar[str] = "aedat2-davis346"
+    extensions: ClassVar[tuple[str, ...]] = ()
+    layout: ClassVar[AddressLayout | None] = DAVIS346
+
+
+class JaerDvs128Codec(Aedat2Codec):
+    """AEDAT2 of a DVS128, as jAER writes and shows it."""
+
+    name: ClassVar[str] = "aedat2-jaer-dvs128"
+    extensions: ClassVar[tuple[str, ...]] = ()
+    layout: ClassVar[AddressLayout | None] = JAER_DVS128
+
+
+class Dvs128Codec(Aedat2Codec):
+    """AEDAT2 of a DVS128, as tonic reads it."""
+
+    name: ClassVar[str] = "aedat2-dvs128"
+    extensions: ClassVar[tuple[str, ...]] = ()
+    layout: ClassVar[AddressLayout | None] = DVS128
+
+
+class Cifar10DvsCodec(Aedat2Codec):
+    """AEDAT2 of a DVS128, as SpikingJelly reads CIFAR10-DVS."""
+
+    name: ClassVar[str] = "cifar10-dvs"
+    extensions: ClassVar[tuple[str, ...]] = ()
+    layout: ClassVar[AddressLayout | None] = CIFAR10_DVS
+
+
+def _named_layout(path: Path, header: AedatHeader) -> AddressLayout:
+    name = header.value("Layout")
+    chip = (header.value("AEChip") or "").lower()
+    if name is None and "davis346" in chip:
+        name = DAVIS346.name
+    if name is None and chip.endswith("dvs128"):
+        name = JAER_DVS128.name
+    if name is None:
+        raise InputError(
+            f"{path} is AEDAT2 but does not say how its addresses are laid out; state the format: "
+            f"--format {Davis346Codec.name}, {JaerDvs128Codec.name} (jAER's recordings), "
+            f"{Dvs128Codec.name} (as tonic reads) or {Cifar10DvsCodec.name} (as SpikingJelly reads)"
+        )
+    if name not in LAYOUTS:
+        raise FileFormatError(f"{path}: its header names an unknown layout {name[:40]!r}")
+    return LAYOUTS[name]
+
+
+def _read_addresses(path: Path, start: int, layout: AddressLayout) -> Iterator[Columns]:
+    for block in read_records(path, start, RECORD.itemsize):
+        records = np.frombuffer(block, dtype=RECORD)
+        address, t = (records[name].astype(np.int64) for name in ("address", "t"))
+        is_event = (address & layout.not_events) == 0
+        if not is_event.all():
+            address, t = address[is_event], t[is_event]
+        yield {**layout.decode(address), "t": t}
+
+
+EVENT = np.dtype([("place", "<u4"), ("t", "<u4")])
+POLARITY_TYPE = 1
+TIME_BITS = 31
+TIME_MASK = (1 << TIME_BITS) - 1
+MAX_EVENTS = 1 << 24
+"""More events than this in a packet are damage: cAER's packets hold thousands."""
+CAMERAS = {"DVS128": "dvs128", "DAVIS240C": "davis240c", "DAVIS346": "davis346"}
+"""Names of cameras in `#Source` lines → sensors."""
+_HEAD = struct.Struct("<2h6i")
+
+
+class Aedat3Codec(BlockReader):
+    """AEDAT3.1."""
+
+    name: ClassVar[str] = "aedat3"
+    extensions: ClassVar[tuple[str, ...]] = (".aedat",)
+
+    def recognises(self, path: Path) -> bool:
+        """True if the file begins as AEDAT3.1 does."""
+        return begins_with(path, AEDAT3_MAGIC.encode())
+
+    def inspect(self, path: Path) -> FileContents:
+        """The header states size and metadata."""
+        header = read_aedat_header(path, AEDAT3_MAGIC, AEDAT3_END)
+        if header.lines[-1] != AEDAT3_END:
+            raise FileFormatError(f"{path}: its header does not end with {AEDAT3_END}")
+        size, metadata = _stored_size(path, header), header.metadata(path)
+        return FileContents(size, metadata, partial(_read_packets, path, header.length))
+
+
+def _stored_size(path: Path, header: AedatHeader) -> tuple[int, int] | None:
+    text = header.value("Size")
+    if text is not None:
+        match = re.fullmatch(r"(\d{1,9})x(\d{1,9})", text)
+        if match is None:
+            raise FileFormatError(f"{path}: its header states a size of {text[:40]!r}")
+        return int(match[1]), int(match[2])
+    sensor = CAMERAS.get((header.value("Source 1") or "").upper())
+    if sensor is None:
+        return None
+    size = SENSORS[sensor].size
+    return size.width, size.height
+
+
+def _read_packets(path: Path, start: int) -> Iterator[Columns]:
+    with path.open("rb") as file:
+        left = os.fstat(file.fileno()).st_size - start
+        file.seek(start)
+        while left > 0:
+            head = _read_head(file, path, left)
+            kind, _, event_bytes, time_offset, turns, _, count, _ = head
+            left -= _HEAD.size + event_bytes * count
+            if kind != POLARITY_TYPE:
+                file.seek(event_bytes * count, os.SEEK_CUR)
+                continue
+            if (event_bytes, time_offset) != (EVENT.itemsize, 4) or turns < 0:
+                raise FileFormatError(
+                    f"{path} holds a packet of events of {event_bytes} bytes, not 8; it is damaged"
+                )
+            events = np.frombuffer(file.read(event_bytes * count), dtype=EVENT)
+            events = events[(events["place"] & 1) == 1]
+            place = events["place"]
+            yield {
+                "x": (place >> 17).astype(np.uint16),
+                "y": (place >> 2 & 0x7FFF).astype(np.uint16),
+                "t": (events["t"].astype(np.int64) & TIME_MASK) + (turns << TIME_BITS),
+                "p": (place >> 1 & 1).astype(np.uint8),
+            }
+
+
+def _read_head(file: BinaryIO, path: Path, left: int) -> tuple[int, ...]:
+    """The numbers at the beginning of a packet that fits into the `left` bytes."""
+    data = file.read(_HEAD.size)
+    if len(data) < _HEAD.size:
+        raise FileFormatError(f"{path} ends inside a packet; the file was cut off")
+    head: tuple[int, ...] = _HEAD.unpack(data)
+    _, _, event_bytes, _, _, capacity, count, _ = head
+    if event_bytes <= 0 or not 0 <= count <= min(capacity, MAX_EVENTS):
+        raise FileFormatError(
+            f"{path} holds a packet of {count} events of {event_bytes} bytes; it is damaged"
+        )
+    if event_bytes * count > left - _HEAD.size:
+        raise FileFormatError(f"{path} ends inside a packet; the file was cut off")
+    return head

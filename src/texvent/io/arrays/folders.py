@@ -1,0 +1,147 @@
+"""Folders of arrays: EVREAL's and ESIM's.
+
+EVREAL:
+
+    events_ts.npy  f8 [n], seconds   events_xy.npy  u2 [n, 2]   events_p.npy  bool [n]
+    metadata.json  {"sensor_resolution": [height, width], "texvent": all metadata}
+
+Seconds in f8 keep every µs for 71 years, so times stay below 2^51 µs. Images and their times
+(images.npy, images_ts.npy, image_event_indices.npy), which the format may hold too, are not read
+here.
+
+ESIM: `0000000000.npz`, `0000000001.npz` …, arrays x, y, t (ns), p (-1 or +1). These folders have no
+sensor size, so it is asked for, unless a file `texvent.json` states it. Times that are no whole µs
+are rounded down. Trap: tools that expect µs read these times 1000 times too long.
+
+Source: Ercan et al., EVREAL: Towards a Comprehensive Benchmark and Analysis Suite for
+Event-based Video Reconstruction, CVPRW 2023, and its reader; Gehrig et al., Video to Events, CVPR
+2020 (rpg_vid2e), and its files.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from contextlib import contextmanager
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar
+
+from texvent.errors import FileFormatError, shown
+from texvent.io.arrays.npy_file import StoredArray
+from texvent.io.arrays.npz import read_arrays
+from texvent.io.block_codec import BlockReader, FileContents, TimedRows, read_rows, seek_rows
+from texvent.io.layouts import Column, EventLayout
+from texvent.io.metadata import metadata_from_json, parse_sidecar
+from texvent.io.protocol import Columns
+
+EVREAL = EventLayout(
+    "EVREAL",
+    {
+        "x": Column("events_xy.npy", 0),
+        "y": Column("events_xy.npy", 1),
+        "t": Column("events_ts.npy"),
+        "p": Column("events_p.npy"),
+    },
+    per_second=1,
+)
+EVREAL_FACTS = "metadata.json"
+PACKET_EVENTS = 2**18
+ESIM = EventLayout("ESIM", {name: Column(name) for name in "xytp"}, per_second=1_000_000_000)
+ESIM_FACTS = "texvent.json"
+
+
+class EvrealFolderCodec(BlockReader):
+    """Folders that EVREAL reads."""
+
+    name: ClassVar[str] = "evreal"
+    is_folder: ClassVar[bool] = True
+
+    def recognises(self, path: Path) -> bool:
+        """True if it is a folder with the three arrays."""
+        return all((path / name).is_file() for name in EVREAL.arrays)
+
+    def inspect(self, path: Path) -> FileContents:
+        """Size and metadata are in metadata.json."""
+        _open_arrays(path)
+        size, metadata = _read_facts(path)
+        rows = partial(_open_rows, path)
+        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
+
+
+def _read_facts(path: Path) -> tuple[tuple[int, int] | None, dict[str, Any]]:
+    facts = path / EVREAL_FACTS
+    if not facts.is_file():
+        return None, {}
+    values = metadata_from_json(facts, facts.read_bytes())
+    metadata = values.get("texvent")
+    sides = values.get("sensor_resolution")
+    stored = None
+    if sides is not None:
+        if not (isinstance(sides, list) and len(sides) == 2 and all(map(_is_whole, sides))):
+            raise FileFormatError(f"{facts} states a sensor_resolution of {shown(sides)}")
+        stored = sides[1], sides[0]
+    return stored, metadata if isinstance(metadata, dict) else {}
+
+
+def _is_whole(value: Any) -> bool:
+    return isinstance(value, int) and not isinstance(value, bool)
+
+
+def _open_arrays(path: Path) -> dict[str, StoredArray]:
+    files = {name: path / name for name in EVREAL.arrays}
+    arrays = {name: StoredArray(file) for name, file in files.items() if file.is_file()}
+    EVREAL.check(path, arrays)
+    return arrays
+
+
+@contextmanager
+def _open_rows(path: Path) -> Iterator[TimedRows]:
+    yield EVREAL.rows(path, _open_arrays(path), block=PACKET_EVENTS)
+
+
+class EsimFolderCodec(BlockReader):
+    """Folders of numbered npz files."""
+
+    name: ClassVar[str] = "esim"
+    has_checksums: ClassVar[bool] = True
+    is_folder: ClassVar[bool] = True
+
+    def recognises(self, path: Path) -> bool:
+        """True if it is a folder of npz files with ten-digit names, or of none but texvent's."""
+        return path.is_dir() and bool(_numbered(path) or _is_empty_recording(path))
+
+    def inspect(self, path: Path) -> FileContents:
+        """Size and metadata are in a file of texvent's own."""
+        facts = path / ESIM_FACTS
+        size: tuple[int, int] | None = None
+        metadata: dict[str, Any] = {}
+        if facts.is_file():
+            size, metadata = parse_sidecar(facts, facts.read_bytes())
+        elif not _numbered(path):
+            raise FileFormatError(f"{path} holds no files 0000000000.npz, 0000000001.npz …")
+        return FileContents(size, metadata, partial(_read_blocks, path))
+
+
+def _numbered(path: Path) -> list[Path]:
+    try:
+        files = [one for one in path.iterdir() if re.fullmatch(r"\d{10}\.npz", one.name)]
+    except OSError:
+        return []
+    return sorted(files)
+
+
+def _is_empty_recording(path: Path) -> bool:
+    return [one.name for one in path.iterdir()] == [ESIM_FACTS]
+
+
+def _read_blocks(path: Path) -> Iterator[Columns]:
+    for file in _numbered(path):
+        arrays = read_arrays(file)
+        if "t" in arrays and arrays["t"].dtype.kind not in "iu":
+            raise FileFormatError(
+                f"{file}: t is {arrays['t'].dtype}; ESIM writes whole nanoseconds"
+            )
+        arrays = {name: arrays[name] for name in "xytp" if name in arrays}
+        ESIM.check(file, arrays)
+        yield ESIM.rows(file, arrays, block=PACKET_EVENTS).read(0, len(arrays["t"]))

@@ -1,1 +1,0 @@
-"""Formats of ATIS recordings: .es and the .bin of N-MNIST."""

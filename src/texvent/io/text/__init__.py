@@ -1,1 +1,0 @@
-"""Text formats: CSV, ECD, E2VID."""

@@ -1,0 +1,65 @@
+"""Pages and sheets show what is in the set, whatever stands in its captions."""
+
+from __future__ import annotations
+
+import html
+from html.parser import HTMLParser
+from pathlib import Path
+
+import pytest
+from tests.dataset.conftest import CARS
+
+from texvent.cli.app import main
+from texvent.dataset.preview import choose_samples
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.errors import InputError
+
+
+class Tags(HTMLParser):
+    """Names of the elements of a page."""
+
+    def __init__(self, page: str) -> None:
+        super().__init__()
+        self.names: list[str] = []
+        self.feed(page)
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        del attrs
+        self.names.append(tag)
+
+
+def test_the_page_shows_every_sample_with_its_caption(
+    cars: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "look.html"
+    assert main(["dataset", "sample", str(cars), "-o", str(out), "-n", "100"]) == 0
+    assert "9 samples of cars" in capsys.readouterr().out
+    page = out.read_text("utf-8")
+    tags = Tags(page).names
+    assert tags.count("picture") == tags.count("pre") == 9
+    assert not {"script", "i", "link", "iframe"} & set(tags)
+    for prompt in CARS["sources"][0]["prompts"]:
+        assert html.escape(prompt) in page
+    assert main(["dataset", "sample", str(cars), "-o", str(out)]) == 3
+    assert main(["dataset", "sample", str(cars), "-o", str(tmp_path / "look.jpg")]) == 2
+    assert "name a page, .html" in capsys.readouterr().err
+    assert [path.name for path in tmp_path.iterdir()] == ["look.html"]
+
+
+def test_samples_are_chosen_by_chance_and_the_same_every_time(cars: Path) -> None:
+    made = StoredDataset.open(cars)
+
+    def keys(**choice: object) -> list[str]:
+        return [record.key for _, record in choose_samples(made, **choice)]  # type: ignore[arg-type]
+
+    assert keys(count=4) == keys(count=4)
+    assert len({tuple(keys(count=4, seed=seed)) for seed in range(8)}) > 3
+    everything = [sample.key for shard in made.shards() for sample in shard.samples]
+    assert keys(count=100) == everything
+    drawn = [key for seed in range(300) for key in keys(count=3, seed=seed)]
+    counts = [drawn.count(key) for key in everything]
+    assert min(counts) > 60  # 100 each on average, by chance
+    assert max(counts) < 140
+    assert len(keys(label="bus", variant="paper")) == 2
+    with pytest.raises(InputError, match="holds no samples with split 'val'"):
+        keys(split="val")

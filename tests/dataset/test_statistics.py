@@ -1,0 +1,78 @@
+"""Counts equal those of the samples themselves."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from texvent.cli.app import main
+from texvent.dataset.generation.shards import FAILED, read_record, write_record
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.reading.stored_events import read_events
+from texvent.dataset.statistics import DatasetStatistics, quantiles
+
+
+def test_counts_are_those_of_the_samples(cars: Path) -> None:
+    statistics = DatasetStatistics.of(StoredDataset.open(cars))
+    total = statistics.total
+    events = [
+        len(read_events(shard.path, sample))
+        for shard in StoredDataset.open(cars).shards()
+        for sample in shard.samples
+    ]
+    assert total.events == events
+    assert total.samples == 9
+    assert len(total.clips) == 3
+    assert sum(total.classes.values()) == 9
+    assert dict(total.sensors) == {"32x24": 9}
+    assert total.rates == pytest.approx(
+        [count / us * 1e6 for count, us in zip(events, total.durations_us, strict=True)]
+    )
+    assert {place: part.samples for place, part in statistics.parts.items()} == {
+        ("paper", "train"): 4,
+        ("paper", "test"): 2,
+        ("esim", "train"): 2,
+        ("esim", "test"): 1,
+    }
+    assert any("not understood" in warning for warning in total.warnings)
+
+
+def test_reasons_of_failures_count_together(copied: Path) -> None:
+    shard = copied / "paper" / "train-000000.tar"
+    record = read_record(shard)
+    assert record is not None
+    failed = [
+        replace(sample, status=FAILED, reason=f"frame {n} of 12 is damaged", members={})
+        for n, sample in enumerate(record.samples)
+    ]
+    write_record(shard, replace(record, samples=tuple(failed)))
+    total = DatasetStatistics.of(StoredDataset.open(copied)).total
+    assert total.failed == len(failed)
+    assert dict(total.reasons) == {"failed: frame N of N is damaged": len(failed)}
+
+
+def test_quantiles_by_hand() -> None:
+    assert quantiles([]) == {}
+    facts = quantiles([1, 2, 3, 4, 100])
+    assert (facts["mean"], facts["median"], facts["min"], facts["max"]) == (22.0, 3.0, 1.0, 100.0)
+
+
+def test_the_command_prints_text_or_json(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["dataset", "stats", str(cars)]) == 0
+    text = capsys.readouterr().out
+    assert "9 samples of 3 videos" in text
+    assert "classes: car 6; bus 3" in text
+    assert main(["dataset", "stats", str(cars), "--json"]) == 0
+    tables = json.loads(capsys.readouterr().out)
+    assert tables["variants"]["esim"]["train"]["samples"] == 2
+
+
+def test_a_shard_of_another_set_is_not_counted(copied: Path) -> None:
+    for suffix in (".tar", ".json"):
+        own = copied / "esim" / f"train-000000{suffix}"
+        shutil.copy(own, own.with_stem("train-000007"))
+    assert DatasetStatistics.of(StoredDataset.open(copied)).total.samples == 9
