@@ -354,7 +354,9 @@ class _Parser:
         is_base = {one.form for one in after.all("verb")} == {"base"}
         is_thing = after.is_unknown and not after.text.endswith("ly")
         is_before = is_thing or (is_base and not after.has("noun", "relation"))
-        return is_before and token.text in word_set("things", "substances")
+        return is_before and token.text in word_set("things", "substances") | word_set(
+            "things", "liquids"
+        )
 
 
 def _is_plural(token: Token) -> bool:
