@@ -19,15 +19,14 @@ from numpy.typing import NDArray
 from texvent.scenes.defaults import NO_PLACE
 from texvent.scenes.description import AMID, SceneDescription
 from texvent.scenes.held import Unheld, bodies_of, find_unheld
-from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.models.effects import LAMPS
 from texvent.scenes.models.places import PLACES, Place
-from texvent.scenes.projection import project
 from texvent.scenes.raycast.acceleration import CUBE
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.render import render, world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
 from texvent.scenes.read.lexicon import lexicon_of, word_set
-from texvent.scenes.scene import Camera, Float64Array, Ground, Primitives, Scene, Texture
+from texvent.scenes.scene import Camera, Float64Array, Ground, Primitives, Scene, Texture, project
 from texvent.scenes.spec.data import PLACING
 from texvent.scenes.staging.actors import assemble
 from texvent.scenes.staging.compose import ComposedScene
@@ -49,6 +48,7 @@ _LEAST_LEVELS, _LEAST_SHARE = 6.0, 0.002
 """Difference of a pixel, of 255, that is seen; share of the pixels in which it must be."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
+_Box = tuple[Float64Array, Float64Array]
 _WATER = (Ground.SEA, Ground.LAKE, Ground.RIVER)
 _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
 """Grounds that many places have: only their scenery shows which one it is."""
@@ -98,7 +98,7 @@ def find_unseen(
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
         elif lost and len(copies) <= max(2 * lost, 0 if index in around else MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(copies)})")
-        elif most < least and max(share_inside(shots, size, one) for one in ids) < LEAST_INSIDE:
+        elif most < least and max(_share_inside(shots, size, one) for one in ids) < LEAST_INSIDE:
             outside.append(f"{thing.noun} (cut off)")
     bodies = bodies_of(shots, [one for one, count in pixels.items() if count])
     unheld = [one for one in find_unheld(description, bodies, object_of)
@@ -195,19 +195,15 @@ def _is_common(place: Place) -> bool:
     return next(one for one in same if one.surface is place.surface) is not place
 
 
-def share_inside(
+def _share_inside(
     shots: Sequence[tuple[Primitives, Camera]], size: SensorSize, instance: int
 ) -> float:
     """Most that the image holds of an object at one instant: share of its box in the image."""
-    most, limits = 0.0, np.array([size.width, size.height])
+    most = 0.0
     for shapes, camera in shots:
-        seen = _corners(camera, size, shapes, instance)
-        if (seen[:, 2] > 0.0).all() and len(seen):
-            low, high = seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
-            inside = np.clip(high, 0.0, limits) - np.clip(low, 0.0, limits)
+        if (box := _box(camera, size, shapes, instance)) is not None:
+            (low, high), inside = box, np.diff(np.clip(box, 0.0, [size.width, size.height]), axis=0)
             most = max(most, float(np.prod(inside / np.maximum(high - low, 1e-9))))
-        elif np.any(seen[:, 2] > 0.0):
-            return 1.0  # it is around the camera
     return most
 
 
@@ -234,12 +230,15 @@ def count_pixels(
     everywhere, share = _grid(*whole)
     for time_s in np.linspace(0.0, duration_s, INSTANTS):
         world, shapes = world_and_shapes(scene, float(time_s), size, shadows=False)
+        camera = scene.camera(float(time_s))
         owner = np.append(shapes.instance.astype(np.int64), 0)
         seen = _count(world, owner, everywhere)
         for one in instances:
             most[one] = max(most[one], round(share * seen[one]))
-            if most[one] < LEAST_PIXELS * share and (box := _box(scene, time_s, size, shapes, one)):
-                points, each = _grid(*box)
+            box = _box(camera, size, shapes, one) if most[one] < LEAST_PIXELS * share else None
+            low, high = np.clip(box or (whole[0], whole[0]), *whole)
+            if np.all(high > low):
+                points, each = _grid(np.floor(low), np.ceil(high))
                 most[one] = max(most[one], round(each * _count(world, owner, points)[one]))
     return most
 
@@ -259,23 +258,16 @@ def _grid(low: Float64Array, high: Float64Array) -> tuple[Float64Array, float]:
     return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2), float(step * step)
 
 
-def _corners(camera: Camera, size: SensorSize, shapes: Primitives, instance: int) -> Float64Array:
-    """[n, 3] corners of the boxes around an instance's shapes, pixels and depth in m."""
+def _box(camera: Camera, size: SensorSize, shapes: Primitives, instance: int) -> _Box | None:
+    """Low and high corner [2] of an instance, pixels; of one around the camera the whole image.
+
+    None where it is behind the camera.
+    """
     to_world = shapes.to_world[shapes.instance == instance].astype(np.float64)
     corners = CUBE @ to_world[:, :, :3].transpose(0, 2, 1) + to_world[:, None, :, 3]
-    return project(camera, size, corners.reshape(-1, 3))
-
-
-def _box(
-    scene: Scene, time_s: float, size: SensorSize, shapes: Primitives, instance: int
-) -> tuple[Float64Array, Float64Array] | None:
-    """Whole pixels around an instance, low and high corner; None where it is not in the image."""
-    seen = _corners(scene.camera(float(time_s)), size, shapes, instance)
-    low, high = np.zeros(2), np.array([size.width, size.height], dtype=np.float64)
+    seen = project(camera, size, corners.reshape(-1, 3))
+    if not np.any(seen[:, 2] > 0.0):
+        return None
     if (seen[:, 2] > 0.0).all() and np.isfinite(seen).all():
-        low, high = (
-            np.clip(np.floor(seen[:, :2].min(axis=0)), low, high),
-            np.clip(np.ceil(seen[:, :2].max(axis=0)), low, high),
-        )
-    is_shown = np.any(seen[:, 2] > 0.0) and np.all(high > low)
-    return (low, high) if is_shown else None
+        return seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+    return np.zeros(2), np.array([size.width, size.height], dtype=np.float64)

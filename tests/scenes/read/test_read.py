@@ -12,8 +12,7 @@ from texvent.generate.scene_input import list_words, read
 from texvent.scenes import read as reader
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.read.draft import is_grammar
-from texvent.scenes.read.lexicon import lexicon_of
-from texvent.scenes.read.tokens import split_prompt
+from texvent.scenes.read.lexicon import lexicon_of, split_prompt
 from texvent.scenes.spec.data import checked_scene
 
 MOST_WRONG, MOST_SILENT = 0.07, 0.03

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from texvent.scenes.read.lexicon import word_set
-from texvent.scenes.read.tokens import NO_TOKEN, Token
+from texvent.scenes.read.lexicon import NO_TOKEN, Token, word_set
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""

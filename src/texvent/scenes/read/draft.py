@@ -6,8 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from texvent.scenes.read.lexicon import word_set
-from texvent.scenes.read.tokens import Token
+from texvent.scenes.read.lexicon import Token, word_set
 from texvent.scenes.report import Substitution
 from texvent.scenes.spec.data import PLACING, scene_from_data
 from texvent.scenes.spec.scene import MAX_BODIES, Scene, number_nouns

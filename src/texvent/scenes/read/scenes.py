@@ -12,8 +12,7 @@ from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import read_table
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent.scenes.read.draft import Reading, SceneDraft
-from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
-from texvent.scenes.read.tokens import Token, split_prompt
+from texvent.scenes.read.lexicon import Sense, Token, VerbSense, lexicon_of, split_prompt, word_set
 from texvent.scenes.spec.scene import MAX_BODIES, MoveDirection, MoveKind
 
 _KINDS = sorted(get_args(MoveKind), key=len, reverse=True)

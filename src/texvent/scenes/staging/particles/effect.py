@@ -211,14 +211,10 @@ def _height(extent_m: float) -> float:
 
 
 def let_fall(
-    weather: str,
-    base: Float64Array,
-    extent_m: float,
-    rng: np.random.Generator,
-    camera: CameraPath | None = None,
+    weather: str, base: Float64Array, extent_m: float, rng: np.random.Generator
 ) -> FallingParticles:
-    """Weather of `FALLS` over a square of that side around `base`, m, or with a camera."""
+    """Weather of `FALLS` over a square of that side around `base`, m."""
     low = np.array([-0.5 * extent_m, -0.5 * extent_m, 0.0])
     high = np.array([0.5 * extent_m, 0.5 * extent_m, _height(extent_m)])
     places = rng.uniform(low, high, size=(FALLS[weather].count, 3))
-    return FallingParticles(FALLS[weather], places, base, extent_m, camera)
+    return FallingParticles(FALLS[weather], places, base, extent_m)

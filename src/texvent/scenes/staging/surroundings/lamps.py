@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import SceneDescription, SceneLamp
-from texvent.scenes.models.lamps import LAMPS, Lamp, lamp_of
+from texvent.scenes.models.effects import LAMPS, Lamp, lamp_of
 from texvent.scenes.models.places import Place
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.variation import fraction
