@@ -121,8 +121,6 @@ class _Parser:
         self._at += 1
         return self._token(-1)
 
-    # Where a clause ends
-
     def _end(self, clause: Clause) -> Clause | None:
         """How the next clause begins, where this one ends here."""
         token, word = self._token(), self._token().text
@@ -174,8 +172,8 @@ class _Parser:
     def _read_setting(self, clause: Clause) -> Clause | None:
         """A word of the scene or of the camera, in any place."""
         token = self._token()
-        is_other = self._is_substance() or (clause.verb is None and self._is_verb(clause))
-        if not token.has("scene", "shot") or token.has("noun") or is_other:
+        is_verb = clause.verb is None and self._is_verb(clause)
+        if not token.has("scene", "shot") or token.has("noun") or is_verb:
             return None
         return replace(clause, after=(*clause.after, self._take()))
 
@@ -226,10 +224,9 @@ class _Parser:
 
     def _read_group(self, clause: Clause) -> Clause | None:
         is_said = clause.subjects if clause.verb is None else clause.objects or clause.after
-        if (self._token().is_unknown and is_said) or not self._starts_group():
+        is_rest = (self._token().is_unknown and is_said) or self._is_no_noun(clause)
+        if is_rest or not self._starts_group():
             return None
-        if self._is_no_noun(clause):
-            return self._read_rest(clause)
         if clause.verb is None:
             return replace(clause, subjects=(*clause.subjects, self._group()))
         return replace(clause, objects=(*clause.objects, self._group()))
@@ -257,7 +254,9 @@ class _Parser:
         token, after = self._token(ahead), self._token(ahead + 1)
         if token.has("articles"):
             return not after.has("camera") and not after.is_sign
-        if token.has(*_STANDPOINTS) or token.is_sign or _is_alone(token):
+        is_view = token.has("shot") and not token.has("noun", "place")
+        is_alone = is_view or token.text.startswith(_PREPOSITIONS)  # "aerial view", "at night"
+        if token.has(*_STANDPOINTS) or token.is_sign or is_alone:
             return False
         if token.has("noun", "place", "effect", "pose", "field"):
             return True
@@ -298,8 +297,6 @@ class _Parser:
             self._take()
         first = self._at
         while head is None and not self._ends_group(first):
-            if unknown and not (article or modifiers) and self._is_single_after_many():
-                break  # "headlights stream along a street"
             token = self._take()
             if token.is_unknown:
                 unknown.append(token)
@@ -331,39 +328,13 @@ class _Parser:
         return is_before and after.has(*_HEADS, "field")
 
     def _is_compound(self) -> bool:
-        """Whether the word that follows is the head: "dog house", "water slide"."""
+        """Whether the word that follows is the head: "dog house"."""
         after = self._token()
         is_head = after.has("noun", "place") and not after.has("verb", "relation", "adverb")
-        is_done = _is_plural(self._token(-1)) or self._has_object()  # "dogs fish"
-        return (is_head and not is_done) or self._is_substance(-1)
-
-    def _is_single_after_many(self) -> bool:
-        token, before = self._token(), self._token(-1)
-        is_many = before.text.endswith("s") and not token.text.endswith("s")
-        return is_many and token.has("noun", "place") and not token.has(*_MODIFIERS)
+        is_many = any(one.value.is_plural for one in self._token(-1).all("noun"))  # "dogs fish"
+        return is_head and not (is_many or self._has_object())
 
     def _has_object(self, ahead: int = 0) -> bool:
         """Whether a word that may be a noun is a verb: "and watches the ducks"."""
         token = self._token(ahead)
         return token.text.endswith("s") and self._token(ahead + 1).has("articles")
-
-    def _is_substance(self, ahead: int = 0) -> bool:
-        """Whether a word names what an unknown thing is of: "water slide", "snow plow"."""
-        token, after = self._token(ahead), self._token(ahead + 1)
-        is_base = {one.form for one in after.all("verb")} == {"base"}
-        is_thing = after.is_unknown and not after.text.endswith("ly")
-        is_before = is_thing or (is_base and not after.has("noun", "relation"))
-        return is_before and token.text in word_set("things", "substances") | word_set(
-            "things", "liquids"
-        )
-
-
-def _is_plural(token: Token) -> bool:
-    return any(one.value.is_plural for one in token.all("noun"))
-
-
-def _is_alone(token: Token) -> bool:
-    """Whether a token stands for itself, before no noun: "at night", "aerial view"."""
-    return token.text.startswith(_PREPOSITIONS) or (
-        token.has("shot") and not token.has("noun", "place")
-    )

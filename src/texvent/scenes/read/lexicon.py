@@ -77,7 +77,8 @@ class Sense:
     """Of a verb: "base", "s", "ing" or "ed"."""
 
 
-Lexicon: TypeAlias = Mapping[tuple[str, ...], tuple[Sense, ...]]
+Senses: TypeAlias = tuple[Sense, ...]
+Lexicon: TypeAlias = Mapping[tuple[str, ...], Senses]
 """Phrases, as words in lower case without articles, and their senses."""
 LONGEST_PHRASE = 8
 """Most words of a phrase that is read."""
@@ -248,6 +249,11 @@ class Token:
         """Whether it is a word that the reader does not know."""
         return not self.is_sign and (not self.senses or self.has("other"))
 
+    @property
+    def is_liquid(self) -> bool:
+        """Whether it is seen in nothing but its vessel, or as a place: "a bottle of water"."""
+        return self.text in word_set("things", "liquids")
+
     def all(self, kind: str) -> tuple[Sense, ...]:
         """Senses of a kind."""
         return tuple(one for one in self.senses if one.kind == kind)
@@ -292,7 +298,7 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
 
 def _read_phrase(
     words: Sequence[str], at: int, lexicon: Lexicon, before: Sequence[Token]
-) -> tuple[int, tuple[Sense, ...]]:
+) -> tuple[int, Senses]:
     """Number of words of the longest phrase at a word, and its senses."""
     length, senses, phrase = 1, tuple[Sense, ...](), list[str]()
     for end in range(at, len(words)):
@@ -314,8 +320,8 @@ def _read_phrase(
 
 
 def _without_chance(
-    senses: tuple[Sense, ...], words: Sequence[str], end: int, before: Sequence[Token]
-) -> tuple[Sense, ...]:
+    senses: Senses, words: Sequence[str], end: int, before: Sequence[Token]
+) -> Senses:
     """Senses of several words that do not stand together by chance.
 
     As in "a dog moves in a circle" (no camera), "a pedestrian crossing the street", "a bus stops"
@@ -334,9 +340,7 @@ def _without_chance(
     )  # fmt: skip
 
 
-def _read_quantity(
-    words: Sequence[str], at: int, lexicon: Lexicon
-) -> tuple[int, tuple[Sense, ...]]:
+def _read_quantity(words: Sequence[str], at: int, lexicon: Lexicon) -> tuple[int, Senses]:
     """A number of things, or a speed or frequency with its unit, in the range of scenes."""
     number = float(words[at].replace(",", ""))
     for length in (3, 2, 1):
