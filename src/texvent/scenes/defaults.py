@@ -71,10 +71,9 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
 
 def _follow_axis(description: SceneDescription) -> SceneDescription:
     """Who goes through a place between two walls goes along them, unless it is said."""
-    is_open = [one.motion is not None and one.motion.kind in _ALONG and not one.motion.direction
-               for one in description.objects]  # fmt: skip
     along = {n: replace(one, motion=replace(one.motion, direction="towards"))
-             for n, one in enumerate(description.objects) if one.motion and is_open[n]}  # fmt: skip
+             for n, one in enumerate(description.objects)
+             if one.motion and one.motion.kind in _ALONG and not one.motion.direction}  # fmt: skip
     is_passage = PLACES[description.surroundings.name or "grass"].is_passage
     return _change(description, along) if is_passage else description
 

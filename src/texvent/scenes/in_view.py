@@ -48,6 +48,7 @@ _LEAST_LEVELS, _LEAST_SHARE = 6.0, 0.002
 """Difference of a pixel, of 255, that is seen; share of the pixels in which it must be."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
+_Shots = Sequence[tuple[Primitives, Camera]]
 _Box = tuple[Float64Array, Float64Array]
 _WATER = (Ground.SEA, Ground.LAKE, Ground.RIVER)
 _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
@@ -179,14 +180,12 @@ def _unplaced(
     for noun in (one.noun for one in description.objects if one.is_lit and one.noun not in LAMPS):
         yield Unheld("is_lit", "", f"lights of the {noun}")
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
-    if is_said and place.scenery and not said.is_empty and (
-        place.is_room or place.surface in _FLOORS or _is_common(place)
-    ):  # fmt: skip
+    is_shared = place.is_room or place.surface in _FLOORS or _is_common(place)
+    if is_said and is_shared and place.scenery and not said.is_empty:
         bare = replace(scene, still=assemble([]))
         if not _differs(scene, bare, times, least=_LEAST_SCENERY):
-            yield Unheld(
-                "place", said.name or "", f"{said.name}, of which only the ground is in view"
-            )
+            line = f"{said.name}, of which only the ground is in view"
+            yield Unheld("place", said.name or "", line)
 
 
 def _is_common(place: Place) -> bool:
@@ -195,9 +194,7 @@ def _is_common(place: Place) -> bool:
     return next(one for one in same if one.surface is place.surface) is not place
 
 
-def _share_inside(
-    shots: Sequence[tuple[Primitives, Camera]], size: SensorSize, instance: int
-) -> float:
+def _share_inside(shots: _Shots, size: SensorSize, instance: int) -> float:
     """Most that the image holds of an object at one instant: share of its box in the image."""
     most = 0.0
     for shapes, camera in shots:

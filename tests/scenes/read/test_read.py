@@ -21,23 +21,8 @@ MOST_SECONDS = 0.001
 """Mean time to read a prompt."""
 WORDS = sorted(" ".join(phrase) for phrase in lexicon_of(None))
 VOCABULARY = list_words(NOUNS)
-SIGNS = [
-    ",",
-    ".",
-    "and",
-    "the",
-    "a",
-    "then",
-    "of",
-    "it",
-    "wug",
-    "7",
-    "2 Hz",
-    "1e9",
-    "99999999 m/s",
-    '"STOP"',
-    "a.png",
-]
+SIGNS = [",", ".", "and", "the", "a", "then", "of", "it", "wug", "7", "2 Hz", "1e9",
+         "99999999 m/s", '"STOP"', "a.png"]  # fmt: skip
 
 
 def test_facts_of_short_prompts_are_right():
