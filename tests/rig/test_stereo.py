@@ -20,8 +20,7 @@ from texvent.rig.layouts.dsec import raw_points, rectified_points, rectify, writ
 from texvent.rig.recording import Recording
 from texvent.runtime.progress import NO_PROGRESS
 from texvent.scenes.lens import Lens
-from texvent.scenes.projection import project
-from texvent.scenes.scene import Camera, Ground, Shape
+from texvent.scenes.scene import Camera, Ground, Shape, project
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 

@@ -15,7 +15,7 @@ from texvent.scenes.description import (
     Shot,
     Surroundings,
 )
-from texvent.scenes.projection import project
+from texvent.scenes.scene import project
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize

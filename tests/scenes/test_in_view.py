@@ -36,6 +36,13 @@ def test_what_is_behind_the_camera_is_out_of_view_and_copies_are_counted():
     assert beside.out_of_view in (("car (1 of 3)",), ("car (2 of 3)",))
 
 
+@pytest.mark.parametrize(("aim_m", "found"), [(3.0, ()), (6.0, ("car (cut off)",))])
+def test_what_is_hardly_inside_the_image_is_cut_off(aim_m, found):
+    assert (
+        unseen_from(CAR, position=(0.0, -9.0, 1.5), target=(aim_m, 0.0, 1.0)).out_of_view == found
+    )
+
+
 def test_pixels_of_small_things_are_counted_one_by_one():
     scene = stage(SceneObject("ball"), SceneObject("house"), place="plain")
     scene = replace(scene, camera_path=replace(scene.camera_path, moves=(), tie=None))
@@ -96,6 +103,11 @@ def test_a_direction_holds_where_it_is_staged(way, other):
         ("a cloudy sky over a city, top view", "cloudy", "no sky is in view"),
         ("falling water", "falling water", "no pixel shows"),
         ("a ball under a chair", "under", "the ball under the chair"),
+        ("a bar on a white disc", "on", "the bar on the disc"),
+        ("a dog runs in a time lapse, living room", "time lapse", "time lapse, in a room"),
+        ("a cyclist overtakes a car on the right", "on the right", "passing on the right"),
+        ("a cup in a coffee shop", "coffee shop", "only the ground is in view"),
+        ("a dog in a coffee shop", "coffee shop", None),
         ("a house burns", "burns", None),
         ("a dog in the rain", "rain", None),
         ("a dog in falling snow", "falling snow", None),

@@ -9,11 +9,10 @@ from tests.scenes.hand_scenes import HandScene, MovingShape, look_at, still
 
 from texvent.errors import ConfigError
 from texvent.scenes.lens import Lens, distort, lens_reach, normalised
-from texvent.scenes.projection import camera_rays, project
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render, world_at
 from texvent.scenes.raycast.trace import ray_direction
-from texvent.scenes.scene import Camera, Shape
+from texvent.scenes.scene import Camera, Shape, camera_rays, project
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(160, 120)

@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 
 from texvent.capture.camera_path.motion import rotation_matrix
 from texvent.scenes.lens import Lens
-from texvent.scenes.projection import project
-from texvent.scenes.scene import Camera
+from texvent.scenes.scene import Camera, project
 from texvent.truth.poses import (
     camera_facts,
     intrinsics,

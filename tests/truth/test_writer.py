@@ -15,8 +15,8 @@ import texvent
 from texvent.errors import ConfigError, InputError, OutputError
 from texvent.pipeline import video_to_events
 from texvent.run.files import RunFiles, write_run
-from texvent.scenes.models.class_ids import CLASS_IDS
 from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.models.tables import CLASS_IDS
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve

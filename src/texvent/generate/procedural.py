@@ -24,8 +24,8 @@ from texvent.config import FPS_RANGE, check_range
 from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
 from texvent.generate.scene_input import Subject, describe_subject, list_nouns, nouns_of, understand
 from texvent.options.values import plain
+from texvent.scenes.description import report_of
 from texvent.scenes.report import REPORT_KEY
-from texvent.scenes.wording import report_of
 from texvent.sensor import SENSORS, SensorSize
 from texvent.transfer import Transfer, encode_srgb, linear_levels
 from texvent.video import (

@@ -19,10 +19,12 @@ from texvent.scenes.description import (
     SceneObject,
 )
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
-from texvent.scenes.models.places import is_room
+from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import nouns_with, trait_value
 
+NO_PLACE = "no place is said"
+"""Begins the note about it."""
 SWAY = CameraMove("handheld", pace=0.4)
 """Move of the camera where nothing else moves: a still image has no events."""
 _ACTS = frozenset({"push", "kick", "hit", "throw", "catch", "collide"})
@@ -33,6 +35,8 @@ _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of"
 _AT_HAND = frozenset({"hold", "carry", "wear"})
 _PACES = {"walk": 0.7, "run": 1.0}
 """Pace of running in place that looks as walking and running do."""
+_GOING = {"stand": "slide", "float": "fly"}
+_ALONG = ("walk", "run", "drive", "fly", "roll", "crawl")
 _AFLOAT = ("sail", "paddle")
 _IN_WATER = ("swim", "surf", *_AFLOAT)
 _DARK_EFFECTS = frozenset({"fireworks"})
@@ -56,13 +60,22 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     description = _darken(_move_others(replace(description, objects=objects), nouns))
     place = _choose_place(description, nouns)
     if description.surroundings.name is None:
-        description = _note(description, f"no place is said: {place} is chosen")
+        description = _note(description, f"{NO_PLACE}: {place} is chosen")
     surroundings = replace(description.surroundings, name=place)
-    description = replace(description, surroundings=surroundings)
+    description = _follow_axis(replace(description, surroundings=surroundings))
     if not _has_motion(description):
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))
     return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
+
+
+def _follow_axis(description: SceneDescription) -> SceneDescription:
+    """Who goes through a place between two walls goes along them, unless it is said."""
+    along = {n: replace(one, motion=replace(one.motion, direction="towards"))
+             for n, one in enumerate(description.objects)
+             if one.motion and one.motion.kind in _ALONG and not one.motion.direction}  # fmt: skip
+    is_passage = PLACES[description.surroundings.name or "grass"].is_passage
+    return _change(description, along) if is_passage else description
 
 
 def _note(description: SceneDescription, note: str) -> SceneDescription:
@@ -103,7 +116,7 @@ def _decide_motion(motion: ObjectMotion | None, noun: Noun) -> ObjectMotion | No
         lives_there = noun.habitat in ("air", "water") and noun.motion != "stand"
         return ObjectMotion(noun.motion) if lives_there else None
     if motion.kind == "move":
-        motion = replace(motion, kind=noun.motion if noun.motion != "stand" else "slide")
+        motion = replace(motion, kind=_GOING.get(noun.motion, noun.motion))
     if motion.kind == "turn" and noun.habitat == "fixed":
         motion = replace(motion, kind="spin", pace=0.5 * motion.pace)
     if motion.kind == "spin" and motion.rate_hz is not None:

@@ -12,10 +12,9 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.description import SceneDescription
+from texvent.scenes.description import RELATIONS, SceneDescription
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Camera, Float64Array, Primitives, Shape
-from texvent.scenes.wording import RELATIONS
 
 _TRAVELS = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
                       "roll", "crawl", "rise", "sink"})  # fmt: skip
@@ -24,9 +23,6 @@ _LEAST_WAY, _MOST_COPIES = 0.1, 0.75
 _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
          "away": (2, 1), "across": (0, 0)}  # fmt: skip
 """Direction → axis of the camera (right, down, forward) and sign; 0: either one."""
-
-
-_SENDING = ("kick", "hit", "throw")
 
 
 class Unheld(NamedTuple):
@@ -94,11 +90,20 @@ def find_unheld(
     ]
     names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
     led = {target for one in description.relations for target in one.targets}
-    sent = {one.subject: one.targets[0] for one in description.relations if one.kind in _SENDING}
+    sent = {
+        one.subject: one.targets[0]
+        for one in description.relations
+        if one.kind in ("kick", "hit", "throw")
+    }
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
         rule, target = _RULES.get(one.kind), description.objects[one.targets[0]].noun
+        is_flat = {description.objects[one.subject].noun, target} <= nouns_with("flat pattern")
+        rule = _RULES["in"] if is_flat and one.kind == "on" else rule
+        side = description.objects[one.subject].side
+        if one.kind in ("past", "overtake") and side in ("left", "right"):
+            yield Unheld("placement", side, f"{names[one.subject]} passing on the {side}")
         is_seat = one.kind == "on" and target in nouns_with("sat on")  # within its frame
         if rule is None or one.subject in one.targets or is_seat:
             continue

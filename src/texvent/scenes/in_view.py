@@ -16,17 +16,19 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.scenes.defaults import NO_PLACE
 from texvent.scenes.description import AMID, SceneDescription
 from texvent.scenes.held import Unheld, bodies_of, find_unheld
-from texvent.scenes.models.places import PLACES
-from texvent.scenes.projection import project
+from texvent.scenes.models.effects import LAMPS
+from texvent.scenes.models.places import PLACES, Place
 from texvent.scenes.raycast.acceleration import CUBE
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.render import render, world_and_shapes
 from texvent.scenes.raycast.surface_motion import cast
-from texvent.scenes.read.lexicon import lexicon_of
-from texvent.scenes.scene import Float64Array, Ground, Primitives, Scene
+from texvent.scenes.read.lexicon import lexicon_of, word_set
+from texvent.scenes.scene import Camera, Float64Array, Ground, Primitives, Scene, Texture, project
 from texvent.scenes.spec.data import PLACING
+from texvent.scenes.staging.actors import assemble
 from texvent.scenes.staging.compose import ComposedScene
 from texvent.sensor import SensorSize
 
@@ -36,6 +38,8 @@ MOST_POINTS = 2000
 """Points of a grid over the image, or over the box of an object."""
 LEAST_PIXELS = 6
 """Pixels below which an object is too small to be told."""
+LEAST_INSIDE = 0.33
+"""Share of an object's extent that is inside the image; of less it is cut off."""
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
 _SMALL = SensorSize(120, 90)
@@ -44,7 +48,13 @@ _LEAST_LEVELS, _LEAST_SHARE = 6.0, 0.002
 """Difference of a pixel, of 255, that is seen; share of the pixels in which it must be."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
+_Shots = Sequence[tuple[Primitives, Camera]]
+_Box = tuple[Float64Array, Float64Array]
 _WATER = (Ground.SEA, Ground.LAKE, Ground.RIVER)
+_FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
+"""Grounds that many places have: only their scenery shows which one it is."""
+_LEAST_SCENERY = 0.02
+"""Share of the pixels that it covers."""
 _OUTDOORS = ("sunny", "overcast", "dusk", "dawn", "moonlight")
 _TURNS = ("spin", "work", "rotate")
 
@@ -70,27 +80,33 @@ def find_unseen(
     """
     object_of = scene.object_of
     pixels = count_pixels(scene, list(object_of), size, duration_s)
+    times = np.linspace(0.0, duration_s, INSTANTS)
+    shots = [(scene.primitives(float(time_s)), scene.camera(float(time_s))) for time_s in times]
     around = {i for one in description.relations if one.kind in AMID for i in one.targets}
+    related = {i for one in description.relations for i in one.targets}
     outside: list[str] = []
     small: list[str] = []
     for index, thing in enumerate(description.objects):
-        copies = [pixels[one] for one, owner in object_of.items() if owner == index]
+        ids = [one for one, owner in object_of.items() if owner == index]
+        copies = [pixels[one] for one in ids]
         most, lost = max(copies, default=0), copies.count(0)
         if not copies and index not in around:
             continue
+        least = math.inf if index not in related else 0.1 * size.width * size.height
         if most == 0:
             outside.append(thing.noun)
         elif most < LEAST_PIXELS:
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
         elif lost and len(copies) <= max(2 * lost, 0 if index in around else MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(copies)})")
-    times = np.linspace(0.0, duration_s, INSTANTS)
-    shots = [(scene.primitives(float(time_s)), scene.camera(float(time_s))) for time_s in times]
+        elif most < least and max(_share_inside(shots, size, one) for one in ids) < LEAST_INSIDE:
+            outside.append(f"{thing.noun} (cut off)")
     bodies = bodies_of(shots, [one for one, count in pixels.items() if count])
     unheld = [one for one in find_unheld(description, bodies, object_of)
               if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
     unheld += _unlit(scene, description, duration_s)
-    unheld += [Unheld("noun", noun, "") for noun in (*outside, *small)]
+    lines = (one.partition(" (") for one in (*outside, *small) if " of " not in one)
+    unheld += [Unheld("noun", noun, "") for noun, *_ in lines]
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)), tuple(dict.fromkeys(unheld))
     )
@@ -104,14 +120,15 @@ def without_words(words: Sequence[str], faults: Sequence[Unheld]) -> tuple[str, 
 
 def _meanings(word: str) -> Iterator[tuple[str, str | None]]:
     """Kinds and values, as of `Unheld`, of all senses of a word."""
-    for sense in lexicon_of(None).get(tuple(word.split()), ()):
+    phrase = tuple(one for one in word.split() if one not in word_set("senses", "articles"))
+    for sense in lexicon_of(None).get(phrase, ()):
         if sense.kind == "verb":
             one = sense.value
             yield from (("relation", one.relation), ("direction", one.direction))
             yield from (("motion", one.kind), ("effect", one.kind))
         elif sense.kind == "noun":
             yield "noun", sense.value.noun
-        elif sense.kind in ("adverb", "scene"):
+        elif sense.kind in ("adverb", "scene", "field"):
             *_, field, value = sense.value
             yield from ((field, ""), (field if field != "kind" else "light", value))
         else:
@@ -131,6 +148,7 @@ def _unlit(
     if said.has_snow and place.is_room:
         yield Unheld("has_snow", "", "snow, in a room")
     times = [share * duration_s for share in (0.17, 0.43, 0.71, 0.93)]
+    yield from _unplaced(scene, description, times)
     if said.clouds:
         sky = scene.animated_environment
         clear = replace(sky, base=replace(sky.base, clouds=0.0))
@@ -151,13 +169,51 @@ def _unlit(
         yield Unheld("motion", turning[0].motion.kind if turning[0].motion else "", line)
 
 
-def _differs(scene: Scene, other: Scene, times: Sequence[float], later_s: float = 0.0) -> bool:
+def _unplaced(
+    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
+) -> Iterator[Unheld]:
+    """A place whose scenery is not in view, and what no picture of it can have."""
+    said = description.surroundings
+    place = PLACES[said.name or "grass"]
+    if description.is_timelapse and place.is_room:
+        yield Unheld("is_timelapse", "", "time lapse, in a room")
+    for noun in (one.noun for one in description.objects if one.is_lit and one.noun not in LAMPS):
+        yield Unheld("is_lit", "", f"lights of the {noun}")
+    is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
+    is_shared = place.is_room or place.surface in _FLOORS or _is_common(place)
+    if is_said and is_shared and place.scenery and not said.is_empty:
+        bare = replace(scene, still=assemble([]))
+        if not _differs(scene, bare, times, least=_LEAST_SCENERY):
+            line = f"{said.name}, of which only the ground is in view"
+            yield Unheld("place", said.name or "", line)
+
+
+def _is_common(place: Place) -> bool:
+    """Whether a place before it in the table has the same ground."""
+    same = (one for one in PLACES.values() if one.ground is place.ground)
+    return next(one for one in same if one.surface is place.surface) is not place
+
+
+def _share_inside(shots: _Shots, size: SensorSize, instance: int) -> float:
+    """Most that the image holds of an object at one instant: share of its box in the image."""
+    most = 0.0
+    for shapes, camera in shots:
+        if (box := _box(camera, size, shapes, instance)) is not None:
+            (low, high), inside = box, np.diff(np.clip(box, 0.0, [size.width, size.height]), axis=0)
+            most = max(most, float(np.prod(inside / np.maximum(high - low, 1e-9))))
+    return most
+
+
+def _differs(
+    scene: Scene, other: Scene, times: Sequence[float], later_s: float = 0.0,
+    least: float = _LEAST_SHARE,
+) -> bool:  # fmt: skip
     """Whether enough pixels of small pictures are others at one of the instants."""
     for time_s in times:
         first, second = (render(one, at_s, _SMALL, samples=1, shadows=False)
                          for one, at_s in ((scene, time_s), (other, time_s + later_s)))  # fmt: skip
         change = np.abs(first - second).max(axis=-1)
-        if np.mean(change >= _LEAST_LEVELS) >= _LEAST_SHARE:
+        if np.mean(change >= _LEAST_LEVELS) >= least:
             return True
     return False
 
@@ -171,12 +227,15 @@ def count_pixels(
     everywhere, share = _grid(*whole)
     for time_s in np.linspace(0.0, duration_s, INSTANTS):
         world, shapes = world_and_shapes(scene, float(time_s), size, shadows=False)
+        camera = scene.camera(float(time_s))
         owner = np.append(shapes.instance.astype(np.int64), 0)
         seen = _count(world, owner, everywhere)
         for one in instances:
             most[one] = max(most[one], round(share * seen[one]))
-            if most[one] < LEAST_PIXELS * share and (box := _box(scene, time_s, size, shapes, one)):
-                points, each = _grid(*box)
+            box = _box(camera, size, shapes, one) if most[one] < LEAST_PIXELS * share else None
+            low, high = np.clip(box or (whole[0], whole[0]), *whole)
+            if np.all(high > low):
+                points, each = _grid(np.floor(low), np.ceil(high))
                 most[one] = max(most[one], round(each * _count(world, owner, points)[one]))
     return most
 
@@ -196,18 +255,16 @@ def _grid(low: Float64Array, high: Float64Array) -> tuple[Float64Array, float]:
     return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2), float(step * step)
 
 
-def _box(
-    scene: Scene, time_s: float, size: SensorSize, shapes: Primitives, instance: int
-) -> tuple[Float64Array, Float64Array] | None:
-    """Whole pixels around an instance, low and high corner; None where it is not in the image."""
+def _box(camera: Camera, size: SensorSize, shapes: Primitives, instance: int) -> _Box | None:
+    """Low and high corner [2] of an instance, pixels; of one around the camera the whole image.
+
+    None where it is behind the camera.
+    """
     to_world = shapes.to_world[shapes.instance == instance].astype(np.float64)
     corners = CUBE @ to_world[:, :, :3].transpose(0, 2, 1) + to_world[:, None, :, 3]
-    seen = project(scene.camera(float(time_s)), size, corners.reshape(-1, 3))
-    low, high = np.zeros(2), np.array([size.width, size.height], dtype=np.float64)
+    seen = project(camera, size, corners.reshape(-1, 3))
+    if not np.any(seen[:, 2] > 0.0):
+        return None
     if (seen[:, 2] > 0.0).all() and np.isfinite(seen).all():
-        low, high = (
-            np.clip(np.floor(seen[:, :2].min(axis=0)), low, high),
-            np.clip(np.ceil(seen[:, :2].max(axis=0)), low, high),
-        )
-    is_shown = np.any(seen[:, 2] > 0.0) and np.all(high > low)
-    return (low, high) if is_shown else None
+        return seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
+    return np.zeros(2), np.array([size.width, size.height], dtype=np.float64)

@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 
 from texvent.capture.prepare import PreparedFrames
 from texvent.errors import ConfigError, InputError
-from texvent.scenes.models.class_ids import BACKGROUND, UNNAMED, class_ids_of
+from texvent.scenes.models.tables import BACKGROUND, UNNAMED, class_ids_of
 from texvent.scenes.raycast.ground_truth import Box
 from texvent.scenes.scene import Camera
 from texvent.sensor import SensorSize

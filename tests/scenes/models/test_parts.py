@@ -7,7 +7,6 @@ import numpy as np
 import pytest
 
 from texvent.errors import FileFormatError
-from texvent.scenes.models.class_ids import CLASS_IDS, FIRST_OTHER
 from texvent.scenes.models.joints import read_joint, read_light
 from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import NOUNS
@@ -15,6 +14,7 @@ from texvent.scenes.models.part_lines import read_parts
 from texvent.scenes.models.parts import PartsBuilder, read_nouns
 from texvent.scenes.models.protocol import Noun, Pose
 from texvent.scenes.models.surfaces import read_surface, shared_surfaces
+from texvent.scenes.models.tables import CLASS_IDS, FIRST_OTHER
 from texvent.scenes.scene import Texture
 
 DIGEST = Path(__file__).with_name("noun_digest.txt")

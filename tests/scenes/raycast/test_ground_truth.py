@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 from tests.scenes.raycast.intersect_reference import hit_shape_reference
 
-from texvent.scenes.projection import camera_rays
 from texvent.scenes.raycast.ground_truth import ground_truth
-from texvent.scenes.scene import Camera, Ground, Shape
+from texvent.scenes.scene import Camera, Ground, Shape, camera_rays
 from texvent.sensor import SensorSize
 
 from ..hand_scenes import HandScene, MovingShape, look_at, moving, showcase, still

@@ -6,9 +6,8 @@ import pytest
 from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, sheet
 
 from texvent.scenes.mesh import SurfaceImage, surface_image
-from texvent.scenes.projection import place_in_image
 from texvent.scenes.raycast.render import render_light
-from texvent.scenes.scene import Camera
+from texvent.scenes.scene import Camera, place_in_image
 from texvent.sensor import SensorSize
 from texvent.transfer import encode_srgb
 

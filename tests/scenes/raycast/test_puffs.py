@@ -8,10 +8,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.scenes.projection import camera_rays
 from texvent.scenes.raycast.puffs import WIDENED_PX, density_integral, optical_depth
 from texvent.scenes.raycast.render import render_light, world_at
-from texvent.scenes.scene import PUFF_COLUMNS, Environment, Float64Array, Ground
+from texvent.scenes.scene import PUFF_COLUMNS, Environment, Float64Array, Ground, camera_rays
 from texvent.sensor import SensorSize
 
 from ..hand_scenes import HandScene, MovingShape, day, look_at

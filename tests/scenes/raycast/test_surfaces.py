@@ -25,7 +25,7 @@ from texvent.scenes.raycast.surfaces.catalogue import (
 )
 from texvent.scenes.raycast.surfaces.fields import SIDE
 from texvent.scenes.scene import Ground, Texture
-from texvent.scenes.staging.surroundings.road import RoadLine
+from texvent.scenes.staging.surroundings.environment import RoadLine
 
 Floats = np.ndarray
 

@@ -12,8 +12,7 @@ from texvent.generate.scene_input import list_words, read
 from texvent.scenes import read as reader
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.read.draft import is_grammar
-from texvent.scenes.read.lexicon import lexicon_of
-from texvent.scenes.read.tokens import split_prompt
+from texvent.scenes.read.lexicon import lexicon_of, split_prompt
 from texvent.scenes.spec.data import checked_scene
 
 MOST_WRONG, MOST_SILENT = 0.07, 0.03
@@ -22,23 +21,8 @@ MOST_SECONDS = 0.001
 """Mean time to read a prompt."""
 WORDS = sorted(" ".join(phrase) for phrase in lexicon_of(None))
 VOCABULARY = list_words(NOUNS)
-SIGNS = [
-    ",",
-    ".",
-    "and",
-    "the",
-    "a",
-    "then",
-    "of",
-    "it",
-    "wug",
-    "7",
-    "2 Hz",
-    "1e9",
-    "99999999 m/s",
-    '"STOP"',
-    "a.png",
-]
+SIGNS = [",", ".", "and", "the", "a", "then", "of", "it", "wug", "7", "2 Hz", "1e9",
+         "99999999 m/s", '"STOP"', "a.png"]  # fmt: skip
 
 
 def test_facts_of_short_prompts_are_right():

@@ -27,10 +27,9 @@ from texvent.scenes.spec.data import (
     scene_from_data,
     scene_to_data,
 )
-from texvent.scenes.spec.files import load_scene, save_scene, scene_text
+from texvent.scenes.spec.files import json_schema, load_scene, save_scene, scene_text
 from texvent.scenes.spec.limits import Between, Colour, Word
 from texvent.scenes.spec.scene import Camera, Lamp, Motion, Relation, Scene, SceneObject
-from texvent.scenes.spec.schema import json_schema
 from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from tests.scenes.staged import DURATION_S, SIZE, in_image, stage, thing
 
 from texvent.scenes.description import CameraMove, ObjectMotion, SceneObject, Shot
-from texvent.scenes.projection import project
+from texvent.scenes.scene import project
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framing import (
     come_near,

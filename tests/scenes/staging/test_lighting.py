@@ -8,7 +8,7 @@ from tests.scenes.staged import SIZE, stage, thing
 
 from texvent.generate.scene_input import describe_scene, list_nouns
 from texvent.scenes.description import Illumination
-from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.models.effects import LAMPS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.raycast.render import render
 from texvent.scenes.spec.scene import Camera, Lamp, Light, Place, Scene, SceneObject

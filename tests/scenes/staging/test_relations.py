@@ -17,7 +17,7 @@ from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Ground
-from texvent.scenes.staging.surroundings.road import RoadLine
+from texvent.scenes.staging.surroundings.environment import RoadLine
 from texvent.scenes.staging.surroundings.scenery import under_snow
 from texvent.sensor import SensorSize
 

@@ -18,7 +18,7 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.generate.scene_input import list_nouns, list_words
 from texvent.io.atomic import atomic_file, check_output
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.spec.schema import json_schema
+from texvent.scenes.spec.files import json_schema
 from texvent.sensor import SensorSize
 
 ACTIONS = ("list", "show", "--schema")

@@ -20,8 +20,7 @@ from texvent.scenes.description import SceneDescription
 from texvent.scenes.mesh import Colour, Float64Array, SurfaceImage, decode_srgb, surface_image
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.parts import read_nouns
-from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
-from texvent.scenes.models.variation import choose
+from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose, choose
 from texvent.scenes.scene import Shape, Texture
 
 _CLEAR = 0.4

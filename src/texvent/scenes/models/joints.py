@@ -15,9 +15,8 @@ import numpy as np
 
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS, act_stance
 from texvent.scenes.models.materials import shade
-from texvent.scenes.models.protocol import ModelPart, Pose
+from texvent.scenes.models.protocol import ModelPart, Pose, between, fraction
 from texvent.scenes.models.shapes import Affine, Point, compose, moved, shift, turn_about
-from texvent.scenes.models.variation import between, fraction
 
 _UNITS = {"": 1.0, "deg": math.radians(1.0), "hz": 1.0, "m/s": 1.0, "m": 1.0}
 

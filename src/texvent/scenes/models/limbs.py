@@ -10,7 +10,7 @@ from typing import Any
 
 from texvent.scenes.models.joints import read_cycle
 from texvent.scenes.models.materials import Material
-from texvent.scenes.models.protocol import ModelPart, Pose
+from texvent.scenes.models.protocol import ModelPart, Pose, fraction
 from texvent.scenes.models.shapes import (
     Point,
     limb,
@@ -20,7 +20,6 @@ from texvent.scenes.models.shapes import (
     turn_z,
 )
 from texvent.scenes.models.surfaces import Painted
-from texvent.scenes.models.variation import fraction
 
 
 @dataclass(frozen=True)

@@ -28,11 +28,6 @@ from texvent.errors import FileFormatError, InputError
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS, MOUTH_ACTS
 from texvent.scenes.models.animals.body import build_quadruped
 from texvent.scenes.models.animals.build import QUADRUPED_KEYS
-from texvent.scenes.models.articulated_model import (
-    SAMPLE_POSES,
-    STANDING_POSES,
-    ArticulatedModel,
-)
 from texvent.scenes.models.joints import (
     RESTING,
     Joint,
@@ -46,10 +41,19 @@ from texvent.scenes.models.limbs import Chain, read_walk
 from texvent.scenes.models.materials import shade
 from texvent.scenes.models.part_lines import Placed, read_groups, read_parts
 from texvent.scenes.models.people.figure import read_rider
-from texvent.scenes.models.protocol import ModelPart, Noun, Pose
-from texvent.scenes.models.shapes import ball, compose, half_extents, moved, shift, turn_y
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose, between, choose, fraction
+from texvent.scenes.models.shapes import (
+    SAMPLE_POSES,
+    STANDING_POSES,
+    ArticulatedModel,
+    ball,
+    compose,
+    half_extents,
+    moved,
+    shift,
+    turn_y,
+)
 from texvent.scenes.models.surfaces import Painted, paint_model
-from texvent.scenes.models.variation import between, choose, fraction
 from texvent.scenes.scene import Colour
 
 _KEYS: Mapping[str, tuple[type, ...]] = {

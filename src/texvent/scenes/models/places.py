@@ -77,6 +77,11 @@ class Place:
         return self.ground is Ground.FLOOR
 
     @property
+    def is_passage(self) -> bool:
+        """Whether it runs between two walls."""
+        return any(one.is_structure for one in self.scenery)
+
+    @property
     def has_road(self) -> bool:
         """Whether a road or a street runs through it."""
         return self.ground in ROAD_GROUNDS

@@ -11,10 +11,9 @@ from typing import Any
 
 from texvent.scenes.models.materials import BLACK, WHITE, Material, made_of, shade
 from texvent.scenes.models.part_lines import Placed, read_parts
-from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.models.protocol import ModelPart, choose
 from texvent.scenes.models.shapes import part
 from texvent.scenes.models.tables import read_table
-from texvent.scenes.models.variation import choose
 from texvent.scenes.scene import FIRST_SURFACE, Colour, Texture, decode_hex
 
 PAINT = "paint"

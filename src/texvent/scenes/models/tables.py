@@ -1,12 +1,17 @@
-"""The TOML files of `models/data` and `read/data` as tables, and the traits of nouns in them."""
+"""The TOML files of `models/data` and `read/data` as tables, traits of nouns, and class ids.
+
+The class id of a noun in label images, boxes and events is the same in every clip and version: new
+nouns are added at the end of `data/class_ids.toml`, and no number is given to another noun.
+"""
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
+from types import MappingProxyType
 from typing import Any
 
 
@@ -69,3 +74,40 @@ def trait_values(trait: str) -> Mapping[str, Any]:
     """Noun → value of a trait that is a table."""
     values: Mapping[str, Any] = _read()[trait]
     return values
+
+
+BACKGROUND = 0
+"""Class of what is no object: ground, sky, walls, scenery without an id."""
+UNNAMED = 1000
+"""Class of an object whose name is not known."""
+FIRST_OTHER = 2001
+"""Numbers of names that are no nouns of the embedded generator begin here."""
+
+
+def _read_class_ids() -> Mapping[str, int]:
+    names: str = read_table("class_ids")["nouns"]
+    numbered = enumerate(names.split(","), start=1)
+    return MappingProxyType({" ".join(name.split()): number for number, name in numbered})
+
+
+CLASS_IDS: Mapping[str, int] = _read_class_ids()
+"""Noun → class id, 1, 2, ..., of nouns that are gone too."""
+
+
+def class_ids_of(names: Iterable[str]) -> dict[str, int]:
+    """The class ids of names; those of no noun are numbered in alphabetical order.
+
+    Args:
+        names: class names, such as "car".
+
+    Returns:
+        Name → class id.
+
+    Example:
+        >>> class_ids_of(["zeppelin", "dirigible"])
+        {'dirigible': 2001, 'zeppelin': 2002}
+    """
+    asked = set(names)
+    others = enumerate(sorted(asked - CLASS_IDS.keys()), start=FIRST_OTHER)
+    known = {name: CLASS_IDS[name] for name in sorted(asked & CLASS_IDS.keys())}
+    return known | {name: number for number, name in others}

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.lens import Lens, lens_reach
-from texvent.scenes.projection import Rays
 from texvent.scenes.raycast.meshes.tree import describe_surfaces, tree_of
 from texvent.scenes.raycast.records import (
     GLOW_RECORD,
@@ -33,6 +32,7 @@ from texvent.scenes.scene import (
     Environment,
     Float64Array,
     Primitives,
+    Rays,
     Shape,
 )
 from texvent.sensor import SensorSize

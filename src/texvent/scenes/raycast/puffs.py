@@ -17,7 +17,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.scenes.projection import Rays
 from texvent.scenes.raycast.acceleration import (
     TILE,
     Bins,
@@ -31,7 +30,7 @@ from texvent.scenes.raycast.shading.value_noise import detail_fade, noise_3d
 from texvent.scenes.raycast.trace import plane_direction, tile_at
 from texvent.scenes.raycast.uncounted import puff_at
 from texvent.scenes.raycast.vectors import Vector, along, dot, plane_point, scaled, triple, turned
-from texvent.scenes.scene import PUFF_COLUMNS, Colour, Float64Array
+from texvent.scenes.scene import PUFF_COLUMNS, Colour, Float64Array, Rays
 from texvent.sensor import SensorSize
 
 _DETAIL_SCALE = 2.8

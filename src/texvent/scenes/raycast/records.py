@@ -14,9 +14,8 @@ from numpy.typing import NDArray
 
 from texvent.scenes.lens import Lens
 from texvent.scenes.mesh import MOST_LEVELS
-from texvent.scenes.projection import Rays
 from texvent.scenes.raycast.surfaces.catalogue import SURFACE_COUNT, surface_rows
-from texvent.scenes.scene import Environment, Float64Array, Ground, Primitives, Texture
+from texvent.scenes.scene import Environment, Float64Array, Ground, Primitives, Rays, Texture
 
 NIGHT_SKY = 0.06
 """Stars show where the sky at the zenith is darker than this (linear luma)."""

@@ -10,14 +10,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.threads import run_parts
-from texvent.scenes.projection import Rays, camera_rays
 from texvent.scenes.raycast.acceleration import TILE, Bins, build_world
 from texvent.scenes.raycast.adaptive_sampling import render_rows
 from texvent.scenes.raycast.lamps.glow import see_glows
 from texvent.scenes.raycast.lamps.light import list_casters, order_lamps
 from texvent.scenes.raycast.puffs import describe_puffs
 from texvent.scenes.raycast.records import OwnedWorld, World, point_to
-from texvent.scenes.scene import Environment, Float32Array, Float64Array, Primitives, Scene
+from texvent.scenes.scene import (
+    Environment,
+    Float32Array,
+    Float64Array,
+    Primitives,
+    Rays,
+    Scene,
+    camera_rays,
+)
 from texvent.sensor import SensorSize
 from texvent.transfer import encode_srgb
 

@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.runtime.threads import count_threads, run_parts, split
-from texvent.scenes.projection import place_in_image
 from texvent.scenes.raycast.meshes.tree import tree_of
 from texvent.scenes.raycast.records import OwnedWorld, World
 from texvent.scenes.raycast.render import world_at
@@ -25,7 +24,7 @@ from texvent.scenes.raycast.trace import (
 )
 from texvent.scenes.raycast.uncounted import uncounted_world
 from texvent.scenes.raycast.vectors import plane_point, turned
-from texvent.scenes.scene import Float64Array, Primitives, Scene
+from texvent.scenes.scene import Float64Array, Primitives, Scene, place_in_image
 from texvent.sensor import SensorSize
 from texvent.video import Motion
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
-from texvent.scenes.read.lexicon import word_set
-from texvent.scenes.read.tokens import NO_TOKEN, Token
+from texvent.scenes.read.lexicon import NO_TOKEN, Token, word_set
 
 _HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""
@@ -14,6 +13,7 @@ _MODIFIERS = ("field", "scene", "adverb")
 """Senses of what stands before it."""
 _STANDPOINTS = ("camera", "pronouns", "conjunctions", "relatives", "negations")
 """Senses of words that no noun group holds."""
+_IS = ("is", "are", "was", "were")
 _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 """Begin phrases that stand alone: "at night"."""
 
@@ -121,8 +121,6 @@ class _Parser:
         self._at += 1
         return self._token(-1)
 
-    # Where a clause ends
-
     def _end(self, clause: Clause) -> Clause | None:
         """How the next clause begins, where this one ends here."""
         token, word = self._token(), self._token().text
@@ -202,7 +200,8 @@ class _Parser:
 
     def _read_phrase(self, clause: Clause) -> Clause | None:
         token = self._token()
-        if not token.has("relation", "small") or token.text in ("and", "or"):
+        is_doing = token.text in _IS and self._token(1).text.endswith("ing")
+        if not token.has("relation", "small") or token.text in ("and", "or") or is_doing:
             return None
         is_back = token.has("relation") and self._token(1).has("pronouns")
         if not is_back and (not self._starts_group(1) or self._token(1).has("adverb")):
@@ -225,7 +224,8 @@ class _Parser:
 
     def _read_group(self, clause: Clause) -> Clause | None:
         is_said = clause.subjects if clause.verb is None else clause.objects or clause.after
-        if (self._token().is_unknown and is_said) or not self._starts_group():
+        is_rest = (self._token().is_unknown and is_said) or self._is_no_noun(clause)
+        if is_rest or not self._starts_group():
             return None
         if clause.verb is None:
             return replace(clause, subjects=(*clause.subjects, self._group()))
@@ -233,12 +233,20 @@ class _Parser:
 
     def _read_rest(self, clause: Clause) -> Clause:
         """A word that is not known right after the subject is taken to be its verb."""
-        token = self._take()
+        token = replace(self._take(), senses=()) if self._is_no_noun(clause) else self._take()
         is_verb = clause.subjects and not clause.verb and token.is_unknown
         if not is_verb or token.text.endswith("ly"):
             return replace(clause, after=(*clause.after, token))
         groups = self._groups() if self._starts_group() else ()
         return replace(clause, verb=token, objects=groups)
+
+    def _is_no_noun(self, clause: Clause) -> bool:
+        """Whether a bare noun follows a finished group: "are building a wall"."""
+        token, before = self._token(), self._token(-1)
+        is_noun = token.has("noun", "place", "effect", "pose") and not token.has(*_MODIFIERS)
+        is_doing = before.text in _IS and token.text.endswith("ing")
+        is_after = before.has("noun", "place") or before.is_unknown
+        return is_noun and clause.has_subject and (is_after or is_doing)
 
     # Noun groups
 
@@ -246,7 +254,9 @@ class _Parser:
         token, after = self._token(ahead), self._token(ahead + 1)
         if token.has("articles"):
             return not after.has("camera") and not after.is_sign
-        if token.has(*_STANDPOINTS) or token.is_sign or _is_alone(token):
+        is_view = token.has("shot") and not token.has("noun", "place")
+        is_alone = is_view or token.text.startswith(_PREPOSITIONS)  # "aerial view", "at night"
+        if token.has(*_STANDPOINTS) or token.is_sign or is_alone:
             return False
         if token.has("noun", "place", "effect", "pose", "field"):
             return True
@@ -261,7 +271,7 @@ class _Parser:
         So does one with a like preposition: "a girl with a hat and a boy with a ball".
         """
         found = [self._group()]
-        while self._token().text == "and" and self._starts_group(1):
+        while self._token().text == "and" and self._starts_group(1) and not self._has_object(1):
             start = self._at
             self._take()
             group = self._group()
@@ -282,7 +292,7 @@ class _Parser:
     def _group(self) -> Group:
         modifiers: list[Token] = []
         unknown: list[Token] = []
-        head, article = None, self._token().text
+        head, article = None, self._token().text if self._token().has("articles") else ""
         while self._token().has("articles"):
             self._take()
         first = self._at
@@ -319,14 +329,12 @@ class _Parser:
 
     def _is_compound(self) -> bool:
         """Whether the word that follows is the head: "dog house"."""
-        after, third = self._token(), self._token(1)
-        is_verb = after.text.endswith("s") and third.has("articles")
+        after = self._token()
         is_head = after.has("noun", "place") and not after.has("verb", "relation", "adverb")
-        return is_head and not is_verb
+        is_many = any(one.value.is_plural for one in self._token(-1).all("noun"))  # "dogs fish"
+        return is_head and not (is_many or self._has_object())
 
-
-def _is_alone(token: Token) -> bool:
-    """Whether a token stands for itself, before no noun: "at night", "aerial view"."""
-    return token.text.startswith(_PREPOSITIONS) or (
-        token.has("shot") and not token.has("noun", "place")
-    )
+    def _has_object(self, ahead: int = 0) -> bool:
+        """Whether a word that may be a noun is a verb: "and watches the ducks"."""
+        token = self._token(ahead)
+        return token.text.endswith("s") and self._token(ahead + 1).has("articles")

@@ -1,17 +1,21 @@
-"""Draft of a scene: what the clauses have said so far, and what became of each word."""
+"""Draft of a scene: objects, effects and moves of the camera so far, and the fate of each word."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, get_args
 
-from texvent.scenes.read.lexicon import word_set
-from texvent.scenes.read.tokens import Token
+from texvent.scenes.models.tables import read_table
+from texvent.scenes.read.clauses import Clause
+from texvent.scenes.read.lexicon import Token, VerbSense, word_set
 from texvent.scenes.report import Substitution
 from texvent.scenes.spec.data import PLACING, scene_from_data
-from texvent.scenes.spec.scene import MAX_BODIES, Scene, number_nouns
+from texvent.scenes.spec.scene import MAX_BODIES, MoveDirection, MoveKind, Scene, number_nouns
 
+_KINDS = sorted(get_args(MoveKind), key=len, reverse=True)
+_UNTURNED = ("handheld", "static")
+_MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 _GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "negations", "small", "style",
             "relation", "camera")  # fmt: skip
 """Senses of words that a report does not list unless they are lost or shown."""
@@ -20,6 +24,39 @@ _GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "negations", "s
 def is_grammar(token: Token) -> bool:
     """Whether a token names nothing by itself: "the", "of", "under", "footage"."""
     return token.has(*_GRAMMAR)
+
+
+def split_move(phrase: str) -> dict[str, Any]:
+    """A move of words.toml, such as "dolly zoom in", as fields of `CameraMove`."""
+    kind = next(one for one in _KINDS if phrase == one or phrase.startswith(f"{one} "))
+    direction = phrase[len(kind) + 1 :]
+    is_turned = direction in (get_args(MoveDirection) if kind not in _UNTURNED else ("all axes",))
+    return {"kind": kind, **({"direction": direction} if is_turned else {})}
+
+
+def set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
+    """Set a field of an object, or an adverb of its last motion."""
+    if field == "rate_hz" and "blink_hz" in thing:
+        field, kind = "blink_hz", "field"
+    if kind == "field" or field == "placement":
+        thing[field] = int(value) if field == "count" else value
+        return
+    if not thing["motions"]:
+        thing["motions"].append({"kind": "move"})
+    motion = thing["motions"][-1]
+    motion[field] = round(motion.get("pace", 1.0) * value, 6) if field == "pace" else value
+
+
+def add_motion(thing: dict[str, Any], act: VerbSense) -> None:
+    """Add a motion; it takes the place of one of which only the pace is said."""
+    motions, pace = thing["motions"], act.pace
+    if not act.kind:
+        return
+    said = {"kind": act.kind, "direction": act.direction, "end_pace": act.end_pace}
+    motion = {name: value for name, value in said.items() if value is not None}
+    if motions and set(motions[-1]) <= {"kind", "pace"} and motions[-1]["kind"] == "move":
+        pace *= motions.pop().get("pace", 1.0)
+    motions.append(motion | ({"pace": pace} if pace != 1.0 else {}))
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -44,6 +81,8 @@ class SceneDraft:
     """Fields of objects, whose relations are to indices of others; "is_lost" if what it does is
     not known; "act", what it does if nothing else is said."""
     moves: list[dict[str, Any]] = field(default_factory=list)
+    phase: int = 0
+    """Of moves of the camera: those said after "then" follow."""
     effects: list[dict[str, Any]] = field(default_factory=list)
     """Effects, each with the index of its source."""
     absent: list[str] = field(default_factory=list)
@@ -79,6 +118,47 @@ class SceneDraft:
         return subject == other or any(
             self._stands_by(target, other) for one in relations for target in one["to"]
         )
+
+    def set_scene(self, token: Token) -> bool:
+        """Apply a word of light, weather, place or camera, wherever it stands."""
+        for sense in token.all("shot"):
+            self.add_move(split_move(sense.value))
+        for part, name, value in (sense.value for sense in token.all("scene")):
+            self.parts[part][name] = value
+        is_said = token.has("shot", "scene")
+        self.show(*([token] if is_said else []))
+        return is_said
+
+    def add_move(self, move: dict[str, Any]) -> None:
+        """Add a move of the camera; what flies is seen from the air."""
+        self.moves.append({**move, **({"phase": self.phase} if self.phase else {})})
+        if move.get("means") == "fly":
+            self.parts["camera"].setdefault("view", "aerial")
+
+    def find_move(self, clause: Clause, *, is_ego: bool = False) -> dict[str, Any] | None:
+        """The move of a clause with its direction and pace; these words are counted as shown.
+
+        None where the verb is no move of a camera.
+        """
+        verb = clause.verb
+        senses = [one.value for one in verb.all("verb")] if verb is not None else []
+        moves = [one.kind for one in senses if one.who == "camera"]
+        if verb is None or not moves or (is_ego and "travel forward" not in moves):
+            return None
+        self.show(verb)
+        move = split_move("travel forward" if is_ego else moves[0])
+        for one in clause.after:
+            if isinstance(one, Token) and (said := one.first("adverb")) is not None:
+                self.show(one)
+                name, value = said.value
+                move[name] = move.get("pace", 1.0) * value if name == "pace" else value
+        phrase = f"{move['kind']} {move.get('direction', '')}".strip()
+        pace = {"pace": move["pace"]} if "pace" in move else {}
+        move = split_move(read_table("words", "read")["turned_moves"].get(phrase, phrase)) | pace
+        means = [one.kind for one in senses if one.who == "plain" and one.kind in _MEANS]
+        if move["kind"] == "travel" and means:
+            move["means"] = means[0]
+        return move
 
     def reading(self, prompt: str) -> Reading:
         """The scene, and its words; one that is lost at one place of the prompt is not shown."""

@@ -3,57 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, get_args
 
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.people.outfit import list_props
+from texvent.scenes.models.places import is_room
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.models.tables import read_table
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
-from texvent.scenes.read.draft import Reading, SceneDraft
-from texvent.scenes.read.lexicon import Sense, VerbSense, lexicon_of, word_set
-from texvent.scenes.read.tokens import Token, split_prompt
-from texvent.scenes.spec.scene import MAX_BODIES, MoveDirection, MoveKind
-
-_KINDS = sorted(get_args(MoveKind), key=len, reverse=True)
-_UNTURNED = ("handheld", "static")
-_MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
-
-
-def split_move(phrase: str) -> dict[str, Any]:
-    """A move of words.toml, such as "dolly zoom in", as fields of `CameraMove`."""
-    kind = next(one for one in _KINDS if phrase == one or phrase.startswith(f"{one} "))
-    direction = phrase[len(kind) + 1 :]
-    is_turned = direction in (get_args(MoveDirection) if kind not in _UNTURNED else ("all axes",))
-    return {"kind": kind, **({"direction": direction} if is_turned else {})}
-
-
-def find_move(draft: SceneDraft, clause: Clause, *, is_ego: bool = False) -> dict[str, Any] | None:
-    """The move of a clause with its direction and pace; these words are counted as shown.
-
-    None where the verb is no move of a camera.
-    """
-    verb = clause.verb
-    senses = [one.value for one in verb.all("verb")] if verb is not None else []
-    moves = [one.kind for one in senses if one.who == "camera"]
-    if verb is None or not moves or (is_ego and "travel forward" not in moves):
-        return None
-    draft.show(verb)
-    move = split_move("travel forward" if is_ego else moves[0])
-    for one in clause.after:
-        said = None if isinstance(one, Phrase) else one.first("adverb")
-        if said is not None and not isinstance(one, Phrase):
-            draft.show(one)
-            field, value = said.value
-            move[field] = move.get("pace", 1.0) * value if field == "pace" else value
-    phrase = f"{move['kind']} {move.get('direction', '')}".strip()
-    pace = {"pace": move["pace"]} if "pace" in move else {}
-    move = split_move(read_table("words", "read")["turned_moves"].get(phrase, phrase)) | pace
-    means = [one.kind for one in senses if one.who == "plain" and one.kind in _MEANS]
-    if move["kind"] == "travel" and means:
-        move["means"] = means[0]
-    return move
-
+from texvent.scenes.read.draft import Reading, SceneDraft, add_motion, set_field
+from texvent.scenes.read.lexicon import Sense, Token, VerbSense, lexicon_of, split_prompt, word_set
+from texvent.scenes.spec.scene import MAX_BODIES
 
 PLURAL_COUNT, SURROUND_COUNT = 3, 14
 """Copies that a bare plural means, and means all around something."""
@@ -82,11 +40,10 @@ class _Reader:
         self._nearest: list[int] = []
         """Objects of the last noun group."""
         self._was_camera = False
-        self._phase = 0
 
     def apply(self, clause: Clause) -> None:
         """Add what a clause says."""
-        self._phase += clause.about == "then" and bool(self._draft.moves)
+        self._draft.phase += clause.about == "then" and bool(self._draft.moves)
         for head in (group.head for group in clause.absent):
             if head is not None and head.has("noun"):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
@@ -115,7 +72,7 @@ class _Reader:
             self._draft.mark(before[-1].preposition, "shown")
         self._subjects, moved = list(subjects), subjects
         if clause.verb is not None:
-            is_unknown = any(one.head is None or _is_liquid(one.head) for one in clause.objects)
+            is_unknown = any(one.head is None or one.head.is_liquid for one in clause.objects)
             found = self._act(clause.verb, subjects, objects, has_object=is_unknown)
             kinds = {one.value.kind for one in clause.verb.all("verb")}
             if not subjects and clause.is_of_effect and kinds & word_set("effects", "motions"):
@@ -128,7 +85,7 @@ class _Reader:
         for one in (each for each in clause.after if each not in before):
             if isinstance(one, Phrase):
                 told = self._relate(one, subjects, moved) or moved
-            elif not self._set_scene(one):
+            elif not self._draft.set_scene(one):
                 adverb = one.first("adverb")
                 if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
                     self._draft.mark(one, "lost")
@@ -164,7 +121,7 @@ class _Reader:
         else:  # an effect, light, weather, or nothing that is known
             for token in (*group.modifiers, *([head] if head else [])):
                 effect = token.first("effect")
-                if not self._set_scene(token) and effect is not None:
+                if not self._draft.set_scene(token) and effect is not None:
                     self._add_effect(token, effect.value, owners)
         if group.of is not None and not is_likeness:
             self._fill(found, group.of)
@@ -173,7 +130,7 @@ class _Reader:
     def _fill(self, vessels: Sequence[int], of: Phrase) -> None:
         """Add what is in something, as "of apples"."""
         draft, head = self._draft, of.groups[0].head
-        if head is None or _is_liquid(head):
+        if head is None or head.is_liquid:
             return
         inside = self._name(of.groups[0])
         if inside and vessels:
@@ -183,7 +140,7 @@ class _Reader:
                 draft.mark(of.preposition, "lost")
 
     def _is_place(self, head: Token, relation: str) -> bool:
-        is_thing = head.has("noun", "pose") or _is_liquid(head)
+        is_thing = head.has("noun", "pose") or head.is_liquid
         is_where = bool(relation) and relation not in word_set("things", "positions")
         return head.has("place") and (is_where or not is_thing)
 
@@ -219,6 +176,26 @@ class _Reader:
         self._draft.effects.append({"kind": kind, "source": owners[0] if owners else None})
         self._draft.show(token)
 
+    def _set_place(self, group: Group, head: Token, relation: str) -> None:
+        """As "on a snowy road", "a red sky", "a mountain road"."""
+        draft, place = self._draft, self._draft.parts["place"]
+        name = head.all("place")[0].value
+        for token in group.modifiers:
+            field, value = (token.first("field") or Sense("", ("", ""))).value
+            if token.text == "dark":
+                draft.parts["light"].setdefault("kind", "night")
+                if name == "plain":
+                    place |= {"colour": "black", "sky": "black"}
+            elif field == "colour" and not is_room(name):
+                place["sky" if name == "sky" else "colour"] = value
+            elif not self._draft.set_scene(token):
+                continue
+            draft.show(token)
+        self._draft.set_scene(head)
+        is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
+        if (name == "sky" and is_said) or place.setdefault("name", name) == name:
+            draft.show(head)
+
     # What is said of things
 
     def _say(self, token: Token, subjects: Sequence[int]) -> None:
@@ -237,9 +214,9 @@ class _Reader:
             return
         elif said is not None and things:
             for thing in things:
-                _set_field(thing, said.kind, field, value)
+                set_field(thing, said.kind, field, value)
         else:
-            if not self._set_scene(token) and things and token.verbs("ing", "ed"):
+            if not self._draft.set_scene(token) and things and token.verbs("ing", "ed"):
                 self._act(token, subjects, [], has_object=False)
             return
         draft.show(token)
@@ -256,12 +233,12 @@ class _Reader:
         if act is None or (has_object and not objects and act.who == "plain"):
             return None  # what it is done to is not known
         draft.show(verb)
-        if act.is_near:
+        if act.is_near and not (act.kind == "stand" and draft.things[subjects[0]]["motions"]):
             draft.mark(verb, act.kind)
         for index in subjects:
             self._do(act, verb, index)
         for index in objects:
-            _add_motion(draft.things[index], VerbSense(kind=act.object))
+            add_motion(draft.things[index], VerbSense(kind=act.object))
         if act.relation == "collide" and not objects:
             draft.relate(subjects[0], "collide", subjects[1:] or subjects[:1])
         for index in subjects if act.relation is not None else ():
@@ -272,7 +249,7 @@ class _Reader:
         """Let an object do it; a flame burns and flickers by itself."""
         thing = self._draft.things[index]
         if act.who not in ("source", "lamp"):
-            _add_motion(thing, act)
+            add_motion(thing, act)
         elif thing["noun"] not in word_set("things", "flames"):
             if act.who == "lamp":
                 thing["blink_hz"] = BLINK_HZ
@@ -333,11 +310,14 @@ class _Reader:
         if not targets:
             if draft.parts["place"].get("name") != place:
                 self._go_to_place(token, subjects or self._nearest, moved)
+            elif kind == "off" or (not owners and any(one.head and one.head.has("effect")
+                                                      for one in phrase.groups)):  # fmt: skip
+                draft.mark(token, "lost")  # "over a flame"
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
             is_sent = kind in word_set("things", "routes") and done & word_set("things", "sending")
-            able = () if is_sent or kind == "route" else subjects
+            able = () if is_sent or kind in ("route", "off") else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
             draft.mark(token, "shown" if any(placed) else "lost")
         return targets
@@ -356,48 +336,22 @@ class _Reader:
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft
         thing, target = draft.things[index], draft.things[targets[0]]
+        if kind == "with" and thing["noun"] in word_set("things", "vessels"):
+            return False  # "a vase with roses"
         if target["noun"] in word_set("things", "worn") and kind in ("in", "with"):
             if thing["noun"] not in PERSON_NOUNS:
                 return False
             kind = "wear"
         elif kind == "at" and target["noun"] not in word_set("things", "tables"):
             kind = "beside"
+        elif kind == "above" and target["noun"] in word_set("things", "ways"):
+            kind = "on"
         seats = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
         if seats and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
             return all([draft.relate(one, "on", seats[0]) for one in targets])
         for one in (draft.things[each] for each in targets if kind == "surround"):
             one["count"] = SURROUND_COUNT if one["count"] == PLURAL_COUNT else one["count"]
         return draft.relate(index, kind, targets)
-
-    # The scene
-
-    def _set_scene(self, token: Token) -> bool:
-        """Apply a word of light, weather, place or camera, wherever it stands."""
-        draft = self._draft
-        for sense in token.all("shot"):
-            self._add_move(split_move(sense.value))
-        for part, field, value in (sense.value for sense in token.all("scene")):
-            draft.parts[part][field] = value
-        draft.show(*([token] if token.has("shot", "scene") else []))
-        return token.has("shot", "scene")
-
-    def _set_place(self, group: Group, head: Token, relation: str) -> None:
-        """As "on a snowy road", "a red sky", "a mountain road"."""
-        draft, place = self._draft, self._draft.parts["place"]
-        name = head.all("place")[0].value
-        for token in group.modifiers:
-            field, value = (token.first("field") or Sense("", ("", ""))).value
-            if token.text == "dark":
-                draft.parts["light"].setdefault("kind", "night")
-            elif field == "colour":
-                place["sky" if name == "sky" else "colour"] = value
-            elif not self._set_scene(token):
-                continue
-            draft.show(token)
-        self._set_scene(head)
-        is_said = bool(group.modifiers) and relation not in ("in", "on", "through")
-        if (name == "sky" and is_said) or place.setdefault("name", name) == name:
-            draft.show(head)
 
     # The camera
 
@@ -412,69 +366,29 @@ class _Reader:
 
     def _apply_to_camera(self, clause: Clause, *, is_ego: bool) -> None:
         draft, targets = self._draft, list[int]()
-        move = find_move(draft, clause, is_ego=is_ego)
+        move = draft.find_move(clause, is_ego=is_ego)
         for group in clause.subjects:
             self._name(group, "in")
         for group in clause.objects if not is_ego else ():
             targets += self._name(group)
         for one in clause.after:
             if not isinstance(one, Phrase):
-                self._set_scene(one)
+                self._draft.set_scene(one)
             elif targets:  # as "orbits a car in front of a house"
                 self._relate(one, targets, targets)
             else:
                 found, sense = self._relate(one, [], []), one.preposition.first("relation")
                 kind = sense.value if sense else ""
                 targets += found if kind in word_set("things", "aims") else []
-                # What is beside the camera is not placed so.
-                draft.mark(
-                    one.preposition,
-                    "lost" if found and kind in word_set("things", "sides") else "shown",
-                )
+                is_side = bool(found) and kind in word_set("things", "sides")
+                draft.mark(one.preposition, "lost" if is_side else "shown")  # nothing is put there
         if move is not None:
-            self._add_move(move)
+            self._draft.add_move(move)
             if targets:
                 draft.parts["camera"].setdefault("target", targets[0])
-
-    def _add_move(self, move: dict[str, Any]) -> None:
-        """Add a move; what flies is seen from the air."""
-        self._draft.moves.append({**move, **({"phase": self._phase} if self._phase else {})})
-        if move.get("means") == "fly":
-            self._draft.parts["camera"].setdefault("view", "aerial")
 
 
 def _is_passive(verb: Token, phrases: Sequence[Phrase]) -> bool:
     """Whether a verb says what is done to its subject: "chased by a dog"."""
     done = {one.value.relation for one in verb.verbs("ed")} & word_set("things", "doing")
     return bool(done) and bool(phrases) and phrases[0].preposition.text == "by"
-
-
-def _is_liquid(head: Token) -> bool:
-    """Whether it is seen in nothing but its vessel, or as a place: "a bottle of water"."""
-    return head.text in word_set("things", "liquids")
-
-
-def _set_field(thing: dict[str, Any], kind: str, field: str, value: Any) -> None:
-    """Set a field of an object, or an adverb of its last motion."""
-    if field == "rate_hz" and "blink_hz" in thing:
-        field, kind = "blink_hz", "field"
-    if kind == "field" or field == "placement":
-        thing[field] = int(value) if field == "count" else value
-        return
-    if not thing["motions"]:
-        thing["motions"].append({"kind": "move"})
-    motion = thing["motions"][-1]
-    motion[field] = round(motion.get("pace", 1.0) * value, 6) if field == "pace" else value
-
-
-def _add_motion(thing: dict[str, Any], act: VerbSense) -> None:
-    """Add a motion; it takes the place of one of which only the pace is said."""
-    motions, pace = thing["motions"], act.pace
-    if not act.kind:
-        return
-    said = {"kind": act.kind, "direction": act.direction, "end_pace": act.end_pace}
-    motion = {name: value for name, value in said.items() if value is not None}
-    if motions and set(motions[-1]) <= {"kind", "pace"} and motions[-1]["kind"] == "move":
-        pace *= motions.pop().get("pace", 1.0)
-    motion |= {"pace": pace} if pace != 1.0 else {}
-    motions.append(motion)

@@ -32,14 +32,15 @@ from texvent.scenes.staging.particles.choose import (
 )
 from texvent.scenes.staging.particles.effect import Setting
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
-from texvent.scenes.staging.surroundings.environment import AnimatedEnvironment, build_environment
-from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
-from texvent.scenes.staging.surroundings.lighting import choose_lighting
-from texvent.scenes.staging.surroundings.road import (
+from texvent.scenes.staging.surroundings.environment import (
+    AnimatedEnvironment,
+    build_environment,
     find_road,
     lay_across,
     water_line,
 )
+from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
+from texvent.scenes.staging.surroundings.lighting import choose_lighting
 from texvent.scenes.staging.surroundings.scenery import (
     SceneryItem,
     ViewClearance,

@@ -34,11 +34,9 @@ from texvent.scenes.models.animals.build import (
     placed_marks,
     read_build,
 )
-from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limbs import Gait, foot_path, step_amount
-from texvent.scenes.models.protocol import ModelPart, Pose
-from texvent.scenes.models.shapes import Affine, Point, moved, shift
-from texvent.scenes.models.variation import fraction
+from texvent.scenes.models.protocol import ModelPart, Pose, fraction
+from texvent.scenes.models.shapes import Affine, ArticulatedModel, Point, moved, shift
 from texvent.scenes.scene import Colour
 
 

@@ -11,12 +11,12 @@ from functools import cache
 
 import numpy as np
 
-from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.materials import CLOTH_COLOURS, SKIN_TONES, Material, cloth, mix, skin
 from texvent.scenes.models.people.activities import HAND_GESTURES, Track, motion_of, read_track
-from texvent.scenes.models.protocol import ModelPart, Noun, Pose
+from texvent.scenes.models.protocol import ModelPart, Noun, Pose, choose, paint
 from texvent.scenes.models.shapes import (
     Affine,
+    ArticulatedModel,
     Point,
     ball,
     compose,
@@ -29,7 +29,6 @@ from texvent.scenes.models.shapes import (
     turn_z,
 )
 from texvent.scenes.models.tables import read_table
-from texvent.scenes.models.variation import choose, paint
 from texvent.scenes.scene import Colour
 
 _FINGERS = (

@@ -27,11 +27,10 @@ from texvent.scenes.models.materials import (
 )
 from texvent.scenes.models.part_lines import Placed, read_parts
 from texvent.scenes.models.people.activities import ease
-from texvent.scenes.models.protocol import ModelPart
+from texvent.scenes.models.protocol import ModelPart, choose, paint
 from texvent.scenes.models.shapes import ball, rod
 from texvent.scenes.models.surfaces import FIXED_HUES, PAINT, Painted
 from texvent.scenes.models.tables import frozen, read_table
-from texvent.scenes.models.variation import choose, paint
 from texvent.scenes.scene import Colour
 
 

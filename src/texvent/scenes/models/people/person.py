@@ -8,7 +8,6 @@ from dataclasses import replace
 from functools import cache, partial
 from typing import Any
 
-from texvent.scenes.models.articulated_model import ArticulatedModel
 from texvent.scenes.models.limbs import Gait, foot_path, step_amount
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
@@ -38,7 +37,7 @@ from texvent.scenes.models.people.posture import (
     solve,
 )
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose
-from texvent.scenes.models.shapes import Affine, Point, point
+from texvent.scenes.models.shapes import Affine, ArticulatedModel, Point, point
 from texvent.scenes.models.tables import read_table
 from texvent.scenes.scene import Colour
 

@@ -12,7 +12,6 @@ import math
 import numpy as np
 
 from texvent.runtime.jit import jit
-from texvent.scenes.projection import Rays
 from texvent.scenes.raycast.acceleration import NEAR_M
 from texvent.scenes.raycast.lamps.light import BEAM, DARK, FULL, GLOWS, LIGHT, RADIUS
 from texvent.scenes.raycast.puffs import optical_depth
@@ -20,7 +19,7 @@ from texvent.scenes.raycast.records import GLOW_RECORD, OwnedWorld, Record, Worl
 from texvent.scenes.raycast.trace import background_hit, is_between, plane_direction, tile_at
 from texvent.scenes.raycast.uncounted import glow_at, uncounted_world
 from texvent.scenes.raycast.vectors import plane_point, triple, turned
-from texvent.scenes.scene import Colour, Float64Array
+from texvent.scenes.scene import Colour, Float64Array, Rays
 
 BLUR_PX = 0.55
 """Standard deviation of the spot that the lens makes of a point, pixels."""

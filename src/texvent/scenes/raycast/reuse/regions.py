@@ -7,11 +7,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.projection import Rays
 from texvent.scenes.raycast.acceleration import CUBE, TILE, screen_bounds
 from texvent.scenes.raycast.lamps.light import FULL, POSITION, REACH, in_beam
 from texvent.scenes.raycast.trace import MESH, SHADOW_BIAS_M
-from texvent.scenes.scene import Float64Array, Ground, Primitives
+from texvent.scenes.scene import Float64Array, Ground, Primitives, Rays
 from texvent.sensor import SensorSize
 
 Mask = NDArray[np.bool_]

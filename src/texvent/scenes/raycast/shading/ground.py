@@ -15,11 +15,11 @@ from texvent.scenes.raycast.shading.material import (
     patch_axes,
     sample_material,
 )
-from texvent.scenes.raycast.shading.sky import mix
 from texvent.scenes.raycast.shading.value_noise import (
     box_coverage,
     detail_fade,
     lattice,
+    mix,
     noise_2d,
     smooth,
     square_wave,

@@ -7,7 +7,7 @@ import math
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.meshes.hit import slopes_of, weights_at
 from texvent.scenes.raycast.records import Record, World
-from texvent.scenes.raycast.shading.sky import mix
+from texvent.scenes.raycast.shading.value_noise import mix
 from texvent.scenes.raycast.uncounted import image_at, only_with_meshes, texel_at, triangle_at
 from texvent.scenes.raycast.vectors import Vector, along, mapped, scaled, times, triple, turned
 from texvent.scenes.scene import Colour

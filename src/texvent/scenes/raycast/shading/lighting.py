@@ -12,9 +12,14 @@ from texvent.runtime.jit import jit
 from texvent.scenes.raycast.lamps.light import lamp_light
 from texvent.scenes.raycast.records import Record, World
 from texvent.scenes.raycast.shading.ground import ground_look, wall_look
-from texvent.scenes.raycast.shading.sky import mix, sky_colour, sky_gradient
 from texvent.scenes.raycast.shading.texture import patch_extent, surface_look, surface_patch
-from texvent.scenes.raycast.shading.value_noise import detail_fade, smooth
+from texvent.scenes.raycast.shading.value_noise import (
+    detail_fade,
+    mix,
+    sky_colour,
+    sky_gradient,
+    smooth,
+)
 from texvent.scenes.raycast.trace import (
     GROUND,
     ROOM,

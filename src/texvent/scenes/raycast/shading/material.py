@@ -18,7 +18,7 @@ from numba.extending import intrinsic
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import Record, World
-from texvent.scenes.raycast.shading.sky import mix
+from texvent.scenes.raycast.shading.value_noise import mix
 from texvent.scenes.raycast.surfaces.catalogue import CHANNELS, LEVELS
 from texvent.scenes.raycast.surfaces.fields import SIDE
 from texvent.scenes.raycast.uncounted import texel_at

@@ -8,8 +8,7 @@ from texvent.runtime.jit import jit
 from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.shading.image import mesh_colour, shown_colour
 from texvent.scenes.raycast.shading.material import patch_axes, sample_material
-from texvent.scenes.raycast.shading.sky import mix
-from texvent.scenes.raycast.shading.value_noise import square_wave
+from texvent.scenes.raycast.shading.value_noise import mix, square_wave
 from texvent.scenes.raycast.trace import MESH
 from texvent.scenes.raycast.uncounted import has_meshes
 from texvent.scenes.raycast.vectors import (

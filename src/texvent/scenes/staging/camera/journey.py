@@ -13,7 +13,7 @@ from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.models.places import PLACES
 from texvent.scenes.scene import Float64Array, Ground
 from texvent.scenes.staging.camera.camera_path import Journey
-from texvent.scenes.staging.surroundings.road import RoadLine
+from texvent.scenes.staging.surroundings.environment import RoadLine
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 
 VIEW_M = 70.0

@@ -118,7 +118,7 @@ def choose_angles(
     follow = next((move.direction or "" for move in moves if move.kind == "follow"), None)
     if follow in ("behind", "front"):
         azimuth = yaw + 0.1 * wander + (0.5 if follow == "front" else -0.5) * math.pi
-    elif any(rule.where == "both sides" for rule in PLACES[place].scenery):
+    elif PLACES[place].is_passage:
         azimuth = math.copysign(_BETWEEN_WALLS, wander)
     elif is_in_depth:
         azimuth = math.copysign(0.42, wander)

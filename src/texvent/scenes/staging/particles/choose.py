@@ -10,8 +10,7 @@ import numpy as np
 from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import Effect, SceneDescription
 from texvent.scenes.models.anchors import locate
-from texvent.scenes.models.effects import EFFECTS, EmitterStyle
-from texvent.scenes.models.lamps import LAMPS
+from texvent.scenes.models.effects import EFFECTS, LAMPS, EmitterStyle
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.tables import trait_value
 from texvent.scenes.scene import Float64Array
@@ -74,7 +73,9 @@ def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEf
     if kind not in FALLS:
         return []
     rng = seeded(setting.seed, kind)
-    return [let_fall(kind, setting.base, 1.4 * setting.framing.distance_m, rng)]
+    falling = let_fall(kind, setting.base, 1.4 * setting.framing.distance_m, rng)
+    travels = any(one.kind == "travel" for one in description.shot.moves)
+    return [replace(falling, camera=setting.camera) if travels else falling]
 
 
 def with_headroom(description: SceneDescription, actors: Sequence[Actor]) -> list[Actor]:

@@ -185,16 +185,23 @@ class FallingParticles(ParticleEffect):
     """[3] middle of the ground that it falls on, m."""
     extent_m: float
     """Side of the box."""
+    camera: CameraPath | None = None
+    """Path of a camera that travels: the box goes with it."""
 
     def at(self, time_s: float) -> Primitives:
         """All drops at that instant."""
         kind, extent = self.kind, self.extent_m
         speed = kind.speed_m_s + kind.speed_share * extent
         fallen = np.mod(self.places[:, 2] - speed * time_s, _height(extent)) - _DEPTH_BELOW_M
+        flat = self.places[:, :2]
+        if self.camera is not None:
+            way = self.camera.at(time_s).position - self.camera.at(0.0).position
+            low = way[:2] - 0.5 * extent
+            flat = low + np.mod(flat - low, extent)
         sway = kind.sway * extent * np.sin(1.9 * time_s + 17.0 * self.places[:, 0])
         maps = np.zeros((len(self.places), 3, 4))
         maps[:, [0, 1, 2], [0, 1, 2]] = extent * np.array(kind.half)
-        maps[:, :, 3] = np.column_stack([self.places[:, 0] + sway, self.places[:, 1], fallen])
+        maps[:, :, 3] = np.column_stack([flat[:, 0] + sway, flat[:, 1], fallen])
         maps[:, :, 3] += self.base
         return many_shapes(maps, kind.shape, kind.colour)
 

@@ -16,8 +16,7 @@ from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, Tether, is_centred, lowest_point, seeded
 from texvent.scenes.staging.acts.acts import on_part
-from texvent.scenes.staging.acts.perform import perform_acts
-from texvent.scenes.staging.acts.settle import settle_motions
+from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer
 from texvent.scenes.staging.placement.object_groups import (

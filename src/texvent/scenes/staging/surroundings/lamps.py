@@ -10,10 +10,9 @@ import numpy as np
 
 from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import SceneDescription, SceneLamp
-from texvent.scenes.models.lamps import LAMPS, Lamp, lamp_of
+from texvent.scenes.models.effects import LAMPS, Lamp, lamp_of
 from texvent.scenes.models.places import Place
-from texvent.scenes.models.protocol import ModelPart
-from texvent.scenes.models.variation import fraction
+from texvent.scenes.models.protocol import ModelPart, fraction
 from texvent.scenes.scene import LAMP_COLUMNS, Float64Array, Ground
 from texvent.scenes.staging.actors import Actor, PlacedModel
 from texvent.scenes.staging.camera.framing import Framing

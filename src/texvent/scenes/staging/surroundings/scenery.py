@@ -19,7 +19,7 @@ from texvent.scenes.models.tables import nouns_with, trait_value
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor, PlacedModel
 from texvent.scenes.staging.camera.journey import VIEW_M, TravelPlan
-from texvent.scenes.staging.surroundings.road import RoadLine
+from texvent.scenes.staging.surroundings.environment import RoadLine
 from texvent.scenes.staging.trajectories.trajectory import BodyState
 
 _BANK_M = 1.0
