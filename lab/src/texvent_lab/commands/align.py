@@ -25,7 +25,7 @@ from texvent_lab.alignment.recordings import (
     list_streams,
 )
 from texvent_lab.bench.document import describe_environment
-from texvent_lab.commands.bench.result_options import ResultOptions
+from texvent_lab.commands.bench.bench import ResultOptions
 from texvent_lab.nt_imagenet.files import read_captioned
 from texvent_lab.nt_imagenet.pairing import ids_of_clips
 from texvent_lab.reconstruct.reconstructor import ReconstructConfig, load_reconstructor

@@ -9,8 +9,7 @@ from typing import Any
 from texvent.extending import require
 from texvent.networks.layer_shapes import Shape
 from texvent.networks.weight_files import Tensor, shapes_of
-from texvent_lab.networks.layers import Network
-from texvent_lab.networks.padding import EXTRA
+from texvent_lab.networks.layers import EXTRA, Network
 
 _torch: Any = require("torch", extra=EXTRA)
 

@@ -10,6 +10,7 @@ from texvent.extending import require
 from texvent.networks.layer_shapes import Shape
 from texvent.networks.weight_files import Tensor
 from texvent_lab.networks.layers import (
+    EXTRA,
     ConvGru,
     ConvLayer,
     ConvLstm,
@@ -19,7 +20,6 @@ from texvent_lab.networks.layers import (
     count_blocks,
     upsample,
 )
-from texvent_lab.networks.padding import EXTRA
 from texvent_lab.reconstruct.recurrent_network import RecurrentNetwork
 
 _torch: Any = require("torch", extra=EXTRA)

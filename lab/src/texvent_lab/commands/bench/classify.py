@@ -16,7 +16,7 @@ from texvent_lab.bench.classification import (
     read_resnet,
 )
 from texvent_lab.bench.document import describe_environment
-from texvent_lab.commands.bench.result_options import ResultOptions
+from texvent_lab.commands.bench.bench import ResultOptions
 
 SCHEMA = "texvent-classify-1"
 

@@ -17,7 +17,7 @@ from texvent_lab.bench.digits.page import page_files, page_paths
 from texvent_lab.bench.digits.plan import DigitsPlan
 from texvent_lab.bench.digits.run import run_digits
 from texvent_lab.bench.digits.tables import summary_text
-from texvent_lab.commands.bench.result_options import ResultOptions
+from texvent_lab.commands.bench.bench import ResultOptions
 
 DESCRIPTION = """\
 Small networks learn digits from simulated events of MNIST's test images and are tested on

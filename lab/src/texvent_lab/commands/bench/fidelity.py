@@ -10,7 +10,7 @@ from texvent.cli.options import parse_configs
 from texvent_lab.bench.fidelity.entries import choose_entries
 from texvent_lab.bench.fidelity.run import FULL, FidelityPlan, run_fidelity
 from texvent_lab.bench.fidelity.table import fidelity_tables
-from texvent_lab.commands.bench.result_options import ResultOptions
+from texvent_lab.commands.bench.bench import ResultOptions
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -26,7 +26,7 @@ from texvent_lab.bench.paper.tables import (
 )
 from texvent_lab.bench.real.recording import open_scene
 from texvent_lab.bench.real.run import RealPlan, run_real
-from texvent_lab.commands.bench.result_options import ResultOptions
+from texvent_lab.commands.bench.bench import ResultOptions
 
 SCHEMA = "texvent-paper-1"
 

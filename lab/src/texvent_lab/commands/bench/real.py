@@ -20,7 +20,7 @@ from texvent_lab.bench.fidelity.table import (
 from texvent_lab.bench.paper.config_entry import ConfigEntry
 from texvent_lab.bench.real.recording import WITH_FRAMES, RecordingPart, open_scene
 from texvent_lab.bench.real.run import INTERPOLATIONS, RealPlan, real_entries, run_real
-from texvent_lab.commands.bench.result_options import ResultOptions
+from texvent_lab.commands.bench.bench import ResultOptions
 
 DESCRIPTION = """\
 Simulators get the frames that a sensor recorded, and are scored by the events it recorded.

@@ -24,7 +24,7 @@ from texvent_lab.bench.reconstruction.run import (
 )
 from texvent_lab.bench.reconstruction.scores import ReconstructionGrid
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
-from texvent_lab.commands.bench.result_options import ResultOptions
+from texvent_lab.commands.bench.bench import ResultOptions
 from texvent_lab.reconstruct.reconstructor import ReconstructConfig, load_reconstructor
 
 DESCRIPTION = """\

@@ -17,7 +17,7 @@ from texvent_lab.bench.selftest.table import (
     selftest_document,
     selftest_table,
 )
-from texvent_lab.commands.bench.result_options import ResultOptions
+from texvent_lab.commands.bench.bench import ResultOptions
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -13,11 +13,11 @@ from texvent.networks.weight_files import STATE, Tensor
 from texvent_lab.networks.layers import (
     ConvLayer,
     Network,
+    Padding,
     ResidualBlock,
     UpsampleLayer,
     make_seeded,
 )
-from texvent_lab.networks.padding import Padding
 from texvent_lab.train.flow.config import FlowConfig
 from texvent_lab.train.flow.e_raft import make_e_raft
 from texvent_lab.train.schedule import EXTRA
