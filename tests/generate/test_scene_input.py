@@ -70,7 +70,7 @@ def test_the_command_line_writes_a_scene_and_takes_it(tmp_path, capsys, monkeypa
 def test_a_rig_records_a_scene(tmp_path, capsys, monkeypatch):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "car.toml").write_text('[[objects]]\nnoun = "car"')
-    assert main(["rig", "car.toml", "--stereo", "0.12", *FLAGS[:-2], "-q"]) == 0
+    assert main(["rig", "car.toml", "--stereo", "0.12", *FLAGS[:6], "-q"]) == 0
     assert '"noun": "car"' in (tmp_path / "car" / "rig.json").read_text()
 
 
@@ -91,7 +91,7 @@ def test_a_batch_takes_scene_files(tmp_path, capsys, monkeypatch):
         (None, "cannot read scene file scene.toml: No such file or directory"),
         ("objects = [", "scene file scene.toml is not valid: "),
         ('[[objects]]\nnoun = "car"\ncuont = 2', "scene.toml: objects[0] has no field 'cuont'"),
-        ('[[objects]]\nnoun = "cra"', "objects[0].noun is 'cra'; did you mean 'crab'?"),
+        ('[[objects]]\nnoun = "cra"', "scene.toml: objects[0].noun is 'cra'; did you mean 'crab'?"),
         ('[[objects]]\nnoun = "car"\nsize = nan', "scene.toml: objects[0].size is nan"),
         ('[[objects]]\nnoun = "dog"\npicture = {kind = "text", value = "A"}',
          "objects[0].picture is given, but a dog shows none"),

@@ -97,7 +97,7 @@ def test_commands_count_signal_and_noise_apart_and_name_flags(tmp_path, monkeypa
     write_stream(Video(frames, times, fps=Fraction(FPS)), clips / "slow.avi", overwrite=False)
     options = ["--interpolate", "none", "--previews", "none", "--noise-rate-hz", "20"]
     options += ["--noise-intensity", "255", "-o"]
-    advice = "; give --cache global\n"
+    advice = "; give cache='global'\n"
     assert main(["simulate", "clips/slow.avi", "--cache", "local", *options, "a.h5"]) == 0
     said = capsys.readouterr().err
     assert ": 0 signal, " in said

@@ -74,7 +74,7 @@ def test_ids_go_with_their_events_and_what_cannot_hold_them_says_so(folder, caps
 
 
 def test_a_video_alone_has_its_truth_too(folder, capsys):
-    video = ("generate", "a red ball bounces", "--video-only", "-o", "v.avi", *QUICK[:-3])
+    video = ("generate", "a red ball bounces", "--video-only", "-o", "v.avi", *QUICK[:8])
     assert run(*video, "--truth", "flow,events") != 0
     assert "--video-only makes none" in capsys.readouterr().err
     assert not list(folder.iterdir())
@@ -86,10 +86,9 @@ def test_a_video_alone_has_its_truth_too(folder, capsys):
     assert run(*video, "--truth", "all") != 0
 
 
-def test_a_dry_run_counts_the_truth_in(folder, capsys):
+def test_a_dry_run_writes_no_truth(folder):
     words = ("-o", "b.h5", "--truth", "all", "--dry-run")
     assert run("generate", "a red ball bounces", *words, *QUICK) == 0
-    assert ".truth" in capsys.readouterr().out
     assert not list(folder.iterdir())
 
 

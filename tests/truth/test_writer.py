@@ -214,8 +214,8 @@ def test_arrays_of_a_renderer_pass_through_too(tmp_path):
     texvent.simulate(
         np.stack([frame.pixels for frame in frames]),
         fps=25,
-        flow=flow,
-        flow_back=-flow,
+        motion=flow,
+        motion_back=-flow,
         depth=np.stack([frame.motion.depth for frame in frames]),
         instances=np.stack([frame.motion.instance for frame in frames]),
         truth_folder=texvent.TruthFolder(tmp_path / "a.truth", "flow,depth,ids,boxes,events"),

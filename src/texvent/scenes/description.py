@@ -182,7 +182,7 @@ def report_of(description: SceneDescription) -> PromptReport:
     moves = [_join(f"{move.kind} {move.direction or ''}".strip(), *_fields(move, "kind",
              "direction", "phase")) for move in shot.moves]  # fmt: skip
     lines = [
-        *(_object(description, index) for index in range(len(description.objects))),
+        *(_object_words(description, index) for index in range(len(description.objects))),
         *(_effect(description, one) for one in description.effects),
         f"place: {_join(place.name or 'open', *_fields(place, 'name'))}",
         f"light: {_join(light.kind or 'day', *_fields(light, 'kind', 'lamps'))}",
@@ -193,7 +193,7 @@ def report_of(description: SceneDescription) -> PromptReport:
     return dataclasses.replace(description.words, scene=tuple(lines), notes=description.notes)
 
 
-def _object(description: SceneDescription, index: int) -> str:
+def _object_words(description: SceneDescription, index: int) -> str:
     thing = description.objects[index]
     motions = [one for one in (thing.motion, *thing.then) if one is not None]
     relations = [one for one in description.relations if one.subject == index]

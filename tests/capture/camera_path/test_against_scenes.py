@@ -17,7 +17,7 @@ INSIDE = slice(8, -8), slice(10, -10)
 
 
 @pytest.mark.parametrize(
-    "prompt", ["the camera orbits a parked car", "the camera pans over a house"]
+    "prompt", ["the camera orbits a parked car", "the camera pans left past a house"]
 )
 def test_poses_and_depth_show_what_the_moved_camera_sees(prompt, tmp_path):
     scene = texvent.video(prompt, sensor="96x72", duration=0.5)

@@ -4,35 +4,12 @@ import xml.etree.ElementTree as ElementTree
 from dataclasses import replace
 from pathlib import Path
 
-import pytest
-
-from texvent_lab.bench.document import read_document
 from texvent_lab.bench.fidelity import page
-from texvent_lab.bench.fidelity.results import read_report
 from texvent_lab.bench.fidelity.table import BASELINE
 
 from ..synthetic_report import synthetic_report
 
 RESULTS = Path(__file__).parents[4] / "docs" / "results"
-
-
-@pytest.mark.parametrize(
-    ("result", "baseline"),
-    [
-        ("fidelity.json.gz", BASELINE),
-        ("real-davis346.json.gz", "texvent accurate, flow"),
-        ("real-slider_depth.json.gz", "texvent accurate, flow"),
-    ],
-)
-def test_published_pages_are_those_of_the_published_results(result, baseline, monkeypatch):
-    # Event images are simulated again, which takes minutes.
-    monkeypatch.setattr(page, "event_image_grid", lambda report, scene: b"")
-    report = read_report(read_document(RESULTS / result))
-    files = page.page_files(report, result, baseline=baseline, has_charts=True)
-    for name, content in files.items():
-        assert (RESULTS / name).is_file()
-        if name.endswith(".md"):
-            assert content == (RESULTS / name).read_bytes()
 
 
 def test_text_of_a_result_is_no_html_in_page_or_charts(monkeypatch):
