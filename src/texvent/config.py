@@ -212,9 +212,6 @@ class InterpolateConfig:
     least: 1 keeps thin and faint things from jumping over pixels, 2 shows all that fine texture
     does; 0 is Eq. 4's count alone. Without it, models whose pixels may fire several times per
     frame get 1, up to twice Eq. 4's count."""
-    max_frames_per_second: float | None = None
-    """Upper limit of frames per second after interpolation: it overrides every other rule.
-    Source frames always stay."""
     deflicker: bool = False
     """Divide fast changes of the whole image's brightness out of the frames, before they are
     counted and simulated: generated video flickers. Fades stay, a little later."""
@@ -223,11 +220,8 @@ class InterpolateConfig:
     over the frame interval."""
     interpolator_weights: Path | None = None
     """Weights of rife or super-slomo. Without it, rife uses what texvent weights pull fetched."""
-    interpolator_device: Literal["auto", "cpu", "cuda"] = "auto"
-    """Where rife and super-slomo run; auto is the GPU if torch finds one."""
 
     def __post_init__(self) -> None:
-        check_range("max_frames_per_second", self.max_frames_per_second, 1e-3, 1e6)
         if self.deflicker and self.interpolate == "exact":
             raise ConfigError(
                 "deflicker corrects the frames of a video, and exact frames are rendered; "

@@ -67,7 +67,9 @@ def test_the_whole_path_on_a_real_video(folder, capsys):
 
 
 def test_the_api_gives_the_events_that_the_command_writes(folder):
-    assert run("simulate", CLIP, "-o", "out.h5", "--events-only", "-q", "--seed", 3, *QUICK) == 0
+    assert (
+        run("simulate", CLIP, "-o", "out.h5", "--previews", "none", "-q", "--seed", 3, *QUICK) == 0
+    )
     direct = texvent.simulate(CLIP, interpolate="none", stop=0.2, seed=3)
     assert texvent.load("out.h5").equals(direct)
 
@@ -101,13 +103,13 @@ def test_a_yaml_config_sets_options_too(folder, capsys):
 
 
 def test_the_options_of_an_event_file_make_it_again_and_serve_another_run(folder):
-    scene = ("a red car drives left", "--events-only")
+    scene = ("a red car drives left", "--previews", "none")
     words = ("--duration", "0.2", "--sensor", "48x36", "--simulator", "v2e", "--seed", "5")
     assert run("generate", *scene, *words, "-o", "a.h5") == 0
     assert run("generate", *scene, "--config", "a.h5", "-o", "b.h5") == 0
     assert Path("a.h5").read_bytes() == Path("b.h5").read_bytes()
     np.save("f.npy", np.full((4, 48, 64), 90, np.uint8))
-    small = ("--fps", "30", "--interpolate", "none", "--events-only")
+    small = ("--fps", "30", "--interpolate", "none", "--previews", "none")
     assert run("simulate", "f.npy", "--config", "a.h5", *small, "-o", "c.h5") == 0
     assert texvent.load("c.h5").metadata["simulator"] == "v2e"
 
@@ -121,18 +123,18 @@ def test_a_dry_run_estimates_and_writes_nothing(folder, capsys):
 
 
 def test_quiet_says_nothing(folder, capsys):
-    assert run("simulate", CLIP, "-q", "--events-only", "-o", "a.npz", *QUICK) == 0
+    assert run("simulate", CLIP, "-q", "--previews", "none", "-o", "a.npz", *QUICK) == 0
     captured = capsys.readouterr()
     assert captured.out == captured.err == ""
 
 
 def test_the_event_file_is_named_after_the_input_unless_told(folder):
-    assert run("simulate", CLIP, "-q", "--events-only", *QUICK) == 0
+    assert run("simulate", CLIP, "-q", "--previews", "none", *QUICK) == 0
     assert [path.name for path in folder.iterdir()] == ["bigbuckbunny-excerpt.h5"]
 
 
 def test_info_describes_events_and_videos(folder, capsys):
-    run("simulate", CLIP, "-q", "--events-only", "-o", "a.h5", *QUICK)
+    run("simulate", CLIP, "-q", "--previews", "none", "-o", "a.h5", *QUICK)
     assert run("info", "a.h5", "--json") == 0
     facts = json.loads(capsys.readouterr().out)
     assert facts["sensor"] == "320x180"
@@ -174,7 +176,7 @@ def test_unknown_commands_flags_presets_and_parts_are_named(folder, capsys):
     said = fails(capsys, "simulate", CLIP, "--simulator", "v2e", "--noise", "none")
     assert "v2e has no --noise (texvent has it); near: --shot-noise-rate-hz" in said
     assert "it must be 0..2^63 - 1" in fails(capsys, "simulate", CLIP, "--seed", "-1")
-    assert "unknown palette" in fails(capsys, "simulate", CLIP, "--palette", "pink")
+    assert "png, html, none" in fails(capsys, "simulate", CLIP, "--previews", "jpg")
     assert "'cold'" in fails(capsys, "simulate", CLIP, "--noise", "cold")
     assert "--fps: 'x' is not a rate such as 24" in fails(capsys, "simulate", CLIP, "--fps", "x")
     assert "contrast_threshold is -1" in fails(
@@ -260,7 +262,7 @@ def test_a_file_that_the_system_refuses_to_grow_is_one_line(folder):
     words = [sys.executable, "-m", "texvent.cli.app", "simulate", str(CLIP), "-o", "out.h5"]
     limit = 64 * 1024  # bytes; stands for a quota or a file system's own limit
     done = subprocess.run(
-        [*words, "--events-only", "-q"],
+        [*words, "--previews", "none", "-q"],
         capture_output=True,
         text=True,
         check=False,
@@ -273,14 +275,23 @@ def test_a_file_that_the_system_refuses_to_grow_is_one_line(folder):
 
 
 def test_words_not_understood_are_reported(folder, capsys):
-    words = ["--duration", "0.1", "--sensor", "32x24", "--events-only", "--interpolate", "none"]
+    words = [
+        "--duration",
+        "0.1",
+        "--sensor",
+        "32x24",
+        "--previews",
+        "none",
+        "--interpolate",
+        "none",
+    ]
     assert run("generate", "a red ball zorbles", "-o", "a.h5", *words) == 0
     assert "prompt words not understood: zorbles" in capsys.readouterr().err
     assert "zorbles" in str(texvent.load("a.h5").metadata["prompt_report"]["not_understood"])
 
 
 def test_a_target_rate_is_reached_by_adjusting_the_threshold(folder, capsys):
-    words = ["--events-only", "-o", "a.h5", "--interpolate", "none", "--noise", "none"]
+    words = ["--previews", "none", "-o", "a.h5", "--interpolate", "none", "--noise", "none"]
     assert run("simulate", CLIP, "--target-rate", 100_000, *words) == 0
     assert "contrast threshold" in capsys.readouterr().err
     events = texvent.load("a.h5")

@@ -69,7 +69,7 @@ def test_help_all_shows_every_option_in_its_section(show, command):
 def test_help_of_a_section_shows_that_section_alone(show):
     said = show("simulate", "--help", "interpolate")
     assert "--max-intermediate" in said
-    assert "--palette" not in said
+    assert "--previews" not in said
     assert show("simulate", "--help=output") == show("simulate", "--help", "output")
 
 

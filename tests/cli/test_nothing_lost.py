@@ -100,7 +100,7 @@ def test_a_sensor_file_is_an_input(folder, clip, capsys):
 
 
 def test_one_run_writes_several_formats(folder, clip, capsys):
-    words = ("-o", "a.h5", "-o", "b.aedat4", "-o", "c.h5", "--events-only", *SMALL)
+    words = ("-o", "a.h5", "-o", "b.aedat4", "-o", "c.h5", "--previews", "none", *SMALL)
     formats = ("--format", "hdf5", "--format", "aedat4", "--format", "dsec")
     assert run("simulate", clip, *words, *formats) == 0
     streams = [texvent.load(name) for name in ("a.h5", "b.aedat4", "c.h5")]
@@ -170,7 +170,7 @@ def test_a_video_that_ends_in_damage_keeps_what_came_before_if_that_was_asked_fo
 ):
     whole = clip.read_bytes()
     Path("cut.avi").write_bytes(whole[: len(whole) * 2 // 3])
-    words = ("simulate", "cut.avi", "-o", "out.h5", "--events-only", *SMALL)
+    words = ("simulate", "cut.avi", "-o", "out.h5", "--previews", "none", *SMALL)
     assert run(*words) == 2
     assert not Path("out.h5").exists()
     assert run(*words, "--keep-partial") == 2

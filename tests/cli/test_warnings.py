@@ -9,7 +9,7 @@ import pytest
 import texvent
 from texvent.cli.app import main
 
-SMALL = ["--sensor", "48x36", "--events-only"]
+SMALL = ["--sensor", "48x36", "--previews", "none"]
 
 
 @pytest.fixture(autouse=True)
@@ -67,7 +67,7 @@ def test_strict_refuses_what_is_not_shown_as_it_says(capsys):
 
 def test_a_run_without_events_warns(capsys):
     still_video("still.avi")
-    words = ["simulate", "still.avi", "-o", "a.h5", "--noise", "none", "--events-only", "-q"]
+    words = ["simulate", "still.avi", "-o", "a.h5", "--noise", "none", "--previews", "none", "-q"]
     assert "no events: the video stands still" in warnings_of(capsys, *words)[0]
     with pytest.warns(texvent.TexventWarning, match="see `texvent check VIDEO`"):
         assert len(texvent.simulate("still.avi", noise="none")) == 0
@@ -137,7 +137,7 @@ def test_a_file_of_another_kind_is_named_with_the_command_that_takes_it(
 def test_a_preview_is_not_taken_for_a_source_without_a_word(capsys, recording):
     for name in ("demo.events.mp4", "slow.mp4"):
         assert run("render", "a.h5", "-o", name) == 0
-        words = ["simulate", name, "-o", "b.h5", "--events-only", "--overwrite", "--stop", 0.1]
+        words = ["simulate", name, "-o", "b.h5", "--previews", "none", "--overwrite", "--stop", 0.1]
         said = warnings_of(capsys, *words)
         assert said[0].startswith(f"{name} is a preview that texvent drew of events")
     still_video("mine.mp4")
@@ -166,7 +166,7 @@ HOSTILE = "a red ball bounces past a \x1b[31mwug\x1b]0;t\x07 \u202egnp.exe über
 
 
 def test_texts_of_files_and_arguments_reach_the_terminal_written_out(capsys, folder):
-    words = ("--duration", 0.1, "--events-only", "--sensor", "48x36", "--overwrite")
+    words = ("--duration", 0.1, "--previews", "none", "--sensor", "48x36", "--overwrite")
     assert run("generate", HOSTILE, "-o", "a.h5", *words) == 0
     assert run("info", "a.h5") == 0
     assert run("info", "a.h5", "--all") == 0
@@ -187,7 +187,7 @@ def test_a_word_of_100_kb_gives_a_short_line(capsys, folder):
     prompt = "a red ball bounces " + " ".join(
         ["wugs", *(f"blick{i}" for i in range(9)), "x" * 99_000]
     )
-    words = ("--duration", 0.1, "--events-only", "--sensor", "48x36")
+    words = ("--duration", 0.1, "--previews", "none", "--sensor", "48x36")
     assert run("generate", prompt, "-o", "a.h5", *words) == 0
     assert run("info", "a.h5") == 0
     out, err = capsys.readouterr()

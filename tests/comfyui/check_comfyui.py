@@ -101,7 +101,7 @@ def main() -> int:
         "5": defaults(kinds["TexventSaveEvents"], events=["4", 0], filename_prefix="run/events"),
         "6": {"class_type": "PreviewImage", "inputs": {"images": ["2", 0]}},
     }
-    bad_model = {**good, "3": defaults(kinds["TexventModelV2e"], linear_below=1.0)}
+    bad_model = {**good, "3": defaults(kinds["TexventModelV2e"], cutoff_hz=-1.0)}
     one_image = {
         "1": {"class_type": "EmptyImage", "inputs": black},
         "2": defaults(kinds["TexventImagesToEvents"], images=["1", 0]),
@@ -117,7 +117,7 @@ def main() -> int:
         assert shown["5"]["text"][0].startswith("events_00001_.h5: ")
         assert len(shown["6"]["images"]) > 1
         assert [one.name for one in (Path(folder) / "run").iterdir()] == ["events_00001_.h5"]
-        assert run(bad_model) == [("3", "linear_below")]
+        assert run(bad_model) == [("3", "cutoff_hz")]
         (message,) = run(one_image)
         assert message.startswith("there is 1 image")
         (message,) = run(outside)

@@ -69,7 +69,6 @@ MORE_CASES: list[dict[str, Any]] = [
     {**FLOW, "simulator": "texvent", **PAPER, "dtype": "float32"},
     {**FLOW, "simulator": "texvent", "count": "fixed", "fixed_count": 3},
     {**FLOW, "simulator": "texvent", "frames_per_pixel": 1.0},
-    {**FLOW, "simulator": "texvent", "max_frames_per_second": 60.0},
     {**FLOW, "simulator": "texvent", "detect_cuts": False},
     {**FLOW, "simulator": "texvent", "deflicker": True},
 ]

@@ -17,7 +17,7 @@ from texvent.batch.list_files import read_list
 from texvent.batch.manifest import OPTIONS_FILE, SAMPLES_FILE, Manifest
 from texvent.capture.frame_times import read_timestamps
 from texvent.capture.open import open_frames
-from texvent.cli.event_files.time_option import parse_time_range
+from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.config import CaptureConfig
 from texvent.errors import TexventError
 from texvent.generate.scene_input import describe_scene, list_nouns, understand

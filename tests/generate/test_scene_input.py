@@ -14,7 +14,7 @@ from texvent.run.regeneration import render_again
 from texvent.scenes import Camera, CameraMove, Motion, Place, Scene, SceneObject, load_scene
 
 OPTIONS = {"sensor": "48x36", "duration": 0.2, "seed": 3}
-FLAGS = ["--sensor", "48x36", "--duration", "0.2", "--seed", "3", "--events-only", "-q"]
+FLAGS = ["--sensor", "48x36", "--duration", "0.2", "--seed", "3", "--previews", "none", "-q"]
 SENTENCE = "a red car drives left past two trees at dusk"
 
 

@@ -1,7 +1,5 @@
 """What raises and what lowers the number of intermediate frames."""
 
-from itertools import pairwise
-
 import numpy as np
 import pytest
 
@@ -95,38 +93,6 @@ def test_motion_lowers_nothing(policy, contrast_pair):
 def test_a_fixed_count_and_none_ignore_motion(policy, faint_pair):
     assert policy(frames_per_pixel=1.0, count="fixed", fixed_count=2).count(*faint_pair) == 2
     assert policy(frames_per_pixel=1.0, interpolate="none").count(*faint_pair) == 0
-
-
-@pytest.mark.parametrize(
-    ("rate", "expected"), [(24.9, 0), (25.0, 0), (50.0, 1), (100.0, 3), (1e6, 11)]
-)
-def test_the_budget_counts_frames_per_second(policy, contrast_pair, rate, expected):
-    assert policy(max_frames_per_second=rate).count(*contrast_pair) == expected
-
-
-def test_the_budget_bounds_fixed_counts_and_motion(policy, contrast_pair, faint_pair):
-    fixed = policy(count="fixed", fixed_count=90, max_frames_per_second=250)
-    assert fixed.count(*contrast_pair) == 9
-    assert policy(count="fixed", fixed_count=90).count(*contrast_pair) == 90
-    assert policy(frames_per_pixel=1.0, max_frames_per_second=100).count(*faint_pair) == 3
-
-
-def test_the_budget_holds_over_a_whole_clip(moving_texture):
-    times_us = [0, 41_667, 83_333, 125_000]
-    video = Video(np.stack([moving_texture(9 * i) for i in range(4)]), times_us)
-    config = InterpolateConfig(interpolate="blend", max_frames_per_second=200.0)
-    frames = list(
-        densify(
-            video,
-            INTERPOLATORS.load("blend")(config, video),
-            config,
-            balance=30.0,
-            contrast_threshold=0.02,
-        )
-    )
-    assert min(later.t_us - earlier.t_us for earlier, later in pairwise(frames)) >= 5_000
-    assert [frame.t_us for frame in frames if frame.is_source] == times_us
-    assert len(frames) == 4 + 3 * 7
 
 
 def test_flow_for_the_count_and_for_the_frames_is_computed_once(moving_texture, monkeypatch):

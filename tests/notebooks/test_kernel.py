@@ -103,4 +103,4 @@ print(kernel.do_inspect(code, 16)["data"]["text/plain"])
     cells, _ = run_cells(source)
     printed = "".join(one["text"] for one in cells[0].outputs if one.get("name") == "stdout")
     assert "contrast_threshold= " in printed.splitlines()[0]
-    assert "interpolator_device" in printed
+    assert "interpolator_weights" in printed

@@ -83,7 +83,7 @@ def main() -> int:
         "-o",
     ]
     for words in (
-        [*simulate, "ramp.h5", "--events-only"],
+        [*simulate, "ramp.h5", "--previews", "none"],
         ["info", "ramp.h5"],
         ["convert", "ramp.h5", "ramp.aedat4"],
         [*simulate, "ramp.h5", "--dry-run", "--overwrite"],

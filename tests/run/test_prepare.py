@@ -63,7 +63,17 @@ def test_missing_weights_are_named_before_a_generator_starts(tmp_path, prompts):
 
 def test_weights_that_nothing_reads_are_a_warning(capsys, tmp_path):
     unread = ["--interpolate", "blend", "--interpolator-weights", "rife.pkl"]
-    words = ["generate", PROMPT, *unread, "--sensor", "48x36", "--duration", "0.2", "--events-only"]
+    words = [
+        "generate",
+        PROMPT,
+        *unread,
+        "--sensor",
+        "48x36",
+        "--duration",
+        "0.2",
+        "--previews",
+        "none",
+    ]
     assert main([*words, "-o", str(tmp_path / "a.h5")]) == 0
     said = capsys.readouterr().err
     assert said.count("rife.pkl', and nothing reads it: interpolate is blend") == 1

@@ -49,7 +49,7 @@ def test_a_preset_that_is_not_found_names_what_is(options, said):
 def test_commands_say_the_model_and_name_options(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     words = ["generate", "a red ball bounces", "--sensor", "32x24", "--duration", "0.1"]
-    words += ["--events-only", "-o", "a.h5"]
+    words += ["--previews", "none", "-o", "a.h5"]
     assert main([*words, "--preset", "evk4", "--simulator", "texvent"]) == 2
     assert "; give simulator='physical', preset='evk4'\n" in capsys.readouterr().err
     assert main([*words, "--preset", "evk4"]) == 0

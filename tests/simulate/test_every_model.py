@@ -145,7 +145,7 @@ def test_labels_are_stored_and_read_back(name, tmp_path):
 
 def test_the_command_line_stores_labels_only_if_asked(tmp_path):
     words = ["simulate", str(CLIP), "--simulator", "v2e", "--interpolate", "none", "--stop", "0.2"]
-    words += ["--events-only", "-q"]
+    words += ["--previews", "none", "-q"]
     asked, unasked = tmp_path / "asked.h5", tmp_path / "unasked.h5"
     assert main([*words, "--label-noise", "-o", str(asked)]) == 0
     assert main([*words, "-o", str(unasked)]) == 0

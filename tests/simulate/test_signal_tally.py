@@ -95,7 +95,7 @@ def test_commands_count_signal_and_noise_apart_and_name_flags(tmp_path, monkeypa
     frames = np.rint(drifting()).astype(np.uint8)
     times = [k * 1_000_000 // FPS for k in range(len(frames))]
     write_stream(Video(frames, times, fps=Fraction(FPS)), clips / "slow.avi", overwrite=False)
-    options = ["--interpolate", "none", "--events-only", "--noise-rate-hz", "20"]
+    options = ["--interpolate", "none", "--previews", "none", "--noise-rate-hz", "20"]
     options += ["--noise-intensity", "255", "-o"]
     advice = "; give --cache global\n"
     assert main(["simulate", "clips/slow.avi", "--cache", "local", *options, "a.h5"]) == 0

@@ -52,7 +52,7 @@ def make_inputs(folder: Path) -> None:
     np.save(folder / "clip.npy", clip)
     prompts = [f"a red car drives left past {count} trees" for count in range(2, 7)]
     (folder / "prompts.txt").write_text("\n".join(prompts))
-    words = ["simulate", "clip.npy", "--fps", "240", "--events-only", "-o", "events.h5"]
+    words = ["simulate", "clip.npy", "--fps", "240", "--previews", "none", "-o", "events.h5"]
     subprocess.run([*COMMAND, *words], cwd=folder, check=True, capture_output=True)
 
 

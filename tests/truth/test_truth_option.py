@@ -11,7 +11,7 @@ from texvent.cli.app import main
 
 QUICK = (
     *("--sensor", "48x36", "--duration", "0.1", "--samples", "1", "--seed", "3"),
-    *("--events-only", "--interpolate", "none"),
+    *("--previews", "none", "--interpolate", "none"),
 )
 
 

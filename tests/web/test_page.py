@@ -7,6 +7,7 @@ import http.client
 import json
 import os
 import signal
+import socket
 import subprocess
 import sys
 import time
@@ -94,7 +95,7 @@ def test_a_video_keeps_its_size_unless_a_sensor_is_chosen(page):
     assert ask(page, f"/simulate?{query}", "POST", CLIP.read_bytes())[0] == 200
     state, text = wait(page)
     assert (state, text.splitlines()[0].endswith(" events on 48x36 pixels")) == ("done", True)
-    assert [path.name for path in page.folder.glob("upload*")] == ["upload.mp4"]
+    assert [path.parent for path in page.folder.glob("**/upload*")] == [page.job.folder]
 
 
 @pytest.mark.parametrize(
@@ -163,6 +164,37 @@ def test_other_pages_cannot_start_a_job(page, headers):
 def test_a_link_from_another_page_opens_the_page(page):
     assert ask(page, sec_fetch_site="cross-site", sec_fetch_mode="navigate")[0] == 200
     assert ask(page, "/job", sec_fetch_site="cross-site", sec_fetch_mode="no-cors")[0] == 403
+    assert (
+        ask(page, "/download?format=evt3", sec_fetch_site="cross-site", sec_fetch_mode="navigate")[
+            0
+        ]
+        == 403
+    )
+
+
+@pytest.mark.parametrize("values", [{"sensor": "/etc/x.toml"}, {"generator": "./folder"}])
+def test_names_that_the_page_does_not_offer_are_refused_before_any_file_is_read(page, values):
+    assert ask(page, "/generate", "POST", json.dumps({"prompt": "a ball", **values}))[0] == 400
+    assert ask(page, f"/simulate?{urlencode({'name': 'a.mp4', **values})}", "POST", b"x")[0] == 400
+    assert page.job is None
+
+
+def test_an_upload_that_breaks_off_leaves_nothing_and_touches_no_other(page):
+    netloc = urlsplit(page.address)
+    with socket.create_connection((netloc.hostname, netloc.port)) as connection:
+        head = f"POST /simulate?name=a.mp4 HTTP/1.1\r\nHost: {netloc.netloc}\r\n"
+        connection.sendall(f"{head}Content-Length: 999\r\n\r\nabc".encode())
+        connection.shutdown(socket.SHUT_WR)
+        assert connection.recv(99).startswith(b"HTTP/1.0 400")
+    assert list(page.folder.iterdir()) == []
+
+
+def test_an_address_that_is_none_is_not_found(page, capfd):
+    netloc = urlsplit(page.address)
+    with socket.create_connection((netloc.hostname, netloc.port)) as connection:
+        connection.sendall(f"GET http://[ HTTP/1.1\r\nHost: {netloc.netloc}\r\n\r\n".encode())
+        assert connection.recv(99).startswith(b"HTTP/1.0 404")
+    assert capfd.readouterr().err == ""
 
 
 def test_no_other_file_is_served(page):
@@ -177,10 +209,11 @@ def test_bodies_are_bounded_before_they_are_read(page):
     large = str(2**20 + 1)
     assert ask(page, "/simulate?name=a.mp4", "POST", b"", content_length=large)[0] == 413
     assert ask(page, "/generate", "POST", b"", content_length=str(CALL_BYTES + 1))[0] == 413
-    assert ask(page, "/simulate?name=a.mp4", "POST", iter([b"x"]))[0] == 411  # chunked
+    assert ask(page, "/simulate?name=a.mp4", "POST", transfer_encoding="chunked")[0] == 411
     assert ask(page, "/simulate?name=a.sh", "POST", b"x")[0] == 415
     assert ask(page, "/generate", "POST", b"[]")[0] == 400
-    assert not list(page.folder.glob("upload*"))
+    assert ask(page, "/generate", "POST", b"[" * 60_000)[0] == 400
+    assert not list(page.folder.iterdir())
 
 
 def test_every_answer_forbids_foreign_content(page):

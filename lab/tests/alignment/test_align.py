@@ -21,9 +21,9 @@ from tests.generate import tiny_pipelines  # noqa: E402
 
 from texvent.cli.app import main  # noqa: E402
 from texvent.events import EventStream  # noqa: E402
-from texvent.generate.videos.clip_model import ClipModel, _prepare  # noqa: E402
 from texvent.sensor import SensorSize  # noqa: E402
 from texvent_lab.alignment.align import align  # noqa: E402
+from texvent_lab.alignment.clip_model import ClipModel, _prepare  # noqa: E402
 from texvent_lab.alignment.recordings import (  # noqa: E402
     DrawnEvents,
     Recording,

@@ -18,7 +18,6 @@ from texvent_lab.latents.autoencoder import Autoencoder  # noqa: E402
 from texvent_lab.latents.head import (  # noqa: E402
     HeadConfig,
     LatentHead,
-    apply_head,
     load_head,
     save_head,
 )
@@ -33,10 +32,12 @@ CONFIG = HeadConfig(
 
 def make_head() -> LatentHead:
     draws = torch.Generator().manual_seed(1)
-    shapes = CONFIG.shapes.items()
-    return LatentHead(
-        CONFIG, {name: 0.2 * torch.randn(shape, generator=draws) for name, shape in shapes}
-    )
+    head = LatentHead(CONFIG)
+    state = {
+        name: 0.2 * torch.randn(one.shape, generator=draws) for name, one in head.tensors.items()
+    }
+    head.load_state_dict(state)
+    return head
 
 
 def make_latents(frames: int = 4, **changed) -> Latents:
@@ -63,9 +64,9 @@ def test_later_latent_frames_change_nothing_before_them() -> None:
 
 
 def test_a_voxel_is_channel_b_p_p_of_its_latent_pixel() -> None:
-    tensors = {name: torch.zeros(shape) for name, shape in CONFIG.shapes.items()}
-    tensors["last.bias"] = torch.arange(48.0)
-    voxels = apply_head(tensors, CONFIG, torch.zeros(1, 4, 2, 2, 2))[0, 0]
+    head = LatentHead(CONFIG)
+    head.last.bias.data = torch.arange(48.0)
+    voxels = head(torch.zeros(1, 4, 2, 2, 2))[0, 0]
     for b, y, x in np.ndindex(3, 8, 8):
         assert voxels[b, y, x] == b * 16 + (y % 4) * 4 + x % 4
 
@@ -90,11 +91,12 @@ def test_files_that_hold_no_head_are_refused(tmp_path: Path) -> None:
     save_file(dict(head.tensors), path)
     with pytest.raises(FileFormatError, match="does not say the sizes"):
         load_head(path)
-    other = dataclasses.replace(CONFIG, width=6)
-    save_head(LatentHead(other, head.tensors), path, overwrite=True)
-    with pytest.raises(FileFormatError, match="does not fit its sizes"):
+    head.config = dataclasses.replace(CONFIG, width=6)
+    save_head(head, path, overwrite=True)
+    with pytest.raises(FileFormatError, match="does not fit the network"):
         load_head(path)
-    head.tensors["first.bias"][0] = torch.nan
+    head.config = CONFIG
+    head.first.bias.data[0] = torch.nan
     save_head(head, path, overwrite=True)
     with pytest.raises(FileFormatError, match="NaN"):
         load_head(path)

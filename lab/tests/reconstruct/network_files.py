@@ -5,6 +5,7 @@ from types import ModuleType
 
 import numpy as np
 
+from texvent.networks.weight_files import shapes_of
 from texvent_lab.registries import RECONSTRUCTORS
 
 WIDTH, BINS, SIDE = 4, 5, 3
@@ -31,7 +32,12 @@ def small_shapes(name, *marks):
         HEADS[name]: (WIDTH, BINS, SIDE, SIDE),
         **dict.fromkeys((*encoders, *marks) if "e2vid" in name else (), (1,)),
     }
-    return network_class(name).tensor_shapes(found)
+    return shapes_like(name, found)
+
+
+def shapes_like(name, found):
+    """Name → shape of the variant that a file with such tensors holds."""
+    return shapes_of(network_class(name).like(found, {}).tensors)
 
 
 def random_tensors(shapes, seed=0):

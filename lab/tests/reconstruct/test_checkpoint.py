@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from texvent.errors import FileFormatError
-from texvent_lab.reconstruct import networks
 from texvent_lab.reconstruct.checkpoint import read_checkpoint
 from texvent_lab.registries import RECONSTRUCTORS
 
@@ -16,6 +15,8 @@ from .network_files import HEADS, config_parser, random_tensors, save_published,
 
 pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
+
+from texvent_lab.reconstruct import networks  # noqa: E402
 
 
 def read(name, path):

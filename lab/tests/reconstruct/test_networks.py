@@ -1,9 +1,9 @@
 """Every network against its slow twin in NumPy float64, on untrained weights."""
 
+from types import SimpleNamespace
+
 import numpy as np
 import pytest
-
-from texvent_lab.reconstruct.firenet import FireNet, FireNetPlus
 
 from .network_files import network_class, random_tensors, small_shapes
 from .networks_numpy import run_et_net, run_firenet, run_unet
@@ -24,7 +24,7 @@ def grids(count=3, height=16, width=24):
 
 def check(name, expected_of, *, settings=None, marks=()):
     tensors = random_tensors(small_shapes(name, *marks))
-    network = network_class(name)(
+    network = network_class(name).from_tensors(
         {key: torch.from_numpy(one) for key, one in tensors.items()}, settings or {}
     )
     state = {key: one.astype(np.float64) for key, one in tensors.items()}
@@ -33,14 +33,28 @@ def check(name, expected_of, *, settings=None, marks=()):
     for _ in range(2):  # the second time after a reset
         network.reset()
         found = np.stack(
-            [network.step(torch.from_numpy(one[None]).float())[0, 0].numpy() for one in grids()]
+            [
+                network.step(torch.from_numpy(one[None]).float())[0, 0].detach().numpy()
+                for one in grids()
+            ]
         )
         np.testing.assert_allclose(found, expected, rtol=0, atol=2e-5)
 
 
-@pytest.mark.parametrize(("name", "network"), [("firenet", FireNet), ("firenet+", FireNetPlus)])
-def test_firenet_equals_its_definition(name, network):
-    check(name, lambda voxels, state: run_firenet(voxels, state, network.names))
+FIRENET = SimpleNamespace(
+    head="net.head.conv",
+    units=("net.head.recurrent_block", "net.resblocks.0.recurrent_block"),
+    blocks=("net.resblocks.0.conv", "net.resblocks.1"),
+    prediction="net.pred",
+)
+FIRENET_PLUS = SimpleNamespace(
+    head="head", units=("G1", "G2"), blocks=("R1", "R2"), prediction="pred"
+)
+
+
+@pytest.mark.parametrize(("name", "names"), [("firenet", FIRENET), ("firenet+", FIRENET_PLUS)])
+def test_firenet_equals_its_definition(name, names):
+    check(name, lambda voxels, state: run_firenet(voxels, state, names))
 
 
 @pytest.mark.parametrize("marks", [(), (HAS_NORM,), (HAS_NORM, IS_TRANSPOSED), (IS_TRANSPOSED,)])
@@ -82,7 +96,8 @@ def test_et_net_equals_its_definition():
 
 def test_memory_makes_the_same_grid_give_another_image():
     tensors = random_tensors(small_shapes("firenet"))
-    network = FireNet({key: torch.from_numpy(one) for key, one in tensors.items()}, {})
+    state = {key: torch.from_numpy(one) for key, one in tensors.items()}
+    network = network_class("firenet").from_tensors(state, {})
     voxel = torch.from_numpy(grids(1)).float()
     first, second = network.step(voxel), network.step(voxel)
     assert not torch.equal(first, second)

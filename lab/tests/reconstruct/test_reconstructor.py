@@ -94,7 +94,7 @@ def test_a_twin_shares_weights_but_no_memory(folder):
     second = reconstructor.reconstruct(noise(seed=1))
     np.testing.assert_array_equal(twin.reconstruct(noise(seed=1)), second)
     name = HEADS["hypere2vid"]
-    assert twin._network._layers[name] is reconstructor._network._layers[name]
+    assert twin._network.tensors[name] is reconstructor._network.tensors[name]
 
 
 def test_a_slice_without_events_is_reconstructed_too(folder):

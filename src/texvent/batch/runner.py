@@ -46,7 +46,7 @@ class BatchPlan:
     extension: str
     """Of event files, with the dot."""
     files: RunFiles
-    """Formats, previews and palette; its event files are those of no sample."""
+    """Formats and previews; its event files are those of no sample."""
 
     def files_of(self, sample: Sample) -> RunFiles:
         """The files of a sample."""

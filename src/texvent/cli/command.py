@@ -10,8 +10,11 @@ from typing import Any
 from texvent._registry import SIMULATORS
 from texvent.cli.options import parse_given, take_options, with_given
 from texvent.cli.outputs import OutputOptions
+from texvent.errors import ConfigError
+from texvent.generate.scene_input import Subject, check_words
 from texvent.io.atomic import protect_inputs
 from texvent.options.fields import option_names
+from texvent.scenes.spec.files import is_scene_file, load_scene
 from texvent.settings.config_files import Command
 from texvent.settings.presets import preset_help
 from texvent.settings.resolution import DECIDING, Settings, apply_options, base_settings
@@ -108,3 +111,25 @@ def _option_of_others(flag: str, settings: Settings) -> str | None:
 def _options_of_simulator(name: str) -> tuple[str, ...]:
     presets = SIMULATORS.load(name).presets
     return option_names(type(next(iter(presets.values()))))
+
+
+def read_subject(prompt: str, assets: Path | None = None) -> Subject:
+    """The prompt, or the scene of a file, which no output may replace.
+
+    Raises:
+        ConfigError: a field is wrong or a word is not shown, also with models of `assets`; the
+            message begins with the name of the file.
+    """
+    if not is_scene_file(prompt):
+        return prompt
+    protect_inputs([prompt])
+    scene = load_scene(prompt)
+    try:
+        return check_words(scene, assets)
+    except ConfigError as error:
+        raise ConfigError(f"{prompt}: {error}") from None
+
+
+def subject_name(prompt: str) -> str:
+    """Base of file names: the words of a prompt, or the name of a scene file."""
+    return Path(prompt).stem if is_scene_file(prompt) else prompt

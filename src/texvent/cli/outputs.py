@@ -15,7 +15,6 @@ from texvent.io.atomic import check_outputs
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
 from texvent.truth.layout import check_truth_folder, parse_parts
-from texvent.view.drawing.palettes import get_palette
 
 PREVIEWS = ("mp4", "png", "html")
 """Kinds of preview, by extension."""
@@ -35,13 +34,9 @@ class OutputOptions:
     """Format to write, where the extension does not say which (docs/files.md lists them); for
     several files, one for each."""
     previews: str = "mp4,png,html"
-    """Files beside the events, with commas between: a video of frames and events (.events.mp4), an
-    image of the busiest moment (.events.png), a page with point cloud, rate and facts
-    (.events.html)."""
-    events_only: bool = False
-    """Event file only, without previews."""
-    palette: str = "paper"
-    """Colours of events in video, image and page."""
+    """Files beside the events: mp4, png, html or none. With commas between: a video of frames and
+    events (.events.mp4), an image of the busiest moment (.events.png), a page with point cloud,
+    rate and facts (.events.html)."""
     truth: str = ""
     """Write ground truth of the scene beside the events (out.h5: out.truth/): flow, flow-back,
     depth, ids, boxes, poses, events, overlay, with commas between, or all. See docs/truth.md."""
@@ -66,11 +61,15 @@ class OutputOptions:
         Raises:
             ConfigError: an unknown kind.
         """
+        if self.previews == "none":
+            return ()
         given = [kind.strip() for kind in self.previews.split(",") if kind.strip()]
         for kind in given:
             if kind not in PREVIEWS:
-                raise ConfigError(f"previews has {shown(kind)}; {suggest(kind, PREVIEWS)}")
-        return () if self.events_only else tuple(kind for kind in PREVIEWS if kind in given)
+                raise ConfigError(
+                    f"previews has {shown(kind)}; {suggest(kind, (*PREVIEWS, 'none'))}"
+                )
+        return tuple(kind for kind in PREVIEWS if kind in given)
 
     @property
     def truth_parts(self) -> tuple[str, ...]:
@@ -89,7 +88,6 @@ class OutputOptions:
             OutputError: a file is named twice, exists already, is an input, or its folder is
                 missing or not writable.
         """
-        get_palette(self.palette)  # refused before any work
         events = self.out or (default_event_file(subject, self.format),)
         if self.format and len(self.format) != len(events):
             raise ConfigError(
@@ -100,7 +98,6 @@ class OutputOptions:
             events=events,
             formats=self.format,
             previews=self.preview_kinds,
-            palette=self.palette,
             truth=self.truth_parts,
             overwrite=self.overwrite,
             keep_partial=self.keep_partial,

@@ -8,7 +8,6 @@ from pathlib import Path
 from typing import ClassVar, Literal
 
 from texvent.config import FPS_RANGE, check_range
-from texvent.errors import ConfigError
 from texvent.generate.video_models.lora import parse_lora
 
 
@@ -26,20 +25,9 @@ class GeneratedVideoConfig:
     generation options are the same, so that trying simulator options costs no generation."""
     on_failure: Literal["ignore", "warn", "reject", "retry"] = "warn"
     """Response to a video that is frozen, flickering, cut, dark, saturated or noise: none, a
-    warning, refusal, or generation with another seed."""
-    retries: int = 3
-    """Number of further seeds with --on-failure retry."""
-
-    agreement_model: Path | None = None
-    """Folder of a CLIP model saved by transformers: scores how well the video shows the prompt."""
-    min_agreement: float | None = None
-    """Agreement (cosine, about 0.15 to 0.35) below which a video counts as failed."""
+    warning, refusal, or generation with up to three other seeds."""
 
     def __post_init__(self) -> None:
-        check_range("retries", self.retries, 0, 100)
-        check_range("min_agreement", self.min_agreement, -1.0, 1.0)
-        if self.min_agreement is not None and self.agreement_model is None:
-            raise ConfigError("min_agreement is set, but no agreement_model to measure it with")
         check_range("fps", self.fps, *FPS_RANGE)
 
 

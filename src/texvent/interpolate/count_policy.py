@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import math
-import sys
 from typing import TYPE_CHECKING
 
 from texvent.config import InterpolateConfig
 from texvent.interpolate.count import count_for_flicker, count_intermediate, longest_vector_px
 from texvent.interpolate.protocol import Interpolator
-from texvent.video import MICROSECONDS, FlickeringStream, Frame, FrameStream
+from texvent.video import FlickeringStream, Frame, FrameStream
 
 if TYPE_CHECKING:
     from texvent.interpolate.flow import PairFlow
@@ -23,7 +22,7 @@ NEEDS_NO_FLOW = frozenset({"none", "blend", "motion"})
 
 
 class CountPolicy:
-    """Eq. 4 or a fixed count, raised by motion and by flickering light, lowered by a budget.
+    """Eq. 4 or a fixed count, raised by motion and by flickering light.
 
     Motion that is known (`Frame.motion`) always counts where it is followed or rendered.
     """
@@ -78,8 +77,8 @@ class CountPolicy:
         if config.interpolate == "none":
             return 0
         if config.count == "fixed":
-            return min(config.fixed_count, self._budget(first, second))
-        cap = min(config.max_intermediate, self._budget(first, second))
+            return config.fixed_count
+        cap = config.max_intermediate
         count = count_intermediate(
             first,
             second,
@@ -99,13 +98,6 @@ class CountPolicy:
             moves_px = self._pair_flow.motion_px(first, second)
             count = max(count, min(math.ceil(self._per_pixel * moves_px), limit))
         return min(count, cap)
-
-    def _budget(self, first: Frame, second: Frame) -> int:
-        """Most intermediate frames at the rate allowed; the second source frame counts too."""
-        rate = self._config.max_frames_per_second
-        if rate is None:
-            return sys.maxsize
-        return max(0, math.floor(rate * (second.t_us - first.t_us) / MICROSECONDS) - 1)
 
 
 def _flicker_hz(stream: FrameStream, config: InterpolateConfig) -> float | None:

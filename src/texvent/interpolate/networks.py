@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.config import InterpolateConfig
-from texvent.errors import ConfigError, FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError
 from texvent.networks.weight_files import check_finite
 from texvent.pairs.instants import check_between, matching_levels, position
 from texvent.video import UINT16_PER_LEVEL, Frame
@@ -49,7 +49,7 @@ class NetworkInterpolator(ABC):
             ConfigError: "cuda" without a GPU.
         """
         self._path = path
-        self._device = choose_device(config)
+        self._device = choose_device()
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
         """Frames with every point moved along its path from `first` to `second`.
@@ -105,20 +105,13 @@ class NetworkInterpolator(ABC):
         """Luma at τ = `at`, [H, W] float32 on the device."""
 
 
-def choose_device(config: InterpolateConfig) -> str:
-    """The device that a configuration asks for: cpu or cuda.
+def choose_device() -> str:
+    """The device of networks: cuda if torch finds a GPU (`CUDA_VISIBLE_DEVICES=` hides it), or cpu.
 
     Raises:
-        ConfigError: "cuda" without a GPU that torch can use.
         MissingDependencyError: torch is not installed.
     """
-    has_gpu = import_torch().cuda.is_available()
-    wanted = config.interpolator_device
-    if wanted == "cuda" and not has_gpu:
-        raise ConfigError(
-            "interpolator_device is cuda, but torch finds no GPU here; use cpu or auto"
-        )
-    return ("cuda" if has_gpu else "cpu") if wanted == "auto" else wanted
+    return "cuda" if import_torch().cuda.is_available() else "cpu"
 
 
 def load_strictly(network: Any, tensors: Mapping[str, Tensor], path: Path, hint: str) -> None:
@@ -222,6 +215,6 @@ def _explain_memory(device: str) -> Iterator[None]:
         if "memory" in str(error):
             raise InputError(
                 f"a pair of frames does not fit into the memory of device {device}; choose a "
-                "smaller `sensor`, or interpolator_device='cpu'"
+                "smaller `sensor`, or hide the GPU with CUDA_VISIBLE_DEVICES="
             ) from error
         raise

@@ -395,6 +395,14 @@ def _is_dead(part: Path) -> bool:
         return True
     except (PermissionError, OverflowError):
         return False
+    return _is_zombie(named[2])
+
+
+def _is_zombie(pid: str) -> bool:
+    """True if a process has ended and waits for its parent, as in containers without an init."""
+    with contextlib.suppress(OSError):
+        state = Path("/proc", pid, "stat").read_bytes().rpartition(b") ")[2]
+        return state.startswith(b"Z")
     return False
 
 

@@ -45,11 +45,9 @@ class InterpolateOptions(TypedDict, total=False):
     fixed_count: int | None
     max_intermediate: int | None
     frames_per_pixel: float | None
-    max_frames_per_second: float | None
     deflicker: bool | None
     detect_cuts: bool | None
     interpolator_weights: str | Path | None
-    interpolator_device: Literal["auto", "cpu", "cuda"] | None
 
 
 class SimulatorOptions(TypedDict, total=False):
@@ -94,18 +92,12 @@ class SimulatorOptions(TypedDict, total=False):
     contrast_threshold_off: float | None
     threshold_redraw: Literal["frame", "never"] | None
     log_eps: float | None
-    linear_below: float | None
     shot_noise_rate_hz: float | None
     photoreceptor_noise: bool | None
-    well_capacity: float | None
     shot_noise: bool | None
-    dark_electrons: float | None
-    exposure_us: int | None
     weights: str | Path | None
-    device: Literal["auto", "cpu", "cuda"] | None
     sequence_length: int | None
     rounding: Literal["published", "stochastic"] | None
-    bidirectional: bool | None
     k1: float | None
     k2: float | None
     k3: float | None
@@ -152,13 +144,7 @@ class GeneratorOptions(TypedDict, total=False):
     fit: Literal["cover", "contain", "stretch"] | None
     reuse_video: bool | None
     on_failure: Literal["ignore", "warn", "reject", "retry"] | None
-    retries: int | None
-    agreement_model: str | Path | None
-    min_agreement: float | None
-    opensora_root: str | Path | None
-    opensora_launcher: str | Path | None
     resolution: Literal["256px", "768px"] | None
-    aspect_ratio: Literal["16:9", "9:16", "1:1"] | None
     frames: int | None
     steps: int | None
     guidance: float | None

@@ -20,7 +20,6 @@ from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.interrupts import StopRequest, stop_on_interrupt
 from texvent.truth.layout import truth_folder
 from texvent.video import Frame
-from texvent.view.drawing.palettes import DEFAULT_PALETTE
 
 PREVIEW_SUFFIX = ".events"
 """Stands before the extension of previews, so that none takes the name of a source video."""
@@ -39,8 +38,6 @@ class RunFiles:
     """Format of each, None where its extension decides; empty: for all."""
     previews: tuple[str, ...] = ()
     """Kinds of preview, as file extensions without the dot."""
-    palette: str = DEFAULT_PALETTE
-    """Colours of the previews."""
     overwrite: bool = False
     """Whether existing files may be replaced."""
     truth: tuple[str, ...] = ()
@@ -225,7 +222,6 @@ def _open_previews(
         size=simulation.video.size,
         fps=simulation.video.fps,
         kinds=files.previews,
-        palette=files.palette,
         overwrite=files.overwrite,
         metadata=facts,
     )

@@ -50,12 +50,23 @@ class Job:
     share: float | None = None
     """Part that is done, 0..1; None where it is not known."""
     _stop: threading.Event = field(default_factory=threading.Event)
+    _thread: threading.Thread | None = None
+    _converting: threading.Lock = field(default_factory=threading.Lock)
     _events: int = 0
     _frames: int = 0
 
-    def start(self) -> None:
-        """Run in a thread."""
-        threading.Thread(target=self.run, daemon=True).start()
+    def start(self, *, after: Job | None = None) -> None:
+        """Run in a thread, as soon as the thread of another job has ended."""
+        before = None if after is None else after._thread
+
+        def wait_and_run() -> None:
+            if before is not None and before.is_alive():
+                self.text = "waiting for the end of the job before"
+                before.join()
+            self.run()
+
+        self._thread = threading.Thread(target=wait_and_run, daemon=True)
+        self._thread.start()
 
     def stop(self) -> None:
         """Give the run up at its next step."""
@@ -65,6 +76,7 @@ class Job:
         """Run; `state` and `text` are the outcome."""
         warnings: list[str] = []
         try:
+            self._say(self.text, None)
             with warnings_to(warnings.append):
                 simulation = self._prepare()
                 write_run(simulation, self._files(), on_step=lambda *step: self._count(*step))
@@ -96,9 +108,10 @@ class Job:
         if self.state != "done":
             raise InputError("there are no events to download; make some first")
         target = self.folder / f"download{extension_of(format)}"
-        save(target, open_events(self.folder / "events.h5"), format=format, overwrite=True)
-        if target.is_dir():
-            target = Path(shutil.make_archive(str(target), "zip", root_dir=target))
+        with self._converting:
+            save(target, open_events(self.folder / "events.h5"), format=format, overwrite=True)
+            if target.is_dir():
+                target = Path(shutil.make_archive(str(target), "zip", root_dir=target))
         return target
 
     def announce(self, line: str) -> None:

@@ -7,7 +7,9 @@ host (DNS rebinding) or come from another page are refused, and so are bodies ab
 from __future__ import annotations
 
 import json
+import re
 import shutil
+import sys
 import tempfile
 import threading
 from http import HTTPStatus
@@ -15,7 +17,7 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib import resources
 from pathlib import Path
 from typing import Any, Self
-from urllib.parse import parse_qs, urlsplit
+from urllib.parse import parse_qs
 
 from texvent._registry import CODECS, GENERATORS, SIMULATORS
 from texvent.config import RunConfig
@@ -39,7 +41,10 @@ POLICY = (
     "default-src 'self'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; "
     "object-src 'none'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
 )
-VIEWER_POLICY = "sandbox allow-scripts; frame-ancestors 'self'"
+VIEWER_POLICY = (
+    "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; "
+    "style-src 'unsafe-inline'; img-src data:; frame-ancestors 'self'"
+)
 
 
 class PageServer:
@@ -71,7 +76,7 @@ class PageServer:
         threading.Thread(target=self._server.serve_forever, daemon=True).start()
 
     def begin(self, options: dict[str, Any], *, prompt: str = "", video: Path | None = None) -> Job:
-        """Start a job, which takes the place of the one before."""
+        """Start a job, which takes the place of the one before and waits for its end."""
         with self._lock:
             before, self._jobs = self.job, self._jobs + 1
             if before is not None:
@@ -79,8 +84,10 @@ class PageServer:
                 shutil.rmtree(before.folder, ignore_errors=True)
             folder = self.folder / f"job-{self._jobs}"
             folder.mkdir()
+            if video is not None:
+                video = video.rename(folder / f"upload{video.suffix}")
             self.job = Job(folder, options, prompt=prompt, video=video)
-            self.job.start()
+            self.job.start(after=before)
             return self.job
 
     def close(self) -> None:
@@ -99,11 +106,20 @@ class PageServer:
         self.close()
 
 
+class _Server(ThreadingHTTPServer):
+    """The server; a connection that breaks off ends silently."""
+
+    def handle_error(self, request: Any, client_address: Any) -> None:
+        """Nothing of a broken connection: the terminal belongs to the command."""
+        if not isinstance(sys.exception(), OSError):
+            super().handle_error(request, client_address)
+
+
 def _listen(port: int) -> ThreadingHTTPServer:
     reason: OSError | None = None
     for one in [port] if port else range(FIRST_PORT, FIRST_PORT + PORTS_TRIED):
         try:
-            return ThreadingHTTPServer((HOST, one), _Handler)
+            return _Server((HOST, one), _Handler)
         except OSError as error:
             reason = error
     raise InputError(
@@ -127,17 +143,17 @@ class _Handler(BaseHTTPRequestHandler):
         """The page, the state of the job, or one of its files."""
         if self._is_refused():
             return
-        address = urlsplit(self.path)
+        path, _, query = self.path.partition("?")
         job = self.page.job
-        if address.path == "/":
+        if path == "/":
             self._send(page_html(), "text/html; charset=utf-8", policy=POLICY)
-        elif address.path == "/job":
+        elif path == "/job":
             facts = {"state": "none", "text": ""} if job is None else job.describe()
             self._send(json.dumps(facts), "application/json")
-        elif address.path == "/download" and job is not None:
-            self._download(job, parse_qs(address.query).get("format", [""])[0])
-        elif address.path in ("/video", "/page") and job is not None:
-            self._result(job, address.path[1:])
+        elif path == "/download" and job is not None:
+            self._download(job, parse_qs(query).get("format", [""])[0])
+        elif path in ("/video", "/page") and job is not None:
+            self._result(job, path[1:])
         else:
             self._refuse(HTTPStatus.NOT_FOUND, "there is no such page")
 
@@ -145,17 +161,18 @@ class _Handler(BaseHTTPRequestHandler):
         """Start or stop a job."""
         if self._is_refused():
             return
-        address = urlsplit(self.path)
+        path, _, query = self.path.partition("?")
         try:
-            if address.path == "/stop":
+            if path == "/stop":
                 if self.page.job is not None:
                     self.page.job.stop()
-            elif address.path == "/generate":
+            elif path == "/generate":
                 values = self._json()
                 self.page.begin(_options(values), prompt=str(values.get("prompt", "")))
-            elif address.path == "/simulate":
-                query = {name: values[0] for name, values in parse_qs(address.query).items()}
-                self.page.begin(_options(query), video=self._upload(query.get("name", "")))
+            elif path == "/simulate":
+                values = {name: found[0] for name, found in parse_qs(query).items()}
+                options = _options(values)
+                self.page.begin(options, video=self._upload(values.get("name", "")))
             else:
                 self._refuse(HTTPStatus.NOT_FOUND, "there is no such page")
                 return
@@ -171,7 +188,8 @@ class _Handler(BaseHTTPRequestHandler):
         host, origin = self.headers.get("Host", ""), self.headers.get("Origin")
         site = self.headers.get("Sec-Fetch-Site", "none")
         is_foreign = site not in ("none", "same-origin") and (
-            self.command != "GET" or self.headers.get("Sec-Fetch-Mode") != "navigate"
+            (self.command, self.path) != ("GET", "/")
+            or self.headers.get("Sec-Fetch-Mode") != "navigate"
         )
         if host not in names:
             self._refuse(HTTPStatus.MISDIRECTED_REQUEST, "this page answers to localhost only")
@@ -193,7 +211,7 @@ class _Handler(BaseHTTPRequestHandler):
     def _json(self) -> dict[str, Any]:
         try:
             values = json.loads(self.rfile.read(self._length(CALL_BYTES)))
-        except ValueError as error:
+        except (ValueError, RecursionError) as error:
             raise _RequestError(HTTPStatus.BAD_REQUEST, "the request is no JSON") from error
         if not isinstance(values, dict):
             raise _RequestError(HTTPStatus.BAD_REQUEST, "the request is no JSON object")
@@ -205,16 +223,18 @@ class _Handler(BaseHTTPRequestHandler):
         if suffix not in SUFFIXES:
             message = f"a video must end in one of {', '.join(sorted(SUFFIXES))}"
             raise _RequestError(HTTPStatus.UNSUPPORTED_MEDIA_TYPE, message)
-        for old in self.page.folder.glob("upload.*"):
-            old.unlink(missing_ok=True)
-        path = self.page.folder / f"upload{suffix}"
-        with path.open("wb") as file:
-            while left:
-                part = self.rfile.read(min(left, 2**20))
-                if not part:
-                    raise _RequestError(HTTPStatus.BAD_REQUEST, "the upload broke off")
-                file.write(part)
-                left -= len(part)
+        with tempfile.NamedTemporaryFile(suffix=suffix, dir=self.page.folder, delete=False) as file:
+            path = Path(file.name)
+            try:
+                while left:
+                    part = self.rfile.read(min(left, 2**20))
+                    if not part:
+                        raise _RequestError(HTTPStatus.BAD_REQUEST, "the upload broke off")
+                    file.write(part)
+                    left -= len(part)
+            except BaseException:
+                path.unlink()
+                raise
         return path
 
     def _result(self, job: Job, name: str) -> None:
@@ -229,11 +249,12 @@ class _Handler(BaseHTTPRequestHandler):
     def _download(self, job: Job, format: str) -> None:
         try:
             path = job.converted(format)
-        except TexventError as error:
+            content = path.read_bytes()
+        except (TexventError, OSError) as error:  # its job may just have been replaced
             self._refuse(HTTPStatus.BAD_REQUEST, str(error))
             return
         self._send(
-            path.read_bytes(),
+            content,
             "application/octet-stream",
             disposition=f'attachment; filename="events{"".join(path.suffixes)}"',
         )
@@ -276,9 +297,16 @@ def _options(values: dict[str, Any]) -> dict[str, Any]:
     """Options of a run from the fields of the page; empty fields are left to the defaults.
 
     Raises:
-        _RequestError: a number is none.
+        _RequestError: a number is none, or a name is not one that the page offers: others may be
+            paths, which the page has no business to read.
     """
     options: dict[str, Any] = {}
+    for name, allowed in (("generator", GENERATORS.names()), ("sensor", SENSORS)):
+        text = str(values.get(name, "")).strip()
+        is_size = name == "sensor" and re.fullmatch(r"\d{1,5}x\d{1,5}", text)
+        if text and text not in allowed and not is_size:
+            message = f"{name} is {text[:20]!r}; choose one of the page's list"
+            raise _RequestError(HTTPStatus.BAD_REQUEST, message)
     for name, convert in (
         ("generator", str), ("simulator", str), ("preset", str), ("sensor", str),
         ("seed", int), ("duration", float),

@@ -119,7 +119,10 @@ def test_a_real_render_of_blender():
 
 def test_simulate_takes_the_folder_that_the_script_makes(tmp_path, capsys):
     out = tmp_path / "out.h5"
-    assert main(["simulate", str(BLENDER), "-o", str(out), "--events-only", "--noise", "none"]) == 0
+    assert (
+        main(["simulate", str(BLENDER), "-o", str(out), "--previews", "none", "--noise", "none"])
+        == 0
+    )
     source = texvent.open(out).metadata["source"]
     assert source["motion"] == {"motion": str(BLENDER / "motion")}
     assert source["motion_convention"] == "blender"

@@ -28,7 +28,7 @@ def recording(folder) -> Path:
 
 @pytest.fixture
 def generated(folder) -> Path:
-    words = ("generate", "a red ball bounces", "-o", "scene.h5", "--events-only", "-q", *SCENE)
+    words = ("generate", "a red ball bounces", "-o", "scene.h5", "--previews", "none", "-q", *SCENE)
     assert run(*words) == 0
     return folder / "scene.h5"
 

@@ -19,7 +19,7 @@ from texvent.cli.app import main
 
 QUICK = (
     *("--sensor", "48x36", "--duration", "0.1", "--samples", "1"),
-    *("--events-only", "--interpolate", "none", "--noise", "none"),
+    *("--previews", "none", "--interpolate", "none", "--noise", "none"),
 )
 
 
@@ -80,14 +80,14 @@ def test_images_of_a_folder_each_shake_in_their_own_way(folder, capsys):
     for name in ("a.png", "b.png"):
         cv2.imwrite(str(folder / "photos" / name), image)
     words = ("batch", "photos", "--camera", "shake", "--duration", 0.1, "--noise", "none")
-    assert run(*words, "-o", "out", "--events-only") == 0
+    assert run(*words, "-o", "out", "--previews", "none") == 0
     one, other = (texvent.load(path) for path in sorted((folder / "out").glob("*.h5")))
     assert len(one)
     assert not one.equals(other)
     alone = {"camera": "shake", "duration": 0.1, "noise": "none", "seed": one.metadata["seed"]}
     assert texvent.simulate(folder / "photos" / "a.png", **alone).equals(one)
     capsys.readouterr()
-    assert run(*words, "-o", "out", "--events-only") == 0
+    assert run(*words, "-o", "out", "--previews", "none") == 0
     assert "kept     2 of 2 samples" in capsys.readouterr().err
 
 
@@ -110,7 +110,7 @@ def test_a_batch_goes_on_where_it_was(folder, capsys):
 
 def test_a_preview_that_is_missing_is_made_again(folder, capsys):
     (folder / "p.txt").write_text("a dog runs\n")
-    words = ["batch", "p.txt", *(word for word in QUICK if word != "--events-only")]
+    words = ["batch", "p.txt", *QUICK]
     assert run(*words, "--previews", "png") == 0
     (image,) = (folder / "p").glob("*.png")
     image.unlink()
@@ -145,7 +145,7 @@ def test_videos_of_a_folder_are_samples(folder, capsys):
         clip = ["--video-only", "-o", f"clips/{name}.avi"]
         Path("clips").mkdir(exist_ok=True)
         assert run("generate", prompt, "--duration", "0.1", "--sensor", "48x36", *clip) == 0
-    quick = ("--sensor", "48x36", "--events-only", "--interpolate", "none")
+    quick = ("--sensor", "48x36", "--previews", "none", "--interpolate", "none")
     assert run("batch", "clips", "-o", "events", *quick) == 0
     assert len(recordings(folder / "events")) == 2
     assert sorted(path.name for path in Path("clips").iterdir()) == ["left.avi", "right.avi"]

@@ -36,7 +36,7 @@ def test_a_video_written_once_gives_events_again_and_again(folder, capsys):
     video = reopen(folder / "ball.avi")
     assert (video.fps, video.size, video.frame_count) == (Fraction(30_000, 1001), (48, 36), 6)
     for name, threshold in (("a.h5", 0.3), ("b.h5", 0.1)):
-        words = ("--contrast-threshold", threshold, "--noise", "none", "--events-only")
+        words = ("--contrast-threshold", threshold, "--noise", "none", "--previews", "none")
         assert run("simulate", "ball.avi", "--prompt", "a ball", *words, "-o", name) == 0
     assert len(texvent.load("b.h5")) > len(texvent.load("a.h5")) > 0
     with h5py.File("a.h5") as file:

@@ -153,7 +153,7 @@ def test_its_failure_is_told_in_its_own_words(root):
         ("scripts/diffusion/inference.py", r"has no scripts/diffusion/inference.py"),
         ("configs/diffusion/inference/256px.py", r"has no configs/.*256px.py"),
         ("ckpts/hunyuan_vae.safetensors", r"hunyuan_vae.safetensors are missing; .* hf download"),
-        (".venv/bin/torchrun", r"no torchrun in .*opensora.launcher"),
+        (".venv/bin/torchrun", r"no torchrun in .*link it as \.venv"),
     ],
 )
 def test_what_is_missing_is_named_with_what_to_do(root, monkeypatch, remove, why):

@@ -66,7 +66,7 @@ def test_a_copy_of_a_known_model_keeps_its_facts():
 
 @pytest.mark.parametrize(
     ("option", "value"),
-    [("frames", 1), ("width", 4), ("steps", 0), ("guidance", -1.0), ("retries", -1), ("fps", 0)],
+    [("frames", 1), ("width", 4), ("steps", 0), ("guidance", -1.0), ("fps", 0)],
 )
 def test_options_out_of_range_are_refused(option, value):
     with pytest.raises(ConfigError, match=option):

@@ -80,7 +80,7 @@ def senpi_of_every_pixel(frames, config, seed) -> list[tuple[int, int, int]]:
     """(t, pixel, p) of the published rule without noise, with all pixels looked at."""
     shape = frames[0].luma.shape
     on, off = (m.ravel() for m in draw_threshold_pair(shape, sensor_key(seed), config))
-    light = [np.log(photons(frame.luma.ravel(), config.well_capacity)) for frame in frames]
+    light = [np.log(photons(frame.luma.ravel())) for frame in frames]
     level, fired_us = light[0].copy(), np.full(light[0].size, LONG_AGO_US)
     events = []
     for i in range(1, len(frames)):

@@ -31,14 +31,12 @@ def device() -> str:
 
 
 @pytest.fixture
-def rife(tmp_path, device) -> RifeInterpolator:
+def rife(tmp_path) -> RifeInterpolator:
     """An untrained network, small."""
     from texvent.interpolate.rife.network import RIFE_4_6
 
     path = save_published(torch, RIFE_4_6, tmp_path / "rife.pkl")
-    config = InterpolateConfig(
-        interpolate="rife", interpolator_weights=path, interpolator_device=device
-    )
+    config = InterpolateConfig(interpolate="rife", interpolator_weights=path)
     return RifeInterpolator(config, Video(np.zeros((2, 8, 8), np.uint8), [0, 1]))
 
 
@@ -100,11 +98,11 @@ def test_pictures_in_tensors_are_interpolated_as_frames_are(rife, device, shape)
 
 def test_frames_of_other_shapes_are_refused(rife, device):
     pairs = GpuPairs(simulator(), rife)
-    pairs.step(torch.zeros(24, 32, device=device), 0)
+    pairs.step(torch.zeros(24, 32), 0)
     with pytest.raises(InputError, match="one shape"):
-        pairs.step(torch.zeros(24, 40, device=device), 10)
+        pairs.step(torch.zeros(24, 40), 10)
     with pytest.raises(InputError, match=r"\[H, W\] or \[3, H, W\]"):
-        GpuPairs(simulator(), rife).step(torch.zeros(2, 24, 32, device=device), 0)
+        GpuPairs(simulator(), rife).step(torch.zeros(2, 24, 32), 0)
     with pytest.raises(InputError, match="both must have one shape"):
         next(rife.between_tensors(torch.zeros(4, 4), torch.zeros(4, 5), [0.5]))
 
@@ -116,6 +114,6 @@ def test_a_network_that_gives_nonsense_is_noticed(device):
                 yield torch.full_like(first, float("nan"))
 
     pairs = GpuPairs(simulator(), Nonsense(), count=1)
-    pairs.step(torch.zeros(8, 8, device=device), 0)
+    pairs.step(torch.zeros(8, 8), 0)
     with pytest.raises(InputError, match="NaN"):
-        pairs.step(torch.zeros(8, 8, device=device), 10)
+        pairs.step(torch.zeros(8, 8), 10)

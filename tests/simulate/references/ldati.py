@@ -24,7 +24,6 @@ def sample_events(
     interval: FrameInterval,
     *,
     rounding: Rounding = "published",
-    bidirectional: bool = False,
 ) -> UnsortedEvents:
     """Events of one voxel grid; arguments, errors and events as `ldati.sample_events`."""
     check_voxel(voxel)
@@ -35,7 +34,7 @@ def sample_events(
         column = [float(value) for value in voxel[polarity, :, y, x]]
         chance = float(draw_uniforms(interval.key, y, x, rounding_draw(polarity)))
         to_round = None if rounding == "published" else chance
-        counts, lone = place_column(column, to_round, bidirectional=bidirectional)
+        counts, lone = place_column(column, to_round)
         for i in range(length):
             for k in range(counts[i]):
                 if counts[i] == 1:
@@ -51,49 +50,33 @@ def sample_events(
     return UnsortedEvents.signal(pixel, t_us, p.astype(np.uint8))
 
 
-def place_column(
-    column: list[float], chance: float | None, *, bidirectional: bool
-) -> tuple[list[int], list[float]]:
+def place_column(column: list[float], chance: float | None) -> tuple[list[int], list[float]]:
     """Counts per sub-interval of one pixel and polarity, and the places of lone events.
 
     Args:
         column: events per node, B numbers.
         chance: uniform number that rounds the remainder, or None for the published rounding.
-        bidirectional: go from both ends to the middle.
 
     Returns:
         B − 1 counts, and B − 1 fractions in [0, 1).
     """
     last = len(column) - 2
-    remainder_at = last // 2 if bidirectional else last
     counts, lone = [0] * (last + 1), [0.0] * (last + 1)
     carry = 0.0
-    for i in range(remainder_at if bidirectional else last + 1):
+    for i in range(last + 1):
         left = column[i] - carry
         counts[i] = math.ceil(left - TOLERANCE)
         carry = lone[i] = counts[i] - left
-    carry_back = column[last + 1]
-    for i in range(last, remainder_at, -1):
-        lone[i] = carry_back
-        sum_back = column[i] + carry_back
-        counts[i] = math.floor(sum_back + TOLERANCE)
-        carry_back = max(sum_back - counts[i], 0.0)
-    remainder = carry_back - carry
-    if bidirectional:
-        lone[remainder_at] = carry_back
-        remainder += column[remainder_at]
+    remainder = column[last + 1] - carry
+    whole = math.floor(remainder + TOLERANCE)
     if chance is not None:
-        whole = math.floor(remainder + TOLERANCE)
         whole += chance < remainder - whole
     else:
-        whole = (
-            math.ceil(remainder - TOLERANCE) if bidirectional else math.floor(remainder + TOLERANCE)
-        )
         whole = max(whole, 0)
-    counts[remainder_at] += whole
-    if counts[remainder_at] < 0:
-        counts[remainder_at] = 0
-        counts[max(i for i in range(remainder_at + 1) if counts[i])] -= 1
+    counts[last] += whole
+    if counts[last] < 0:
+        counts[last] = 0
+        counts[max(i for i in range(last + 1) if counts[i])] -= 1
     return counts, [min(max(place, 0.0), JUST_BELOW_ONE) for place in lone]
 
 

@@ -25,7 +25,7 @@ def with_only(**options) -> SenpiConfig:
 
 def test_photons_have_a_floor_and_a_full_well():
     levels = np.array([[0, 1, 51, 255]], np.uint8)
-    assert photons(levels, 15_000.0) == pytest.approx(np.array([[58.8235, 58.8235, 3000, 15_000]]))
+    assert photons(levels) == pytest.approx(np.array([[58.8235, 58.8235, 3000, 15_000]]))
 
 
 def test_a_change_fires_once_at_the_end_of_the_interval(kernels):
@@ -104,26 +104,25 @@ def test_hot_pixels_are_few_and_busy():
 
 @pytest.mark.parametrize("fps", [24, 1000])
 def test_shot_noise_has_the_rate_of_its_tails(fps):
-    # sd of ln N at 1 level: 1 / sqrt(58.8) = 0.130; of the difference of two samples 0.184.
-    config = with_only(shot_noise=True, dark_electrons=0.0, exposure_us=10_000, noise_rate_hz=20.0)
+    # N = 58.8 at 1 level, dark 2: variance of ln N (N + 4) / N²; of a difference twice that.
+    config = with_only(shot_noise=True, noise_rate_hz=20.0)
     frames = static(1.0, fps=fps, seconds=0.25, shape=(40, 60))
-    tail = 0.5 * math.erfc(0.2 / (math.sqrt(2 / (15_000 / 255)) * math.sqrt(2)))
-    expected = (2 * tail / 0.01 + 20.0) * 0.25 * 40 * 60
+    mean = 15_000 / 255
+    tail = 0.5 * math.erfc(0.2 / 2 / math.sqrt((mean + 4) / mean**2))
+    expected = (2 * tail / 0.041667 + 20.0) * 0.25 * 40 * 60
     events = run(SenpiSimulator(config), frames)
     assert abs(len(events) - expected) < 4 * math.sqrt(expected)
     assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
 
 
-def test_shot_noise_spares_bright_pixels_and_grows_with_dark_electrons():
+def test_shot_noise_spares_bright_pixels():
     electrons, threshold = np.array([[58.8, 15_000.0]]), np.full((1, 2), 0.2)
-    quiet = shot_noise_rate_hz(electrons, threshold, with_only(dark_electrons=0.0))
-    noisy = shot_noise_rate_hz(electrons, threshold, with_only(dark_electrons=20.0))
-    assert quiet[0, 0] > 1.0
-    assert quiet[0, 1] < 1e-12
-    assert noisy[0, 0] > quiet[0, 0]
-    # N = 100, dark 10: variance (100 + 100) / 100².
-    some = shot_noise_rate_hz(np.full(1, 100.0), np.full(1, 0.2), with_only(dark_electrons=10.0))
-    assert some[0] == pytest.approx(math.erfc(0.2 / 2 / math.sqrt(0.02)) / 2 / 41_667e-6)
+    dark, bright = shot_noise_rate_hz(electrons, threshold)[0]
+    assert dark > 1.0
+    assert bright < 1e-12
+    # N = 100, dark 2: variance (100 + 4) / 100².
+    some = shot_noise_rate_hz(np.full(1, 100.0), np.full(1, 0.2))
+    assert some[0] == pytest.approx(math.erfc(0.2 / 2 / math.sqrt(0.0104)) / 2 / 41_667e-6)
 
 
 @pytest.mark.parametrize("fps", [24, 1000])

@@ -29,7 +29,7 @@ def weights(tmp_path_factory):
 
 @pytest.fixture(scope="module")
 def network(weights):
-    return load_network(weights, "cpu")
+    return load_network(weights)
 
 
 def some_pairs(count, height, width, seed=1):
@@ -76,12 +76,12 @@ def test_prefixes_of_training_programs_are_stripped(network, tmp_path, prefix):
     path = tmp_path / "last.ckpt"
     torch.save({"epoch": 3, "state_dict": state}, path)
     pairs = some_pairs(2, 16, 16)
-    assert np.array_equal(load_network(path, "cpu").predict(pairs), network.predict(pairs))
+    assert np.array_equal(load_network(path).predict(pairs), network.predict(pairs))
 
 
 def test_counters_of_training_may_be_missing(network, tmp_path):
     tensors = {k: v for k, v in random_tensors().items() if not k.endswith("tracked")}
-    other = load_network(save(tensors, tmp_path / "w.pt"), "cpu")
+    other = load_network(save(tensors, tmp_path / "w.pt"))
     pairs = some_pairs(2, 16, 16)
     assert np.array_equal(other.predict(pairs), network.predict(pairs))
 
@@ -110,7 +110,7 @@ def without(tensors, name):
 def test_a_file_of_another_layout_fails_by_name(tmp_path, change, message):
     path = save(change(random_tensors()), tmp_path / "odd.pt")
     with pytest.raises(FileFormatError, match=message) as caught:
-        load_network(path, "cpu")
+        load_network(path)
     assert "odd.pt" in str(caught.value)
 
 
@@ -127,14 +127,14 @@ def test_a_damaged_file_fails_once_and_clearly(weights, tmp_path, content):
     path = tmp_path / "damaged.pt"
     path.write_bytes(content(weights.read_bytes()))
     with pytest.raises(FileFormatError, match=r"damaged\.pt cannot be read.*V2CE-Toolbox"):
-        load_network(path, "cpu")
+        load_network(path)
 
 
 def test_a_file_that_would_run_code_is_refused(tmp_path):
     path = tmp_path / "object.pt"
     torch.save({"UNet.head.conv3d.weight": V2ceConfig()}, path)
     with pytest.raises(FileFormatError, match=r"object of class .*V2ceConfig, whose code would"):
-        load_network(path, "cpu")
+        load_network(path)
 
 
 def test_weights_that_blow_up_fail_by_name(tmp_path):
@@ -142,14 +142,14 @@ def test_weights_that_blow_up_fail_by_name(tmp_path):
     for name in tensors:
         if name.endswith("conv1.weight"):
             tensors[name] = tensors[name] * np.float32(1e20)
-    network = load_network(save(tensors, tmp_path / "huge.pt"), "cpu")
+    network = load_network(save(tensors, tmp_path / "huge.pt"))
     with pytest.raises(FileFormatError, match=r"huge\.pt.*NaN or infinite"):
         network.predict(some_pairs(1, 16, 16))
 
 
 def test_frames_become_events(weights):
     frames = moving_texture(7, (20, 24))
-    simulator = V2ceSimulator(V2ceConfig(weights=weights, device="cpu", sequence_length=4))
+    simulator = V2ceSimulator(V2ceConfig(weights=weights, sequence_length=4))
     events = EventStream.concat([packet for _, packet in advance_through(simulator, frames)])
     assert len(events) > 100
     assert set(events.p.tolist()) == {0, 1}

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
-from texvent.generate.videos.clip_model import ClipModel, Vectors
+from texvent_lab.alignment.clip_model import ClipModel, Vectors
 from texvent_lab.alignment.recordings import Recording, View
 
 RECALL_AT = (1, 5, 10)

@@ -2,59 +2,36 @@
 
 from __future__ import annotations
 
+import importlib
 import math
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from io import StringIO
 from pathlib import Path
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
+from texvent.extending import require
 from texvent.io.arrays.n_imagenet import load_stream
 from texvent.io.files import event_extensions
-from texvent.networks.layer_shapes import Shape
-from texvent.networks.weight_files import (
-    Tensor,
-    check_finite,
-    describe_mismatch,
-    read_mapping,
-    shapes_of,
-    state_tensors,
-    trained_with,
-)
+from texvent.networks.weight_files import read_mapping, shapes_of, state_tensors, trained_with
 from texvent.represent.event_frame import binary_event_image
 from texvent_lab.bench.jobs import Progress, no_progress
-from texvent_lab.networks.layers import EXTRA, Layers
-from texvent_lab.networks.resnet34 import BLOCKS, count_stages, resnet_scores, resnet_shapes
+from texvent_lab.networks.padding import EXTRA
 
-REPRESENTATION, CHANNELS = "binary-event-image", 2
+REPRESENTATION, CHANNELS, STAGES = "binary-event-image", 2, 4
 WHERE_FROM = (
     "the published classifiers are linked from the project 82magnolia/n_imagenet on GitHub; this "
     "one is ResNet34 on binary event images (reshape_then_flat_pol)"
 )
 
 
-@dataclass(frozen=True, eq=False)
-class ResNetWeights:
-    """The tensors of one classifier."""
-
-    tensors: Mapping[str, Tensor]
-    """Name → tensor, float32, on the CPU."""
-    blocks: tuple[int, ...]
-    """Residual blocks per stage; (3, 4, 6, 3) in ResNet34."""
-
-    @property
-    def class_count(self) -> int:
-        """Classes told apart."""
-        return int(self.tensors["fc.weight"].shape[0])
-
-
-def read_resnet_weights(path: Path) -> ResNetWeights:
-    """The classifier's weights from a published checkpoint, or from its tensors alone.
+def read_resnet(path: Path) -> ResNetClassifier:
+    """The classifier with the weights of a published checkpoint, or from its tensors alone.
 
     Args:
         path: `{"state_dict": ...}` as N-ImageNet's program saves it, `{name: tensor}`, or
@@ -67,6 +44,9 @@ def read_resnet_weights(path: Path) -> ResNetWeights:
     """
     if not path.is_file():
         raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
+    # Loaded here: they need torch, and the rest of this module does not.
+    layers: Any = importlib.import_module("texvent_lab.networks.layers")
+    resnet34: Any = importlib.import_module("texvent_lab.networks.resnet34")
     content = read_mapping(path, WHERE_FROM, extra=EXTRA)
     shown_to_it = trained_with(content, "network").get("representation", REPRESENTATION)
     if shown_to_it != REPRESENTATION:
@@ -76,48 +56,36 @@ def read_resnet_weights(path: Path) -> ResNetWeights:
         )
     tensors = state_tensors(content, path, WHERE_FROM, extra=EXTRA)
     shapes = shapes_of(tensors)
-    blocks = _count_blocks(shapes, path)
-    _check_shapes(shapes, blocks, path)
-    check_finite(tensors, path)
-    return ResNetWeights(tensors, blocks)
-
-
-def _count_blocks(shapes: Mapping[str, Shape], path: Path) -> tuple[int, ...]:
     for name, dimensions in (("conv1.weight", 4), ("fc.weight", 2)):
         if len(shapes.get(name, ())) != dimensions:
             raise FileFormatError(f"{path} has no usable {name}: it is no ResNet; {WHERE_FROM}")
-    blocks = count_stages(shapes)
-    if len(blocks) < len(BLOCKS):
+    blocks: list[int] = []
+    while count := layers.count_blocks(shapes, f"layer{len(blocks) + 1}"):
+        blocks.append(count)
+    if len(blocks) < STAGES:
         raise FileFormatError(
             f"{path} has no layer{len(blocks) + 1}: it is no ResNet; {WHERE_FROM}"
         )
-    return blocks
-
-
-def _check_shapes(shapes: Mapping[str, Shape], blocks: tuple[int, ...], path: Path) -> None:
     width, classes = shapes["conv1.weight"][0], shapes["fc.weight"][0]
-    expected = resnet_shapes(CHANNELS, classes, width=width, blocks=blocks)
-    problem = describe_mismatch(shapes, expected)
-    if problem is not None:
-        raise FileFormatError(f"{path} {problem}; {WHERE_FROM}")
+    network = resnet34.ResNet(CHANNELS, classes, width=width, blocks=tuple(blocks))
+    network.read(tensors, path, WHERE_FROM)
+    return ResNetClassifier(network.eval())
 
 
 class ResNetClassifier:
-    """Scores of images by a network with fixed weights."""
+    """Scores of images by a network with fixed weights, on the CPU.
 
-    def __init__(self, weights: ResNetWeights) -> None:
-        """A classifier, on the CPU: an accuracy must not depend on the machine.
+    An accuracy must not depend on the machine.
+    """
 
-        Args:
-            weights: see `resnet34_weights.read_resnet_weights`.
-        """
-        self._weights = weights
-        self._layers = Layers(weights.tensors)
+    def __init__(self, network: Any) -> None:
+        """A classifier from a `ResNet` in evaluation mode."""
+        self.network = network
 
     @property
     def class_count(self) -> int:
-        """Classes told apart."""
-        return self._weights.class_count
+        """Number of classes."""
+        return int(self.network.fc.out_features)
 
     def __call__(self, images: NDArray[np.float32]) -> NDArray[np.float32]:
         """Scores, higher is likelier.
@@ -128,10 +96,9 @@ class ResNetClassifier:
         Returns:
             [n, classes] float32.
         """
-        torch = self._layers.torch
+        torch = require("torch", extra=EXTRA)
         with torch.inference_mode():
-            scores = resnet_scores(self._layers, self._weights.blocks, torch.from_numpy(images))
-        return np.asarray(scores.numpy())
+            return np.asarray(self.network(torch.from_numpy(images)).numpy())
 
 
 Classifier: TypeAlias = Callable[[NDArray[np.float32]], NDArray[np.float32]]
@@ -216,7 +183,7 @@ def classify(
 
     Args:
         samples: see `list_samples`.
-        classifier: see `resnet34.ResNetClassifier`.
+        classifier: see `ResNetClassifier`.
         seed: decides which events of each file are taken.
         progress: told of progress.
 

@@ -26,19 +26,13 @@ from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.extending import require
 from texvent.generate.diffusers_models.latents import Latents
 from texvent.io.atomic import atomic_file
-from texvent.networks.layer_shapes import Shapes
-from texvent.networks.weight_files import (
-    SAFETENSORS,
-    Tensor,
-    check_finite,
-    describe_mismatch,
-    read_mapping,
-    shapes_of,
-    state_tensors,
-)
+from texvent.networks.weight_files import SAFETENSORS, Tensor, read_mapping
 from texvent_lab.latents.change import BALANCE, BrightnessChange
+from texvent_lab.networks.layers import Network
 
 EXTRA = "generate"
+_nn: Any = require("torch.nn", extra=EXTRA)
+_Convolution: Any = _nn.Conv3d
 CONFIG = "head_config"
 """Name of the config in the metadata of a file."""
 WHERE_FROM = "texvent train latents writes it as weights.pt"
@@ -74,28 +68,46 @@ class HeadConfig:
         check_range("blocks", self.blocks, 0, 64)
         check_range("balance", self.balance, 1e-6, 1e6)
 
-    @property
-    def shapes(self) -> Shapes:
-        """Every tensor, by name."""
-        width = self.width
-        out = self.bins * self.pixels_per_latent**2
-        layers = {"first": (width, self.channels, KERNEL), "last": (out, width, 1)}
-        for number in range(self.blocks):
-            layers[f"blocks.{number}.0"] = (width, width, KERNEL)
-            layers[f"blocks.{number}.1"] = (width, width, 1)
-        shapes: Shapes = {}
-        for name, sizes in layers.items():
-            shapes[f"{name}.weight"] = (*sizes, KERNEL, KERNEL)
-            shapes[f"{name}.bias"] = sizes[:1]
-        return shapes
+
+class _CausalConvolution(_Convolution):
+    """3D convolution that sees, of other latent frames, only those before."""
+
+    def __init__(self, narrow: int, wide: int, frames: int) -> None:
+        side = KERNEL // 2
+        super().__init__(narrow, wide, (frames, KERNEL, KERNEL), padding=(0, side, side))
+
+    def forward(self, x: Tensor) -> Tensor:
+        past = self.kernel_size[0] - 1
+        if past:
+            x = _nn.functional.pad(x, (0, 0, 0, 0, past, 0), mode="replicate")
+        return super().forward(x)
 
 
-@dataclass(frozen=True, eq=False)
-class LatentHead:
+class LatentHead(Network):
     """A head and its weights."""
 
-    config: HeadConfig
-    tensors: Mapping[str, Tensor]
+    def __init__(self, config: HeadConfig) -> None:
+        """Random weights; the last layer is zero: nothing moves at first, and most voxels are 0."""
+        super().__init__()
+        self.config, width = config, config.width
+        self.first = _CausalConvolution(config.channels, width, KERNEL)
+        self.blocks = _nn.ModuleList(
+            _nn.ModuleList(_CausalConvolution(width, width, frames) for frames in (KERNEL, 1))
+            for _ in range(config.blocks)
+        )
+        self.last = _CausalConvolution(width, config.bins * config.pixels_per_latent**2, 1)
+        for one in self.last.parameters():
+            _nn.init.zeros_(one)
+
+    def forward(self, latents: Tensor) -> Tensor:
+        """Changes [n, T − 1, B, H, W] of latents [n, C, T, h, w]."""
+        silu = _nn.functional.silu
+        x = self.first(latents)
+        for one, two in self.blocks:
+            x = x + two(silu(one(silu(x))))
+        # The first latent frame is context only.
+        x = self.last(silu(x[:, :, 1:]))
+        return _nn.functional.pixel_shuffle(x.transpose(1, 2), self.config.pixels_per_latent)
 
     def predict(self, latents: Latents) -> BrightnessChange:
         """Changes of brightness in the video that latents stand for.
@@ -122,33 +134,10 @@ class LatentHead:
                 "one latent frame shows no change; generate a longer video: two or more are needed"
             )
         with torch.inference_mode():
-            device = next(iter(self.tensors.values())).device
-            voxels = apply_head(self.tensors, config, torch.from_numpy(values)[None].to(device))
+            voxels = self(torch.from_numpy(values)[None].to(self.first.weight.device))
         return BrightnessChange(
             voxels[0].cpu().numpy(), latents.fps, config.frames_per_latent, config.balance
         )
-
-
-def apply_head(tensors: Mapping[str, Tensor], config: HeadConfig, latents: Tensor) -> Tensor:
-    """Changes [n, T − 1, B, H, W] of latents [n, C, T, h, w]; gradients flow."""
-    torch = require("torch", extra=EXTRA)
-    functional = torch.nn.functional
-
-    def convolve(x: Tensor, name: str) -> Tensor:
-        weight = tensors[f"{name}.weight"]
-        past = weight.shape[2] - 1
-        if past:
-            x = functional.pad(x, (0, 0, 0, 0, past, 0), mode="replicate")
-        side = KERNEL // 2
-        return functional.conv3d(x, weight, tensors[f"{name}.bias"], padding=(0, side, side))
-
-    x = convolve(latents, "first")
-    for number in range(config.blocks):
-        inner = convolve(functional.silu(x), f"blocks.{number}.0")
-        x = x + convolve(functional.silu(inner), f"blocks.{number}.1")
-    # The first latent frame is context only.
-    x = convolve(functional.silu(x[:, :, 1:]), "last")
-    return functional.pixel_shuffle(x.transpose(1, 2), config.pixels_per_latent)
 
 
 def save_head(head: LatentHead, path: Path, *, overwrite: bool = False) -> None:
@@ -180,12 +169,9 @@ def load_head(path: Path) -> LatentHead:
         config = HeadConfig(**_sizes(content, path))
     except (KeyError, ValueError, TypeError, ConfigError) as error:
         raise FileFormatError(f"{path} does not say the sizes of a head; {WHERE_FROM}") from error
-    tensors = state_tensors(content, path, WHERE_FROM, extra=EXTRA)
-    problem = describe_mismatch(shapes_of(tensors), config.shapes)
-    if problem is not None:
-        raise FileFormatError(f"{path} does not fit its sizes: it {problem}; {WHERE_FROM}")
-    check_finite(tensors, path)
-    return LatentHead(config, tensors)
+    head = LatentHead(config)
+    head.read(content, path, WHERE_FROM)
+    return head
 
 
 def _sizes(content: Mapping[str, Any], path: Path) -> Mapping[str, Any]:

@@ -181,7 +181,6 @@ def measure_pairs(plan: Plan, device: str) -> Iterator[dict[str, Any]]:
             config = InterpolateConfig(
                 interpolate="rife",
                 interpolator_weights=weights,
-                interpolator_device="cuda" if device == "cuda" else "cpu",
             )
             rife = RifeInterpolator(config, Video(np.zeros((1, 1, 1), np.uint8), [0]))
             pairs = GpuPairs(gpu.GpuSimulator(), rife, count=plan.between)

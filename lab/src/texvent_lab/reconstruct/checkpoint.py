@@ -6,9 +6,10 @@ import hashlib
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from texvent.errors import FileFormatError, InputError
+from texvent.extending import require
 from texvent.networks.layer_shapes import Shape
 from texvent.networks.weight_files import (
     StandIn,
@@ -20,9 +21,11 @@ from texvent.networks.weight_files import (
     state_tensors,
 )
 from texvent.runtime.cache_folder import cache_folder
-from texvent_lab.networks.layers import EXTRA
-from texvent_lab.reconstruct.protocol import PublishedNetwork
+from texvent_lab.networks.padding import EXTRA
 from texvent_lab.registries import RECONSTRUCTORS
+
+if TYPE_CHECKING:
+    from texvent_lab.reconstruct.recurrent_network import PublishedNetwork
 
 LEFT_BY_TRAINING = (
     *("parse_config.ConfigParser", "utils.parse_config.ConfigParser", "logger.logger.Logger"),
@@ -104,10 +107,11 @@ def _check_layout(published: PublishedNetwork, tensors: Mapping[str, Tensor], pa
 def _describe_mismatch(published: PublishedNetwork, found: Mapping[str, Shape]) -> str | None:
     """The first way in which tensors differ from a network's, or None."""
     try:
-        expected = published.network.tensor_shapes(found)
-    except ValueError:  # the shape that tells the width has not four numbers
+        with require("torch", extra=EXTRA).device("meta"):
+            expected = published.network.like(found, {}).tensors
+    except ValueError:  # the first kernel, of which the width is taken, has not four sides
         return "has a first layer of another kind"
-    return describe_mismatch(found, expected)
+    return describe_mismatch(found, shapes_of(expected))
 
 
 def _refuse_another_published(published: PublishedNetwork, path: Path, digest: str) -> None:

@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 
-from texvent.networks.layer_shapes import Shape, Shapes, layer_norm, linear
+from texvent.extending import require
+from texvent.networks.layer_shapes import Shape
 from texvent.networks.weight_files import Tensor
-from texvent_lab.networks.layer_shapes import (
-    attention,
-    conv_layer,
-    conv_lstm,
-    convolution,
-    count_blocks,
-)
-from texvent_lab.networks.layers import Layers
+from texvent_lab.networks.layers import ConvLayer, ConvLstm, UpsampleLayer, count_blocks
+from texvent_lab.networks.padding import EXTRA
+from texvent_lab.reconstruct.recurrent_network import RecurrentNetwork
+
+_torch: Any = require("torch", extra=EXTRA)
+_nn: Any = require("torch.nn", extra=EXTRA)
+_Module: Any = _nn.Module
 
 SCALES = 3
 HEADS = 8
-DOWN, UP = "DownsampleConv", "UpsampleConv"
 PUBLISHED_HEAD = (32, 5, 5, 5)
 """Shape of the first kernel: channels, bins, side, side."""
 PUBLISHED_ENCODER_LAYERS, PUBLISHED_DECODER_LAYERS = 3, 2
@@ -29,7 +28,52 @@ FEED_FORWARD = 4
 WAVELENGTH = 10_000.0
 
 
-class EtNet:
+class EncoderLayer(_Module):
+    """Self-attention and feed-forward, both after a normalisation and added to the input."""
+
+    norms: tuple[str, ...] = ("norm1", "norm2")
+
+    def __init__(self, features: int) -> None:
+        super().__init__()
+        self.self_attn = _nn.MultiheadAttention(features, HEADS)
+        for name in self.norms:
+            setattr(self, name, _nn.LayerNorm(features))
+        self.linear1 = _nn.Linear(features, FEED_FORWARD * features)
+        self.linear2 = _nn.Linear(FEED_FORWARD * features, features)
+
+    def forward(self, tokens: Tensor) -> Tensor:
+        """Tokens [n, features]."""
+        normal = self.norm1(tokens)
+        tokens = tokens + _attend(self.self_attn, normal, normal)
+        return tokens + self._feed_forward(self.norm2(tokens))
+
+    def _feed_forward(self, tokens: Tensor) -> Tensor:
+        return self.linear2(self.linear1(tokens).relu())
+
+
+class DecoderLayer(EncoderLayer):
+    """The same with attention to other tokens in between."""
+
+    norms = ("norm1", "norm21", "norm22", "norm3")
+
+    def __init__(self, features: int) -> None:
+        super().__init__(features)
+        self.cross_attn = _nn.MultiheadAttention(features, HEADS)
+
+    def forward(self, tokens: Tensor, memory: Tensor | None = None) -> Tensor:
+        """Tokens [n, features]; those attended to, [m, features], or themselves."""
+        normal = self.norm1(tokens)
+        tokens = tokens + _attend(self.self_attn, normal, normal)
+        memory = self.norm22(tokens if memory is None else memory)
+        tokens = tokens + _attend(self.cross_attn, self.norm21(tokens), memory)
+        return tokens + self._feed_forward(self.norm3(tokens))
+
+
+def _attend(attention: Any, queries: Tensor, memory: Tensor) -> Tensor:
+    return attention(queries, memory, memory, need_weights=False)[0]
+
+
+class EtNet(RecurrentNetwork):
     """ET-Net: head, three encoders with memory, a transformer, three decoders, prediction.
 
     The encoders' outputs become tokens of equal number: one per 8×8 px. Each scale is encoded by
@@ -40,135 +84,93 @@ class EtNet:
         2021, section 3.
     """
 
-    multiple: ClassVar[int] = 2**SCALES
+    multiple = 2**SCALES
 
-    def __init__(self, tensors: Mapping[str, Tensor], settings: Mapping[str, Any]) -> None:
-        """A network that has seen nothing; see `RecurrentNetwork`."""
-        del settings
-        self._layers = Layers(tensors)
-        shapes = {name: tuple(tensor.shape) for name, tensor in tensors.items()}
-        self._depths = _count_layers(shapes)
-        self.bins: int = shapes["head.conv2d.weight"][1]
+    def __init__(
+        self, width: int, bins: int, side: int, *, has_norm: bool, depths: tuple[int, int]
+    ) -> None:
+        """Random weights; `depths`: layers of each encoder and decoder of the transformer."""
+        super().__init__()
+        self.bins = bins
+        features = width << SCALES
+        self.head = ConvLayer(bins, width, side, has_norm=has_norm)
+        self.DownsampleConv, self.UpsampleConv = _nn.ModuleList(), _nn.ModuleList()
+        for number in range(SCALES):
+            narrow, wide = width << number, width << (number + 1)
+            conv = ConvLayer(narrow, wide, side, stride=2, has_norm=has_norm)
+            down = {"conv": conv, "recurrent_block": ConvLstm(wide)}
+            self.DownsampleConv.append(_nn.ModuleDict(down))
+            up = UpsampleLayer(wide, narrow, side, has_norm=has_norm)
+            self.UpsampleConv.insert(0, up)
+        for scale in range(SCALES):
+            if scale:
+                split = _nn.Conv2d(features >> scale, features, 2**scale, stride=2**scale)
+                setattr(self, f"split{scale}", split)
+            for kind, layer, depth in zip(
+                ("encoder", "decoder"), (EncoderLayer, DecoderLayer), depths, strict=True
+            ):
+                layers = _nn.ModuleList(layer(features) for _ in range(depth))
+                tree = _nn.ModuleDict({kind: _nn.ModuleDict({"layers": layers})})
+                setattr(self, f"trans_{kind}{scale}", tree)
+        self.pred = ConvLayer(width, 1, 1, has_norm=has_norm)
         self.reset()
 
     @classmethod
-    def tensor_shapes(cls, found: Mapping[str, Shape]) -> Shapes:
-        """Every tensor of a network as wide as the one found; see `RecurrentNetwork`."""
+    def like(cls, found: Mapping[str, Shape], settings: Mapping[str, Any]) -> EtNet:
+        """See `RecurrentNetwork`."""
+        del settings
         width, bins, side, _ = found.get("head.conv2d.weight", PUBLISHED_HEAD)
+        depths = (
+            count_blocks(found, "trans_encoder0.encoder.layers") or PUBLISHED_ENCODER_LAYERS,
+            count_blocks(found, "trans_decoder0.decoder.layers") or PUBLISHED_DECODER_LAYERS,
+        )
         has_norm = "head.norm_layer.weight" in found
-        shapes = conv_layer("head", width, bins, side, has_norm=has_norm)
-        for number in range(SCALES):
-            narrow, wide = width << number, width << (number + 1)
-            down, up = f"{DOWN}.{number}", f"{UP}.{SCALES - 1 - number}"
-            shapes |= conv_layer(f"{down}.conv", wide, narrow, side, has_norm=has_norm)
-            shapes |= conv_lstm(f"{down}.recurrent_block", wide)
-            shapes |= conv_layer(up, narrow, wide, side, has_norm=has_norm)
-        features = width << SCALES
-        for scale in range(1, SCALES):
-            shapes |= convolution(f"split{scale}", features, features >> scale, 2**scale)
-        for scale in range(SCALES):
-            shapes |= _transformer_shapes(scale, features, _count_layers(found))
-        return shapes | conv_layer("pred", 1, width, 1, has_norm=has_norm)
+        return cls(width, bins, side, has_norm=has_norm, depths=depths)
 
     def reset(self) -> None:
-        """Forget everything seen."""
+        """See `RecurrentNetwork`."""
         self._states: list[tuple[Tensor, Tensor] | None] = [None] * SCALES
 
     def step(self, voxel: Tensor) -> Tensor:
-        """The image after one more voxel grid; see `RecurrentNetwork`."""
-        layers, torch = self._layers, self._layers.torch
-        head = x = torch.relu(layers.conv_layer(voxel, "head"))
-        skipped = []
-        for number in range(SCALES):
-            name = f"{DOWN}.{number}"
-            x = torch.relu(layers.conv_layer(x, f"{name}.conv", stride=2))
-            state = layers.conv_lstm(x, f"{name}.recurrent_block", self._states[number])
-            self._states[number], x = state, state[0]
+        """See `RecurrentNetwork`."""
+        head = x = self.head(voxel).relu()
+        skipped, states = [], []
+        for down, state in zip(self.DownsampleConv, self._states, strict=True):
+            state = down["recurrent_block"](down["conv"](x).relu(), state)
+            x = state[0]
+            states.append(state)
             skipped.append(x)
+        self._states = states
         x = self._transform(skipped)
-        for number in range(SCALES):
-            x = layers.upsample_layer(x + skipped.pop(), f"{UP}.{number}")
-        return torch.sigmoid(layers.conv_layer(x + head, "pred"))
+        for up in self.UpsampleConv:
+            x = up(x + skipped.pop())
+        return self.pred(x + head).sigmoid()
 
     def _transform(self, maps: list[Tensor]) -> Tensor:
         """The middle of the network from the encoders' outputs, of the last one's shape."""
-        layers, coarsest = self._layers, maps[-1]
-        height, width = coarsest.shape[-2:]
+        height, width = maps[-1].shape[-2:]
         encoded: list[Tensor] = []
         for scale, image in enumerate(reversed(maps)):
-            if scale:
-                image = layers.convolve(image, f"split{scale}", stride=2**scale, padding=0)
+            image = getattr(self, f"split{scale}")(image) if scale else image
             tokens = image[0].flatten(1).T
-            encoded.append(self._encode(tokens + self._places(tokens), scale))
+            tokens = tokens + _encode_positions(tokens)
+            for layer in getattr(self, f"trans_encoder{scale}")["encoder"]["layers"]:
+                tokens = layer(tokens)
+            encoded.append(tokens)
         total = encoded[0] + encoded[1] + encoded[2]
         for scale in range(SCALES):
-            total = total + self._decode(encoded[scale], encoded[max(scale - 1, 0)], scale)
+            tokens, memory = encoded[scale], encoded[max(scale - 1, 0)]
+            for layer in getattr(self, f"trans_decoder{scale}")["decoder"]["layers"]:
+                tokens = layer(tokens, memory)
+            total = total + tokens
         return (total / (2 * SCALES)).T.unflatten(1, (height, width))[None]
 
-    def _encode(self, tokens: Tensor, scale: int) -> Tensor:
-        for number in range(self._depths[0]):
-            name = f"trans_encoder{scale}.encoder.layers.{number}"
-            normal = self._layers.layer_norm(tokens, f"{name}.norm1")
-            tokens = tokens + self._attend(normal, normal, f"{name}.self_attn")
-            tokens = tokens + self._feed_forward(tokens, name, "norm2")
-        return tokens
 
-    def _decode(self, tokens: Tensor, memory: Tensor, scale: int) -> Tensor:
-        layers = self._layers
-        for number in range(self._depths[1]):
-            name = f"trans_decoder{scale}.decoder.layers.{number}"
-            normal = layers.layer_norm(tokens, f"{name}.norm1")
-            tokens = tokens + self._attend(normal, normal, f"{name}.self_attn")
-            queries = layers.layer_norm(tokens, f"{name}.norm21")
-            known = layers.layer_norm(memory, f"{name}.norm22")
-            tokens = tokens + self._attend(queries, known, f"{name}.cross_attn")
-            tokens = tokens + self._feed_forward(tokens, name, "norm3")
-        return tokens
-
-    def _attend(self, queries: Tensor, memory: Tensor, name: str) -> Tensor:
-        return self._layers.attention(queries, memory, name, heads=HEADS)
-
-    def _feed_forward(self, tokens: Tensor, name: str, norm: str) -> Tensor:
-        layers = self._layers
-        hidden = layers.linear(layers.layer_norm(tokens, f"{name}.{norm}"), f"{name}.linear1")
-        return layers.linear(layers.torch.relu(hidden), f"{name}.linear2")
-
-    def _places(self, tokens: Tensor) -> Tensor:
-        """Where each token lies, as sines (even features) and cosines (odd ones)."""
-        count, features = tokens.shape
-        feature = np.arange(features)
-        rate = WAVELENGTH ** (-2.0 * (feature // 2) / features)
-        angle = np.arange(count)[:, None] * rate
-        table = np.where(feature % 2 == 0, np.sin(angle), np.cos(angle))
-        return self._layers.torch.from_numpy(table.astype(np.float32)).to(tokens.device)
-
-
-def _count_layers(found: Mapping[str, Shape]) -> tuple[int, int]:
-    """How many layers each encoder and each decoder of the transformer has."""
-    return (
-        count_blocks(found, "trans_encoder0.encoder.layers") or PUBLISHED_ENCODER_LAYERS,
-        count_blocks(found, "trans_decoder0.decoder.layers") or PUBLISHED_DECODER_LAYERS,
-    )
-
-
-def _transformer_shapes(scale: int, features: int, depths: tuple[int, int]) -> Shapes:
-    shapes: Shapes = {}
-    kinds = (
-        (f"trans_encoder{scale}.encoder.layers", depths[0], ("self_attn",), ("norm1", "norm2")),
-        (
-            f"trans_decoder{scale}.decoder.layers",
-            depths[1],
-            ("self_attn", "cross_attn"),
-            ("norm1", "norm21", "norm22", "norm3"),
-        ),
-    )
-    for prefix, depth, attentions, norms in kinds:
-        for number in range(depth):
-            name = f"{prefix}.{number}"
-            for one in attentions:
-                shapes |= attention(f"{name}.{one}", features)
-            for one in norms:
-                shapes |= layer_norm(f"{name}.{one}", features)
-            shapes |= linear(f"{name}.linear1", FEED_FORWARD * features, features)
-            shapes |= linear(f"{name}.linear2", features, FEED_FORWARD * features)
-    return shapes
+def _encode_positions(tokens: Tensor) -> Tensor:
+    """Position of each token, as sines (even features) and cosines (odd ones)."""
+    count, features = tokens.shape
+    feature = np.arange(features)
+    rate = WAVELENGTH ** (-2.0 * (feature // 2) / features)
+    angle = np.arange(count)[:, None] * rate
+    table = np.where(feature % 2 == 0, np.sin(angle), np.cos(angle))
+    return _torch.from_numpy(table.astype(np.float32)).to(tokens.device)

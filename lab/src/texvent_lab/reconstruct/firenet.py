@@ -3,29 +3,22 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from texvent.networks.layer_shapes import Shape, Shapes
+from texvent.extending import require
+from texvent.networks.layer_shapes import Shape
 from texvent.networks.weight_files import Tensor
-from texvent_lab.networks.layer_shapes import conv_gru, conv_layer, residual_block
-from texvent_lab.networks.layers import Layers
+from texvent_lab.networks.layers import ConvGru, ConvLayer, ResidualBlock
+from texvent_lab.networks.padding import EXTRA
+from texvent_lab.reconstruct.recurrent_network import RecurrentNetwork
+
+_nn: Any = require("torch.nn", extra=EXTRA)
 
 PUBLISHED_HEAD = (16, 5, 3, 3)
 """Shape of the first kernel: channels, bins, side, side."""
 
 
-@dataclass(frozen=True)
-class FireNetNames:
-    """What a file calls the layers, in the order that data passes them."""
-
-    head: str
-    units: tuple[str, str]
-    blocks: tuple[str, str]
-    prediction: str
-
-
-class FireNet:
+class FireNet(RecurrentNetwork):
     """FireNet as published with its paper.
 
     Head, unit, block, unit, block, prediction; the image keeps its size throughout, and the
@@ -34,45 +27,50 @@ class FireNet:
     Source: C. Scheerlinck et al., "Fast image reconstruction with an event camera", WACV 2020.
     """
 
-    names: ClassVar[FireNetNames] = FireNetNames(
-        "net.head.conv",
-        ("net.head.recurrent_block", "net.resblocks.0.recurrent_block"),
-        ("net.resblocks.0.conv", "net.resblocks.1"),
-        "net.pred",
-    )
-    multiple: ClassVar[int] = 1
+    head_name: ClassVar[str] = "net.head.conv"
 
-    def __init__(self, tensors: Mapping[str, Tensor], settings: Mapping[str, Any]) -> None:
-        """A network that has seen nothing; see `RecurrentNetwork`."""
-        del settings
-        self._layers = Layers(tensors)
-        self.bins: int = tensors[f"{self.names.head}.conv2d.weight"].shape[1]
+    def __init__(self, width: int, bins: int, side: int) -> None:
+        """Random weights; the kernels of head and prediction are `side` and 1 px wide."""
+        super().__init__()
+        self.bins = bins
+        self._add_layers(width, side)
         self.reset()
 
     @classmethod
-    def tensor_shapes(cls, found: Mapping[str, Shape]) -> Shapes:
-        """Every tensor of a network as wide as the one found; see `RecurrentNetwork`."""
-        names = cls.names
-        width, bins, side, _ = found.get(f"{names.head}.conv2d.weight", PUBLISHED_HEAD)
-        shapes = conv_layer(names.head, width, bins, side)
-        for unit, block in zip(names.units, names.blocks, strict=True):
-            # The units of FireNet+ take the kernel's side from the head; FireNet's are 3 wide.
-            shapes |= conv_gru(unit, width, side) | residual_block(block, width)
-        return shapes | conv_layer(names.prediction, 1, width, 1)
+    def like(cls, found: Mapping[str, Shape], settings: Mapping[str, Any]) -> FireNet:
+        """See `RecurrentNetwork`."""
+        del settings
+        width, bins, side, _ = found.get(f"{cls.head_name}.conv2d.weight", PUBLISHED_HEAD)
+        return cls(width, bins, side)
+
+    def _add_layers(self, width: int, side: int) -> None:
+        head = {"conv": ConvLayer(self.bins, width, side), "recurrent_block": ConvGru(width, side)}
+        middle = {"conv": ResidualBlock(width), "recurrent_block": ConvGru(width, side)}
+        self.net = _nn.ModuleDict(
+            {
+                "head": _nn.ModuleDict(head),
+                "resblocks": _nn.ModuleList([_nn.ModuleDict(middle), ResidualBlock(width)]),
+                "pred": ConvLayer(width, 1, 1),
+            }
+        )
+
+    def _layers(self) -> tuple[Any, ...]:
+        """Layers in the order that data passes them."""
+        head, (middle, last) = self.net["head"], self.net["resblocks"]
+        units = head["recurrent_block"], middle["recurrent_block"]
+        return head["conv"], units[0], middle["conv"], units[1], last, self.net["pred"]
 
     def reset(self) -> None:
-        """Forget everything seen."""
-        self._states: list[Tensor | None] = [None, None]
+        """See `RecurrentNetwork`."""
+        self._states: tuple[Tensor | None, Tensor | None] = (None, None)
 
     def step(self, voxel: Tensor) -> Tensor:
-        """The image after one more voxel grid; see `RecurrentNetwork`."""
-        layers, names = self._layers, self.names
-        x = layers.torch.relu(layers.conv_layer(voxel, names.head))
-        for number, (unit, block) in enumerate(zip(names.units, names.blocks, strict=True)):
-            x = layers.conv_gru(x, unit, self._states[number])
-            self._states[number] = x
-            x = layers.residual_block(x, block)
-        return layers.conv_layer(x, names.prediction)
+        """See `RecurrentNetwork`."""
+        head, unit1, block1, unit2, block2, prediction = self._layers()
+        first = unit1(head(voxel).relu(), self._states[0])
+        second = unit2(block1(first), self._states[1])
+        self._states = first, second
+        return prediction(block2(second))
 
 
 class FireNetPlus(FireNet):
@@ -81,4 +79,13 @@ class FireNetPlus(FireNet):
     Source: T. Stoffregen et al., "Reducing the sim-to-real gap for event cameras", ECCV 2020.
     """
 
-    names: ClassVar[FireNetNames] = FireNetNames("head", ("G1", "G2"), ("R1", "R2"), "pred")
+    head_name = "head"
+
+    def _add_layers(self, width: int, side: int) -> None:
+        self.head = ConvLayer(self.bins, width, side)
+        self.G1, self.R1 = ConvGru(width, side), ResidualBlock(width)
+        self.G2, self.R2 = ConvGru(width, side), ResidualBlock(width)
+        self.pred = ConvLayer(width, 1, 1)
+
+    def _layers(self) -> tuple[Any, ...]:
+        return self.head, self.G1, self.R1, self.G2, self.R2, self.pred

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from texvent_lab.reconstruct.et_net import EtNet
 from texvent_lab.reconstruct.firenet import FireNet, FireNetPlus
-from texvent_lab.reconstruct.protocol import PublishedNetwork
+from texvent_lab.reconstruct.recurrent_network import PublishedNetwork
 from texvent_lab.reconstruct.recurrent_unet import E2vid, E2vidPlus, HyperE2vid
 
 EVREAL = "the project ercanburak/EVREAL on GitHub carries it as pretrained/{}/model.pth"

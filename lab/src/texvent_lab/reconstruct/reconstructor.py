@@ -6,7 +6,7 @@ import copy
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, TypeAlias
+from typing import TYPE_CHECKING, Literal, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,10 +17,12 @@ from texvent.extending import require
 from texvent.networks.weight_files import Tensor
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
-from texvent_lab.networks.layers import EXTRA, Padding
+from texvent_lab.networks.padding import EXTRA, Padding
 from texvent_lab.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
-from texvent_lab.reconstruct.protocol import PublishedNetwork
 from texvent_lab.registries import RECONSTRUCTORS
+
+if TYPE_CHECKING:
+    from texvent_lab.reconstruct.recurrent_network import PublishedNetwork
 
 Device: TypeAlias = Literal["auto", "cpu", "cuda"]
 
@@ -96,7 +98,7 @@ class Reconstructor:
             device: "cpu" or "cuda".
         """
         tensors = {name: one.to(device) for name, one in checkpoint.tensors.items()}
-        self._network = published.network(tensors, checkpoint.settings)
+        self._network = published.network.from_tensors(tensors, checkpoint.settings)
         self._published = published
         self._device = device
         self._size: SensorSize | None = None

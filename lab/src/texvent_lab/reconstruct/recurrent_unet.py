@@ -6,18 +6,25 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, ClassVar
 
-from texvent.networks.layer_shapes import Shape, Shapes
+from texvent.extending import require
+from texvent.networks.layer_shapes import Shape
 from texvent.networks.weight_files import Tensor
-from texvent_lab.networks.layer_shapes import (
-    batch_norm,
-    conv_gru,
-    conv_layer,
-    conv_lstm,
-    convolution,
+from texvent_lab.networks.layers import (
+    ConvGru,
+    ConvLayer,
+    ConvLstm,
+    ResidualBlock,
+    TransposedLayer,
+    UpsampleLayer,
     count_blocks,
-    residual_block,
+    upsample,
 )
-from texvent_lab.networks.layers import Layers
+from texvent_lab.networks.padding import EXTRA
+from texvent_lab.reconstruct.recurrent_network import RecurrentNetwork
+
+_torch: Any = require("torch", extra=EXTRA)
+_nn: Any = require("torch.nn", extra=EXTRA)
+_Module: Any = _nn.Module
 
 ATOMS = 6
 """Kernels per pixel, of which every output channel takes its own mixture."""
@@ -28,143 +35,108 @@ CONTEXT_SCALE = 0.25
 """The decoder's output has a quarter of the sensor's sides, and so has its context."""
 
 
-def dynamic_decoder_shapes(
-    name: str, channels_out: int, channels_in: int, *, side: int, bins: int
-) -> Shapes:
-    """Every tensor of the decoder; the patterns are stored with the weights."""
-    atoms, inner = f"{name}.dynamic_atom_generation", f"{name}.dynamic_conv"
-    bases = BASES_PER_SCALE * (side // 2)
-    return {
-        **convolution(f"{name}.context_fusion.conv", CONTEXT_CHANNELS, bins + 1, 3),
-        f"{atoms}.bases": (bases, side * side),
-        **convolution(f"{atoms}.bases_net.0", HIDDEN_CHANNELS, CONTEXT_CHANNELS, 3),
-        **batch_norm(f"{atoms}.bases_net.1", HIDDEN_CHANNELS),
-        **convolution(f"{atoms}.bases_net.3", ATOMS * bases, HIDDEN_CHANNELS, 3),
-        **batch_norm(f"{atoms}.bases_net.4", ATOMS * bases),
-        f"{inner}.compositional_coefficients": (channels_out, channels_in * ATOMS, 1, 1),
-        f"{inner}.bias": (channels_out,),
-    }
+class AtomGeneration(_Module):
+    """Kernels of every pixel from its context: mixtures of patterns stored with the weights."""
+
+    def __init__(self, side: int) -> None:
+        super().__init__()
+        bases = BASES_PER_SCALE * (side // 2)
+        self.bases = _nn.Parameter(_torch.zeros(bases, side * side))
+        self.bases_net = _nn.Sequential(
+            _nn.Conv2d(CONTEXT_CHANNELS, HIDDEN_CHANNELS, 3, padding=1),
+            _nn.BatchNorm2d(HIDDEN_CHANNELS),
+            _nn.Tanh(),
+            _nn.Conv2d(HIDDEN_CHANNELS, ATOMS * bases, 3, padding=1),
+            _nn.BatchNorm2d(ATOMS * bases),
+            _nn.Tanh(),
+        )
+
+    def forward(self, context: Tensor) -> Tensor:
+        """[atoms, side², H/4, W/4] of features [1, channels, H/4, W/4]."""
+        coefficients = self.bases_net(context)[0].unflatten(0, (ATOMS, -1))
+        return _torch.einsum("abhw,bp->aphw", coefficients, self.bases)
 
 
-def decode_dynamically(layers: Layers, x: Tensor, name: str, *, context: Tensor) -> Tensor:
+class DynamicDecoder(_Module):
     """Twice the size, by kernels made from the context, then ReLU.
-
-    Args:
-        layers: tensors of the network.
-        x: [1, channels, H/8, W/8].
-        name: of the decoder.
-        context: voxel grid and the image before, [1, bins + 1, H, W].
-
-    Returns:
-        [1, fewer channels, H/4, W/4].
 
     Source: B. Ercan et al., "HyperE2VID", TIP 2024, section III-B.
     """
-    torch = layers.torch
-    x = layers.upsample(x)
-    atoms = _make_atoms(layers, name, context)
-    side = round(atoms.shape[1] ** 0.5)
-    height, width = x.shape[-2:]
-    margin = side // 2
-    padded = torch.nn.functional.pad(x[0], (margin,) * 4)
-    # One kernel position after the other: all of them at once would take side² times the memory.
-    mixed = x.new_zeros(x.shape[1], len(atoms), height, width)
-    for position in range(side * side):
-        row, column = divmod(position, side)
-        shifted = padded[:, row : row + height, column : column + width]
-        mixed.addcmul_(shifted[:, None], atoms[None, :, position])
-    weight = layers[f"{name}.dynamic_conv.compositional_coefficients"]
-    bias = layers[f"{name}.dynamic_conv.bias"]
-    return torch.relu(torch.nn.functional.conv2d(mixed.flatten(0, 1)[None], weight, bias))
 
+    def __init__(self, narrow: int, wide: int, side: int, bins: int) -> None:
+        super().__init__()
+        fusion = _nn.Conv2d(bins + 1, CONTEXT_CHANNELS, 3, padding=1)
+        self.context_fusion = _nn.ModuleDict({"conv": fusion})
+        self.dynamic_atom_generation = AtomGeneration(side)
+        mixtures = _torch.zeros(wide, narrow * ATOMS, 1, 1)
+        self.dynamic_conv = _nn.ParameterDict(
+            {"compositional_coefficients": mixtures, "bias": _torch.zeros(wide)}
+        )
 
-def _make_atoms(layers: Layers, name: str, context: Tensor) -> Tensor:
-    """Kernels of every pixel, [atoms, side², H/4, W/4]."""
-    torch, inner = layers.torch, f"{name}.dynamic_atom_generation"
-    context = torch.nn.functional.interpolate(
-        context, scale_factor=CONTEXT_SCALE, mode="bilinear", align_corners=False
-    )
-    x = layers.convolve(context, f"{name}.context_fusion.conv")
-    for conv, norm in (("0", "1"), ("3", "4")):
-        x = layers.convolve(x, f"{inner}.bases_net.{conv}")
-        x = torch.tanh(layers.normalise(x, f"{inner}.bases_net.{norm}"))
-    coefficients = x[0].unflatten(0, (ATOMS, -1))
-    return torch.einsum("abhw,bp->aphw", coefficients, layers[f"{inner}.bases"])
+    def forward(self, x: Tensor, context: Tensor) -> Tensor:
+        """[1, fewer channels, H/4, W/4].
+
+        Args:
+            x: [1, channels, H/8, W/8].
+            context: voxel grid and the image before, [1, bins + 1, H, W].
+        """
+        x = upsample(x)
+        context = _nn.functional.interpolate(
+            context, scale_factor=CONTEXT_SCALE, mode="bilinear", align_corners=False
+        )
+        atoms = self.dynamic_atom_generation(self.context_fusion["conv"](context))
+        side = round(atoms.shape[1] ** 0.5)
+        height, width = x.shape[-2:]
+        padded = _nn.functional.pad(x[0], (side // 2,) * 4)
+        # One kernel position after the other: all at once would take side² times the memory.
+        mixed = x.new_zeros(x.shape[1], len(atoms), height, width)
+        for position in range(side * side):
+            row, column = divmod(position, side)
+            shifted = padded[:, row : row + height, column : column + width]
+            mixed.addcmul_(shifted[:, None], atoms[None, :, position])
+        weight, bias = self.dynamic_conv["compositional_coefficients"], self.dynamic_conv["bias"]
+        return _nn.functional.conv2d(mixed.flatten(0, 1)[None], weight, bias).relu()
 
 
 PREFIX = "unetrecurrent"
-HEAD = f"{PREFIX}.head"
-ENCODERS = f"{PREFIX}.encoders"
-BLOCKS = f"{PREFIX}.resblocks"
-DECODERS = f"{PREFIX}.decoders"
-PREDICTION = f"{PREFIX}.pred"
 PUBLISHED_HEAD = (32, 5, 5, 5)
 """Shape of the first kernel: channels, bins, side, side."""
-PUBLISHED_ENCODERS = 3
-PUBLISHED_BLOCKS = 2
 
 
 @dataclass(frozen=True)
 class UNetVariant:
-    """Where files of the family differ; all of it can be read from the names and shapes."""
+    """Differences between files of the family; the defaults are the published network."""
 
-    width: int
-    bins: int
-    side: int
-    encoders: int
-    blocks: int
-    has_norm: bool
+    width: int = 32
+    bins: int = 5
+    side: int = 5
+    encoders: int = 3
+    blocks: int = 2
+    has_norm: bool = False
     """Batch normalisation in place of biases."""
-    is_gru: bool
+    is_gru: bool = False
     """Gated recurrent units instead of long short-term memories."""
-    is_transposed: bool
+    is_transposed: bool = False
     """Decoders are transposed convolutions instead of bilinear ones."""
 
     @classmethod
     def of(cls, found: Mapping[str, Shape]) -> UNetVariant:
         """The variant that tensors are of, the published one where they do not say."""
-        width, bins, side, _ = found.get(f"{HEAD}.conv2d.weight", PUBLISHED_HEAD)
+        width, bins, side, _ = found.get(f"{PREFIX}.head.conv2d.weight", PUBLISHED_HEAD)
+        first = f"{PREFIX}.encoders.0"
         return cls(
             width=width,
             bins=bins,
             side=side,
-            encoders=count_blocks(found, ENCODERS) or PUBLISHED_ENCODERS,
-            blocks=count_blocks(found, BLOCKS) or PUBLISHED_BLOCKS,
-            has_norm=f"{ENCODERS}.0.conv.norm_layer.weight" in found,
-            is_gru=f"{ENCODERS}.0.recurrent_block.reset_gate.weight" in found,
-            is_transposed=f"{DECODERS}.1.transposed_conv2d.weight" in found,
+            encoders=count_blocks(found, f"{PREFIX}.encoders") or cls.encoders,
+            blocks=count_blocks(found, f"{PREFIX}.resblocks") or cls.blocks,
+            has_norm=f"{first}.conv.norm_layer.weight" in found,
+            is_gru=f"{first}.recurrent_block.reset_gate.weight" in found,
+            is_transposed=f"{PREFIX}.decoders.1.transposed_conv2d.weight" in found,
         )
 
-    def tensor_shapes(self, *, is_dynamic: bool) -> Shapes:
-        """Every tensor, with a dynamic first decoder or without."""
-        shapes = conv_layer(HEAD, self.width, self.bins, self.side)
-        for number in range(self.encoders):
-            narrow, wide = self.width << number, self.width << (number + 1)
-            name = f"{ENCODERS}.{number}"
-            unit = f"{name}.recurrent_block"
-            shapes |= conv_layer(f"{name}.conv", wide, narrow, self.side, has_norm=self.has_norm)
-            shapes |= conv_gru(unit, wide, 3) if self.is_gru else conv_lstm(unit, wide)
-        for number in range(self.blocks):
-            widest = self.width << self.encoders
-            shapes |= residual_block(f"{BLOCKS}.{number}", widest, has_norm=self.has_norm)
-        for number in range(self.encoders):
-            shapes |= self._decoder_shapes(number, is_dynamic=is_dynamic and number == 0)
-        return shapes | conv_layer(PREDICTION, 1, self.width, 1, has_norm=self.has_norm)
 
-    def _decoder_shapes(self, number: int, *, is_dynamic: bool) -> Shapes:
-        name, wide = f"{DECODERS}.{number}", self.width << (self.encoders - number)
-        if is_dynamic:
-            return dynamic_decoder_shapes(name, wide // 2, wide, side=self.side, bins=self.bins)
-        shapes = conv_layer(name, wide // 2, wide, self.side, has_norm=self.has_norm)
-        if self.is_transposed:
-            del shapes[f"{name}.conv2d.weight"]
-            shapes[f"{name}.transposed_conv2d.weight"] = (wide, wide // 2, self.side, self.side)
-            if not self.has_norm:
-                shapes[f"{name}.transposed_conv2d.bias"] = shapes.pop(f"{name}.conv2d.bias")
-        return shapes
-
-
-class E2vid:
+class E2vid(RecurrentNetwork):
     """E2VID: head, three encoders with memory, two residual blocks, three decoders, prediction.
 
     Each decoder and the prediction add what the encoder of their size, or the head, gave. The
@@ -177,61 +149,75 @@ class E2vid:
     is_dynamic: ClassVar[bool] = False
     default_activation: ClassVar[str] = "sigmoid"
 
-    def __init__(self, tensors: Mapping[str, Tensor], settings: Mapping[str, Any]) -> None:
-        """A network that has seen nothing; see `RecurrentNetwork`."""
-        self._layers = Layers(tensors)
-        shapes = {name: tuple(tensor.shape) for name, tensor in tensors.items()}
-        self._variant = UNetVariant.of(shapes)
-        self.bins = self._variant.bins
-        self.multiple = 2**self._variant.encoders
-        self._has_sigmoid = self._final_activation(settings) == "sigmoid"
+    def __init__(
+        self, variant: UNetVariant | None = None, final_activation: str | None = None
+    ) -> None:
+        """Random weights; None: the published variant, and the activation of this class."""
+        super().__init__()
+        one = variant or UNetVariant()
+        self.bins, self.multiple = one.bins, 2**one.encoders
+        chosen = self.default_activation if final_activation is None else final_activation
+        self._has_sigmoid = chosen == "sigmoid"
+        widest = one.width << one.encoders
+        blocks = (ResidualBlock(widest, has_norm=one.has_norm) for _ in range(one.blocks))
+        self.unetrecurrent = _nn.ModuleDict(
+            {
+                "head": ConvLayer(one.bins, one.width, one.side),
+                "encoders": _nn.ModuleList(self._encoder(one, i) for i in range(one.encoders)),
+                "resblocks": _nn.ModuleList(blocks),
+                "decoders": _nn.ModuleList(self._decoder(one, i) for i in range(one.encoders)),
+                "pred": ConvLayer(one.width, 1, 1, has_norm=one.has_norm),
+            }
+        )
         self.reset()
 
     @classmethod
-    def tensor_shapes(cls, found: Mapping[str, Shape]) -> Shapes:
-        """Every tensor of the variant that was found; see `RecurrentNetwork`."""
-        return UNetVariant.of(found).tensor_shapes(is_dynamic=cls.is_dynamic)
+    def like(cls, found: Mapping[str, Shape], settings: Mapping[str, Any]) -> E2vid:
+        """See `RecurrentNetwork`."""
+        del settings
+        return cls(UNetVariant.of(found))
+
+    def _encoder(self, one: UNetVariant, number: int) -> Any:
+        narrow, wide = one.width << number, one.width << (number + 1)
+        layer = ConvLayer(narrow, wide, one.side, stride=2, has_norm=one.has_norm)
+        unit = ConvGru(wide) if one.is_gru else ConvLstm(wide)
+        return _nn.ModuleDict({"conv": layer, "recurrent_block": unit})
+
+    def _decoder(self, one: UNetVariant, number: int) -> Any:
+        wide = one.width << (one.encoders - number)
+        if self.is_dynamic and number == 0:
+            return DynamicDecoder(wide, wide // 2, one.side, one.bins)
+        layer = TransposedLayer if one.is_transposed else UpsampleLayer
+        return layer(wide, wide // 2, one.side, has_norm=one.has_norm)
 
     def reset(self) -> None:
-        """Forget everything seen."""
-        self._states: list[Any] = [None] * self._variant.encoders
+        """See `RecurrentNetwork`."""
+        self._states: list[Any] = [None] * len(self.unetrecurrent["encoders"])
         self._image: Tensor | None = None
 
     def step(self, voxel: Tensor) -> Tensor:
-        """The image after one more voxel grid; see `RecurrentNetwork`."""
-        layers, torch = self._layers, self._layers.torch
-        head = x = torch.relu(layers.conv_layer(voxel, HEAD))
-        skipped = []
-        for number in range(self._variant.encoders):
-            x = self._encode(x, number)
+        """See `RecurrentNetwork`."""
+        net = self.unetrecurrent
+        head = x = net["head"](voxel).relu()
+        skipped, states = [], []
+        for encoder, state in zip(net["encoders"], self._states, strict=True):
+            state = encoder["recurrent_block"](encoder["conv"](x).relu(), state)
+            x = state[0] if isinstance(state, tuple) else state
+            states.append(state)
             skipped.append(x)
-        for number in range(self._variant.blocks):
-            x = layers.residual_block(x, f"{BLOCKS}.{number}")
-        for number in range(self._variant.encoders):
-            x, name = x + skipped.pop(), f"{DECODERS}.{number}"
+        self._states = states
+        for block in net["resblocks"]:
+            x = block(x)
+        for number, decoder in enumerate(net["decoders"]):
+            x = x + skipped.pop()
             if self.is_dynamic and number == 0:
-                seen = torch.zeros_like(voxel[:, :1]) if self._image is None else self._image
-                x = decode_dynamically(layers, x, name, context=torch.cat([voxel, seen], 1))
+                seen = _torch.zeros_like(voxel[:, :1]) if self._image is None else self._image
+                x = decoder(x, _torch.cat([voxel, seen], 1))
             else:
-                x = layers.upsample_layer(x, name)
-        image = layers.conv_layer(x + head, PREDICTION)
-        self._image = torch.sigmoid(image) if self._has_sigmoid else image
+                x = decoder(x)
+        image = net["pred"](x + head)
+        self._image = image.sigmoid() if self._has_sigmoid else image
         return self._image
-
-    def _encode(self, x: Tensor, number: int) -> Tensor:
-        """Half the size and twice the channels, with the memory of that encoder."""
-        layers, name = self._layers, f"{ENCODERS}.{number}"
-        x = layers.torch.relu(layers.conv_layer(x, f"{name}.conv", stride=2))
-        unit, state = f"{name}.recurrent_block", self._states[number]
-        if self._variant.is_gru:
-            self._states[number] = x = layers.conv_gru(x, unit, state)
-            return x
-        self._states[number] = layers.conv_lstm(x, unit, state)
-        return self._states[number][0]
-
-    def _final_activation(self, settings: Mapping[str, Any]) -> str:
-        del settings
-        return self.default_activation
 
 
 class E2vidPlus(E2vid):
@@ -242,8 +228,11 @@ class E2vidPlus(E2vid):
 
     default_activation: ClassVar[str] = ""
 
-    def _final_activation(self, settings: Mapping[str, Any]) -> str:
-        return str(settings.get("final_activation", self.default_activation))
+    @classmethod
+    def like(cls, found: Mapping[str, Shape], settings: Mapping[str, Any]) -> E2vid:
+        """See `RecurrentNetwork`."""
+        activation = str(settings.get("final_activation", cls.default_activation))
+        return cls(UNetVariant.of(found), activation)
 
 
 class HyperE2vid(E2vidPlus):

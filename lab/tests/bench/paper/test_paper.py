@@ -107,7 +107,7 @@ def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path):
     torch = pytest.importorskip("torch")
     from texvent.events import EventStream
     from texvent.sensor import SensorSize
-    from texvent_lab.networks.resnet34 import resnet_shapes
+    from texvent_lab.networks.resnet34 import ResNet
 
     for name in ("n01", "n02"):
         place = tmp_path / "streams" / "texvent" / name
@@ -116,8 +116,8 @@ def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path):
         EventStream(t % 8, t % 6, t, t % 2, SensorSize(8, 6)).save(
             place / "a.npz", format="n-imagenet"
         )
-    shapes = resnet_shapes(2, 2, width=4, blocks=(1, 1, 1, 1))
-    state = {name: torch.ones(shape) for name, shape in shapes.items()}
+    tensors = ResNet(2, 2, width=4, blocks=(1, 1, 1, 1)).tensors
+    state = {name: torch.ones_like(one) for name, one in tensors.items()}
     torch.save({"state_dict": state}, tmp_path / "weights.tar")
     weights = tmp_path / "weights.tar"
     found = accuracy_figures(tmp_path / "streams", weights, classes=None, progress=silent)

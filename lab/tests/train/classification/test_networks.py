@@ -12,13 +12,18 @@ from texvent.cli.app import main
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from texvent_lab.networks.resnet34 import BLOCKS  # noqa: E402
-from texvent_lab.train.classification.task import resnet34, small_cnn  # noqa: E402
+from texvent_lab.networks.layers import make_seeded  # noqa: E402
+from texvent_lab.networks.resnet34 import BLOCKS, ResNet  # noqa: E402
+from texvent_lab.train.classification.task import SmallCnn  # noqa: E402
 
 from ...bench.classification.torch_resnet import torch_resnet  # noqa: E402
 from ..written_samples import bar  # noqa: E402
 
 pytestmark = pytest.mark.torch
+
+
+def resnet34(channels: int, classes: int, seed: int, width: int = 64) -> ResNet:
+    return make_seeded(lambda: ResNet(channels, classes, width=width), seed)
 
 
 def images(count: int = 4, side: int = 70) -> torch.Tensor:
@@ -74,7 +79,7 @@ def test_the_seed_decides_the_weights() -> None:
 
 
 def test_a_wider_small_network_has_that_many_channels() -> None:
-    network = small_cnn(2, 7, seed=0, width=5)
+    network = SmallCnn(2, 7, width=5)
     assert [len(network.tensors[f"conv{stage}.weight"]) for stage in range(3)] == [5, 10, 20]
     assert network(images()).shape == (4, 7)
 

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
+from texvent.networks.weight_files import shapes_of  # noqa: E402
 from texvent_lab.train.flow.e_raft import (  # noqa: E402
     CorrelationPyramid,
-    e_raft_shapes,
     make_e_raft,
 )
-from texvent_lab.train.flow.task import ev_flow_net_shapes, make_ev_flow_net  # noqa: E402
+from texvent_lab.train.flow.task import make_ev_flow_net  # noqa: E402
 
 pytestmark = pytest.mark.torch
 
@@ -72,7 +72,7 @@ def test_a_size_of_one_pixel_is_looked_up_too() -> None:
 
 
 def test_e_raft_has_its_published_layout() -> None:
-    shapes = e_raft_shapes(15)
+    shapes = shapes_of(make_e_raft(15).tensors)
     expected = {
         "fnet.conv1.weight": (64, 15, 7, 7),
         "fnet.layer2.0.downsample.0.weight": (96, 64, 1, 1),
@@ -111,7 +111,7 @@ def test_ev_flow_net_gives_flow_at_four_scales() -> None:
 
 
 def test_ev_flow_net_has_as_many_channels_as_published() -> None:
-    shapes = ev_flow_net_shapes(5, 32)
+    shapes = shapes_of(make_ev_flow_net(5, 32, 0).tensors)
     assert shapes["multires_unet.encoders.3.conv2d.weight"] == (512, 256, 3, 3)
     assert shapes["multires_unet.resblocks.1.conv2.weight"] == (512, 512, 3, 3)
     assert shapes["multires_unet.decoders.0.conv2d.weight"] == (256, 1024, 3, 3)

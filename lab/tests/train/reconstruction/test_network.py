@@ -21,7 +21,7 @@ def test_the_state_is_carried_from_window_to_window(name: str) -> None:
     network, grids = new_network(published, 0), voxels(3)
     with torch.no_grad():
         images = network(grids)
-        one_by_one = published.network(network.tensors, {})
+        one_by_one = published.network.from_tensors(network.tensors, {})
         expected = [one_by_one.step(grids[:, place]) for place in range(3)]
         torch.testing.assert_close(images, torch.stack(expected, dim=1))
         assert not torch.equal(network(grids[:, 1:])[:, 0], images[:, 1])
@@ -38,7 +38,7 @@ def test_gradients_reach_all_parameters_through_time() -> None:
 def test_a_window_is_one_graph_for_the_compiler(name: str) -> None:
     published = RECONSTRUCTORS.load(name)
     tensors, grids = new_network(published, 0).tensors, voxels()
-    plain, compiled = (published.network(tensors, {}) for _ in range(2))
+    plain, compiled = (published.network.from_tensors(tensors, {}) for _ in range(2))
     step = torch.compile(compiled.step, backend="eager", fullgraph=True)
     with torch.no_grad():
         for grid in grids.unbind(dim=1):

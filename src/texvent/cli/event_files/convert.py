@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any, ClassVar, cast
 
 from texvent._registry import FILTERS
-from texvent.cli.event_files.time_option import keep_time_range
+from texvent.cli.event_files.event_file_options import keep_time_range
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs

@@ -47,7 +47,7 @@ class BatchOptions:
     positional: ClassVar[tuple[str, ...]] = ("sources",)
     main_options: ClassVar[tuple[str, ...]] = (
         "jobs", "out", "generator", "duration", "fps", "sensor", "simulator", "preset", "seed",
-        "events_only", "config", "overwrite",
+        "previews", "config", "overwrite",
     )  # fmt: skip
 
     sources: tuple[str, ...] = REQUIRED
@@ -137,7 +137,6 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
         events=(),
         formats=output.format,
         previews=output.preview_kinds,
-        palette=output.palette,
         truth=output.truth_parts,
         overwrite=output.overwrite,
     )
@@ -168,7 +167,6 @@ def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
         "settings": plan.settings.as_tables(),
         "format": plan.files.formats[0] if plan.files.formats else plan.extension,
         "previews": list(plan.files.previews),
-        "palette": plan.files.palette,
     }
 
 

@@ -8,13 +8,12 @@ from pathlib import Path
 from typing import ClassVar, Literal
 
 from texvent._registry import GENERATORS
-from texvent.cli.command import resolve_command
+from texvent.cli.command import read_subject, resolve_command, subject_name
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions, default_event_file
 from texvent.cli.run import execute, print_settings
 from texvent.cli.simulation.preview import check_preview, write_preview
-from texvent.cli.subject import read_subject, subject_name
 from texvent.errors import ConfigError, InputError, warn
 from texvent.generate.scene_input import Subject, check_takes
 from texvent.generate.video_models.known_models import warn_low_fps
@@ -44,7 +43,7 @@ class PromptOptions:
     positional: ClassVar[tuple[str, ...]] = ("prompt",)
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "generator", "duration", "sensor", "simulator", "preset",
-        "contrast_threshold", "noise", "interpolate", "seed", "events_only", "config", "preview",
+        "contrast_threshold", "noise", "interpolate", "seed", "previews", "config", "preview",
         "dry_run", "overwrite",
     )  # fmt: skip
 

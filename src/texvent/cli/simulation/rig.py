@@ -7,13 +7,12 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
-from texvent.cli.command import resolve_command
+from texvent.cli.command import read_subject, resolve_command, subject_name
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import take_options
 from texvent.cli.outputs import default_event_file
 from texvent.cli.run import print_settings
-from texvent.cli.subject import read_subject, subject_name
 from texvent.errors import ConfigError
 from texvent.options.fields import option_names
 from texvent.options.values import plain

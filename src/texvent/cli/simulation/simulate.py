@@ -26,7 +26,7 @@ class VideoOptions:
     positional: ClassVar[tuple[str, ...]] = ("source",)
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "sensor", "simulator", "preset", "contrast_threshold", "noise", "interpolate",
-        "fps", "motion", "camera", "start", "stop", "seed", "events_only", "config", "dry_run",
+        "fps", "motion", "camera", "start", "stop", "seed", "previews", "config", "dry_run",
         "overwrite",
     )  # fmt: skip
 

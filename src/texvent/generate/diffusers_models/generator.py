@@ -110,7 +110,6 @@ class DiffusersGenerator:
         return generate_checked(
             functools.partial(self._find_or_make, prompt),
             self.config,
-            prompt=prompt,
             seed=self.seed,
             progress=progress,
         )

@@ -53,15 +53,9 @@ class OpenSoraConfig(GeneratedVideoConfig):
 
     fps: Fraction | None = Fraction(24)
     """Frame rate that Open-Sora takes (a whole number), and the video's."""
-    opensora_root: Path | None = None
-    """Folder of your Open-Sora 2 checkout; without it: $OPENSORA_ROOT."""
-    opensora_launcher: Path | None = None
-    """torchrun of its environment; without it: the one in .venv or venv of the checkout, else the
-    first on the PATH."""
     resolution: Literal["256px", "768px"] = "256px"
-    """Size class: 256px takes about a minute and 52 GB on an H100, 768px half an hour and 60 GB."""
-    aspect_ratio: Literal["16:9", "9:16", "1:1"] = "16:9"
-    """Shape of the image."""
+    """Size class of the 16:9 image: 256px takes about a minute and 52 GB on an H100, 768px half an
+    hour and 60 GB."""
     frames: int = 129
     """Frames to generate, 4k+1, at most 129."""
     steps: int = 50
@@ -101,22 +95,22 @@ class OpenSoraGenerator:
     def find_missing(cls, config: OpenSoraConfig | None = None) -> str | None:
         """What keeps Open-Sora from running, and what to do; None if nothing does."""
         config = config or OpenSoraConfig()
-        root = _root(config)
+        root = _root()
         if root is None:
             return (
                 "the folder of Open-Sora is not known; install Open-Sora 2 "
                 "(github.com/hpcaitech/Open-Sora) in an environment of its own, then set "
-                f"{ROOT_VARIABLE} or pass --opensora-root"
+                f"{ROOT_VARIABLE}"
             )
         if not root.is_dir():
             return f"there is no folder {root}; set {ROOT_VARIABLE} to your Open-Sora checkout"
         for path in (SCRIPT, CONFIGS / f"{config.resolution}.py"):
             if not (root / path).is_file():
                 return f"{root} has no {path}; it must be a checkout of Open-Sora 2.0"
-        if find_launcher(config) is None:
+        if _launcher() is None:
             return (
-                f"no torchrun in {root}/.venv, {root}/venv or on the PATH; pass "
-                "--opensora-launcher /path/to/its/environment/bin/torchrun"
+                f"no torchrun in {root}/.venv, {root}/venv or on the PATH; activate Open-Sora's "
+                "environment, or link it as .venv of the checkout"
             )
         for path in WEIGHTS:
             if not (root / path).exists():
@@ -142,7 +136,6 @@ class OpenSoraGenerator:
         return generate_checked(
             functools.partial(self._find_or_make, prompt),
             self.config,
-            prompt=prompt,
             seed=self.seed,
             progress=progress,
         )
@@ -160,7 +153,7 @@ class OpenSoraGenerator:
         )
 
     def _key(self, prompt: str, seed: int) -> str:
-        names = ("fps", "resolution", "aspect_ratio", "frames", "steps", "guidance")
+        names = ("fps", "resolution", "frames", "steps", "guidance")
         facts = {name: getattr(self.config, name) for name in names}
         return content_key({**facts, "source": "open-sora 2", "prompt": prompt, "seed": seed})
 
@@ -190,7 +183,7 @@ class OpenSoraGenerator:
 
     def _run(self, prompt: str, seed: int, folder: Path) -> Path:
         """Call the program; returns the mp4 it wrote."""
-        root = _root(self.config)
+        root = _root()
         prompts = folder / "prompts.csv"
         with prompts.open("w", encoding="utf-8", newline="") as file:
             csv.writer(file).writerows([["text"], [prompt]])
@@ -217,23 +210,20 @@ class OpenSoraGenerator:
             "--sampling_option.num_frames": config.frames,
             "--sampling_option.num_steps": config.steps,
             "--sampling_option.guidance": config.guidance,
-            "--sampling_option.aspect_ratio": config.aspect_ratio,
+            "--sampling_option.aspect_ratio": "16:9",
         }
         words = [str(word) for pair in options.items() for word in pair]
         return [
-            str(find_launcher(config)),
+            str(_launcher()),
             *("--nproc_per_node", "1", "--standalone"),
             *(str(SCRIPT), str(CONFIGS / f"{config.resolution}.py")),
             *words,
         ]
 
 
-def find_launcher(config: OpenSoraConfig) -> Path | None:
+def _launcher() -> Path | None:
     """The torchrun of Open-Sora's environment, or None."""
-    if config.opensora_launcher is not None:
-        given = config.opensora_launcher.expanduser()
-        return given if os.access(given, os.X_OK) else None
-    root = _root(config)
+    root = _root()
     for path in LAUNCHERS if root is not None else ():
         if root is not None and os.access(root / path, os.X_OK):
             return (root / path).absolute()
@@ -241,6 +231,6 @@ def find_launcher(config: OpenSoraConfig) -> Path | None:
     return Path(on_path) if on_path else None
 
 
-def _root(config: OpenSoraConfig) -> Path | None:
-    named = config.opensora_root or os.environ.get(ROOT_VARIABLE)
+def _root() -> Path | None:
+    named = os.environ.get(ROOT_VARIABLE)
     return Path(named).expanduser() if named else None

@@ -8,7 +8,6 @@ from collections.abc import Callable
 
 from texvent.errors import TexventError
 from texvent.generate.video_config import GeneratedVideoConfig
-from texvent.generate.videos.clip_model import check_clip_model, measure_clip_score
 from texvent.generate.videos.stored_video import StoredVideo
 from texvent.generate.videos.video_cache import MEASURES
 from texvent.runtime.progress import NoProgress, Progress
@@ -19,12 +18,14 @@ from texvent.video_check.checks import (
     has_all_measurements,
 )
 
+RETRIES = 3
+"""Further seeds with --on-failure retry."""
+
 
 def generate_checked(
     make: Callable[[int, Progress], StoredVideo],
     config: GeneratedVideoConfig,
     *,
-    prompt: str,
     seed: int,
     progress: Progress | None,
 ) -> StoredVideo:
@@ -32,8 +33,7 @@ def generate_checked(
 
     Args:
         make: (seed, progress) → video.
-        config: what to do about a failed video, and how often to try again.
-        prompt: what the video should show.
+        config: what to do about a failed video.
         seed: the first seed; the others follow from it.
         progress: receives what is wrong.
 
@@ -41,40 +41,23 @@ def generate_checked(
         The video, with the filter's findings in its metadata.
 
     Raises:
-        InputError: there is no CLIP model where `agreement_model` says; nothing was generated.
         TexventError: the video failed and `on_failure` is "reject", or every seed failed.
     """
     progress = progress or NoProgress()
     if config.on_failure == "ignore":
         return make(seed, progress)
-    if config.agreement_model is not None:
-        check_clip_model(config.agreement_model)
-    tries = config.retries + 1 if config.on_failure == "retry" else 1
+    tries = RETRIES + 1 if config.on_failure == "retry" else 1
     for attempt in range(tries):
         attempt_seed = nth_seed(seed, attempt)
         video = make(attempt_seed, progress)
-        report = _judge(video, prompt, config)
+        measures = video.metadata.get(MEASURES) or {}
+        report = evaluate(measures) if has_all_measurements(measures) else check_video(video)
         if report.is_fine or config.on_failure == "warn":
             if not report.is_fine:
                 progress.announce(f"warning: the generated video looks failed: {report.summary}")
             return _with_findings(video, report)
         progress.announce(f"seed {attempt_seed} is refused: {report.summary}")
     raise TexventError(_refusal(report, tries))
-
-
-def _judge(video: StoredVideo, prompt: str, config: GeneratedVideoConfig) -> VideoReport:
-    """Problems of the video itself, and its agreement with the prompt."""
-    measures = video.metadata.get(MEASURES) or {}
-    report = evaluate(measures) if has_all_measurements(measures) else check_video(video)
-    if config.agreement_model is None:
-        return report
-    score = measure_clip_score(video, prompt, config.agreement_model)
-    low = config.min_agreement is not None and score < config.min_agreement
-    return dataclasses.replace(
-        report,
-        problems=(*report.problems, *((f"agreement {score:.3f}",) if low else ())),
-        measurements={**report.measurements, "agreement": score},
-    )
 
 
 def _with_findings(video: StoredVideo, report: VideoReport) -> StoredVideo:

@@ -31,6 +31,12 @@ from texvent.simulate.random.mismatch import (
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 
 WHITE = 255.0
+WELL_CAPACITY = 15_000.0
+"""Photons of a white pixel."""
+DARK_ELECTRONS = 2.0
+"""Rms of the dark noise, electrons."""
+EXPOSURE_US = 41_667
+"""Time between independent samples of the photon number: how often shot noise can fire."""
 FULL_SCALE = 0.9616
 """SENPI's threshold of 0.1 in its unit of ln(15000): 0.96158 in natural-log units."""
 
@@ -49,8 +55,6 @@ class SenpiConfig:
     """Fall of ln(photons) that fires an OFF event: the mean over pixels."""
     threshold_sigma: float = 0.0
     """Standard deviation of both thresholds between pixels, log units; none is below 0.01."""
-    well_capacity: float = 15_000.0
-    """Photons of a white pixel."""
     noise_rate_hz: float = 1.2
     """Noise events per pixel and second; SENPI's 0.05 per frame, at 24 frames per second."""
     hot_pixel_fraction: float = 0.0
@@ -58,22 +62,15 @@ class SenpiConfig:
     hot_pixel_rate_hz: float = 10.0
     """Noise events per second of a hot pixel."""
     shot_noise: bool = False
-    """Add the noise events that photon statistics cause."""
-    dark_electrons: float = 2.0
-    """Rms of the dark noise, electrons; counts with shot noise only."""
-    exposure_us: int = 41_667
-    """Time between independent samples of the photon number: how often shot noise can fire."""
+    """Add the noise events of photon statistics and of 2 electrons (rms) of dark noise."""
     refractory_period_us: int = 50
     """Time after an event in which a change cannot fire the pixel."""
 
     def __post_init__(self) -> None:
         check_nominal_thresholds(self)
-        check_range("well_capacity", self.well_capacity, WHITE, 1e9)
         check_range("noise_rate_hz", self.noise_rate_hz, 0.0, 1e4)
         check_range("hot_pixel_fraction", self.hot_pixel_fraction, 0.0, 1.0)
         check_range("hot_pixel_rate_hz", self.hot_pixel_rate_hz, 0.0, 1e4)
-        check_range("dark_electrons", self.dark_electrons, 0.0, 1e6)
-        check_range("exposure_us", self.exposure_us, 1, 10**9)
         check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
 
 
@@ -132,11 +129,11 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         is_hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_pixel_fraction)
         self._rate_hz = np.where(is_hot, config.hot_pixel_rate_hz, config.noise_rate_hz)
         self._noise = PoissonNoise(self._rate_hz)
-        self._reference = np.log(photons(intensity, config.well_capacity)).reshape(-1)
+        self._reference = np.log(photons(intensity)).reshape(-1)
         self._fired_us = np.full(intensity.size, LONG_AGO_US)
         # Below the darkest level all voltages are equal, so one that is lower is never reached.
-        darkest = math.log(DARKEST / WHITE * config.well_capacity)
-        curve = BrightnessCurve(WHITE / config.well_capacity, 0.0, darkest)
+        darkest = math.log(DARKEST / WHITE * WELL_CAPACITY)
+        curve = BrightnessCurve(WHITE / WELL_CAPACITY, 0.0, darkest)
         self._levels = TriggerLevels(intensity, curve)
         self._levels.set_all(self._reference, self._thresholds)
 
@@ -164,18 +161,16 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         return UnsortedEvents.signal(pixel, np.full(len(pixel), t_us), is_on.astype(np.uint8))
 
     def _voltage(self, intensity: IntensityArray) -> Float64Array:
-        return np.asarray(np.log(photons(intensity, self.config.well_capacity)))
+        return np.asarray(np.log(photons(intensity)))
 
     def _draw_noise(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
         if not self.config.shot_noise:
             return self._noise.draw(interval)
         from texvent.simulate.random.poisson_noise import PoissonNoise  # brings Numba
 
-        electrons = photons(intensity, self.config.well_capacity)
+        electrons = photons(intensity)
         on, off = (
-            shot_noise_rate_hz(electrons.reshape(-1), threshold, self.config).reshape(
-                electrons.shape
-            )
+            shot_noise_rate_hz(electrons.reshape(-1), threshold).reshape(electrons.shape)
             for threshold in self._thresholds
         )
         total = self._rate_hz + on + off
@@ -183,20 +178,18 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         return PoissonNoise(total).draw(interval, on_fraction=on_fraction)
 
 
-def photons(intensity: IntensityArray, well_capacity: float) -> Float64Array:
+def photons(intensity: IntensityArray) -> Float64Array:
     """Photons that pixels receive, `max(I, 1) / 255 · well capacity`, float64.
 
     Example:
-        >>> photons(np.array([[0, 1, 255]], np.uint8), 15_000.0).round(2).tolist()
+        >>> photons(np.array([[0, 1, 255]], np.uint8)).round(2).tolist()
         [[58.82, 58.82, 15000.0]]
     """
     exact = intensity.astype(np.float64, copy=False)
-    return np.asarray(np.maximum(exact, DARKEST) / WHITE * well_capacity)
+    return np.asarray(np.maximum(exact, DARKEST) / WHITE * WELL_CAPACITY)
 
 
-def shot_noise_rate_hz(
-    electrons: Float64Array, threshold: Float64Array, config: SenpiConfig
-) -> Float64Array:
+def shot_noise_rate_hz(electrons: Float64Array, threshold: Float64Array) -> Float64Array:
     """Events per second of one polarity that photon and dark noise fire at a resting pixel.
 
     One sample of ln(electrons) has the variance `(N + dark²) / N²`, the difference of two samples
@@ -206,11 +199,10 @@ def shot_noise_rate_hz(
     Args:
         electrons: mean number N, [H, W], above 0.
         threshold: of that polarity, [H, W], log units.
-        config: exposure and dark noise.
 
     Returns:
         [H, W].
     """
-    variance = (electrons + config.dark_electrons**2) / electrons**2
+    variance = (electrons + DARK_ELECTRONS**2) / electrons**2
     tail = np.frompyfunc(math.erfc, 1, 1)(threshold / (2.0 * np.sqrt(variance)))
-    return np.asarray(tail, np.float64) / 2 / (config.exposure_us * 1e-6)
+    return np.asarray(tail, np.float64) / 2 / (EXPOSURE_US * 1e-6)

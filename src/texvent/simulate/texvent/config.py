@@ -26,7 +26,7 @@ class TexventConfig:
     """
 
     contrast_threshold: float = 0.2
-    """Contrast threshold δ: change of brightness ln(α + I) that fires an event."""
+    """Contrast threshold δ of ln(α + I). A change of brightness by it fires an event."""
     balance: float = 20.0
     """Balance α, in levels of 0..255: what is added to intensities before the logarithm, so that
     dark pixels do not fire more easily than bright ones."""

@@ -53,7 +53,6 @@ def voxel_to_events(
     *,
     seed: int = 0,
     rounding: Rounding = "published",
-    bidirectional: bool = False,
 ) -> EventStream:
     """Events of one voxel grid.
 
@@ -63,7 +62,6 @@ def voxel_to_events(
         stop_us: time of node B − 1, µs (excluded).
         seed: of the random draws, 0..2⁶³−1.
         rounding: as for `sample_events`.
-        bidirectional: as for `sample_events`.
 
     Raises:
         InputError: the grid has another shape, a negative or infinite count or too large a one,
@@ -82,7 +80,7 @@ def voxel_to_events(
             f"the interval {start_us}..{stop_us} µs is empty; it must last 1 µs or more"
         )
     interval = FrameInterval(start_us, stop_us, frame_key(seed, stop_us - start_us))
-    events = sample_events(voxel, interval, rounding=rounding, bidirectional=bidirectional)
+    events = sample_events(voxel, interval, rounding=rounding)
     return make_packet(events, interval, SensorSize(voxel.shape[3], voxel.shape[2]))
 
 
@@ -91,7 +89,6 @@ def sample_events(
     interval: FrameInterval,
     *,
     rounding: Rounding = "published",
-    bidirectional: bool = False,
 ) -> UnsortedEvents:
     """Events of one voxel grid, unsorted.
 
@@ -100,7 +97,6 @@ def sample_events(
         interval: time from node 0 to node B − 1; its key decides the draws.
         rounding: of the part of an event that is left where a pixel's sum is not
             whole; see `infer_counts`.
-        bidirectional: go from both ends to the middle instead of from start to end.
 
     Raises:
         InputError: another shape, a negative or infinite count, or too large a one.
@@ -108,7 +104,7 @@ def sample_events(
     Source: V2CE, section on LDATI.
     """
     check_voxel(voxel)
-    placed = infer_counts(voxel, interval.key, rounding=rounding, bidirectional=bidirectional)
+    placed = infer_counts(voxel, interval.key, rounding=rounding)
     slope = density_slope(placed.counts)
     lone = np.nonzero(placed.counts == 1)
     crowd = np.nonzero(placed.counts > 1)
@@ -135,54 +131,37 @@ class PlacedCounts(NamedTuple):
     """[2, B − 1, H, W], place of a lone event in its sub-interval, in [0, 1)."""
 
 
-def infer_counts(
-    voxel: VoxelArray, key: np.uint64, *, rounding: Rounding, bidirectional: bool
-) -> PlacedCounts:
+def infer_counts(voxel: VoxelArray, key: np.uint64, *, rounding: Rounding) -> PlacedCounts:
     """Events per sub-interval, so that their linear voxel grid is close to `voxel`.
 
     From the start: node i, less the carry of the events before it, is what the events of
     sub-interval i added to it. The next whole number is their count. The difference, which they
-    must have added to node i + 1, is carried there. From the end: the last node is carried back,
-    and the whole part of node i plus what was carried back is the count of sub-interval i. What
-    remains, the remainder, goes to one sub-interval: the last, or the middle one if bidirectional.
+    must have added to node i + 1, is carried there. The remainder, the last
+    node less its carry, goes to the last sub-interval.
 
     Args:
         voxel: events per node, [2, B, H, W].
         key: of the draws, for stochastic rounding.
-        rounding: "published": the remainder is rounded down (bidirectional: up) and is never below
-            0, so a pixel's number of events is its sum rounded down or up.
+        rounding: "published": the remainder is rounded down and is never below 0, so a pixel's
+            number of events is its sum rounded down or up.
             "stochastic": rounded to either side, so that the mean number is the sum.
-        bidirectional: go from both ends to the middle.
-
-    Deviation: bidirectional, the original skips the sub-interval before the middle and moves its
-        events to the start of the next; here none is skipped.
     """
     nodes = np.asarray(voxel, np.float64)
-    last = nodes.shape[1] - 2
-    remainder_at = last // 2 if bidirectional else last
-    shape = (nodes.shape[0], last + 1, *nodes.shape[2:])
+    length = nodes.shape[1] - 1
+    shape = (nodes.shape[0], length, *nodes.shape[2:])
     counts, fraction = np.zeros(shape, np.int64), np.zeros(shape)
     carry = np.zeros_like(nodes[:, 0])
-    for i in range(remainder_at if bidirectional else last + 1):
+    for i in range(length):
         left = nodes[:, i] - carry
         counts[:, i] = np.ceil(left - TOLERANCE)
         carry = counts[:, i] - left
         fraction[:, i] = carry
-    carry_back = nodes[:, last + 1]
-    for i in range(last, remainder_at, -1):
-        fraction[:, i] = carry_back
-        sum_back = nodes[:, i] + carry_back
-        counts[:, i] = np.floor(sum_back + TOLERANCE)
-        carry_back = np.maximum(sum_back - counts[:, i], 0.0)
-    remainder = carry_back - carry
-    if bidirectional:
-        fraction[:, remainder_at] = carry_back
-        remainder = remainder + nodes[:, remainder_at]
+    remainder = nodes[:, length] - carry
     if rounding == "published":
-        whole = np.ceil(remainder - TOLERANCE) if bidirectional else np.floor(remainder + TOLERANCE)
-        counts[:, remainder_at] += np.maximum(whole, 0.0).astype(np.int64)
+        whole = np.floor(remainder + TOLERANCE)
+        counts[:, -1] += np.maximum(whole, 0.0).astype(np.int64)
     else:
-        _round_at_random(counts, remainder, remainder_at, key)
+        _round_at_random(counts, remainder, key)
     if int(counts.max()) > MAX_COUNT:
         raise InputError(
             f"the voxel grid holds {int(counts.max())} events of one pixel between two nodes; "
@@ -191,19 +170,17 @@ def infer_counts(
     return PlacedCounts(counts, np.clip(fraction, 0.0, JUST_BELOW_ONE))
 
 
-def _round_at_random(
-    counts: NDArray[np.int64], remainder: Float64Array, remainder_at: int, key: np.uint64
-) -> None:
+def _round_at_random(counts: NDArray[np.int64], remainder: Float64Array, key: np.uint64) -> None:
     """Add the remainder, rounded up or down at random; a negative one removes the latest event."""
     height, width = remainder.shape[1:]
     polarity, row, column = np.ogrid[: remainder.shape[0], :height, :width]
     chance = draw_uniforms(key, row, column, rounding_draw(polarity))
     whole = np.floor(remainder + TOLERANCE)
-    counts[:, remainder_at] += (whole + (chance < remainder - whole)).astype(np.int64)
-    p, y, x = np.nonzero(counts[:, remainder_at] < 0)
-    counts[p, remainder_at, y, x] = 0
-    has_events = counts[p, : remainder_at + 1, y, x] > 0
-    latest = remainder_at - np.argmax(has_events[:, ::-1], axis=1)
+    counts[:, -1] += (whole + (chance < remainder - whole)).astype(np.int64)
+    p, y, x = np.nonzero(counts[:, -1] < 0)
+    counts[p, -1, y, x] = 0
+    has_events = counts[p, :, y, x] > 0
+    latest = counts.shape[1] - 1 - np.argmax(has_events[:, ::-1], axis=1)
     counts[p, latest, y, x] -= 1
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from types import ModuleType
-from typing import Any, Literal, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -206,7 +206,6 @@ def apply_spectral_norm(tensors: Mapping[str, Tensor]) -> dict[str, Tensor]:
     return plain
 
 
-Device: TypeAlias = Literal["auto", "cpu", "cuda"]
 Float32Array: TypeAlias = NDArray[np.float32]
 
 HALVED = (1, 2, 2)
@@ -215,20 +214,16 @@ HEAD_LEAK = 0.01
 """Slope of the head's activation below 0."""
 
 
-def load_network(path: Path, device: Device = "auto") -> V2ceNetwork:
-    """The network of a weights file.
+def load_network(path: Path) -> V2ceNetwork:
+    """The network of a weights file, on a GPU if torch finds one.
 
     Raises:
-        ConfigError: "cuda" without a GPU that torch can use.
         FileFormatError: the file does not hold this network.
         MissingDependencyError: torch is not installed.
     """
     torch = require("torch", extra="v2ce")
-    has_gpu = torch.cuda.is_available()
-    if device == "cuda" and not has_gpu:
-        raise ConfigError("device is cuda, but torch finds no GPU here; use device='cpu' or auto")
-    chosen = ("cuda" if has_gpu else "cpu") if device == "auto" else device
-    return V2ceNetwork(read_weights(path, chosen), chosen, name=str(path))
+    device = "cuda" if torch.cuda.is_available() else "cpu"
+    return V2ceNetwork(read_weights(path, device), device, name=str(path))
 
 
 class V2ceNetwork:

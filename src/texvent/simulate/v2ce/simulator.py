@@ -21,7 +21,7 @@ from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.packets import FrameInterval, UnsortedEvents, make_packet
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.simulate.v2ce.ldati import Rounding, sample_events
-from texvent.simulate.v2ce.network import Device, Float32Array, check_weights_path, load_network
+from texvent.simulate.v2ce.network import Float32Array, check_weights_path, load_network
 from texvent.video import Frame
 
 
@@ -35,15 +35,11 @@ class V2ceConfig:
 
     weights: Path | None = None
     """File with the network's weights, v2ce_3d.pt; it is never downloaded."""
-    device: Device = "auto"
-    """Device of the network: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one."""
     sequence_length: int = 16
     """Frame pairs that the network sees at once; it was trained on 16."""
     rounding: Rounding = "published"
     """Rounding of parts of an event: published rounds each pixel's number up or down by where
     the part is; stochastic rounds it by chance, right on average."""
-    bidirectional: bool = False
-    """Infer times from both ends of the interval instead of from its start."""
 
     def __post_init__(self) -> None:
         check_range("sequence_length", self.sequence_length, 1, 1024)
@@ -76,13 +72,13 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
             seed: of the times that are drawn, 0..2⁶³−1.
 
         Raises:
-            ConfigError: no weights, no such device, or the seed out of range.
+            ConfigError: no weights, or the seed out of range.
             InputError: there is no such file, or it does not hold this network.
             MissingDependencyError: torch is not installed.
         """
         super().__init__(config, seed=seed)
         path = check_weights_path(self.config.weights)
-        self._network = load_network(path, self.config.device)
+        self._network = load_network(path)
 
     @staticmethod
     def provenance(config: V2ceConfig) -> dict[str, str]:
@@ -155,9 +151,7 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
 
     def _sample(self, grid: Float32Array, interval: FrameInterval) -> UnsortedEvents:
         config = self.config
-        return sample_events(
-            grid, interval, rounding=config.rounding, bidirectional=config.bidirectional
-        )
+        return sample_events(grid, interval, rounding=config.rounding)
 
 
 def normalise(intensity: IntensityArray) -> Float32Array:

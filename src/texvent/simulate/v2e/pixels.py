@@ -31,7 +31,7 @@ from texvent.simulate.v2e.low_pass import (
     apply_low_pass,
     new_state,
 )
-from texvent.simulate.v2e.simulator import V2eConfig
+from texvent.simulate.v2e.simulator import LINEAR_BELOW, V2eConfig
 from texvent.video import MICROSECONDS
 
 Float64Array = NDArray[np.float64]
@@ -68,9 +68,9 @@ class V2ePixels:
         rate_hz = 0.0 if config.photoreceptor_noise else config.shot_noise_rate_hz
         self._shot_noise = ShotNoise(rate_hz, config, (on, off))
         levels = np.arange(256.0)
-        self._table = np.stack([lin_log(levels, config.linear_below), relative_intensity(levels)])
+        self._table = np.stack([lin_log(levels, LINEAR_BELOW), relative_intensity(levels)])
         flat = intensity.reshape(-1).astype(np.float64)
-        brightness = lin_log(flat, config.linear_below)
+        brightness = lin_log(flat, LINEAR_BELOW)
         self._state = new_state(brightness, has_noise=config.photoreceptor_noise)
         self._seen = intensity.reshape(-1).copy()
         self._start_us = first_us
@@ -117,7 +117,7 @@ class V2ePixels:
         start_us, stop_us = interval.start_us - self._start_us, interval.stop_us - self._start_us
         elapsed_us = float(start_us), float(stop_us)
         return apply_low_pass(
-            LowPassInput(self._seen, luma, table, self._config.linear_below, angle, elapsed_us),
+            LowPassInput(self._seen, luma, table, LINEAR_BELOW, angle, elapsed_us),
             self._mismatch,
             self._state,
         )

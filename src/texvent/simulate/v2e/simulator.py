@@ -23,6 +23,8 @@ from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 
 NOISE_FIT_RANGE = (1e-5, 1.0)
 """ON rate / bandwidth over which `pixels.NOISE_FIT` was made."""
+LINEAR_BELOW = 20.0
+"""Intensity, in levels of 0..255, below which brightness is linear instead of logarithmic."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -39,8 +41,6 @@ class V2eConfig:
     """Fall of the lin-log brightness that fires an OFF event: the mean over pixels."""
     threshold_sigma: float = 0.03
     """Standard deviation of both thresholds between pixels, log units; none is below 0.01."""
-    linear_below: float = 20.0
-    """Intensity, in levels of 0..255, below which brightness is linear instead of logarithmic."""
     cutoff_hz: float = 300.0
     """Bandwidth of the photoreceptor at white; less at lower intensity. 0 is unlimited."""
     leak_rate_hz: float = 0.01
@@ -57,7 +57,6 @@ class V2eConfig:
 
     def __post_init__(self) -> None:
         check_nominal_thresholds(self)
-        check_range("linear_below", self.linear_below, 2.0, 255.0)
         check_range("cutoff_hz", self.cutoff_hz, 0.0, 1e6)
         check_range("leak_rate_hz", self.leak_rate_hz, 0.0, 1e3)
         check_range("leak_rate_decades", self.leak_rate_decades, 0.0, 1.0)
@@ -126,7 +125,7 @@ class V2eSimulator(StreamingSimulator[V2eConfig]):
     @property
     def balance(self) -> float:
         """The α whose logarithm is as steep at black as the lin-log curve."""
-        return self.config.linear_below / math.log(self.config.linear_below)
+        return LINEAR_BELOW / math.log(LINEAR_BELOW)
 
     def _begin(self, intensity: IntensityArray) -> None:
         from texvent.simulate.v2e.pixels import V2ePixels  # brings Numba

@@ -45,13 +45,15 @@ def train_network(
         seed: of initial weights, order and shifts.
         precision: number type of the network's computation.
     """
-    from texvent_lab.train.classification.task import small_cnn
+    from texvent_lab.networks.layers import make_seeded
+    from texvent_lab.train.classification.task import SmallCnn
     from texvent_lab.train.loop import descend  # these import torch
 
     torch = require("torch", extra=EXTRA)
     # One thread: equal runs give equal weights, and processes do not share cores.
     torch.set_num_threads(1)
-    network = small_cnn(images.shape[1], CLASSES, seed).to(memory_format=torch.channels_last)
+    network = make_seeded(lambda: SmallCnn(images.shape[1], CLASSES), seed)
+    network.to(memory_format=torch.channels_last)
     network.train()
     optimizer = schedule.make_optimizer(network)
 

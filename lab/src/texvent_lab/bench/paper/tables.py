@@ -17,10 +17,9 @@ from texvent.metrics.protocol import Metric, find_missing
 from texvent.sensor import SENSORS
 from texvent.video import Video
 from texvent_lab.bench.classification import (
-    ResNetClassifier,
     classify,
     list_samples,
-    read_resnet_weights,
+    read_resnet,
 )
 from texvent_lab.bench.fidelity.comparison import difference_text
 from texvent_lab.bench.fidelity.entries import Entry, simulate_video
@@ -135,7 +134,7 @@ def accuracy_figures(
     Raises:
         InputError: no sub-folder has a column's name.
     """
-    classifier = ResNetClassifier(read_resnet_weights(weights))
+    classifier = read_resnet(weights)
     named = {one.name.lower(): one for one in folder.iterdir() if one.is_dir()}
     found: dict[str, dict[str, str]] = {title: {} for title in TABLES[9].rows}
     absent = []

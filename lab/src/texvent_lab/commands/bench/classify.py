@@ -11,10 +11,9 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent_lab.bench.classification import (
-    ResNetClassifier,
     classify,
     list_samples,
-    read_resnet_weights,
+    read_resnet,
 )
 from texvent_lab.bench.document import describe_environment
 from texvent_lab.commands.bench.result_options import ResultOptions
@@ -50,7 +49,7 @@ def run(arguments: Sequence[str]) -> None:
         "Table 9; docs/benchmark.md explains it.",
     )
     output.check()
-    classifier = ResNetClassifier(read_resnet_weights(options.weights))
+    classifier = read_resnet(options.weights)
     samples = list_samples(options.folder, classifier.class_count, classes=options.classes)
     found = classify(
         samples,

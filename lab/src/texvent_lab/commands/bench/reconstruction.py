@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.cli.event_files.time_option import parse_time_range
+from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError

@@ -161,7 +161,7 @@ def watched(self, packet):
         os.write(1, str(time.time() - float(sys.argv[1])).encode())
         os._exit(0)
 Hdf5Writer.append = watched
-main(["simulate", *sys.argv[2:], "-q", "--events-only"])
+main(["simulate", *sys.argv[2:], "-q", "--previews", "none"])
 """
 """Prints the time since launch, s, at which the first events reach the file, and stops there."""
 

@@ -199,7 +199,7 @@ def _with_timed_frames(pairs: Iterable[FramePair], clock: StageClock) -> Iterato
 
 
 def _run_overlapped(video: FrameStream, settings: Settings, pairs: int, path: Path) -> float:
-    """Seconds per pair behind the warm-up of what `texvent simulate --events-only` does."""
+    """Seconds per pair behind the warm-up of what `texvent simulate --previews none` does."""
     done = -1
     started = ended = 0.0
     with open_writer(path, size=video.size) as writer, BackgroundWriter(writer) as behind:

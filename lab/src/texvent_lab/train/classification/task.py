@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import functools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -12,14 +13,12 @@ import numpy as np
 
 from texvent.errors import FileFormatError, InputError, shown
 from texvent.extending import require
-from texvent.networks.layer_shapes import Shapes, linear
 from texvent.networks.weight_files import Tensor, read_mapping, state_tensors, trained_with
 from texvent.options.values import plain
 from texvent.represent.named import represent_window
 from texvent.transform.edits import resize
-from texvent_lab.networks.layer_shapes import batch_norm
-from texvent_lab.networks.layers import Layers
-from texvent_lab.networks.resnet34 import BLOCKS, WIDTH, resnet_scores, resnet_shapes
+from texvent_lab.networks.layers import Network, make_seeded
+from texvent_lab.networks.resnet34 import ResNet
 from texvent_lab.train.classification.config import Augmentation, ClassificationConfig
 from texvent_lab.train.classification.samples import (
     ChosenSamples,
@@ -31,63 +30,43 @@ from texvent_lab.train.classification.samples import (
 from texvent_lab.train.loop import STANDARD_ERROR
 from texvent_lab.train.schedule import EXTRA
 from texvent_lab.train.task import Batches, Score
-from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
 
 SMALL_WIDTH, STAGES = 16, 3
 LAST_LAYERS = ("linear.weight", "linear.bias", "fc.weight", "fc.bias")
 """Tensors whose shapes depend on the number of classes."""
 
 
-def small_cnn(channels: int, classes: int, seed: int, *, width: int | None = None) -> TensorNetwork:
-    """Three convolutions of 3×3 with normalisation, two of them halved, a mean, a linear layer.
+class SmallCnn(Network):
+    """Three convolutions of 3×3 with normalisation, two of them halved, a mean, a linear layer."""
 
-    Args:
-        channels: of the input, [n, channels, H, W].
-        classes: scores that come out, [n, classes].
-        seed: of the initial weights.
-        width: channels after the first convolution; None: 16, which makes 24,000 parameters.
-    """
-    shapes: Shapes = {}
-    before = channels
-    for number in range(STAGES):
-        after = (width or SMALL_WIDTH) * 2**number
-        shapes[f"conv{number}.weight"] = (after, before, 3, 3)
-        shapes |= batch_norm(f"norm{number}", after)
-        before = after
-    shapes |= linear("linear", classes, before)
-    return TensorNetwork(initial_tensors(shapes, seed), _small_scores)
+    def __init__(self, channels: int, classes: int, *, width: int = SMALL_WIDTH) -> None:
+        """Random weights.
 
+        Args:
+            channels: of the input, [n, channels, H, W].
+            classes: scores that come out, [n, classes].
+            width: channels after the first convolution; 16 makes 24,000 parameters.
+        """
+        super().__init__()
+        nn = require("torch.nn", extra=EXTRA)
+        before = channels
+        for number in range(STAGES):
+            after = width << number
+            setattr(self, f"conv{number}", nn.Conv2d(before, after, 3, padding=1, bias=False))
+            setattr(self, f"norm{number}", nn.BatchNorm2d(after))
+            before = after
+        self.linear = nn.Linear(before, classes)
 
-def resnet34(channels: int, classes: int, seed: int, *, width: int | None = None) -> TensorNetwork:
-    """See `texvent_lab.networks.resnet34`; arguments as for `small_cnn`, `width` is 64.
-
-    Kernels begin as K. He et al., "Delving deep into rectifiers", ICCV 2015, for outputs; the
-    first and the last layer as torch's own, because N-ImageNet's program replaces them.
-    """
-    shapes = resnet_shapes(channels, classes, width=width or WIDTH)
-    tensors = initial_tensors(shapes, seed, normal="layer")
-    return TensorNetwork(tensors, _resnet_scores)
-
-
-NETWORKS: Mapping[str, Callable[..., TensorNetwork]] = {
-    "small-cnn": small_cnn,
-    "resnet34": resnet34,
-}
+    def forward(self, x: Tensor) -> Tensor:
+        """One score per class."""
+        for number in range(STAGES):
+            x = getattr(self, f"norm{number}")(getattr(self, f"conv{number}")(x)).relu()
+            if number < STAGES - 1:
+                x = require("torch", extra=EXTRA).nn.functional.max_pool2d(x, 2)
+        return self.linear(x.mean(dim=(2, 3)))
 
 
-def _small_scores(network: Any, images: Tensor) -> Tensor:
-    layers = Layers(network.tensors, is_training=network.training)
-    torch, x = layers.torch, images
-    for number in range(STAGES):
-        x = torch.relu(layers.normalise(layers.convolve(x, f"conv{number}"), f"norm{number}"))
-        if number < STAGES - 1:
-            x = torch.nn.functional.max_pool2d(x, 2)
-    return layers.linear(x.mean(dim=(2, 3)), "linear")
-
-
-def _resnet_scores(network: Any, images: Tensor) -> Tensor:
-    layers = Layers(network.tensors, is_training=network.training)
-    return resnet_scores(layers, BLOCKS, images)
+NETWORKS: Mapping[str, Callable[..., Network]] = {"small-cnn": SmallCnn, "resnet34": ResNet}
 
 
 IMAGE, CLASS, CLASSES = "image", "class_number", "classes"
@@ -117,9 +96,11 @@ class ClassificationTask:
     def make_network(self) -> Any:
         """See `Task`."""
         wanted = self._config.network
-        network = NETWORKS[wanted.name](
-            self._channels, len(self._classes), self._config.seed, width=wanted.width
-        )
+        make = functools.partial(
+            NETWORKS[wanted.name], self._channels, len(self._classes),
+            **({} if wanted.width is None else {"width": wanted.width}),
+        )  # fmt: skip
+        network = make_seeded(make, self._config.seed)
         if self._config.start_from is not None:
             self._begin_with(network, self._config.start_from)
         return network

@@ -9,18 +9,21 @@ from typing import Any, ClassVar, Final
 from texvent.errors import ConfigError
 from texvent.extending import require
 from texvent.metrics.dense_errors import FlowError
-from texvent.networks.layer_shapes import Shapes
 from texvent.networks.weight_files import STATE, Tensor
-from texvent_lab.networks.layer_shapes import conv_layer, residual_block
-from texvent_lab.networks.layers import Layers, Padding
+from texvent_lab.networks.layers import (
+    ConvLayer,
+    Network,
+    ResidualBlock,
+    UpsampleLayer,
+    make_seeded,
+)
+from texvent_lab.networks.padding import Padding
 from texvent_lab.train.flow.config import FlowConfig
 from texvent_lab.train.flow.e_raft import make_e_raft
 from texvent_lab.train.schedule import EXTRA
 from texvent_lab.train.sequences.truth import GRIDS, SEEN, TruthExamples
 from texvent_lab.train.task import Batches, Score
-from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
 
-PREFIX = "multires_unet"
 ENCODERS = 4
 BLOCKS = 2
 FLOW_CHANNELS = 2
@@ -29,38 +32,8 @@ MULTIPLE = 2**ENCODERS
 """Both sides are padded to multiples of this, px."""
 
 
-def ev_flow_net_shapes(bins: int, width: int) -> Shapes:
-    """Every tensor, by name.
-
-    Args:
-        bins: of the voxel grid.
-        width: half the channels of the first encoder; the published networks have 32.
-    """
-    shapes: Shapes = {}
-    for number in range(ENCODERS):
-        narrow, wide = width << number, width << (number + 1)
-        name = f"{PREFIX}.encoders.{number}"
-        shapes |= conv_layer(name, wide, narrow if number else bins, KERNEL)
-    for number in range(BLOCKS):
-        shapes |= residual_block(f"{PREFIX}.resblocks.{number}", width << ENCODERS)
-    for number in range(ENCODERS):
-        wide = width << (ENCODERS - number)
-        before = 2 * wide + (FLOW_CHANNELS if number else 0)
-        shapes |= conv_layer(f"{PREFIX}.decoders.{number}", wide // 2, before, KERNEL)
-        shapes |= conv_layer(f"{PREFIX}.preds.{number}", FLOW_CHANNELS, wide // 2, 1)
-    return shapes
-
-
-def make_ev_flow_net(bins: int, width: int, seed: int) -> TensorNetwork:
-    """EV-FlowNet with random weights.
-
-    It takes voxel grids, [n, bins, H, W], and gives the displacement over each, (x, y) in px: a
-    tuple of four [n, 2, H, W], found at an eighth, a quarter, half and the whole of the size.
-
-    Args:
-        bins: of the voxel grid.
-        width: see `ev_flow_net_shapes`.
-        seed: of the weights.
+class EvFlowNet(Network):
+    """EV-FlowNet: voxel grids → displacement over each, found at four sizes.
 
     Source: A. Z. Zhu, L. Yuan, K. Chaney, K. Daniilidis, "EV-FlowNet: self-supervised optical flow
         estimation for event-based cameras", RSS 2018, section IV-B.
@@ -69,32 +42,64 @@ def make_ev_flow_net(bins: int, width: int, seed: int) -> TensorNetwork:
         normalisation, and bilinear enlargement, as in event_flow and event_cnn_minimal, whose
         width 32 is the published network's 64.
     """
-    return TensorNetwork(initial_tensors(ev_flow_net_shapes(bins, width), seed), _compute)
 
+    def __init__(self, bins: int, width: int) -> None:
+        """Random weights.
 
-def _compute(network: Any, grids: Tensor) -> tuple[Tensor, ...]:
-    layers = Layers(network.tensors)
-    torch = layers.torch
-    padding = Padding.centred(grids.shape[-2:], MULTIPLE)
-    padded = x = padding.around(grids)
-    skipped: list[Tensor] = []
-    flows: list[Tensor] = []
-    for number in range(ENCODERS):
-        x = torch.relu(layers.conv_layer(x, f"{PREFIX}.encoders.{number}", stride=2))
-        skipped.append(x)
-    for number in range(BLOCKS):
-        x = layers.residual_block(x, f"{PREFIX}.resblocks.{number}")
-    for number in range(ENCODERS):
-        x = torch.cat([*flows[-1:], x, skipped.pop()], 1)
-        x = layers.upsample_layer(x, f"{PREFIX}.decoders.{number}")
-        flows.append(layers.conv_layer(x, f"{PREFIX}.preds.{number}"))
-    whole = [
-        torch.nn.functional.interpolate(
-            flow, size=padded.shape[-2:], mode="bilinear", align_corners=False
+        Args:
+            bins: of the voxel grid.
+            width: half the channels of the first encoder; the published networks have 32.
+        """
+        super().__init__()
+        widths = [width << number for number in range(1, ENCODERS + 1)]
+        befores = [bins, *widths[:-1]]
+        down = [ConvLayer(*sides, KERNEL, stride=2) for sides in zip(befores, widths, strict=True)]
+        up, predictions = [], []
+        for number, wide in enumerate(reversed(widths)):
+            before = 2 * wide + (FLOW_CHANNELS if number else 0)
+            up.append(UpsampleLayer(before, wide // 2, KERNEL))
+            predictions.append(ConvLayer(wide // 2, FLOW_CHANNELS, 1))
+        nn = require("torch.nn", extra=EXTRA)
+        layers = {
+            "encoders": down,
+            "resblocks": [ResidualBlock(widths[-1]) for _ in range(BLOCKS)],
+            "decoders": up,
+            "preds": predictions,
+        }
+        self.multires_unet = nn.ModuleDict(
+            {name: nn.ModuleList(inner) for name, inner in layers.items()}
         )
-        for flow in flows
-    ]
-    return tuple(padding.off(flow) for flow in whole)
+
+    def forward(self, grids: Tensor) -> tuple[Tensor, ...]:
+        """Displacements (x, y), px, found at an eighth, a quarter, half and the whole of the size.
+
+        Args:
+            grids: [n, bins, H, W].
+
+        Returns:
+            Four [n, 2, H, W].
+        """
+        torch, net = require("torch", extra=EXTRA), self.multires_unet
+        padding = Padding.centred(grids.shape[-2:], MULTIPLE)
+        padded = x = padding.around(grids)
+        skipped: list[Tensor] = []
+        flows: list[Tensor] = []
+        for encoder in net["encoders"]:
+            x = encoder(x).relu()
+            skipped.append(x)
+        for block in net["resblocks"]:
+            x = block(x)
+        for decoder, prediction in zip(net["decoders"], net["preds"], strict=True):
+            x = decoder(torch.cat([*flows[-1:], x, skipped.pop()], 1))
+            flows.append(prediction(x))
+        enlarge, size = torch.nn.functional.interpolate, padded.shape[-2:]
+        whole = [enlarge(one, size=size, mode="bilinear", align_corners=False) for one in flows]
+        return tuple(padding.off(flow) for flow in whole)
+
+
+def make_ev_flow_net(bins: int, width: int, seed: int) -> EvFlowNet:
+    """A network with random weights; see `EvFlowNet`."""
+    return make_seeded(lambda: EvFlowNet(bins, width), seed)
 
 
 SOFTNESS_PX = 1e-3

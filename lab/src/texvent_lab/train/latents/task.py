@@ -10,11 +10,11 @@ from typing import Any, ClassVar
 import numpy as np
 
 from texvent.networks.weight_files import STATE, Tensor
-from texvent_lab.latents.head import CONFIG, HeadConfig, apply_head
+from texvent_lab.latents.head import CONFIG, HeadConfig, LatentHead
+from texvent_lab.networks.layers import make_seeded
 from texvent_lab.train.latents.config import LatentsConfig
 from texvent_lab.train.latents.pairs import CHANGE, LATENTS, LatentPairs
 from texvent_lab.train.task import Batches, Score
-from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
 
 WHERE_FROM = "texvent train latents writes it as weights.pt"
 
@@ -47,14 +47,7 @@ class LatentsTask:
 
     def make_network(self) -> Any:
         """See `Task`."""
-        head = self.head_config
-        tensors = initial_tensors(head.shapes, self._config.seed)
-        # Nothing moves at first: most voxels are near 0.
-        tensors["last.weight"].zero_()
-        tensors["last.bias"].zero_()
-        return TensorNetwork(
-            tensors, lambda network, latents: apply_head(network.tensors, head, latents)
-        )
+        return make_seeded(lambda: LatentHead(self.head_config), self._config.seed)
 
     def batches(self, *, workers: int) -> Batches:
         """See `Task`."""

@@ -18,9 +18,10 @@ from texvent.metrics.image_measures import Float64Array, load_measures
 from texvent.metrics.lpips import find_lpips_weights, read_lpips_weights
 from texvent.networks.weight_files import STATE, Tensor
 from texvent.represent.voxel_grid import voxel_e2vid
+from texvent_lab.networks.layers import make_seeded
 from texvent_lab.reconstruct.checkpoint import Checkpoint
-from texvent_lab.reconstruct.protocol import PublishedNetwork
 from texvent_lab.reconstruct.reconstructor import Intensity, Reconstructor
+from texvent_lab.reconstruct.recurrent_network import PublishedNetwork, RecurrentNetwork
 from texvent_lab.registries import RECONSTRUCTORS
 from texvent_lab.train.reconstruction.config import ReconstructionAugmentation, ReconstructionConfig
 from texvent_lab.train.reconstruction.losses import (
@@ -33,26 +34,11 @@ from texvent_lab.train.schedule import EXTRA
 from texvent_lab.train.sequences.clips import WindowedClips
 from texvent_lab.train.sequences.truth import FLOW, crop_randomly, flip_randomly
 from texvent_lab.train.task import Batches, Score
-from texvent_lab.train.tensor_network import TensorNetwork, initial_tensors
-
-_torch: Any = require("torch", extra=EXTRA)
 
 
-def new_network(published: PublishedNetwork, seed: int) -> TensorNetwork:
-    """A network of the published names and shapes, with initial weights.
-
-    It gives an image per voxel grid, [n, windows, 1, H, W] of [n, windows, bins, H, W]. The state
-    begins empty and is carried from window to window; gradients go back through all of them.
-    """
-    tensors = initial_tensors(published.network.tensor_shapes({}), seed)
-    return TensorNetwork(tensors, functools.partial(_see_sequence, published))
-
-
-# A window is compiled, not the whole sequence, which would take as many times longer.
-@_torch.compiler.disable(recursive=False)  # type: ignore[untyped-decorator]
-def _see_sequence(published: PublishedNetwork, network: Any, voxels: Tensor) -> Tensor:
-    recurrent = published.network(network.tensors, {})
-    return _torch.stack([recurrent.step(one) for one in voxels.unbind(dim=1)], dim=1)
+def new_network(published: PublishedNetwork, seed: int) -> RecurrentNetwork:
+    """A network of the published names and shapes, with initial weights."""
+    return make_seeded(lambda: published.network.like({}, {}), seed)
 
 
 VOXELS, IMAGES = "voxels", "images"
@@ -96,7 +82,7 @@ class ReconstructionTask:
         config, published = self._config, self._published
         targets: list[Target] = ["frame", "flow"] if config.loss.consistency else ["frame"]
         clips = WindowedClips.open(config.data, config.data.split, targets)
-        network = published.network(self.make_network().tensors, {})
+        network = self.make_network()
         self._check_sides(clips, network.multiple)
         return Batches(
             make=ReconstructionExamples(

@@ -11,9 +11,9 @@ torch = pytest.importorskip("torch")
 transformers = pytest.importorskip("transformers")
 torch.set_num_threads(1)
 
-from texvent.generate.videos.clip_model import ClipModel  # noqa: E402
+from tests.generate import tiny_pipelines  # noqa: E402
 
-from .. import tiny_pipelines  # noqa: E402
+from texvent_lab.alignment.clip_model import ClipModel  # noqa: E402
 
 TEXTS = ["a red cat walks", "dogs " * 40]
 

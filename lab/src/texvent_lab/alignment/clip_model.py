@@ -6,7 +6,6 @@ together. For OpenAI's ViT-B/32 a fitting pair is typically near 0.3, an unrelat
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterable, Sequence
 from pathlib import Path
 from typing import Any
@@ -19,7 +18,6 @@ from texvent.errors import FileFormatError
 from texvent.generate.diffusers_models.pipeline_loading import resolve_device
 from texvent.generate.video_models.loading import loading
 from texvent.generate.video_models.model_files import find_saved_model
-from texvent.generate.videos.stored_video import StoredVideo
 from texvent.video import PixelArray
 
 EXTRA = "generate"
@@ -28,8 +26,6 @@ MEAN = (0.48145466, 0.4578275, 0.40821073)
 STD = (0.26862954, 0.26130258, 0.27577711)
 """Of CLIP's training images, RGB in 0..1 (Radford 2021)."""
 BATCH = 32
-SCORED_FRAMES = 8
-"""Frames of a clip that are compared with its prompt, evenly spread."""
 
 Vectors = NDArray[np.float32]
 """[n, d], each of unit length."""
@@ -51,7 +47,7 @@ class ClipModel:
 
     def __init__(self, model: str | Path, *, device: str = "cpu") -> None:
         self._device, _ = resolve_device(device, "device")
-        folder = check_clip_model(model)
+        folder = find_saved_model(model, "CLIP model", example=EXAMPLE)
         transformers = require("transformers", extra=EXTRA)
         with loading(folder, "a CLIP model"):
             loaded = transformers.CLIPModel.from_pretrained(
@@ -105,39 +101,6 @@ class ClipModel:
         if not np.isfinite(found).all():
             raise FileFormatError("the CLIP model gives NaN or infinity; its weights are damaged")
         return np.asarray(found, np.float32)
-
-
-def measure_clip_score(video: StoredVideo, prompt: str, folder: Path) -> float:
-    """Mean cosine between the prompt and frames of a video, -1..1.
-
-    Args:
-        video: the video.
-        prompt: its intended content; CLIP reads the first 77 tokens.
-        folder: a CLIP model saved by transformers.
-
-    Raises:
-        InputError: there is no such model.
-        FileFormatError: it cannot be loaded as one.
-        MissingDependencyError: torch or transformers is not installed.
-
-    Source: CLIPScore as in video generation papers (without its factor 2.5).
-    """
-    model = _load_clip(folder)
-    chosen = set(np.linspace(0, video.frame_count - 1, SCORED_FRAMES).round().astype(int).tolist())
-    frames = (frame.pixels for index, frame in enumerate(video) if index in chosen)
-    return float((model.embed_images(frames) @ model.embed_texts([prompt]).T).mean())
-
-
-_load_clip = functools.lru_cache(maxsize=1)(ClipModel)
-
-
-def check_clip_model(model: str | Path) -> Path:
-    """The folder of a CLIP model, without loading it.
-
-    Raises:
-        InputError, TexventError: there is none, or the model hub cannot be reached.
-    """
-    return find_saved_model(model, "CLIP model", example=EXAMPLE)
 
 
 def _prepare(pixels: PixelArray, size: int) -> Any:

@@ -1,0 +1,99 @@
+"""Recurrent networks from voxel grids to images: the interface of all reconstruction networks."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from texvent.extending import require
+from texvent.networks.layer_shapes import Shape
+from texvent.networks.weight_files import Tensor, shapes_of
+from texvent_lab.networks.layers import Network
+from texvent_lab.networks.padding import EXTRA
+
+_torch: Any = require("torch", extra=EXTRA)
+
+
+class RecurrentNetwork(Network):
+    """A network that sees one voxel grid after the other and gives an image for each."""
+
+    bins: int
+    """Bins of the voxel grids."""
+    multiple: int = 1
+    """Both sides of a grid must be multiples of this, px."""
+
+    @classmethod
+    def like(cls, found: Mapping[str, Shape], settings: Mapping[str, Any]) -> RecurrentNetwork:
+        """A network of the variant in a file, its weights random.
+
+        Args:
+            found: names and shapes in the file, from which the width and other differences between
+                files of this network are taken; {} gives the published variant.
+            settings: description of the network in the file.
+
+        Raises:
+            ValueError: the first kernel is no kernel of a convolution.
+        """
+        raise NotImplementedError
+
+    @classmethod
+    def from_tensors(
+        cls, tensors: Mapping[str, Tensor], settings: Mapping[str, Any]
+    ) -> RecurrentNetwork:
+        """A network over checked tensors, which are not copied; it has seen nothing."""
+        with _torch.device("meta"):
+            network = cls.like(shapes_of(tensors), settings)
+        network.load_state_dict(dict(tensors), assign=True)
+        network.eval()
+        return network
+
+    def reset(self) -> None:
+        """Forget everything seen."""
+        raise NotImplementedError
+
+    def step(self, voxel: Tensor) -> Tensor:
+        """The image after one more voxel grid.
+
+        Args:
+            voxel: [n, bins, H, W] float32.
+
+        Returns:
+            [n, 1, H, W] float32, intensity, roughly 0..1.
+        """
+        raise NotImplementedError
+
+    # A window is compiled, not the whole sequence, which would take as many times longer.
+    @_torch.compiler.disable(recursive=False)  # type: ignore[untyped-decorator]
+    def forward(self, voxels: Tensor) -> Tensor:
+        """Images [n, windows, 1, H, W] of voxel grids [n, windows, bins, H, W].
+
+        The state begins empty; gradients go back through all windows.
+        """
+        self.reset()
+        images = _torch.stack([self.step(one) for one in voxels.unbind(dim=1)], dim=1)
+        self.reset()
+        return images
+
+
+@dataclass(frozen=True)
+class PublishedNetwork:
+    """A network with published weights, and how they are meant to be used."""
+
+    name: str
+    """As in tables and options."""
+    network: type[RecurrentNetwork]
+    """Class of the network."""
+    where_from: str
+    """Where the weights were published."""
+    is_normalised: bool = False
+    """Whether the non-zero voxels are brought to mean 0 and deviation 1."""
+    is_stretched: bool = False
+    """Whether the image is stretched so that its 1st and 99th percentile become 0 and 1."""
+    sha256: tuple[str, ...] = ()
+    """Of the published files, where known."""
+
+    @property
+    def file_name(self) -> str:
+        """Of the weights in the weights folder."""
+        return f"{self.name}.pth"
