@@ -1,4 +1,4 @@
-"""Scenes as staging takes them: every noun, colour and id checked, relations by index.
+"""Scenes as staging takes them, and in words: nouns, colours and ids checked, relations by index.
 
 Motions, pictures, camera moves, lamps, light and place are the values of `spec.scene`; fields
 without a text mean the same there.
@@ -6,8 +6,7 @@ without a text mean the same there.
 
 from __future__ import annotations
 
-import dataclasses
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields, replace
 from typing import Any
 
 from texvent.scenes.inflection import list_finite_forms, pluralise
@@ -21,9 +20,9 @@ from texvent.scenes.spec.scene import Picture as Picture
 from texvent.scenes.spec.scene import Place as Surroundings
 
 __all__ = [
-    "AMID", "SPIN_RATE_HZ", "STANDING", "CameraMove", "Effect",
+    "AMID", "RELATIONS", "SPIN_RATE_HZ", "STANDING", "CameraMove", "Effect",
     "Illumination", "ObjectMotion", "Picture", "Relation", "SceneDescription", "SceneLamp",
-    "SceneObject", "Shot", "Surroundings", "to_description",
+    "SceneObject", "Shot", "Surroundings", "report_of", "to_description",
 ]  # fmt: skip
 
 SPIN_RATE_HZ = 0.5
@@ -182,7 +181,7 @@ def report_of(description: SceneDescription) -> PromptReport:
     moves = [_join(f"{move.kind} {move.direction or ''}".strip(), *_fields(move, "kind",
              "direction", "phase")) for move in shot.moves]  # fmt: skip
     lines = [
-        *(_object_words(description, index) for index in range(len(description.objects))),
+        *(_line_of(description, index) for index in range(len(description.objects))),
         *(_effect(description, one) for one in description.effects),
         f"place: {_join(place.name or 'open', *_fields(place, 'name'))}",
         f"light: {_join(light.kind or 'day', *_fields(light, 'kind', 'lamps'))}",
@@ -190,10 +189,10 @@ def report_of(description: SceneDescription) -> PromptReport:
     ]
     if description.absent:
         lines.append(f"left out as asked: {', '.join(description.absent)}")
-    return dataclasses.replace(description.words, scene=tuple(lines), notes=description.notes)
+    return replace(description.words, scene=tuple(lines), notes=description.notes)
 
 
-def _object_words(description: SceneDescription, index: int) -> str:
+def _line_of(description: SceneDescription, index: int) -> str:
     thing = description.objects[index]
     motions = [one for one in (thing.motion, *thing.then) if one is not None]
     relations = [one for one in description.relations if one.subject == index]
@@ -230,7 +229,7 @@ def _verb(motion: ObjectMotion, count: int) -> str:
 def _fields(value: Any, *skipped: str) -> list[str]:
     """Fields of a dataclass that are not at their defaults: "flicker 50 Hz", "low", "sky red"."""
     found = []
-    for one in dataclasses.fields(value):
+    for one in fields(value):
         now = getattr(value, one.name)
         if one.name in skipped or now in (None, (), one.default):
             continue

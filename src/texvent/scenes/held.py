@@ -23,6 +23,7 @@ _LEAST_WAY, _MOST_COPIES = 0.1, 0.75
 _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
          "away": (2, 1), "across": (0, 0)}  # fmt: skip
 """Direction → axis of the camera (right, down, forward) and sign; 0: either one."""
+_SENDING = ("kick", "hit", "throw")
 
 
 class Unheld(NamedTuple):

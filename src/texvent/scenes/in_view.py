@@ -44,8 +44,8 @@ MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
 _SMALL = SensorSize(120, 90)
 """Size of small pictures."""
-_LEAST_LEVELS, _LEAST_SHARE = 6.0, 0.002
-"""Difference of a pixel, of 255, that is seen; share of the pixels in which it must be."""
+_LEAST_LEVELS, _LEAST_SHARE, _LEAST_SCENERY = 6.0, 0.002, 0.02
+"""Difference of a pixel, of 255, that is seen; share of the pixels in which it is; of scenery."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _Shots = Sequence[tuple[Primitives, Camera]]
@@ -53,8 +53,6 @@ _Box = tuple[Float64Array, Float64Array]
 _WATER = (Ground.SEA, Ground.LAKE, Ground.RIVER)
 _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
 """Grounds that many places have: only their scenery shows which one it is."""
-_LEAST_SCENERY = 0.02
-"""Share of the pixels that it covers."""
 _OUTDOORS = ("sunny", "overcast", "dusk", "dawn", "moonlight")
 _TURNS = ("spin", "work", "rotate")
 

@@ -1,7 +1,6 @@
 """Effects made of many small things, as smoke, sparks and drops, and lamps of objects.
 
-The tables are `data/effects.toml` and the traits "lamps"; `staging` shows both. Readers need only
-names.
+The tables are `data/effects.toml` and the traits "lamps"; `staging` shows both.
 """
 
 from __future__ import annotations

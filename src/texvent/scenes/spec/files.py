@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import dataclasses
 import inspect
 import json
 import tomllib
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import is_dataclass, replace
 from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
@@ -218,7 +217,7 @@ def _of_type(hint: Any) -> dict[str, Any]:
         return {**items, **size}
     if get_origin(hint) is Literal:
         return {"enum": list(arguments)}
-    if dataclasses.is_dataclass(hint):
+    if is_dataclass(hint):
         return _of_class(hint)
     return {"type": _TYPES[hint]}
 
