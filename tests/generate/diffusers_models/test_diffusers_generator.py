@@ -246,7 +246,7 @@ def test_a_guardrail_whose_weights_are_missing_stops_everything(models, monkeypa
 def test_a_failed_video_is_refused_or_tried_again_with_other_seeds(name, models):
     """Random weights give noise that stands still: exactly what the filter is for."""
     watcher = Watcher()
-    with pytest.raises(TexventError, match="all 3 videos"):
+    with pytest.raises(TexventError, match="all 4 videos"):
         build(models(name), on_failure="retry").generate(PROMPT, progress=watcher)
     assert len({line for line in watcher.lines if "is refused" in line}) == 3
     with pytest.raises(TexventError, match="the video failed the check"):
