@@ -248,7 +248,7 @@ def test_a_failed_video_is_refused_or_tried_again_with_other_seeds(name, models)
     watcher = Watcher()
     with pytest.raises(TexventError, match="all 4 videos"):
         build(models(name), on_failure="retry").generate(PROMPT, progress=watcher)
-    assert len({line for line in watcher.lines if "is refused" in line}) == 3
+    assert len({line for line in watcher.lines if "is refused" in line}) == 4
     with pytest.raises(TexventError, match="the video failed the check"):
         build(models(name), on_failure="reject").generate(PROMPT)
     warned = build(models(name), on_failure="warn").generate(PROMPT, progress=watcher)
