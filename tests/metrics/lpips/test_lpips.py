@@ -29,7 +29,9 @@ WEIGHTS = narrow_weights()
 
 
 @pytest.fixture(autouse=True)
-def _known_layouts(monkeypatch):
+def _known_layouts(monkeypatch, request):
+    if request.node.get_closest_marker("torch"):
+        pytest.importorskip("torch")
     monkeypatch.setattr(lpips, "LAYOUTS", (NARROW, ALEX))
 
 

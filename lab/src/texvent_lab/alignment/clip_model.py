@@ -13,8 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent._require import require
 from texvent.errors import FileFormatError
+from texvent.extending import require
 from texvent.generate.diffusers_models.pipeline_loading import resolve_device
 from texvent.generate.video_models.loading import loading
 from texvent.generate.video_models.model_files import find_saved_model

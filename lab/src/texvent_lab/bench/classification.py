@@ -21,7 +21,7 @@ from texvent.io.files import event_extensions
 from texvent.networks.weight_files import read_mapping, shapes_of, state_tensors, trained_with
 from texvent.represent.event_frame import binary_event_image
 from texvent_lab.bench.jobs import Progress, no_progress
-from texvent_lab.networks.layers import EXTRA
+from texvent_lab.networks import EXTRA
 
 REPRESENTATION, CHANNELS, STAGES = "binary-event-image", 2, 4
 WHERE_FROM = (

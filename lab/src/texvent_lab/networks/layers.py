@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -17,41 +16,7 @@ from texvent.networks.weight_files import (
     shapes_of,
     state_tensors,
 )
-
-EXTRA = "torch"
-"""The texvent extra that brings torch."""
-
-
-@dataclass(frozen=True)
-class Padding:
-    """Rows and columns around an image."""
-
-    left: int
-    right: int
-    top: int
-    bottom: int
-
-    @classmethod
-    def centred(cls, shape: Sequence[int], multiple: int) -> Padding:
-        """All around, one more above and left if odd, as the programs of E2VID and E2Depth do.
-
-        Args:
-            shape: (height, width) of the image, px.
-            multiple: both sides become multiples of this, px.
-        """
-        below, right = (-side % multiple for side in shape)
-        return cls(right - right // 2, right // 2, below - below // 2, below // 2)
-
-    def around(self, image: Tensor, value: float = 0.0) -> Tensor:
-        """The image, [..., H, W], with that value around it."""
-        margins = (self.left, self.right, self.top, self.bottom)
-        return require("torch", extra=EXTRA).nn.functional.pad(image, margins, value=value)
-
-    def off(self, image: Tensor) -> Tensor:
-        """The image, [..., H, W], without what `around` added."""
-        height, width = image.shape[-2:]
-        return image[..., self.top : height - self.bottom, self.left : width - self.right]
-
+from texvent_lab.networks import EXTRA
 
 _torch: Any = require("torch", extra=EXTRA)
 _nn: Any = require("torch.nn", extra=EXTRA)

@@ -14,7 +14,8 @@ from typing import Any
 
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor
-from texvent_lab.networks.layers import EXTRA, Network
+from texvent_lab.networks import EXTRA
+from texvent_lab.networks.layers import Network
 
 _nn: Any = require("torch.nn", extra=EXTRA)
 _Module: Any = _nn.Module

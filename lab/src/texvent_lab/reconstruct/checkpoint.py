@@ -21,7 +21,7 @@ from texvent.networks.weight_files import (
     state_tensors,
 )
 from texvent.runtime.cache_folder import cache_folder
-from texvent_lab.networks.layers import EXTRA
+from texvent_lab.networks import EXTRA
 from texvent_lab.registries import RECONSTRUCTORS
 
 if TYPE_CHECKING:

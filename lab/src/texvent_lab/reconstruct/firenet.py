@@ -8,7 +8,8 @@ from typing import Any, ClassVar
 from texvent.extending import require
 from texvent.networks.layer_shapes import Shape
 from texvent.networks.weight_files import Tensor
-from texvent_lab.networks.layers import EXTRA, ConvGru, ConvLayer, ResidualBlock
+from texvent_lab.networks import EXTRA
+from texvent_lab.networks.layers import ConvGru, ConvLayer, ResidualBlock
 from texvent_lab.reconstruct.recurrent_network import RecurrentNetwork
 
 _nn: Any = require("torch.nn", extra=EXTRA)

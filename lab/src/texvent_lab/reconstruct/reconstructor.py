@@ -17,7 +17,7 @@ from texvent.extending import require
 from texvent.networks.weight_files import Tensor
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
-from texvent_lab.networks.layers import EXTRA, Padding
+from texvent_lab.networks import EXTRA, Padding
 from texvent_lab.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
 from texvent_lab.registries import RECONSTRUCTORS
 

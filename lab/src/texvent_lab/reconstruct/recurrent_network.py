@@ -9,7 +9,8 @@ from typing import Any
 from texvent.extending import require
 from texvent.networks.layer_shapes import Shape
 from texvent.networks.weight_files import Tensor, shapes_of
-from texvent_lab.networks.layers import EXTRA, Network
+from texvent_lab.networks import EXTRA
+from texvent_lab.networks.layers import Network
 
 _torch: Any = require("torch", extra=EXTRA)
 

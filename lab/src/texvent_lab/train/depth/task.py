@@ -10,7 +10,8 @@ from typing import Any, ClassVar, Final
 from texvent.extending import require
 from texvent.metrics.dense_errors import FARTHEST_M, DepthError
 from texvent.networks.weight_files import STATE, Tensor
-from texvent_lab.networks.layers import Padding, make_seeded
+from texvent_lab.networks import Padding
+from texvent_lab.networks.layers import make_seeded
 from texvent_lab.reconstruct.recurrent_unet import E2vid, UNetVariant
 from texvent_lab.train.depth.config import DepthConfig
 from texvent_lab.train.schedule import EXTRA

@@ -7,7 +7,8 @@ from typing import Any
 
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor
-from texvent_lab.networks.layers import Network, Padding, make_seeded
+from texvent_lab.networks import Padding
+from texvent_lab.networks.layers import Network, make_seeded
 from texvent_lab.train.schedule import EXTRA
 
 _torch: Any = require("torch", extra=EXTRA)

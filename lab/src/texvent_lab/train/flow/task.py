@@ -10,10 +10,10 @@ from texvent.errors import ConfigError
 from texvent.extending import require
 from texvent.metrics.dense_errors import FlowError
 from texvent.networks.weight_files import STATE, Tensor
+from texvent_lab.networks import Padding
 from texvent_lab.networks.layers import (
     ConvLayer,
     Network,
-    Padding,
     ResidualBlock,
     UpsampleLayer,
     make_seeded,
