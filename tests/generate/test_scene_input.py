@@ -10,6 +10,7 @@ import pytest
 
 import texvent
 from texvent.cli.app import main
+from texvent.errors import InputError
 from texvent.run.regeneration import render_again
 from texvent.scenes import Camera, CameraMove, Motion, Place, Scene, SceneObject, load_scene
 
@@ -115,3 +116,9 @@ def test_reading_a_scene_file_loads_no_numba(tmp_path):
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert not {"numba", "torch", "h5py", "cv2"} & set(done.stdout.split())
+
+
+@pytest.mark.parametrize("name", ["ball.h5", "car.yaml", "clip.mp4", "no/such.avi"])
+def test_a_file_that_is_no_scene_is_not_read_as_a_sentence(name):
+    with pytest.raises(InputError, match="describe a scene, or name its"):
+        texvent.read(name)

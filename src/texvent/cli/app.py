@@ -164,7 +164,7 @@ def _dispatch(words: list[str]) -> int:
         if words[0] in OF_THE_LAB:
             raise MissingDependencyError(
                 f"texvent {words[0]} is a command of the package texvent-lab; "
-                "install it with: pip install texvent-lab"
+                "install it with: pip install texvent-lab, or pip install ./lab in a checkout"
             )
         listed = suggest(words[0], tuple(commands), longest=LONGEST_LISTING)
         raise ConfigError(f"unknown command {shown(words[0][:LONGEST_WORD])}; {listed}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
@@ -51,10 +52,9 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
     # Imported here and below: the vocabulary and all models are only needed to make a scene.
     from texvent.scenes import read as reader
 
-    if not prompt.strip():
-        raise InputError(
-            "the prompt is empty; describe a scene, such as 'a red car drives left past two trees'"
-        )
+    if not prompt.strip() or re.fullmatch(r"\S+\.[A-Za-z]\w{0,4}", prompt.strip()):
+        what = shown(prompt) if prompt.strip() else "empty"
+        raise InputError(f"the prompt is {what}; describe a scene, or name its .toml or .json file")
     reading = reader.read(prompt, nouns)
     if reading.scene == Scene(prompt=prompt):
         raise InputError(

@@ -125,7 +125,7 @@ def check_output(path: str | Path, *, overwrite: bool) -> Path:
         raise OutputError(f"cannot write {path}: it is {what}; give the name of a file")
     if target.exists() and not overwrite:
         raise OutputError(
-            f"{path} exists already; choose another name, or allow replacing it (overwrite=True)"
+            f"{path} exists already; choose another name, or --overwrite (overwrite=True in Python)"
         )
     if not folder.is_dir():
         raise OutputError(
@@ -214,8 +214,8 @@ def check_output_folder(
             )
         if not overwrite:
             raise OutputError(
-                f"{path} exists already; choose another name, or allow replacing it "
-                "(overwrite=True)"
+                f"{path} exists already; choose another name, or "
+                "--overwrite (overwrite=True in Python)"
             )
         return target
     return check_output(path, overwrite=False)
