@@ -132,7 +132,7 @@ def test_the_lines_of_the_card_run(published: Path, tmp_path: Path) -> None:
         pytest.importorskip(package)
     card = (published / "README.md").read_text("utf-8")
     blocks = re.findall(r"```python\n(.*?)```", card, re.DOTALL)
-    assert len(blocks) >= 4
+    assert len(blocks) == 3
     script = "\n".join(blocks).replace("DIR", str(published)) + "\nprint(len(times), caption)\n"
     place = tmp_path / "card.py"
     place.write_text(script)
