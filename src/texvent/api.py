@@ -255,7 +255,7 @@ def open(
     """Events of a file, which is read when they are asked for, with flat memory.
 
     Iterate over the packets, cut with `between(start_us, stop_us)`, ask for `size`, `metadata` and
-    `time_range`, or take all with `collect()`. An HDF5 file finds a time without reading what lies
+    `time_range`, or take all with `collect()`. An HDF5 file finds a time without reading the events
     before; others are read from the start, and no further than needed.
 
     Args:

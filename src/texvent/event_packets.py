@@ -216,12 +216,12 @@ class EventPackets(EventEdits):
         )
 
     def reporting_to(self, progress: Progress) -> EventPackets:
-        """The same packets; `progress` is told of each, at every pass."""
+        """The same packets; `progress` is called for each, at every pass."""
         make = partial(self._reporting_to, progress)
         return EventPackets(LazyPackets(make), self.size, self.metadata)
 
     def _reporting_to(self, progress: Progress) -> Iterator[EventStream]:
-        """The packets; `progress` is told of each."""
+        """The packets; `progress` is called for each."""
         if isinstance(self.packets, ReportingPackets):
             yield from self.packets.report_to(progress)
             return

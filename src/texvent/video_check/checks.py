@@ -136,7 +136,7 @@ CHECKS = (
         is_found=lambda one: one["dark_end"] > BRIGHT_LEVEL,
         value=lambda one: f"95 % above level {one['dark_end']:.0f}",
         limit=f"{BRIGHT_LEVEL:g}",
-        effect="clipped: what moves in it fires nothing",
+        effect="clipped: motion in it fires nothing",
         help=f"`white_level`, if white is another value; {ANOTHER_SEED}",
     ),
     Check(

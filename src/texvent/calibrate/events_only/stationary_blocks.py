@@ -27,7 +27,7 @@ def find_rest(events: EventStream) -> NDArray[np.bool_]:
 
     In 16 equal windows, counts of a Poisson process with the same rate give a sum of squared
     deviations over the mean that is distributed as χ² of 15 degrees of freedom; noise, hot pixels
-    and leak stay below its mean plus five standard deviations, what moves does not.
+    and leak stay below its mean plus five standard deviations, moving blocks do not.
     """
     width, height = events.size
     rows, columns = -(-height // BLOCK), -(-width // BLOCK)

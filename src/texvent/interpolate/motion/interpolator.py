@@ -222,7 +222,7 @@ def _frame_side(own: list[Floats], other: list[Floats]) -> FrameSide:
 
 
 def _order(motion: Motion, vectors: NDArray[np.float32] | None, frame: Frame) -> Floats:
-    """The ln of depth; without depth, what moves faster is nearer."""
+    """Logarithm of depth; without depth, faster pixels count as nearer."""
     if motion.depth is not None:
         depth = np.where(np.isnan(motion.depth), np.inf, motion.depth)
         return _floats(np.minimum(np.log(np.maximum(depth, NEAREST_M)), FURTHEST))

@@ -1,4 +1,4 @@
-"""Places as data: the ground of each, what stands around there, and the words that name it.
+"""Places as data: the ground of each, its scenery, and the words that name it.
 
 `data/places.toml` says what its fields mean; an entry there is all that a new place takes.
 """

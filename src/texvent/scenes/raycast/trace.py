@@ -293,7 +293,7 @@ def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
 
 @jit(error_model="numpy", inner=True)
 def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]:
-    """(depth, GROUND / SKY / ROOM, face) of what lies behind all shapes."""
+    """(depth, GROUND / SKY / ROOM, face) of the background behind all shapes."""
     origin = instant.origin
     if instant.ground == _NO_GROUND:
         return math.inf, SKY, 0

@@ -10,7 +10,7 @@ from texvent.scenes.read.lexicon import NO_TOKEN, Token, word_set
 _HEADS = ("noun", "place", "effect", "pose", "scene")
 """Senses that a noun group may end with."""
 _MODIFIERS = ("field", "scene", "adverb")
-"""Senses of what stands before it."""
+"""Senses of the words before a head."""
 _STANDPOINTS = ("camera", "pronouns", "conjunctions", "relatives", "negations")
 """Senses of words that no noun group holds."""
 _IS = ("is", "are", "was", "were")
@@ -20,7 +20,7 @@ _PREPOSITIONS = ("at ", "in ", "by ", "with ", "without ", "during ")
 
 @dataclass(frozen=True)
 class Group:
-    """Noun group: a head with what stands before it."""
+    """Noun group: a head with its determiner, number and adjectives."""
 
     head: Token | None
     """None: it is not known."""

@@ -165,7 +165,7 @@ ENTRIES: Mapping[str, Entry] = {
     "SENPI": Entry(simulator="senpi", interpolate="none"),
     "Texvent": Entry(simulator="texvent", preset="paper", interpolate="flow"),
 }
-"""Column of the paper → what stands for it here. Those that come with a network for interpolation
+"""Column of the paper → its counterpart here. Those that come with a network for interpolation
 get motion compensation, as Texvent does; the others get the frames alone."""
 OWN_MODELS = "the other simulators are texvent's models of them; docs/simulators.md says how close"
 EVENT_FRAMES = {"MSE ↓": "ef_mse", "SSIM ↑": "ef_ssim", "LPIPS ↓": "ef_lpips"}

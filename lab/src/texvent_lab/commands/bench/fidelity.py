@@ -28,7 +28,7 @@ class FidelityOptions:
     sensor that makes the true events."""
     interpolations: str | None = None
     """Names of interpolators, separated by commas; default: none,blend,flow,exact (the true
-    frames). flow:37 is told of a lamp of 37 Hz. Others, such as rife, need their weights."""
+    frames). Others, such as rife, need their weights."""
     jobs: int = 2
     """Processes to use."""
 

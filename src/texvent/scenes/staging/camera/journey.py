@@ -61,7 +61,7 @@ _LOW_M, _AERIAL_M, _AERIAL_PITCH, _TOP_PITCH = 0.5, 16.0, 0.5, 1.4
 
 @dataclass(frozen=True)
 class TravelPlan:
-    """A route with what stands along it."""
+    """A route with the scenery along it."""
 
     journey: Journey
     length_m: float
