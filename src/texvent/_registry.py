@@ -152,6 +152,7 @@ CODECS = Registry(
     {
         "hdf5": "texvent.io.hdf5.native:Hdf5Codec",
         "npz": "texvent.io.arrays.npz:NpzCodec",
+        "npy": "texvent.io.arrays.npz:NpyCodec",
         "ecd": "texvent.io.text_files:EcdCodec",
         "evt3": "texvent.io.prophesee.evt:Evt3Codec",
         "evt2": "texvent.io.prophesee.evt:Evt2Codec",

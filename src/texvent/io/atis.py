@@ -46,6 +46,7 @@ from texvent.io.block_writer import UNLIMITED, FileTarget, FormatLimits, WriteBl
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
+from texvent.io.reading import ReadOptions
 from texvent.sensor import SensorSize
 
 EVENT_BYTES = 5
@@ -71,7 +72,7 @@ class NMnistCodec(BlockCodec):
                 f"{target.size}; {UNLIMITED} hold it"
             )
 
-    def inspect(self, path: Path) -> FileContents:
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """Size and metadata are in a sidecar file."""
         size, metadata = read_sidecar(path)
         return FileContents(size, metadata, partial(_read_blocks, path))
@@ -129,7 +130,7 @@ class EventStream2Codec(BlockReader):
         """True if the file begins as Event Stream files do."""
         return begins_with(path, MAGIC)
 
-    def inspect(self, path: Path) -> FileContents:
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """The header states the size; metadata is in a sidecar file."""
         width, height = _read_size(path)
         _, metadata = read_sidecar(path)

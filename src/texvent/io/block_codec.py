@@ -19,7 +19,7 @@ from typing import Any, ClassVar, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from texvent.errors import FileFormatError
+from texvent.errors import ConfigError, FileFormatError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.block_writer import BlockWriter, FileTarget, FormatLimits, WriteBlock
@@ -30,6 +30,7 @@ from texvent.io.input_checks import (
     stream_from_file,
 )
 from texvent.io.protocol import Columns
+from texvent.io.reading import ReadOptions
 from texvent.sensor import SensorSize
 
 BLOCK_BYTES = 2**21
@@ -69,24 +70,32 @@ class BlockReader(ABC):
     is_folder: ClassVar[bool] = False
     """Whether a recording is a folder of files."""
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+    takes: ClassVar[tuple[str, ...]] = ()
+    """Options of reading besides size and repair."""
+
+    def read(self, path: Path, options: ReadOptions | None = None) -> EventPackets:
         """Events of a file, block by block; each pass opens the file again.
 
         Raises:
+            ConfigError: the format does not take an option.
             InputError: no such file, or it stores no sensor size and none is given.
             FileFormatError: the file is damaged or of another format.
             MissingDependencyError: reading it needs a package that is not installed.
         """
         path = existing_folder(path) if self.is_folder else existing_file(path)
-        contents = self.inspect(path)
-        final_size = stored_or_given_size(path, contents.size, size)
+        options = options or ReadOptions()
+        for name in ("time_unit", "columns", "stream"):
+            if getattr(options, name) is not None and name not in self.takes:
+                raise ConfigError(f"{path} is {self.name}, which states its {name}; leave it out")
+        contents = self.inspect(path, options)
+        final_size = stored_or_given_size(path, contents.size, options.size)
         packets = BlockPackets(path, contents, final_size)
         if contents.seek is not None:
             packets = SeekableBlockPackets(path, contents, final_size, contents.seek)
         return EventPackets(packets, final_size, contents.metadata)
 
     @abstractmethod
-    def inspect(self, path: Path) -> FileContents:
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """Facts that an existing file states, and a function that reads its events.
 
         Raises:
@@ -123,7 +132,7 @@ class BlockCodec(BlockReader):
             target.path, size=target.size, metadata=target.metadata, overwrite=target.overwrite
         )
         with writer:
-            for packet in self.read(source, size=target.size):
+            for packet in self.read(source, ReadOptions(size=target.size)):
                 writer.append(packet)
 
     @abstractmethod

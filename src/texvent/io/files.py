@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,11 +10,12 @@ from texvent._registry import CODECS
 from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.io.input_checks import refuse_other_kind
+from texvent.io.input_checks import refuse_missing, refuse_other_kind
 from texvent.io.protocol import EventCodec, EventReader, EventWriter, RecognisingCodec
+from texvent.io.reading import read_options
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.file_names import usable_path
-from texvent.sensor import SensorSize, SizeLike, as_size
+from texvent.sensor import SensorSize, SizeLike
 
 
 def codec_for(path: str | Path, format: str | None = None) -> EventCodec:
@@ -49,36 +50,61 @@ def writable_formats() -> list[str]:
 
 
 def codec_that_reads(path: str | Path, format: str | None = None) -> EventReader:
-    """The codec that reads `path`: called `format`, or of its extension.
+    """The codec that reads `path`: called `format`, or the one that recognises its content.
 
-    Where formats share an extension, the content decides: the first codec that recognises the
-    file, else the first of those that take any file of that extension.
+    Those of its extension are asked first, then all others. Formats without a mark of their own
+    (text, ATIS .bin) follow from the extension; any other text is taken for rows of events.
 
     Raises:
-        ConfigError: unknown format, or unknown extension; the message lists the known ones.
+        ConfigError: unknown format, or neither extension nor content is that of an event file.
         InputError: a folder whose files no codec recognises, or a file of another kind.
     """
-    usable_path(path)
-    if format is None and Path(path).is_dir():
-        found = find_folder_codec(Path(path))
+    path = usable_path(path)
+    if format is not None:
+        return _codecs_for(path, format)[0]
+    if path.is_dir():
+        found = find_folder_codec(path)
         if found is None:
             raise InputError(
                 f"{path} is a folder, and not one of event files that texvent knows (esim, "
-                "evreal); give the name of a file in it"
+                "evreal, rosbag2); give the name of a file in it"
             )
         return found
-    if format is None and Path(path).suffix.lower() not in event_extensions():
-        refuse_other_kind(Path(path))
-    codecs = _codecs_for(path, format)
-    if len(codecs) == 1:
-        return codecs[0]
-    others = []
-    for codec in codecs:
-        if not isinstance(codec, RecognisingCodec):
-            others.append(codec)
-        elif codec.recognises(Path(path)):
+    refuse_missing(path)
+    extension = path.suffix.lower()
+    codecs: list[EventReader] = [codec() for codec in CODECS.load_all()]
+    own = [codec for codec in codecs if extension in codec.extensions]
+    for codec in own + codecs:
+        if isinstance(codec, RecognisingCodec) and codec.recognises(path):
             return codec
-    return (others or codecs)[0]
+    unmarked = [codec for codec in own if not isinstance(codec, RecognisingCodec)]
+    if own:
+        return (unmarked or own)[0]
+    refuse_other_kind(path)
+    if is_text(path):
+        return CODECS.load("ecd")()
+    return _codecs_for(path, None)[0]
+
+
+def is_text(path: Path) -> bool:
+    """True if the beginning of a file is printable."""
+    with path.open("rb") as file:
+        start = file.read(512)
+    return bool(start) and all(byte >= 32 or byte in b"\t\n\r" for byte in start)
+
+
+def is_event_path(path: Path) -> bool:
+    """True if a file or folder is read as events: by its content, else by its extension."""
+    if path.is_dir():
+        return find_folder_codec(path) is not None
+    if not path.is_file():
+        return path.suffix.lower() in event_extensions()
+    try:
+        codec = codec_that_reads(path)
+    except InputError:
+        return False
+    is_npy = path.suffix.lower() == ".npy"  # most arrays are frames
+    return not is_npy or (isinstance(codec, RecognisingCodec) and codec.recognises(path))
 
 
 def has_checksums(path: str | Path, format: str | None = None) -> bool:
@@ -138,29 +164,42 @@ def _codecs_for(path: str | Path, format: str | None) -> list[EventReader]:
 
 
 def open_events(
-    path: str | Path, *, format: str | None = None, size: SizeLike | None = None
+    path: str | Path,
+    *,
+    format: str | None = None,
+    size: SizeLike | None = None,
+    time_unit: str | None = None,
+    columns: str | Sequence[str] | None = None,
+    stream: str | None = None,
+    repair: bool = False,
 ) -> EventPackets:
     """Events of a file, packet by packet, with flat memory (npz excepted).
 
     Args:
         path: the file.
-        format: name of a codec; default: from the extension.
+        format: name of a codec; default: from content and extension.
         size: for files that do not store it: (width, height), "346x260" or "davis346".
+        time_unit: of text, npz, npy and HDF5: s, ms, us or ns; default: as the file states, else
+            µs of whole numbers and s of fractions.
+        columns: of text, npz, npy and HDF5: their order ("x,y,p,t") or names ("t=stamp,x=col,...").
+        stream: which recording of a file of several: group, topic, or number of the camera.
+        repair: repair damage, and count it in the metadata, instead of refusing it.
 
     Raises:
-        InputError: no such file, or the size is neither stored nor given.
+        InputError: no such file, the size is neither stored nor given, or the file holds several
+            recordings and none is chosen.
         FileFormatError: the file is damaged or of another format.
-        ConfigError: unknown format or extension.
+        ConfigError: unknown format or extension, or an option that the format does not take.
     """
-    given = None if size is None else as_size(size)
-    return codec_that_reads(path, format).read(Path(path), size=given)
+    options = read_options(
+        size=size, time_unit=time_unit, columns=columns, stream=stream, repair=repair
+    )
+    return codec_that_reads(path, format).read(Path(path), options)
 
 
-def load(
-    path: str | Path, *, format: str | None = None, size: SizeLike | None = None
-) -> EventStream:
-    """All events of a file, in memory; arguments and errors as in `open_events`."""
-    return open_events(path, format=format, size=size).collect()
+def load(path: str | Path, **options: Any) -> EventStream:
+    """All events of a file, in memory; options and errors as in `open_events`."""
+    return open_events(path, **options).collect()
 
 
 def open_writer(

@@ -17,7 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, one_line, shown
-from texvent.events import COLUMN_TYPES, ID_COLUMNS, OPTIONAL_COLUMNS, EventStream
+from texvent.events import OPTIONAL_COLUMNS, EventStream
+from texvent.io.reading import PER_SECOND, TimeUnit
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS, usable_path
 from texvent.sensor import SensorSize, checked_size
 
@@ -171,25 +172,26 @@ def check_zip(path: Path, archive: zipfile.ZipFile) -> None:
         )
 
 
-def check_time_unit(path: Path, stored: Any) -> None:
-    """Refuse a file that states another unit of time than the µs.
+def stated_unit(path: Path, stored: Any) -> TimeUnit | None:
+    """Unit of time that a file states as milliseconds per unit; None if it states none.
 
     Args:
         path: the file.
-        stored: stated value, ms per unit, of any type.
+        stored: stated value, of any type.
 
     Raises:
-        FileFormatError: see above.
+        FileFormatError: it is not the length of a unit.
     """
+    if stored is None:
+        return None
     scale = np.asarray(stored)
     is_number = scale.size == 1 and scale.dtype.kind in "fiu"
-    if not is_number:
-        raise FileFormatError(
-            f"{path} counts time in units of {shown(stored)}; texvent reads 0.001"
-        )
-    unit_ms = float(scale.reshape(-1)[0])
-    if not np.isclose(unit_ms, TIMESTAMP_SCALE_MS):
-        raise FileFormatError(f"{path} counts time in units of {unit_ms:g} ms; texvent reads 0.001")
+    for unit, per_second in PER_SECOND.items():
+        if is_number and np.isclose(float(scale.reshape(-1)[0]) * per_second, 1000):
+            return unit
+    raise FileFormatError(
+        f"{path} counts time in units of {shown(stored)} ms; texvent reads s, ms, us and ns"
+    )
 
 
 def binary_polarity(p: NDArray[Any]) -> NDArray[np.uint8]:
@@ -206,19 +208,6 @@ def binary_polarity(p: NDArray[Any]) -> NDArray[np.uint8]:
     if not (values <= {0, 1} or values <= {-1, 1}):
         raise InputError(f"polarity holds {sorted(values)[:4]}; it must be 0/1 or -1/+1 (OFF/ON)")
     return (p > 0).astype(np.uint8)
-
-
-def optional_columns(stored: Mapping[str, Any]) -> tuple[str, ...]:
-    """Names of the columns besides x, y, t, p that a file has.
-
-    Arrays of other programs may have the name of our ids: they count only if they have their type.
-    """
-    has_ids = all(
-        name in stored and getattr(stored[name], "dtype", None) == COLUMN_TYPES[name]
-        for name in ID_COLUMNS
-    )
-    label = ("label",) if "label" in stored else ()
-    return (*label, *(ID_COLUMNS if has_ids else ()))
 
 
 def stream_from_file(

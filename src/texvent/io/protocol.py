@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.io.reading import ReadOptions
 from texvent.sensor import SensorSize
 
 Columns: TypeAlias = Mapping[str, NDArray[Any]]
@@ -45,12 +46,12 @@ class EventReader(Protocol):
     extensions: ClassVar[tuple[str, ...]]
     """Lower case, with the dot; the first one is the usual one."""
 
-    def read(self, path: Path, *, size: SensorSize | None = None) -> EventPackets:
+    def read(self, path: Path, options: ReadOptions | None = None) -> EventPackets:
         """Events of a file, packet by packet.
 
         Args:
             path: the file.
-            size: sensor size, for formats that do not store it.
+            options: facts that the file does not state, such as the sensor size.
 
         Raises:
             InputError: no such file, or the size is not stored and not given.

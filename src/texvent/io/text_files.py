@@ -2,11 +2,13 @@
 
 Event Camera Dataset (`ecd`): rows `t x y p` (seconds, pixels, 0/1). Times are written with exactly
 six decimals: whole µs, read back unchanged. E2VID: one such text in a zip archive, after a line
-`width height`; its reader allows one file in it.
+`width height`; its reader allows one file in it. CSV: a header line `t,x,y,p`, then one event per
+line, times in whole µs, polarity 0/1.
 
-CSV: a header line `t,x,y,p`, then one event per line, times in whole µs, polarity 0/1. Read too:
-columns in any order, under the names other programs give them (timestamp, polarity …); and without
-a header line in the order x, y, p, t of Metavision's converter.
+Read is every dialect of these, whatever the extension: separated by spaces, tabs, commas or
+semicolons; comment lines; a first line of the sensor's size; a line that names the columns, with a
+unit or without; polarity as 0/1, -1/+1 or true/false; columns in any order that the names or the
+values make certain. Times with decimals are seconds, whole ones µs.
 
 The rows hold neither the sensor size nor how the events were made, so texvent writes both beside
 the file, in `NAME.txt.json`. Any other file needs the size from the caller; it is never guessed
@@ -23,8 +25,8 @@ import re
 import zipfile
 from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
-from dataclasses import dataclass
-from decimal import Decimal
+from dataclasses import dataclass, replace
+from decimal import Decimal, InvalidOperation
 from functools import partial
 from pathlib import Path
 from typing import Any, BinaryIO, ClassVar, cast
@@ -32,23 +34,34 @@ from typing import Any, BinaryIO, ClassVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, shown, warn
-from texvent.io.arrays.npz import find_columns
+from texvent.errors import FileFormatError
 from texvent.io.block_codec import BlockCodec, FileContents, write_records
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import ZIP_DAMAGE, check_zip, reporting_damage
-from texvent.io.layouts import MICROSECONDS, whole_numbers
 from texvent.io.metadata import read_sidecar
 from texvent.io.protocol import Columns
+from texvent.io.reading import (
+    MICROSECONDS,
+    PER_SECOND,
+    ReadOptions,
+    TimeUnit,
+    check_rate,
+    unit_in_name,
+)
+from texvent.io.tables import certain_order, find_columns, whole_numbers
+from texvent.sensor import SensorSize
 
 BLOCK_BYTES = 16 * 2**20
 """Text parsed at once: about 800,000 events."""
-DAY_S, RAREST_HZ = 86_400, 100
-"""Longer recordings with fewer events per second are hardly meant."""
+SAMPLE_BYTES = 2**16
 STOP_US = 1 << 63
 """Exclusive upper limit of event times, µs."""
-EXACT_S = 2**32
-"""Below this (136 years) the nearest float64 of a time in seconds gives back its µs."""
+EXACT = 2**52
+"""Below this float64 keeps a whole number, and a time in seconds its µs if it is 2^20 smaller."""
+BOOLEANS = ((b"True", b"1"), (b"true", b"1"), (b"TRUE", b"1"), (b"False", b"0"), (b"false", b"0"),
+            (b"FALSE", b"0"))  # fmt: skip
+SIZE_LINE = rb"\s*(\d{1,9})\s+(\d{1,9})\s*"
+COMMENTS = ("#", "%", "//")
 
 
 def make_rows(columns: Columns) -> bytes:
@@ -104,85 +117,216 @@ def parse_table(
         raise FileFormatError(f"{path} is not {rows} ({reason})") from error
 
 
-def warn_of_wrong_unit(blocks: Iterator[Columns], path: Path) -> Iterator[Columns]:
-    """The blocks of a file whose times are seconds; at its end, a warning if they are hardly so.
+@dataclass(frozen=True)
+class Dialect:
+    """How a text writes its rows."""
 
-    Events of 0.1 s or more with times in µs seem to take over a day, and to be rare: a camera
-    gives fewer than 100 million events in a second.
+    delimiter: str | None
+    """Between values; None: spaces or tabs."""
+    width: int
+    """Values per row."""
+    places: Mapping[str, int]
+    """t, x, y, p, and label if known → number of the column."""
+    unit: TimeUnit
+    is_stated: bool
+    """Whether file or caller states the unit."""
+    start: int
+    """Bytes before the first row."""
+    size: tuple[int, int] | None
+    """Sensor size of a first line `width height`."""
+    has_words: bool
+    """Whether values are written as true and false."""
 
-    Warns:
-        TexventWarning: whole seconds, more than a day, fewer than 100 events per second.
-    """
-    first_us = last_us = count = 0
-    are_whole = True
-    for columns in blocks:
-        times = columns["t"]
-        if len(times):
-            first_us = int(times[0]) if count == 0 else first_us
-            last_us = int(times[-1])
-            count += len(times)
-            are_whole = are_whole and not (times % MICROSECONDS).any()
-        yield columns
-    seconds = (last_us - first_us) / MICROSECONDS
-    if are_whole and seconds > DAY_S and count < RAREST_HZ * seconds:
-        warn(
-            f"{path} spans {seconds / DAY_S:.1f} days with {count:,} events: times in this format "
-            "are seconds, and these are probably µs; divide them by 1,000,000, or give the file "
-            "as CSV with columns t,x,y,p"
-        )
+    @property
+    def rows(self) -> str:
+        """Expected form of a row, for messages."""
+        names = {place: name for name, place in self.places.items()}
+        order = (self.delimiter or " ").join(names.get(at, "_") for at in range(self.width))
+        return f"rows of {self.width} numbers `{order}`, t in {self.unit}, polarity 0/1 or -1/+1"
+
+    def parse(self, path: Path, block: bytes) -> Columns:
+        """Columns of a block of rows.
+
+        Raises:
+            FileFormatError: a row is of another form.
+        """
+        for word, digit in BOOLEANS if self.has_words else ():
+            block = block.replace(word, digit)
+        options = {"delimiter": self.delimiter, "comments": COMMENTS, "rows": self.rows}
+        table = parse_table(block, path, **options)
+        if table.size == 0:
+            return dict.fromkeys("xytp", np.empty(0, dtype=np.int64))
+        if table.shape[1] != self.width:
+            raise FileFormatError(f"{path} has rows of {table.shape[1]} values, not {self.rows}")
+        values = {name: table[:, place] for name, place in self.places.items()}
+        whole = {name: whole_numbers(path, values[name]) for name in values if name != "t"}
+        seconds = np.abs(values["t"]) / PER_SECOND[self.unit]
+        if not (seconds < STOP_US / MICROSECONDS).all():
+            raise FileFormatError(f"{path} holds times that are no numbers of {self.unit}")
+        scale = MICROSECONDS / PER_SECOND[self.unit]
+        if (np.abs(values["t"]) < EXACT / max(1, scale)).all():
+            rounded = np.floor if scale < 1 else np.rint
+            return {**whole, "t": rounded(values["t"] * scale).astype(np.int64)}
+        place = self.places["t"]  # slow
+        exact = {place: partial(_exact_us, unit=self.unit)}
+        times = parse_table(block, path, dtype=np.int64, usecols=place, converters=exact, **options)
+        return {**whole, "t": times[:, 0]}
 
 
-def parse_rows(block: bytes, path: Path) -> dict[str, NDArray[Any]]:
-    """Columns x, y, t, p of a block of rows.
+def _exact_us(word: str, *, unit: TimeUnit) -> int:
+    value = Decimal(word) * MICROSECONDS / PER_SECOND[unit]
+    return int(value) if unit == "ns" else round(value)
+
+
+def find_dialect(path: Path, sample: bytes, options: ReadOptions, default: str) -> Dialect:
+    """The dialect of a text.
+
+    Args:
+        path: the file, for messages.
+        sample: its beginning, which ends with a whole line.
+        options: unit and columns, where the text does not say them.
+        default: order of unnamed columns where several are possible.
 
     Raises:
-        FileFormatError: a row is not `t x y p`.
+        InputError: the order of the columns is not certain.
+        FileFormatError: it is not a text of events.
     """
-    table = parse_table(block, path)
-    if table.size == 0:
-        return dict.fromkeys("xytp", np.empty(0, dtype=np.int64))
-    if table.shape[1] != 4:
-        raise FileFormatError(
-            f"{path} has rows of {table.shape[1]} values; event rows are `t x y p`"
+    lines = sample.split(b"\n")
+    at, size = 0, None
+    start = 3 if sample.startswith(b"\xef\xbb\xbf") else 0
+    lines[0] = lines[0][start:]
+    while at < len(lines) - 1 and _is_comment(lines[at]):
+        start, at = start + len(lines[at]) + 1, at + 1
+    match = re.fullmatch(SIZE_LINE, lines[at])
+    if match is not None:
+        size = int(match[1]), int(match[2])
+        start, at = start + len(lines[at]) + 1, at + 1
+    line = lines[at].decode("latin-1") if at < len(lines) else ""
+    delimiter = next((one for one in ",;" if one in line), None)
+    words = [word.strip().strip('"') for word in (line.split(delimiter))]
+    names = words if any(not _is_value(word) for word in words) and line.strip() else None
+    if names is not None:
+        start, at = start + len(lines[at]) + 1, at + 1
+    rows = [one.decode("latin-1") for one in lines[at : at + SAMPLE_ROWS] if one.strip()]
+    rows = [one for one in rows if not one.lstrip().startswith(COMMENTS)]
+    first = [word.strip() for word in rows[0].split(delimiter)] if rows else words
+    places = _places(path, rows, delimiter, names, options, size, default)
+    time = [one.split(delimiter)[places["t"]] for one in rows if len(one.split(delimiter)) > 3]
+    is_whole = bool(time) and all(re.fullmatch(r"\s*[-+]?\d+\s*", word) for word in time)
+    stated = options.time_unit or (unit_in_name(names[places["t"]])[1] if names else None)
+    return Dialect(
+        delimiter,
+        len(names or first),
+        places,
+        stated or ("us" if is_whole else "s"),
+        stated is not None,
+        start,
+        size,
+        any(word.lower() in ("true", "false") for word in first),
+    )
+
+
+SAMPLE_ROWS = 2000
+
+
+def _is_comment(line: bytes) -> bool:
+    return not line.strip() or line.lstrip().startswith(tuple(one.encode() for one in COMMENTS))
+
+
+def _is_value(word: str) -> bool:
+    try:
+        Decimal(word)
+    except InvalidOperation:
+        return word.lower() in ("true", "false")
+    return True
+
+
+def _places(
+    path: Path,
+    rows: list[str],
+    delimiter: str | None,
+    names: list[str] | None,
+    options: ReadOptions,
+    size: tuple[int, int] | None,
+    default: str,
+) -> dict[str, int]:
+    """Column → its number: as the options or the first line name it, or as the values make sure."""
+    if names is not None and options.order is None:
+        found = options.names or find_columns(path, names)
+        missing = [name for name in found.values() if name not in names]
+        if missing:
+            raise FileFormatError(f"{path} has no column {missing[0]!r}; it has {', '.join(names)}")
+        places = {column: names.index(name) for column, name in found.items()}
+        return places | ({"label": names.index("label")} if "label" in names else {})
+    if options.names:
+        raise FileFormatError(f"{path} does not name its columns; give their order (t,x,y,p)")
+    order = options.order
+    if order is None:
+        sample = "\n".join(rows).encode("latin-1")
+        for word, digit in BOOLEANS:
+            sample = sample.replace(word, digit)
+        table = parse_table(sample, path, delimiter=delimiter, comments=COMMENTS)
+        if table.size and table.shape[1] != 4:
+            raise FileFormatError(
+                f"{path} has rows of {table.shape[1]} values without names; name the columns "
+                "(--columns t,x,y,p,_ in the order of the file)"
+            )
+        known = options.size or (None if size is None else SensorSize(*size))
+        order = tuple(certain_order(path, table, known, default)) if table.size else tuple(default)
+    return {name: order.index(name) for name in (*"txyp", "label") if name in order}
+
+
+class TextCodec(BlockCodec):
+    """Base of the text formats: one way to read, two ways to write."""
+
+    default: ClassVar[str] = "txyp"
+    """Order of columns that are not named, where several are possible."""
+    has_sidecar: ClassVar[bool] = True
+    takes: ClassVar[tuple[str, ...]] = ("time_unit", "columns")
+
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
+        """Size and metadata are in a sidecar file; the beginning says how rows are written."""
+        size, metadata = read_sidecar(path)
+        with self.open_text(path) as file:
+            sample = file.read(SAMPLE_BYTES)
+        if b"\0" in sample:
+            raise FileFormatError(f"{path} is not a text of events; it holds binary data")
+        if len(sample) == SAMPLE_BYTES:
+            sample = sample[: sample.rfind(b"\n") + 1] or sample
+        sized = (
+            options if options.size or size is None else replace(options, size=SensorSize(*size))
         )
-    seconds, pixels = table[:, 0], table[:, 1:]
-    if not (np.abs(seconds) <= STOP_US / MICROSECONDS).all():
-        raise FileFormatError(f"{path} holds times that are not seconds (first column)")
-    whole = whole_numbers(path, pixels)
-    if (np.abs(seconds) < EXACT_S).all():
-        times = np.rint(seconds * MICROSECONDS).astype(np.int64)
-    else:  # slow
-        exact = {0: lambda word: round(Decimal(word) * MICROSECONDS)}
-        times = parse_table(block, path, dtype=np.int64, usecols=0, converters=exact)[:, 0]
-    return {"t": times, "x": whole[:, 0], "y": whole[:, 1], "p": whole[:, 2]}
+        dialect = find_dialect(path, sample, sized, self.default)
+        return FileContents(size or dialect.size, metadata, partial(self._read, path, dialect))
+
+    def open_text(self, path: Path) -> AbstractContextManager[BinaryIO]:
+        """The text, open to read."""
+        return path.open("rb")
+
+    def _read(self, path: Path, dialect: Dialect) -> Iterator[Columns]:
+        first_us = count = 0
+        with self.open_text(path) as file:
+            file.read(dialect.start)
+            for block in read_text_blocks(file):
+                columns = dialect.parse(path, block)
+                times = columns["t"]
+                if not dialect.is_stated and len(times):
+                    first_us = int(times[0]) if count == 0 else first_us
+                    count += len(times)
+                    check_rate(path, count, int(times[-1]) - first_us, dialect.unit)
+                yield columns
 
 
-class EcdCodec(BlockCodec):
+class EcdCodec(TextCodec):
     """Event Camera Dataset text."""
 
     name: ClassVar[str] = "ecd"
     extensions: ClassVar[tuple[str, ...]] = (".txt",)
     limits: ClassVar[FormatLimits] = FormatLimits("ECD text", 1 << 16, STOP_US)
-    has_sidecar: ClassVar[bool] = True
-
-    def inspect(self, path: Path) -> FileContents:
-        """Size and metadata are in a sidecar file."""
-        size, metadata = read_sidecar(path)
-        return FileContents(size, metadata, partial(_read, path))
 
     def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Rows begin at once."""
         return write_records(part, b"", make_rows)
-
-
-def _read(path: Path) -> Iterator[Columns]:
-    return warn_of_wrong_unit(_read_blocks(path), path)
-
-
-def _read_blocks(path: Path) -> Iterator[Columns]:
-    with path.open("rb") as file:
-        for block in read_text_blocks(file):
-            yield parse_rows(block, path)
 
 
 LEVEL = 1
@@ -191,21 +335,26 @@ ENTRY = "events.txt"
 MAX_FIRST_LINE = 64
 
 
-class E2vidZipCodec(BlockCodec):
+class E2vidZipCodec(TextCodec):
     """Zipped text with the size in its first line."""
 
     name: ClassVar[str] = "e2vid"
     has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = (".zip",)
     limits: ClassVar[FormatLimits] = FormatLimits("E2VID zip", 1 << 16, STOP_US)
-    has_sidecar: ClassVar[bool] = True
 
-    def inspect(self, path: Path) -> FileContents:
-        """The text states the size; metadata is in a sidecar file."""
-        with _open_text(path) as file:
-            size = _read_zip_size(file, path)
-        _, metadata = read_sidecar(path)
-        return FileContents(size, metadata, partial(_read_zip, path))
+    def recognises(self, path: Path) -> bool:
+        """True if it is a zip archive of one file, which is no array."""
+        try:
+            with zipfile.ZipFile(path) as archive:
+                names = archive.namelist()
+        except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile):
+            return False
+        return len(names) == 1 and not names[0].endswith(".npy")
+
+    def open_text(self, path: Path) -> AbstractContextManager[BinaryIO]:
+        """The archive's one text file."""
+        return _open_text(path)
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
@@ -238,47 +387,16 @@ def _open_text(path: Path) -> Iterator[BinaryIO]:
             yield cast("BinaryIO", file)
 
 
-def _read_zip_size(file: BinaryIO, path: Path) -> tuple[int, int]:
-    line = file.readline(MAX_FIRST_LINE)
-    match = re.fullmatch(rb"\s*(\d{1,9})\s+(\d{1,9})\s*", line)
-    if match is None:
-        raise FileFormatError(
-            f"{path}: its text begins with {line[:40]!r}, not with width and height"
-        )
-    return int(match[1]), int(match[2])
-
-
-def _read_zip(path: Path) -> Iterator[Columns]:
-    return warn_of_wrong_unit(_read_zip_blocks(path), path)
-
-
-def _read_zip_blocks(path: Path) -> Iterator[Columns]:
-    with _open_text(path) as file:
-        _read_zip_size(file, path)
-        for block in read_text_blocks(file):
-            yield parse_rows(block, path)
-
-
 HEADER = b"t,x,y,p\n"
-HEADLESS = ("x", "y", "p", "t")
-CSV_STOP_US = 1 << 53
-"""Up to here float64, which the parser uses, keeps every µs (285 years)."""
-MAX_HEADER = 4096
 
 
-class CsvCodec(BlockCodec):
-    """Comma-separated text."""
+class CsvCodec(TextCodec):
+    """Comma-separated text; without names, columns are in the order of Metavision's converter."""
 
     name: ClassVar[str] = "csv"
     extensions: ClassVar[tuple[str, ...]] = (".csv",)
-    limits: ClassVar[FormatLimits] = FormatLimits("CSV", 1 << 16, CSV_STOP_US)
-    has_sidecar: ClassVar[bool] = True
-
-    def inspect(self, path: Path) -> FileContents:
-        """Size and metadata are in a sidecar file; its first line names the columns."""
-        size, metadata = read_sidecar(path)
-        columns = _read_header(path)
-        return FileContents(size, metadata, partial(_read_csv, path, columns))
+    default: ClassVar[str] = "xypt"
+    limits: ClassVar[FormatLimits] = FormatLimits("CSV", 1 << 16, STOP_US)
 
     def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Write the line that names the columns."""
@@ -288,72 +406,3 @@ class CsvCodec(BlockCodec):
 def _make_csv_rows(columns: Columns) -> bytes:
     lists = [columns[name].tolist() for name in "txyp"]
     return "".join(f"{t},{x},{y},{p}\n" for t, x, y, p in zip(*lists, strict=True)).encode()
-
-
-@dataclass(frozen=True)
-class _Table:
-    """Where the columns are, and where the first row begins."""
-
-    names: tuple[str, ...]
-    """Column names of the file, in their order."""
-    places: Mapping[str, int]
-    """t, x, y, p → number of the column."""
-    start: int
-    has_header: bool
-
-    @property
-    def rows(self) -> str:
-        """Expected form of a row, for messages."""
-        return f"rows of numbers `{','.join(self.names)[:60]}`, polarity 0/1 or -1/+1"
-
-
-def _read_header(path: Path) -> _Table:
-    """The columns that the first line names, or those of a file without such a line."""
-    with path.open("rb") as file:
-        line = file.readline(MAX_HEADER)
-    words = [word.strip().strip('"').lower() for word in line.decode("latin-1").split(",")]
-    if words[0][:1].isdecimal() or words == [""]:
-        return _Table(HEADLESS, {name: HEADLESS.index(name) for name in "txyp"}, 0, False)
-    found = find_columns(path, words)
-    places = {name: words.index(found[name]) for name in "txyp"}
-    return _Table(tuple(words), places, len(line), True)
-
-
-def _read_csv(path: Path, columns: _Table) -> Iterator[Columns]:
-    with path.open("rb") as file:
-        file.seek(columns.start)
-        for block in read_text_blocks(file):
-            table = parse_table(block, path, delimiter=",", rows=columns.rows)
-            if table.size == 0:
-                continue
-            if table.shape[1] != len(columns.names):
-                raise FileFormatError(
-                    f"{path} has rows of {table.shape[1]} values, and {len(columns.names)} columns"
-                )
-            values = {name: table[:, place] for name, place in columns.places.items()}
-            _check_values(path, columns, values)
-            whole = whole_numbers(path, np.stack([values[name] for name in "xyp"], axis=1))
-            t = values["t"].astype(np.int64)
-            yield {"t": t, "x": whole[:, 0], "y": whole[:, 1], "p": whole[:, 2]}
-
-
-def _check_values(path: Path, columns: _Table, values: Mapping[str, NDArray[np.float64]]) -> None:
-    """Refuse columns in another order or unit.
-
-    Raises:
-        FileFormatError: see above; the message says which are expected.
-    """
-    t, p = values["t"], values["p"]
-    wrong = p[~np.isin(p, (-1, 0, 1))]
-    if wrong.size and not columns.has_header:
-        raise FileFormatError(
-            f"{path} does not name its columns, so they are x, y, p, t; but the third, polarity, "
-            f"holds {wrong[0]:g}: put a first line with their names, such as t,x,y,p"
-        )
-    fractions = t[~((np.abs(t) < CSV_STOP_US) & (t == np.rint(t)))]
-    if fractions.size:
-        raise FileFormatError(
-            f"{path} holds times that are not whole µs, such as {shown(fractions[0])} in column "
-            f"{shown(columns.names[columns.places['t']])}; times in CSV are whole µs, not seconds "
-            "or ms: multiply and round them first"
-        )

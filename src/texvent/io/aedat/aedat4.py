@@ -47,6 +47,7 @@ from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
+from texvent.io.reading import ReadOptions
 
 PACKET_US = 10_000
 """Time per packet, µs."""
@@ -66,7 +67,7 @@ class Aedat4Codec(BlockCodec):
         """True if the file begins as AEDAT4 does."""
         return begins_with(path, MAGIC)
 
-    def inspect(self, path: Path) -> FileContents:
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """The header's XML states size and metadata of the first stream of events."""
         container, stream = _open_events(path)
         metadata: dict[str, Any] = {}

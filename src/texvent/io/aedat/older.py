@@ -50,6 +50,7 @@ from texvent.io.block_codec import BlockReader, FileContents, read_records
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import MAX_HEADER_BYTES, metadata_from_json
 from texvent.io.protocol import Columns
+from texvent.io.reading import ReadOptions
 from texvent.sensor import SENSORS, SensorSize
 
 AEDAT2_MAGIC = "#!AER-DAT2.0"
@@ -180,7 +181,7 @@ class Aedat2Codec(BlockReader):
         """True if the file begins as AEDAT2 does."""
         return begins_with(path, AEDAT2_MAGIC.encode())
 
-    def inspect(self, path: Path) -> FileContents:
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """The header names the layout, which has a size, and holds the metadata."""
         header = read_aedat_header(path, AEDAT2_MAGIC, AEDAT2_END)
         layout = self.layout or _named_layout(path, header)
@@ -269,7 +270,7 @@ class Aedat3Codec(BlockReader):
         """True if the file begins as AEDAT3.1 does."""
         return begins_with(path, AEDAT3_MAGIC.encode())
 
-    def inspect(self, path: Path) -> FileContents:
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """The header states size and metadata."""
         header = read_aedat_header(path, AEDAT3_MAGIC, AEDAT3_END)
         if header.lines[-1] != AEDAT3_END:

@@ -22,7 +22,8 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import nullcontext
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -30,24 +31,16 @@ from typing import Any, ClassVar
 from texvent.errors import FileFormatError, shown
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.arrays.npz import read_arrays
-from texvent.io.block_codec import BlockReader, FileContents, TimedRows, read_rows, seek_rows
-from texvent.io.layouts import Column, EventLayout
+from texvent.io.block_codec import BlockReader, FileContents, read_rows, seek_rows
 from texvent.io.metadata import metadata_from_json, parse_sidecar
 from texvent.io.protocol import Columns
+from texvent.io.reading import ReadOptions
+from texvent.io.tables import find_tables
 
-EVREAL = EventLayout(
-    "EVREAL",
-    {
-        "x": Column("events_xy.npy", 0),
-        "y": Column("events_xy.npy", 1),
-        "t": Column("events_ts.npy"),
-        "p": Column("events_p.npy"),
-    },
-    per_second=1,
-)
+EVREAL = ("events_xy", "events_ts", "events_p")
+"""Names of its arrays."""
 EVREAL_FACTS = "metadata.json"
 PACKET_EVENTS = 2**18
-ESIM = EventLayout("ESIM", {name: Column(name) for name in "xytp"}, per_second=1_000_000_000)
 ESIM_FACTS = "texvent.json"
 
 
@@ -59,13 +52,15 @@ class EvrealFolderCodec(BlockReader):
 
     def recognises(self, path: Path) -> bool:
         """True if it is a folder with the three arrays."""
-        return all((path / name).is_file() for name in EVREAL.arrays)
+        return all((path / f"{name}.npy").is_file() for name in EVREAL)
 
-    def inspect(self, path: Path) -> FileContents:
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """Size and metadata are in metadata.json."""
-        _open_arrays(path)
+        arrays = {name: StoredArray(path / f"{name}.npy") for name in EVREAL}
+        table = replace(find_tables(path, arrays, options)[0], unit="s")
+        table.check(path, arrays)
         size, metadata = _read_facts(path)
-        rows = partial(_open_rows, path)
+        rows = partial(nullcontext, table.rows(path, arrays, options, block=PACKET_EVENTS))
         return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
 
 
@@ -88,18 +83,6 @@ def _is_whole(value: Any) -> bool:
     return isinstance(value, int) and not isinstance(value, bool)
 
 
-def _open_arrays(path: Path) -> dict[str, StoredArray]:
-    files = {name: path / name for name in EVREAL.arrays}
-    arrays = {name: StoredArray(file) for name, file in files.items() if file.is_file()}
-    EVREAL.check(path, arrays)
-    return arrays
-
-
-@contextmanager
-def _open_rows(path: Path) -> Iterator[TimedRows]:
-    yield EVREAL.rows(path, _open_arrays(path), block=PACKET_EVENTS)
-
-
 class EsimFolderCodec(BlockReader):
     """Folders of numbered npz files."""
 
@@ -111,7 +94,7 @@ class EsimFolderCodec(BlockReader):
         """True if it is a folder of npz files with ten-digit names, or of none but texvent's."""
         return path.is_dir() and bool(_numbered(path) or _is_empty_recording(path))
 
-    def inspect(self, path: Path) -> FileContents:
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """Size and metadata are in a file of texvent's own."""
         facts = path / ESIM_FACTS
         size: tuple[int, int] | None = None
@@ -142,6 +125,7 @@ def _read_blocks(path: Path) -> Iterator[Columns]:
             raise FileFormatError(
                 f"{file}: t is {arrays['t'].dtype}; ESIM writes whole nanoseconds"
             )
-        arrays = {name: arrays[name] for name in "xytp" if name in arrays}
-        ESIM.check(file, arrays)
-        yield ESIM.rows(file, arrays, block=PACKET_EVENTS).read(0, len(arrays["t"]))
+        table = replace(find_tables(file, arrays, ReadOptions())[0], unit="ns")
+        table.check(file, arrays)
+        rows = table.rows(file, arrays, ReadOptions(), block=PACKET_EVENTS)
+        yield rows.read(0, rows.count)

@@ -11,7 +11,6 @@ Source: Kim et al., N-ImageNet: Towards Robust, Fine-Grained Object Recognition,
 
 from __future__ import annotations
 
-import zipfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -21,7 +20,7 @@ import numpy as np
 
 from texvent.errors import InputError
 from texvent.events import EventStream
-from texvent.io.arrays.npz import NpzCodec
+from texvent.io.arrays.npz import NpzCodec, array_names
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.files import load
 from texvent.io.metadata import metadata_to_json
@@ -42,11 +41,7 @@ class NImageNetCodec(NpzCodec):
 
     def recognises(self, path: Path) -> bool:
         """True if it is an archive with an array event_data."""
-        try:
-            with zipfile.ZipFile(path) as archive:
-                return f"{ARRAY}.npy" in archive.namelist()
-        except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile):
-            return False
+        return ARRAY in array_names(path)
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:

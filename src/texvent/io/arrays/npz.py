@@ -5,14 +5,18 @@ More arrays hold what those do not look for: `texvent`, all metadata as JSON, an
 
 The format holds each column as one array, so writer and reader need the whole recording in
 memory (13 bytes per event). Use HDF5 for long recordings.
+
+Read too: every archive in which `texvent.io.tables` finds a recording; BS-ERGB's, whose coordinates
+are 1/32 of a pixel, and single arrays (.npy), which are read block by block.
 """
 
 from __future__ import annotations
 
 import tokenize
 import zipfile
-from collections.abc import Iterable, Iterator, Mapping
-from contextlib import contextmanager
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager, nullcontext
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -20,55 +24,35 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, shown
+from texvent.errors import FileFormatError, shown, warn
 from texvent.events import COLUMN_TYPES
-from texvent.io.block_codec import BlockCodec, FileContents
+from texvent.io.arrays.npy_file import StoredArray
+from texvent.io.block_codec import (
+    BlockCodec,
+    BlockReader,
+    FileContents,
+    TimedRows,
+    read_rows,
+    seek_rows,
+)
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import (
     TIMESTAMP_SCALE_MS,
     ZIP_DAMAGE,
     begins_with,
-    check_time_unit,
     check_zip,
-    optional_columns,
     reporting_damage,
+    stated_unit,
 )
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
+from texvent.io.reading import ReadOptions, TimeUnit, choose
+from texvent.io.tables import TABLE_OPTIONS, find_tables
+from texvent.sensor import SensorSize
 
-SPELLINGS = {
-    "t": ("t", "ts", "timestamp", "timestamps", "time", "times", "t_us", "timestamp_us"),
-    "x": ("x", "xs", "x_pos"),
-    "y": ("y", "ys", "y_pos"),
-    "p": ("p", "ps", "pol", "polarity", "polarities"),
-}
-"""Column → its names, in lower case."""
-
-
-def find_columns(path: Path, names: Iterable[str], *, kind: str = "column") -> dict[str, str]:
-    """t, x, y, p → the name that a file gives each.
-
-    Args:
-        path: the file, for messages.
-        names: all names in the file, with capitals or without.
-        kind: kind of the named objects, such as "array".
-
-    Raises:
-        FileFormatError: a column is missing or there twice; the message says what is accepted.
-    """
-    names, found = list(names), {}
-    for column, spellings in SPELLINGS.items():
-        matching = [name for name in names if name.lower() in spellings]
-        if len(matching) != 1:
-            what = f"{len(matching)} {kind}s" if matching else f"no {kind}"
-            others = " or ".join(spellings[1:4])
-            raise FileFormatError(
-                f"{path} has {what} {column!r} (it has: {shown(', '.join(names) or 'none')}); "
-                f"texvent reads {kind}s t, x, y, p; {column} may be called {others}"
-            )
-        found[column] = matching[0]
-    return found
-
+BLOCK_EVENTS = 2**18
+FIXED_POINT = 32
+"""Steps of a pixel in the coordinates of BS-ERGB."""
 
 NPZ_DAMAGE = (
     *ZIP_DAMAGE,
@@ -92,12 +76,17 @@ class NpzCodec(BlockCodec):
         "NumPy archive", 1 << 16, 1 << 63, start_us=-(1 << 63), keeps_labels=True
     )
 
-    def inspect(self, path: Path) -> FileContents:
+    takes: ClassVar[tuple[str, ...]] = TABLE_OPTIONS
+
+    def recognises(self, path: Path) -> bool:
+        """True if it is a zip archive of arrays."""
+        return begins_with(path, b"PK") and bool(array_names(path))
+
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """The archive's arrays, all in memory."""
         arrays = read_arrays(path)
-        check_time_unit(path, arrays.get("timestamp_scale_ms", TIMESTAMP_SCALE_MS))
-        columns = _find_events(path, arrays)
-        return stored_contents(path, arrays, columns)
+        unit = stated_unit(path, arrays.get("timestamp_scale_ms"))
+        return stored_contents(path, arrays, options, unit=unit)
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
@@ -153,13 +142,24 @@ def _checked(member: Any, name: str, path: Path) -> NDArray[Any]:
     return member
 
 
+def array_names(path: Path) -> list[str]:
+    """Names of the arrays of an archive; none if it cannot be read."""
+    try:
+        with zipfile.ZipFile(path) as archive:
+            names = archive.namelist()
+    except (OSError, ValueError, NotImplementedError, zipfile.BadZipFile):
+        return []
+    return [name.removesuffix(".npy") for name in names if name.endswith(".npy")]
+
+
 def stored_contents(
-    path: Path, arrays: Mapping[str, Any], columns: Mapping[str, NDArray[Any]]
+    path: Path, arrays: Mapping[str, Any], options: ReadOptions, *, unit: TimeUnit | None
 ) -> FileContents:
     """Contents of an archive with arrays `width`, `height` and `texvent`, where it has them.
 
     Raises:
-        FileFormatError: one of them is damaged.
+        FileFormatError: one of them is damaged, or there are no events.
+        SeveralRecordingsError: it holds several recordings and the options choose none.
     """
     size = None
     if "width" in arrays and "height" in arrays:
@@ -167,26 +167,28 @@ def stored_contents(
     metadata: dict[str, Any] = {}
     if "texvent" in arrays:
         metadata = metadata_from_json(path, str(arrays["texvent"]))
-    return FileContents(size, metadata, partial(_one_block, columns))
+    tables = find_tables(path, arrays, options)
+    table = tables[choose(path, [one.name for one in tables], options.stream)]
+    table = replace(table, unit=table.unit or unit)
+    table.check(path, arrays)
+    rows = table.rows(path, arrays, options, block=BLOCK_EVENTS)
+    return FileContents(size, metadata, partial(_one_block, path, rows, options.size))
 
 
-def _find_events(path: Path, arrays: Mapping[str, Any]) -> dict[str, NDArray[Any]]:
-    """Columns x, y, t, p, and others if known: arrays of their own, or fields of the only records.
-
-    Raises:
-        FileFormatError: a column is missing.
-    """
-    records = [name for name, array in arrays.items() if array.dtype.names]
-    if len(records) == 1:
-        table = arrays[records[0]]
-        found = find_columns(path, table.dtype.names, kind="field")
-        return {name: table[field] for name, field in found.items()}
-    found = find_columns(path, arrays, kind="array")
-    columns = {name: arrays[array] for name, array in found.items()}
-    return columns | {name: arrays[name] for name in optional_columns(arrays)}
-
-
-def _one_block(columns: Columns) -> Iterator[Columns]:
+def _one_block(path: Path, rows: TimedRows, size: SensorSize | None) -> Iterator[Columns]:
+    """All events, which are in memory; those of BS-ERGB in whole pixels."""
+    columns = rows.read(0, rows.count)
+    if size is not None and rows.count:
+        largest = [int(columns[name].max()) for name in "xy"]
+        is_beyond = any(one >= limit for one, limit in zip(largest, size, strict=True))
+        if is_beyond and all(
+            one // FIXED_POINT < limit for one, limit in zip(largest, size, strict=True)
+        ):
+            warn(
+                f"{path} holds coordinates up to {largest[0]}, {largest[1]} on a sensor of {size}; "
+                "they are read as 1/32 of a pixel, as BS-ERGB has them"
+            )
+            columns = {**columns, **{name: columns[name] // FIXED_POINT for name in "xy"}}
     yield columns
 
 
@@ -196,3 +198,30 @@ def _read_whole(path: Path, value: NDArray[Any]) -> int:
             f"{path}: width and height must be whole numbers; one is {shown(value)}"
         )
     return int(value.reshape(-1)[0])
+
+
+class NpyCodec(BlockReader):
+    """A single array of records, or of rows of four numbers."""
+
+    name: ClassVar[str] = "npy"
+    extensions: ClassVar[tuple[str, ...]] = (".npy",)
+    takes: ClassVar[tuple[str, ...]] = TABLE_OPTIONS
+
+    def recognises(self, path: Path) -> bool:
+        """True if it is an array of records or of four columns; others are frames."""
+        try:
+            array = StoredArray(path) if begins_with(path, b"\x93NUMPY") else None
+        except (OSError, FileFormatError):
+            return False
+        return array is not None and (
+            bool(array.dtype.names) or (array.ndim == 2 and array.shape[1] == 4)
+        )
+
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
+        """Its type names the columns, or their order is guessed where it is certain."""
+        arrays = {"events": StoredArray(path)}
+        table = find_tables(path, arrays, options)[0]
+        table.check(path, arrays)
+        rows = table.rows(path, arrays, options, block=BLOCK_EVENTS)
+        opened = partial(nullcontext, rows)
+        return FileContents(None, {}, partial(read_rows, opened), seek_rows(path, opened))

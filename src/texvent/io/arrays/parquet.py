@@ -16,12 +16,13 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import FileFormatError
-from texvent.io.arrays.npz import find_columns
 from texvent.io.block_codec import BlockCodec, FileContents
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
-from texvent.io.input_checks import reporting_damage
+from texvent.io.input_checks import begins_with, reporting_damage
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
+from texvent.io.reading import ReadOptions, TimeUnit, to_microseconds
+from texvent.io.tables import find_columns, spelled
 
 TYPES = {"t": "int64", "x": "uint16", "y": "uint16", "p": "uint8"}
 PACKET_EVENTS = 2**18
@@ -33,12 +34,17 @@ class ParquetCodec(BlockCodec):
 
     name: ClassVar[str] = "parquet"
     extensions: ClassVar[tuple[str, ...]] = (".parquet",)
+    takes: ClassVar[tuple[str, ...]] = ("time_unit", "columns")
     limits: ClassVar[FormatLimits] = FormatLimits("Parquet", 1 << 16, 1 << 63)
 
-    def inspect(self, path: Path) -> FileContents:
+    def recognises(self, path: Path) -> bool:
+        """True if the file begins as Parquet does."""
+        return begins_with(path, b"PAR1")
+
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """The schema states size and metadata."""
         with _open_table(path) as table:
-            order = find_columns(path, table.schema_arrow.names)
+            order = options.names or find_columns(path, table.schema_arrow.names)
             facts = table.schema_arrow.metadata or {}
         size = None
         try:
@@ -49,7 +55,7 @@ class ParquetCodec(BlockCodec):
         metadata: dict[str, Any] = {}
         if b"texvent" in facts:
             metadata = metadata_from_json(path, facts[b"texvent"])
-        return FileContents(size, metadata, partial(_read_blocks, path, order))
+        return FileContents(size, metadata, partial(_read_blocks, path, order, options.time_unit))
 
     def check_target(self, target: FileTarget) -> None:
         """Refuse to start without pyarrow."""
@@ -90,10 +96,14 @@ def _open_table(path: Path) -> Iterator[Any]:
         yield table
 
 
-def _read_blocks(path: Path, order: Mapping[str, str]) -> Iterator[Columns]:
+def _read_blocks(
+    path: Path, order: Mapping[str, str], time_unit: TimeUnit | None
+) -> Iterator[Columns]:
+    unit = time_unit or spelled(order["t"])[1] or "us"
     with _open_table(path) as table:
         for batch in table.iter_batches(PACKET_EVENTS, columns=list(order.values())):
-            yield {
+            columns = {
                 name: batch.column(column).to_numpy(zero_copy_only=False)
                 for name, column in order.items()
             }
+            yield {**columns, "t": to_microseconds(path, columns["t"], unit)}

@@ -1,4 +1,4 @@
-"""Events in HDF5: the universal layout, DSEC's and v2e's, found by `LAYOUTS` and written.
+"""Events in HDF5: every layout that `texvent.io.tables` finds; universal, DSEC's, v2e's written.
 
 The universal layout is DSEC's with absolute times, read by most event-camera software:
 
@@ -35,7 +35,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -57,10 +57,11 @@ from texvent.io.hdf5.storage import (
     check_filters,
     open_hdf5,
 )
-from texvent.io.input_checks import TIMESTAMP_SCALE_MS, check_time_unit, optional_columns
-from texvent.io.layouts import Column, EventLayout
+from texvent.io.input_checks import TIMESTAMP_SCALE_MS, begins_with, stated_unit
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.protocol import Columns
+from texvent.io.reading import ReadOptions, choose
+from texvent.io.tables import TABLE_OPTIONS, EventTable, find_tables
 
 CHUNK_EVENTS = 65_536
 INDEX_CHUNK = 4096
@@ -76,14 +77,10 @@ MAX_PLAIN_ATTRIBUTES = 64
 MAX_PLAIN_BYTES = 2048
 GZIP: Mapping[str, Any] = {"compression": "gzip", "compression_opts": 1, "shuffle": True}
 COLUMN_FORMATS: Mapping[str, str] = {"x": "<u2", "y": "<u2", "t": "<i8", "p": "|u1"}
-UNIVERSAL = EventLayout(
-    "the universal layout (also DSEC's)",
-    {name: Column(f"events/{name}") for name in "xytp"},
-    offset="t_offset",
-)
-V2E = EventLayout("v2e", {name: Column("events", part) for part, name in enumerate("txyp")})
-LAYOUTS = (UNIVERSAL, V2E)
-"""Layouts that are read; the first whose data sets a file has counts."""
+MOST_ARRAYS = 10_000
+"""A file with more data sets is no recording."""
+OFFSET = "t_offset"
+"""Name of a single value, µs, that is added to the times of its group."""
 RESERVED = ("width", "height", "timestamp_scale_ms", "texvent")
 
 
@@ -180,87 +177,121 @@ class V2eSink(Hdf5Sink):
 
     def store(self, columns: Columns) -> None:
         """As `Hdf5Sink.store`."""
-        rows = [columns[name].astype(np.uint32) for name in V2E.columns]
+        rows = [columns[name].astype(np.uint32) for name in "txyp"]
         self._extend("events", np.stack(rows, axis=1))
 
 
 class Hdf5Codec(Hdf5BlockCodec):
-    """HDF5 in any of `LAYOUTS`, written in the universal one."""
+    """HDF5 whose data sets have names that are known, written in the universal layout."""
 
     name: ClassVar[str] = "hdf5"
     has_checksums: ClassVar[bool] = True
+    takes: ClassVar[tuple[str, ...]] = TABLE_OPTIONS
     limits: ClassVar[FormatLimits] = OffsetLimits(
         "HDF5", 1 << 16, 1 << 63, MAX_SPAN_US, keeps_labels=True
     )
     sink: ClassVar[type[Hdf5Sink]] = NativeSink
 
-    def inspect(self, path: Path) -> FileContents:
-        """Size and metadata are attributes of the root."""
+    def recognises(self, path: Path) -> bool:
+        """True if it is HDF5, and not in a layout of its own such as Metavision's."""
+        if not begins_with(path, b"\x89HDF\r\n\x1a\n"):
+            return False
+        try:
+            with open_hdf5(path) as file:
+                return "CD/events" not in file
+        except FileFormatError:
+            return True
+
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
+        """Size and metadata are attributes of the root or of the group."""
         with open_hdf5(path) as file:
-            find_layout(file, path)
-            size, metadata = stored_size(file), read_metadata(file, path) or {}
-        rows = partial(_open_rows, path)
+            table, _ = _find_table(file, path, options)
+            groups = _groups_of(file, table)
+            size = next((one for one in map(stored_size, groups) if one is not None), None)
+            metadata = read_metadata(file, path) or {}
+        rows = partial(_open_rows, path, options)
         return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
 
 
-def find_layout(file: Any, path: Path) -> tuple[EventLayout, dict[str, Any]]:
-    """The layout of an open file, and its checked data sets.
+def _find_table(file: Any, path: Path, options: ReadOptions) -> tuple[EventTable, dict[str, Any]]:
+    """The recording of an open file that the options choose, and its checked data sets.
 
     Raises:
-        FileFormatError: it has none of `LAYOUTS`, or is damaged.
+        FileFormatError: it has no events, or is damaged.
+        SeveralRecordingsError: it holds several recordings and the options choose none.
         MissingDependencyError: it is compressed by a filter that is not installed.
     """
-    for layout in LAYOUTS:
-        if all(isinstance(file.get(name), h5py.Dataset) for name in layout.arrays):
-            break
-    else:
-        sound = [one for one in UNIVERSAL.arrays if isinstance(file.get(one), h5py.Dataset)]
-        missing = next(one for one in UNIVERSAL.arrays if one not in sound)
-        raise FileFormatError(
-            f"{path} is HDF5 but has no {missing}; texvent reads events/x, events/y, events/t, "
-            "events/p, or v2e's rows in `events`"
-        )
-    names = list(layout.arrays)
-    if layout is UNIVERSAL:
-        names += [f"events/{name}" for name in optional_columns(file["events"])]
-    arrays = {name: file[name] for name in names}
-    layout.check(path, arrays)
-    for array in arrays.values():
+    arrays: dict[str, Any] = {}
+
+    def add(name: str, node: Any) -> bool | None:
+        if isinstance(node, h5py.Dataset) and node.shape is not None:
+            arrays[name] = node
+        return True if len(arrays) > MOST_ARRAYS else None
+
+    file.visititems(add)
+    tables = find_tables(path, arrays, options)
+    table = tables[choose(path, [one.name for one in tables], options.stream)]
+    table.check(path, arrays)
+    used = {name: arrays[name] for name in table.arrays}
+    for array in used.values():
         check_filters(array, path)
         check_claims(array, path)
-    check_time_unit(path, file.attrs.get("timestamp_scale_ms", TIMESTAMP_SCALE_MS))
-    return layout, arrays
+    unit = table.unit or stated_unit(path, file.attrs.get("timestamp_scale_ms"))
+    return replace(table, unit=unit), used
+
+
+def _groups_of(file: Any, table: EventTable) -> list[Any]:
+    """The group of a recording's arrays and those above it, the root last."""
+    group = file[table.columns["t"].array].parent
+    groups = [group]
+    while group.name != "/":
+        group = group.parent
+        groups.append(group)
+    return groups
 
 
 @contextmanager
-def _open_rows(path: Path) -> Iterator[TimedRows]:
+def _open_rows(path: Path, options: ReadOptions) -> Iterator[TimedRows]:
     """Not by ms_to_idx: files of others lack it or have it in other units."""
     with open_hdf5(path) as file:
-        layout, arrays = find_layout(file, path)
-        offset_us = _time_offset(file, path, layout.offset)
-        yield layout.rows(path, arrays, offset_us=offset_us, block=PACKET_EVENTS)
+        table, arrays = _find_table(file, path, options)
+        offset_us = next(
+            (_time_offset(one, path) for one in _groups_of(file, table) if OFFSET in one), 0
+        )
+        yield table.rows(path, arrays, options, offset_us=offset_us, block=PACKET_EVENTS)
 
 
-def _time_offset(file: Any, path: Path, name: str | None) -> int:
-    if name is None or name not in file:
-        return 0
-    value = file[name]
+def _time_offset(group: Any, path: Path) -> int:
+    """Time that is added to those of a group, µs."""
+    value = group[OFFSET]
     if value.size != 1 or value.dtype.kind not in "iu":
-        raise FileFormatError(f"{path}: {name} must be one whole number; it is {shown(value)}")
+        raise FileFormatError(f"{path}: {OFFSET} must be one whole number; it is {shown(value)}")
     offset_us = int(np.asarray(value[()]).reshape(-1)[0])
-    if name in file.attrs and _whole_attribute(file, name) != offset_us:
+    if OFFSET in group.attrs and _whole_attribute(group, OFFSET) != offset_us:
         raise FileFormatError(
-            f"{path} is damaged: {name} is {offset_us}, written as {shown(file.attrs[name])}"
+            f"{path} is damaged: {OFFSET} is {offset_us}, written as {shown(group.attrs[OFFSET])}"
         )
     return offset_us
 
 
 def stored_size(node: Any) -> tuple[int, int] | None:
-    """Width and height, pixels, from the attributes of the root or a group."""
-    if "width" not in node.attrs or "height" not in node.attrs:
-        return None
-    width, height = (_whole_attribute(node, name) for name in ("width", "height"))
-    return width, height
+    """Width and height, pixels, that the root or a group states.
+
+    As attributes width and height; `sensor_resolution`, height before width, of event_utils; or
+    the data set `calib/resolution`, width before height, of M3ED.
+    """
+    if "width" in node.attrs and "height" in node.attrs:
+        width, height = (_whole_attribute(node, name) for name in ("width", "height"))
+        return width, height
+    sides = node.attrs.get("sensor_resolution")
+    if sides is not None and np.size(sides) == 2:
+        height, width = (int(side) for side in np.ravel(sides))
+        return width, height
+    sides = node.get("calib/resolution") if hasattr(node, "get") else None
+    if isinstance(sides, h5py.Dataset) and sides.size == 2:
+        width, height = (int(side) for side in np.ravel(sides[()]))
+        return width, height
+    return None
 
 
 def _whole_attribute(node: Any, name: str) -> int:
@@ -362,11 +393,3 @@ class V2eCodec(Hdf5Codec):
     name: ClassVar[str] = "v2e"
     limits: ClassVar[FormatLimits] = FormatLimits("v2e HDF5", 1 << 16, 1 << 32)
     sink: ClassVar[type[Hdf5Sink]] = V2eSink
-
-    def recognises(self, path: Path) -> bool:
-        """True if it is HDF5 with a data set called events."""
-        try:
-            with open_hdf5(path) as file:
-                return isinstance(file.get("events"), h5py.Dataset)
-        except FileFormatError:
-            return False

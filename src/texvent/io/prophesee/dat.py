@@ -25,6 +25,7 @@ from texvent.io.block_codec import BlockCodec, FileContents, read_records, write
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
 from texvent.io.protocol import Columns
+from texvent.io.reading import ReadOptions
 
 EVENT_TYPES = (0x0C, 0x00)
 """Type byte of contrast events, now and in older files."""
@@ -42,7 +43,7 @@ class DatCodec(BlockCodec):
     extensions: ClassVar[tuple[str, ...]] = (".dat",)
     limits: ClassVar[FormatLimits] = FormatLimits("DAT", 1 << PIXEL_BITS, TURN_US)
 
-    def inspect(self, path: Path) -> FileContents:
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """The header states size and metadata."""
         header = _read_header(path)
         size, metadata = header.stored_size(path), header.metadata(path)

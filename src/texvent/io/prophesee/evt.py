@@ -30,6 +30,7 @@ from texvent.io.block_codec import BlockCodec, FileContents, read_records, write
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
 from texvent.io.protocol import Columns
+from texvent.io.reading import ReadOptions
 
 Words: TypeAlias = bytes | memoryview | NDArray[Any]
 """Whole words, as stored in the file."""
@@ -116,7 +117,7 @@ class EvtCodec(BlockCodec):
         """An encoder for one file."""
         return WordEncoder(self.kernels())
 
-    def inspect(self, path: Path) -> FileContents:
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """The header states size and metadata."""
         header = _read_header(path)
         named = _format_name(header)

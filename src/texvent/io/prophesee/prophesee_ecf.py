@@ -43,6 +43,7 @@ from texvent.io.block_codec import BlockReader, FileContents, TimedRows, read_ro
 from texvent.io.hdf5.native import read_metadata, stored_size
 from texvent.io.hdf5.storage import check_claims, open_hdf5
 from texvent.io.protocol import Columns
+from texvent.io.reading import ReadOptions
 
 MAX_EVENTS = 65_535
 MAX_START_US = 1 << 62
@@ -180,7 +181,7 @@ class EcfHdf5Codec(BlockReader):
         except FileFormatError:
             return False
 
-    def inspect(self, path: Path) -> FileContents:
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """Size and metadata are attributes of the root and of /CD."""
         with open_hdf5(path) as file:
             _checked_events(file, path)

@@ -27,6 +27,7 @@ from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.metadata import parse_sidecar, sidecar_text
 from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.protocol import Columns
+from texvent.io.reading import ReadOptions
 from texvent.io.ros.bag_writer import (
     EXTRA,
     FACTS_TOPIC,
@@ -62,7 +63,7 @@ class BagCodec(BlockCodec):
     text_start: ClassVar[int]
     """Bytes before the text in a std_msgs/String."""
 
-    def inspect(self, path: Path) -> FileContents:
+    def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """Size and metadata from the message of texvent, else the size of the first events."""
         size: tuple[int, int]
         metadata: dict[str, Any] = {}

@@ -1,0 +1,364 @@
+"""Events in named arrays or columns, found by their names: text, npz, npy, HDF5, Parquet.
+
+A recording is four arrays of one group (`events/x`, `xs`, `x_pos` …), one array of records with
+such fields, an array [n, 4] whose order is certain, or `xy` [n, 2] beside times and polarities.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any, NamedTuple, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import FileFormatError, InputError, shown
+from texvent.events import COLUMN_TYPES, ID_COLUMNS
+from texvent.io.block_codec import TimedRows
+from texvent.io.protocol import Columns
+from texvent.io.reading import (
+    ReadOptions,
+    TimeUnit,
+    UnknownLayoutError,
+    check_rate,
+    guess_unit,
+    to_microseconds,
+    unit_in_name,
+)
+from texvent.sensor import SensorSize
+
+Array: TypeAlias = Any
+"""A data set or an array in a file: it has shape and dtype, and a slice reads rows of it."""
+SPELLINGS = {
+    "t": ("t", "ts", "timestamp", "timestamps", "time", "times", "stamp"),
+    "x": ("x", "xs", "x_pos"),
+    "y": ("y", "ys", "y_pos"),
+    "p": ("p", "ps", "pol", "polarity", "polarities"),
+}
+"""Column → its names, in lower case, without `events_` before and a unit after them."""
+PAIRS = ("xy", "xys")
+"""Names of an array [n, 2] of x and y."""
+ORDERS = ("txyp", "xytp", "xypt")
+"""Orders in which programs write rows of four numbers."""
+V2E, V2E_TYPE = "txyp", np.dtype("<u4")
+"""Order and type of v2e's rows."""
+SAMPLE_ROWS = 4096
+TABLE_OPTIONS = ("time_unit", "columns", "stream")
+"""Options of reading that files of named columns take."""
+
+
+def spelled(name: str) -> tuple[str | None, TimeUnit | None]:
+    """The column that a name means, and the unit that it states.
+
+    Example:
+        >>> spelled("Timestamp [us]"), spelled("events_xy"), spelled("frame")
+        (('t', 'us'), ('xy', None), (None, None))
+    """
+    for whole in (name.strip().lower(), unit_in_name(name)[0]):
+        text = re.sub(r"^.*events?_", "", whole)
+        for column, spellings in {**SPELLINGS, "xy": PAIRS}.items():
+            if text in spellings:
+                return column, unit_in_name(name)[1] if column == "t" else None
+    return None, None
+
+
+def find_columns(path: Path, names: Iterable[str], *, kind: str = "column") -> dict[str, str]:
+    """t, x, y, p → the name that a file gives each.
+
+    Args:
+        path: the file, for messages.
+        names: all names in the file, with capitals or without.
+        kind: kind of the named objects, such as "array".
+
+    Raises:
+        FileFormatError: a column is missing or there twice; the message says what is accepted.
+    """
+    names, found = list(names), {}
+    for column, spellings in SPELLINGS.items():
+        matching = [name for name in names if spelled(name)[0] == column]
+        if len(matching) != 1:
+            what = f"{len(matching)} {kind}s" if matching else f"no {kind}"
+            raise FileFormatError(
+                f"{path} has {what} {column!r} (it has: {shown(', '.join(names) or 'none')}); "
+                f"texvent reads {kind}s t, x, y, p; {column} may be called "
+                f"{' or '.join(spellings[1:4])}; or give columns (--columns {column}=NAME,...)"
+            )
+        found[column] = matching[0]
+    return found
+
+
+def guess_orders(rows: NDArray[Any], size: SensorSize | None = None) -> list[str]:
+    """Orders of the columns that fit rows of four numbers.
+
+    Args:
+        rows: [n, 4] in the order of the file.
+        size: sensor size, pixels, where it is known.
+    """
+    return [order for order in ORDERS if _fits(rows, order, size)]
+
+
+def _fits(rows: NDArray[Any], order: str, size: SensorSize | None) -> bool:
+    t, x, y, p = (rows[:, order.index(name)] for name in "txyp")
+    limits = (np.inf, np.inf) if size is None else size
+    pixels = all(
+        bool(((values >= 0) & (values < limit) & (values == np.rint(values))).all())
+        for values, limit in zip((x, y), limits, strict=True)
+    )
+    polarities = set(np.unique(p).tolist())
+    signs = polarities <= {0, 1} or polarities <= {-1, 1}
+    return pixels and signs and bool((np.diff(t) >= 0).all())
+
+
+class Column(NamedTuple):
+    """Place of a column."""
+
+    array: str
+    """Name of the array."""
+    part: int | str | None = None
+    """Number of the column in an array [n, k], or field of records; None: the array alone."""
+
+    def is_numeric(self, array: Array) -> bool:
+        """Whether an array has numbers at this place."""
+        shape, dtype = array.shape, array.dtype
+        if isinstance(self.part, int):
+            return len(shape) == 2 and self.part < shape[1] and dtype.kind in "biuf"
+        if len(shape) != 1 and shape[1:] != (1,):
+            return False
+        kind = dtype if self.part is None else (dtype.fields or {}).get(self.part, (None,))[0]
+        return kind is not None and kind.kind in "biuf"
+
+    def of(self, rows: NDArray[Any]) -> NDArray[Any]:
+        """The column of some rows, [n]."""
+        if isinstance(self.part, int):
+            return rows[:, self.part]
+        return (rows if self.part is None else rows[self.part]).reshape(-1)
+
+
+@dataclass(frozen=True)
+class EventTable:
+    """The arrays of one recording."""
+
+    name: str
+    """Group or array, as `--stream` names it."""
+    columns: Mapping[str, Column]
+    """x, y, t, p → place."""
+    unit: TimeUnit | None = None
+    """Unit of the times, where the file states it."""
+    extra: Mapping[str, str] = field(default_factory=dict)
+    """label, instance, class_id → array, where the file has them."""
+
+    @property
+    def arrays(self) -> tuple[str, ...]:
+        """Names of its arrays, each once."""
+        named = (column.array for column in self.columns.values())
+        return tuple(dict.fromkeys((*named, *self.extra.values())))
+
+    def check(self, path: Path, arrays: Mapping[str, Array]) -> None:
+        """Refuse arrays that do not fit together.
+
+        Raises:
+            FileFormatError: one is missing, or shapes or types are wrong.
+        """
+        for column in self.columns.values():
+            array = arrays.get(column.array)
+            if array is None:
+                raise FileFormatError(f"{path} has no {column.array!r}")
+            if not column.is_numeric(array):
+                raise FileFormatError(
+                    f"{path}: {column.array} is {shown(array.dtype)} of shape "
+                    f"{shown(array.shape)}; it must hold numbers, one row per event"
+                )
+        lengths = {name: arrays[name].shape[0] for name in self.arrays}
+        if len(set(lengths.values())) != 1:
+            raise FileFormatError(f"{path}: the columns of events differ in length: {lengths}")
+
+    def rows(
+        self,
+        path: Path,
+        arrays: Mapping[str, Array],
+        options: ReadOptions,
+        *,
+        offset_us: int = 0,
+        block: int,
+    ) -> TimedRows:
+        """The events of checked arrays.
+
+        Args:
+            path: the file, for messages.
+            arrays: name → array.
+            options: the unit of time, where the file does not state it.
+            offset_us: added to all times, µs.
+            block: events of a packet.
+
+        Raises:
+            FileFormatError: the times cannot be meant in the unit that they seem to have.
+        """
+        place = self.columns["t"]
+        in_time = arrays[place.array]
+        count = in_time.shape[0]
+        known = options.time_unit or self.unit
+        unit = known or guess_unit(place.of(np.asarray(in_time[:SAMPLE_ROWS])))
+
+        def times(start: int, stop: int) -> NDArray[np.int64]:
+            stored = place.of(np.asarray(in_time[start:stop]))
+            return to_microseconds(path, stored, unit) + offset_us
+
+        def read(start: int, stop: int) -> Columns:
+            parts = {name: np.asarray(arrays[name][start:stop]) for name in self.arrays}
+            pixels = {
+                name: whole_numbers(path, self.columns[name].of(parts[self.columns[name].array]))
+                for name in "xyp"
+            }
+            extra = {name: parts[array] for name, array in self.extra.items()}
+            t = to_microseconds(path, place.of(parts[place.array]), unit) + offset_us
+            return {**pixels, **extra, "t": t}
+
+        if known is None and count:
+            span_us = int(times(count - 1, count)[0]) - int(times(0, 1)[0])
+            check_rate(path, count, span_us, unit)
+        return TimedRows(count, lambda index: int(times(index, index + 1)[0]), read, block)
+
+
+def find_tables(path: Path, arrays: Mapping[str, Array], options: ReadOptions) -> list[EventTable]:
+    """The recordings in named arrays, at least one.
+
+    Args:
+        path: the file, for messages.
+        arrays: name → array; groups are separated by "/".
+        options: names or order of columns, where the file's are others.
+
+    Raises:
+        UnknownLayoutError: there is none.
+        InputError: an array or field that the options name is missing.
+    """
+    if options.names:
+        return [_named_table(path, arrays, options)]
+    groups: dict[str, dict[str, Array]] = {}
+    for name, array in arrays.items():
+        group, _, leaf = name.rpartition("/")
+        groups.setdefault(group, {})[leaf] = array
+    found = [table for group, members in groups.items() for table in _in_group(group, members)]
+    if not found:
+        found = _rows_of_four(path, arrays, options)
+    if not found:
+        holds = [f"{name} {array.dtype} {list(array.shape)}" for name, array in arrays.items()]
+        raise UnknownLayoutError(path, holds)
+    return found
+
+
+def _in_group(group: str, members: Mapping[str, Array]) -> list[EventTable]:
+    """Recordings in the arrays of one group: its columns, and arrays of records."""
+    prefix = f"{group}/" if group else ""
+    tables = []
+    for leaf, array in members.items():
+        fields = array.dtype.names or ()
+        named = {spelled(one)[0]: one for one in fields}
+        if all(name in named for name in "xytp"):
+            columns = {name: Column(f"{prefix}{leaf}", named[name]) for name in "xytp"}
+            unit = spelled(named["t"])[1]
+            tables.append(EventTable(f"{prefix}{leaf}", columns, unit))
+    leaves: dict[str | None, str] = {}
+    for leaf, array in members.items():
+        column = spelled(leaf)[0]
+        if column is not None and array.shape and not array.dtype.names:
+            leaves.setdefault(column, leaf)
+    columns = {name: Column(f"{prefix}{leaves[name]}") for name in "xytp" if name in leaves}
+    if "xy" in leaves:
+        pair = f"{prefix}{leaves['xy']}"
+        columns = {"x": Column(pair, 0), "y": Column(pair, 1), **columns}
+    if all(name in columns for name in "xytp"):
+        extra = {name: f"{prefix}{name}" for name in _optional_columns(members)}
+        tables.append(EventTable(group or "events", columns, spelled(leaves["t"])[1], extra))
+    return tables
+
+
+def _optional_columns(members: Mapping[str, Array]) -> tuple[str, ...]:
+    """Names of the columns besides x, y, t, p that a group has.
+
+    Arrays of other programs may have the name of our ids: they count only if they have their type.
+    """
+    has_ids = all(
+        name in members and members[name].dtype == COLUMN_TYPES[name] for name in ID_COLUMNS
+    )
+    label = ("label",) if "label" in members else ()
+    return (*label, *(ID_COLUMNS if has_ids else ()))
+
+
+def _rows_of_four(
+    path: Path, arrays: Mapping[str, Array], options: ReadOptions
+) -> list[EventTable]:
+    """Recordings in arrays [n, k]: called events, or the only one of this shape."""
+    width = len(options.order or "txyp")
+    flat = {
+        name: array
+        for name, array in arrays.items()
+        if len(array.shape) == 2 and array.shape[1] == width and array.dtype.kind in "iuf"
+    }
+    called = {name for name in flat if "event" in name.rpartition("/")[2].lower()}
+    chosen = called or (set(flat) if len(flat) == 1 else set())
+    if options.stream in flat:
+        chosen = {str(options.stream)}
+    tables = []
+    for name in flat:
+        if name in chosen:
+            rows, default = flat[name][:SAMPLE_ROWS], V2E if flat[name].dtype == V2E_TYPE else None
+            order = options.order or certain_order(path, rows, options.size, default)
+            columns = {column: Column(name, order.index(column)) for column in "xytp"}
+            tables.append(EventTable(name, columns))
+    return tables
+
+
+def certain_order(
+    path: Path, rows: Any, size: SensorSize | None, default: str | None = None
+) -> Sequence[str]:
+    """The order of the columns of rows of four numbers; no rows have any.
+
+    Raises:
+        InputError: several orders fit, or none, and there is no default.
+    """
+    orders = guess_orders(np.asarray(rows), size)
+    if default is not None and (default in orders or not orders):
+        return default
+    if len(orders) == 1 or (orders and len(rows) == 0):
+        return orders[0]
+    row = ", ".join(f"{value:g}" for value in np.asarray(rows)[0]) if len(rows) else ""
+    what = f"its rows fit {' and '.join(orders)}" if orders else "no usual order fits its rows"
+    raise InputError(
+        f"{path} does not name its columns, and {what} (the first is {row}); give columns "
+        "(--columns t,x,y,p, in the order of the file)"
+    )
+
+
+def _named_table(path: Path, arrays: Mapping[str, Array], options: ReadOptions) -> EventTable:
+    """The recording whose columns the options name: arrays, or fields of one array of records."""
+    group = f"{options.stream.strip('/')}/" if options.stream else ""
+    records = [name for name, array in arrays.items() if array.dtype.names]
+    columns = {}
+    for column, name in options.names.items():
+        holders = [one for one in records if name in arrays[one].dtype.names]
+        if group + name in arrays or name in arrays:
+            columns[column] = Column(group + name if group + name in arrays else name)
+        elif holders:
+            columns[column] = Column(holders[0], name)
+        else:
+            listed = shown(", ".join(arrays) or "nothing")
+            raise InputError(f"{path} has no {shown(name)} for column {column}; it has: {listed}")
+    place = columns["t"]
+    stated = unit_in_name(str(place.array if place.part is None else place.part))[1]
+    return EventTable(group or "events", {name: columns[name] for name in "xytp"}, stated)
+
+
+def whole_numbers(path: Path, values: NDArray[Any]) -> NDArray[Any]:
+    """Pixels or polarities as integers, of any type they are stored as.
+
+    Raises:
+        FileFormatError: they are no whole numbers.
+    """
+    if values.dtype.kind != "f":
+        return values
+    if not (np.abs(values) < 2**31).all() or (values != np.rint(values)).any():
+        raise FileFormatError(f"{path} holds x, y or p that are not whole numbers")
+    return values.astype(np.int64)
