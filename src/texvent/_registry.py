@@ -171,8 +171,6 @@ CODECS = Registry(
         "esim": "texvent.io.arrays.folders:EsimFolderCodec",
         "evreal": "texvent.io.arrays.folders:EvrealFolderCodec",
         "aedat2": "texvent.io.aedat.older:Aedat2Codec",
-        "aedat2-davis346": "texvent.io.aedat.older:Davis346Codec",
-        "aedat2-jaer-dvs128": "texvent.io.aedat.older:JaerDvs128Codec",
         "aedat2-dvs128": "texvent.io.aedat.older:Dvs128Codec",
         "cifar10-dvs": "texvent.io.aedat.older:Cifar10DvsCodec",
         "aedat3": "texvent.io.aedat.older:Aedat3Codec",

@@ -109,10 +109,17 @@ class EventStream(EventEdits):
         *,
         size: SizeLike,
         metadata: Mapping[str, Any] | None = None,
+        sort: bool = False,
     ) -> EventStream:
-        """A stream from anything array-like, such as lists; empty columns may have any dtype."""
+        """A stream from anything array-like, such as lists; empty columns may have any dtype.
+
+        With `sort`, events are brought into time order; those of one time keep theirs.
+        """
         columns = [np.asarray(column) for column in (x, y, t, p)]
         columns = [column.astype(np.int64) if column.size == 0 else column for column in columns]
+        if sort:
+            order = np.argsort(columns[2], kind="stable")
+            columns = [column[order] for column in columns]
         x, y, t, p = columns
         return cls(x, y, t, p, as_size(size), metadata or {})
 

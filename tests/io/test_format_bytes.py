@@ -23,25 +23,48 @@ def one(x: int, y: int, t: int, p: int, size: SensorSize) -> EventStream:
 
 
 @pytest.mark.parametrize(
-    ("format", "size", "address"),
+    ("options", "size", "address"),
     [
-        ("aedat2-davis346", DAVIS, (259 - 20) << 22 | (345 - 10) << 12 | 1 << 11),
-        ("aedat2-jaer-dvs128", DVS, (127 - 20) << 8 | (127 - 10) << 1 | 0),
-        ("aedat2-dvs128", DVS, 10 << 8 | 20 << 1 | 1),
-        ("cifar10-dvs", DVS, (127 - 10) << 8 | (127 - 20) << 1 | 0),
+        ({"size": "davis346"}, DAVIS, (259 - 20) << 22 | (345 - 10) << 12 | 1 << 11),
+        ({"size": "240x180"}, (240, 180), (179 - 20) << 22 | (239 - 10) << 12 | 1 << 11),
+        ({"size": "128x128"}, DVS, (127 - 20) << 22 | (127 - 10) << 12 | 1 << 11),
+        ({"size": "dvs128"}, DVS, (127 - 20) << 8 | (127 - 10) << 1 | 0),
+        ({"format": "aedat2-dvs128"}, DVS, 10 << 8 | 20 << 1 | 1),
+        ({"format": "cifar10-dvs"}, DVS, (127 - 10) << 8 | (127 - 20) << 1 | 0),
     ],
 )
 def test_aedat2_records_are_big_endian_addresses_and_times(
-    tmp_path: Path, format: str, size: SensorSize, address: int
+    tmp_path: Path, options: dict[str, str], size: tuple[int, int], address: int
 ) -> None:
     path = tmp_path / "e.aedat"
-    record = struct.pack(">II", address, 1234)
-    path.write_bytes(b"#!AER-DAT2.0\r\n" + record)
-    assert load(path, format=format).equals(one(10, 20, 1234, 1, size))
-    layout = format.removeprefix("aedat2-").encode()
     end = b"#End Of ASCII Header\r\n"
-    path.write_bytes(b"#!AER-DAT2.0\r\n# Layout: " + layout + b"\r\n" + end + record)
-    assert load(path).equals(one(10, 20, 1234, 1, size))
+    path.write_bytes(b"#!AER-DAT2.0\r\n" + end + struct.pack(">II", address, 1234))
+    assert load(path, **options).equals(one(10, 20, 1234, 1, SensorSize(*size)))
+
+
+@pytest.mark.parametrize(
+    ("chip", "size"),
+    [
+        ("eu.seebetter.ini.chips.davis.DAVIS240C", (240, 180)),
+        ("ch.unizh.ini.jaer.chip.cochlea.CochleaAMS1c", None),
+        ("eu.seebetter.ini.chips.davis.DAVIS208PixelParade", (208, 192)),
+        ("eu.seebetter.ini.chips.davis.DAVIS128", (128, 128)),
+        ("eu.seebetter.ini.chips.davis.DAViS640", (640, 480)),
+        ("eu.seebetter.ini.chips.davis.Davis346blue", (346, 260)),
+    ],
+)
+def test_the_chip_of_jaer_names_sensor_and_layout(
+    tmp_path: Path, chip: str, size: tuple[int, int] | None
+) -> None:
+    path = tmp_path / "e.aedat"
+    width, height = size or (346, 260)
+    record = struct.pack(">II", (height - 1) << 22 | (width - 1) << 12, 7)
+    path.write_bytes(f"#!AER-DAT2.0\r\n# AEChip: {chip}\r\n".encode() + record)
+    if size is None:
+        with pytest.raises(InputError, match="does not say which camera made it"):
+            load(path)
+    else:
+        assert load(path).equals(one(0, 0, 7, 0, SensorSize(*size)))
 
 
 def test_aedat3_counts_turns_of_the_clock(tmp_path: Path) -> None:
@@ -97,7 +120,7 @@ def test_a_dvs128_recording_of_jaer_is_read_as_jaer_shows_it(tmp_path: Path) -> 
     records = struct.pack(">6I", on_left_top, 10, 1 << 15, 15, off_right_bottom, 20)
     path = tmp_path / "e.aedat"
     path.write_bytes(b"#!AER-DAT2.0\r\n" + chip + records)
-    for events in (load(path), load(path, format="aedat2-jaer-dvs128")):
+    for events in (load(path), load(path, size="dvs128")):
         assert events.size == DVS
         assert list(zip(events.x, events.y, events.t, events.p, strict=True)) == [
             (0, 0, 10, 1),
@@ -105,24 +128,19 @@ def test_a_dvs128_recording_of_jaer_is_read_as_jaer_shows_it(tmp_path: Path) -> 
         ]
 
 
-def test_aedat2_of_other_programs_is_read_with_the_layout_named(tmp_path: Path) -> None:
+def test_aedat2_of_an_unknown_camera_asks_for_a_sensor_that_can_be(tmp_path: Path) -> None:
     path = tmp_path / "camera.aedat"
     special = struct.pack(">II", 1 << 31 | 5, 6) + struct.pack(">II", 1 << 10, 7)
     event = struct.pack(">II", 259 << 22 | 345 << 12, 8)
     path.write_bytes(b"#!AER-DAT2.0\r\n# made elsewhere\r\n" + special + event)
-    with pytest.raises(InputError, match="state the format: --format aedat2-davis346, "):
+    with pytest.raises(InputError, match=r"command line\): davis240c, davis346 or its WIDTHx"):
         load(path)
-    assert load(path, format="aedat2-davis346").equals(one(0, 0, 8, 0, DAVIS))
-    chip = b"#!AER-DAT2.0\r\n# AEChip: eu.seebetter.ini.chips.davis.Davis346blue\r\n"
-    path.write_bytes(chip + special + event)
-    assert load(path).equals(one(0, 0, 8, 0, DAVIS))
-
-
-def test_an_address_beyond_the_sensor_is_damage(tmp_path: Path) -> None:
-    path = tmp_path / "e.aedat"
-    path.write_bytes(b"#!AER-DAT2.0\r\n" + struct.pack(">II", 300 << 22, 1))
-    with pytest.raises(FileFormatError, match="y runs from -41"):
-        load(path, format="aedat2-davis346")
+    assert load(path, size="davis346").equals(one(0, 0, 8, 0, DAVIS))
+    with pytest.raises(InputError, match="addresses outside of a sensor of 240x180"):
+        load(path, size="davis240c")
+    path.write_bytes(b"#!AER-DAT2.0\r\n" + struct.pack(">II", 5 << 8 | 6 << 1, 8))
+    with pytest.raises(InputError, match=r"dvs128; or the format aedat2-dvs128 \(as tonic"):
+        load(path)
 
 
 def test_aedat3_reads_over_other_packets_and_invalid_events(tmp_path: Path) -> None:
@@ -149,34 +167,6 @@ def test_atis_bytes_and_overflow_marks(tmp_path: Path) -> None:
     (tmp_path / "e.bin.json").unlink()
     with pytest.raises(InputError, match="does not store the sensor size"):
         load(path)
-
-
-def test_csv_of_other_programs_is_read(tmp_path: Path) -> None:
-    path = tmp_path / "e.csv"
-    expected = EventStream.from_columns([3, 4], [5, 6], [70, 80], [1, 0], size=SensorSize(9, 9))
-    for text in (
-        "t,x,y,p\n70,3,5,1\n80,4,6,0\n",
-        "timestamp, x, y, polarity\n70,3,5,1\n80,4,6,0\n",
-        "x,y,p,t\n3,5,1,70\n4,6,0,80\n",
-        "3,5,1,70\n4,6,0,80\n",
-        "extra,x,y,pol,ts\n9,3,5,1,70\n9,4,6,-1,80",
-    ):
-        path.write_text(text)
-        assert load(path, size=(9, 9)).equals(expected), text
-    for text, message in (
-        ("t,x,y\n1,2,3\n", "has no column 'p'"),
-        ("t,x,y,p\n1,2,3\n", "rows of 3 values"),
-        ("t,x,x,p\n1,2,3,1\n", "has 2 columns 'x'"),
-        ("t,x,y,p\n1.5,2,3,1\n", "not whole µs, such as 1.5 in column 't'.* not seconds"),
-        ("1,2,3,1\n5,6,3,2\n", "does not name its columns, so they are x, y, p, t"),
-        ("t,x,y,p\n1,2,3,True\n", "rows of numbers `t,x,y,p`, polarity 0/1 or -1/\\+1"),
-        ("t,x,y,p\n1,2,3,1\n1,2\n", "rows of numbers `t,x,y,p`"),
-        ("t,x,y,p\n1,2.5,3,1\n", "not whole numbers"),
-        ("t,x,y,p\n1,2,3,7\n", "polarity holds"),
-    ):
-        path.write_text(text)
-        with pytest.raises(FileFormatError, match=message):
-            load(path, size=(9, 9))
 
 
 def test_a_zip_bomb_is_refused_before_it_is_unpacked(tmp_path: Path) -> None:

@@ -19,7 +19,7 @@ from typing import Any, ClassVar, TypeAlias
 import numpy as np
 from numpy.typing import ArrayLike
 
-from texvent.errors import ConfigError, FileFormatError
+from texvent.errors import ConfigError, FileFormatError, warn
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.block_writer import BlockWriter, FileTarget, FormatLimits, WriteBlock
@@ -30,7 +30,8 @@ from texvent.io.input_checks import (
     stream_from_file,
 )
 from texvent.io.protocol import Columns
-from texvent.io.reading import ReadOptions
+from texvent.io.reading import ReadOptions, TimeUnitError
+from texvent.io.repair import RepairCounts, repair_blocks, valid_events
 from texvent.sensor import SensorSize
 
 BLOCK_BYTES = 2**21
@@ -89,6 +90,8 @@ class BlockReader(ABC):
                 raise ConfigError(f"{path} is {self.name}, which states its {name}; leave it out")
         contents = self.inspect(path, options)
         final_size = stored_or_given_size(path, contents.size, options.size)
+        if options.repair:
+            return _repaired(path, contents, final_size)
         packets = BlockPackets(path, contents, final_size)
         if contents.seek is not None:
             packets = SeekableBlockPackets(path, contents, final_size, contents.seek)
@@ -160,16 +163,55 @@ class BlockPackets:
         return self._packets(self.contents.blocks())
 
     def _packets(self, blocks: Iterator[Columns]) -> Iterator[EventStream]:
-        last_us: int | None = None
-        for columns in blocks:
-            packet = stream_from_file(self.path, columns, self.size, self.contents.metadata)
-            if len(packet) == 0:
-                continue
-            first = int(packet.t[0])
-            if last_us is not None and first < last_us:
-                raise FileFormatError(f"{self.path}: time decreases from {last_us} to {first} µs")
-            last_us = int(packet.t[-1])
-            yield packet
+        last_us = -(2**62)
+        try:
+            for columns in blocks:
+                if len(columns["t"]) == 0:
+                    continue
+                try:
+                    packet = self._stream(columns, last_us)
+                except FileFormatError:
+                    # What comes before the damage can be used: the error comes after it.
+                    sound = valid_events(columns, self.size, last_us)
+                    if sound:
+                        yield self._stream({name: one[:sound] for name, one in columns.items()})
+                    raise
+                last_us = int(packet.t[-1])
+                yield packet
+        except TimeUnitError:
+            raise
+        except FileFormatError as error:
+            raise FileFormatError(f"{error}; repair=True (--repair) reads what is sound") from error
+
+    def _stream(self, columns: Columns, last_us: int | None = None) -> EventStream:
+        packet = stream_from_file(self.path, columns, self.size, self.contents.metadata)
+        first_us = int(packet.t[0])
+        if last_us is not None and first_us < last_us:
+            raise FileFormatError(f"{self.path}: time decreases from {last_us} to {first_us} µs")
+        return packet
+
+
+def _repaired(path: Path, contents: FileContents, size: SensorSize) -> EventPackets:
+    """Events of a damaged file; one pass counts what is repaired.
+
+    Warns:
+        TexventWarning: how much was repaired.
+    """
+    counts = RepairCounts()
+    for _ in repair_blocks(contents.blocks(), size, counts):
+        pass
+    counts.cut_off = counts.cut_off.removeprefix(f"{path} ").removeprefix(f"{path}: ")
+    facts = counts.facts()
+    if facts:
+        said = ", ".join(f"{name.replace('_', ' ')}: {value}" for name, value in facts.items())
+        warn(f"{path} was repaired ({said})")
+    metadata = {**contents.metadata, "repair": facts}
+
+    def make() -> Iterator[Columns]:
+        return repair_blocks(contents.blocks(), size, RepairCounts())
+
+    sound = FileContents(contents.size, metadata, make)
+    return EventPackets(BlockPackets(path, sound, size), size, metadata)
 
 
 @dataclass(frozen=True)
@@ -216,7 +258,10 @@ def read_records(path: Path, start: int, record_bytes: int) -> Iterator[bytes]:
     with path.open("rb") as file:
         file.seek(start)
         while block := file.read(block_bytes):
-            if len(block) % record_bytes:
+            rest = len(block) % record_bytes
+            if rest:
+                if len(block) > rest:
+                    yield block[:-rest]
                 raise FileFormatError(
                     f"{path} ends inside a record of {record_bytes} bytes; the file was cut off"
                 )

@@ -23,7 +23,7 @@ LARGEST_FLOAT = 1 << 51
 """Up to here float64 keeps every µs of seconds (71 years)."""
 LEAST_HZ, LEAST_EVENTS = 5, 20
 """So many events at a lower mean rate are no recording in this unit: a quiet sensor gives more."""
-LIKELY_HZ = 100
+LIKELY_HZ = 10
 SAMPLE_TIMES = 4096
 
 
@@ -141,7 +141,7 @@ def check_rate(path: Path, count: int, span_us: int, unit: TimeUnit) -> None:
         unit: guessed unit.
 
     Raises:
-        FileFormatError: the mean rate is below that of a quiet sensor.
+        TimeUnitError: the mean rate is below that of a quiet sensor.
     """
     if count < LEAST_EVENTS or count * MICROSECONDS >= LEAST_HZ * span_us:
         return
@@ -150,11 +150,15 @@ def check_rate(path: Path, count: int, span_us: int, unit: TimeUnit) -> None:
     likely = [one for one in finer if rate * PER_SECOND[one] / PER_SECOND[unit] >= LIKELY_HZ]
     probable = f"they are probably {likely[0]}: " if likely else ""
     name = likely[0] if likely else "s, ms, us or ns"
-    raise FileFormatError(
+    raise TimeUnitError(
         f"{path}: its times read as {unit} make {count:,} events in "
         f"{span_us / MICROSECONDS:,.0f} s, {rate:.2g} per second; {probable}give "
         f"time_unit (--time-unit {name})"
     )
+
+
+class TimeUnitError(FileFormatError):
+    """Times whose unit the file does not state cannot be meant in the one they seem to have."""
 
 
 class SeveralRecordingsError(InputError):

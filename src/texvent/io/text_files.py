@@ -161,7 +161,7 @@ class Dialect:
         values = {name: table[:, place] for name, place in self.places.items()}
         whole = {name: whole_numbers(path, values[name]) for name in values if name != "t"}
         seconds = np.abs(values["t"]) / PER_SECOND[self.unit]
-        if not (seconds < STOP_US / MICROSECONDS).all():
+        if not (seconds <= STOP_US / MICROSECONDS).all():
             raise FileFormatError(f"{path} holds times that are no numbers of {self.unit}")
         scale = MICROSECONDS / PER_SECOND[self.unit]
         if (np.abs(values["t"]) < EXACT / max(1, scale)).all():
@@ -204,7 +204,7 @@ def find_dialect(path: Path, sample: bytes, options: ReadOptions, default: str) 
     line = lines[at].decode("latin-1") if at < len(lines) else ""
     delimiter = next((one for one in ",;" if one in line), None)
     words = [word.strip().strip('"') for word in (line.split(delimiter))]
-    names = words if any(not _is_value(word) for word in words) and line.strip() else None
+    names = None if any(map(_is_value, words)) or not line.strip() else words
     if names is not None:
         start, at = start + len(lines[at]) + 1, at + 1
     rows = [one.decode("latin-1") for one in lines[at : at + SAMPLE_ROWS] if one.strip()]
@@ -281,6 +281,8 @@ class TextCodec(BlockCodec):
 
     default: ClassVar[str] = "txyp"
     """Order of columns that are not named, where several are possible."""
+    unit: ClassVar[TimeUnit] = "s"
+    """Unit of times that are written."""
     has_sidecar: ClassVar[bool] = True
     takes: ClassVar[tuple[str, ...]] = ("time_unit", "columns")
 
@@ -396,6 +398,7 @@ class CsvCodec(TextCodec):
     name: ClassVar[str] = "csv"
     extensions: ClassVar[tuple[str, ...]] = (".csv",)
     default: ClassVar[str] = "xypt"
+    unit: ClassVar[TimeUnit] = "us"
     limits: ClassVar[FormatLimits] = FormatLimits("CSV", 1 << 16, STOP_US)
 
     def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:

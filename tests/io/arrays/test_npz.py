@@ -34,10 +34,10 @@ def test_pickled_objects_are_refused_because_they_could_run_code(tmp_path: Path)
 @pytest.mark.parametrize(
     ("arrays", "message"),
     [
-        ({"x": [0], "y": [0], "t": [0]}, "no array 'p'"),
-        ({"x": [0, 1], "y": [0], "t": [0], "p": [0]}, "equally long"),
-        ({"x": [0.5], "y": [0], "t": [0], "p": [0]}, "must hold integers"),
-        ({"x": [0], "y": [0], "t": [0], "p": [0], "timestamp_scale_ms": 1.0}, "units of 1"),
+        ({"x": [0], "y": [0], "t": [0]}, "holds no events by names"),
+        ({"x": [0, 1], "y": [0], "t": [0], "p": [0]}, "differ in length"),
+        ({"x": [0.5], "y": [0], "t": [0], "p": [0]}, "not whole numbers"),
+        ({"x": [0], "y": [0], "t": [0], "p": [0], "timestamp_scale_ms": 2.0}, "units of 2"),
         ({"x": [0], "y": [0], "t": [0], "p": [0], "width": "a", "height": 4}, "whole number"),
     ],
 )

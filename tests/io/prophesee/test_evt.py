@@ -148,3 +148,28 @@ def test_numba_is_imported_only_when_words_are_decoded() -> None:
         "sys.exit('numba' in sys.modules)"
     )
     subprocess.run([sys.executable, "-c", program], check=True, timeout=300)
+
+
+@pytest.mark.parametrize(
+    ("lines", "size"),
+    [
+        ("system_ID 49", (1280, 720)),
+        ("system_ID 40\n% integrator_name Prophesee", (640, 480)),
+        ("system_ID 153", (640, 480)),  # 0x19 behind another board
+        ("system_ID 49\n% integrator_name Somebody", None),
+        ("plugin_name hal_plugin_imx636_evk4", (1280, 720)),
+        ("plugin_name hal_plugin_gen31_evk3", (640, 480)),
+        ("sensor_name GenX320", (320, 320)),
+        ("sensor_generation 3.1", (640, 480)),
+    ],
+)
+def test_older_headers_name_the_sensor_otherwise(
+    tmp_path: Path, lines: str, size: tuple[int, int] | None
+) -> None:
+    path = tmp_path / "e.raw"
+    path.write_bytes(f"% evt 3.0\n% {lines}\n% end\n".encode() + bytes([0, 0x80]))
+    if size is None:
+        with pytest.raises(InputError, match="does not store the sensor size"):
+            load(path)
+    else:
+        assert tuple(load(path).size) == size

@@ -1,11 +1,12 @@
 from __future__ import annotations
 
 import json
+from decimal import Decimal
 from pathlib import Path
 
 import pytest
 
-from texvent.errors import FileFormatError, InputError, TexventWarning
+from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.io import text_files as text_rows
 from texvent.io.files import load, open_events, save
@@ -74,12 +75,12 @@ def test_signed_polarity_is_converted(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("text", "message"),
     [
-        ("0.1 1 1\n", "rows of 3 values"),
+        ("0.1 1 1\n", "rows of 3 values without names"),
         ("0.1 1 1 on\n", "not text rows"),
         ("0.1 1 1 1\n0.2 1\n", "not text rows"),
-        ("nan 1 1 1\n", "not seconds"),
-        ("1e30 1 1 1\n", "not seconds"),
-        ("9223372036854.775808 1 1 1\n", "not text rows"),
+        ("nan 1 1 1\n", "no numbers of s"),
+        ("1e30 1 1 1\n", "no numbers of s"),
+        ("9223372036854.775808 1 1 1\n", "not rows of 4 numbers"),
         ("0.1 1.5 1 1\n", "not whole numbers"),
         ("0.1 4 1 1\n", "x runs from 4 to 4"),
         ("0.1 1 1 2\n", "polarity holds"),
@@ -108,12 +109,61 @@ def test_a_damaged_companion_file_is_reported(tmp_path: Path) -> None:
             load(path)
 
 
-def test_microseconds_where_seconds_belong_are_said(tmp_path: Path) -> None:
-    path = write(tmp_path, "".join(f"{10 * k} 3 4 1\n" for k in range(9_000)))
-    with pytest.warns(TexventWarning, match=r"spans 1\.0 days with 9,000 events: .* probably µs"):
+@pytest.mark.parametrize(
+    ("step", "unit", "meant"),
+    [
+        ("10.5", "s", "ms"),
+        ("10500.5", "s", "us"),
+        ("100000000000", "us", None),
+        ("500000", "us", "ns"),
+    ],
+)
+def test_times_that_cannot_be_meant_name_the_likely_unit(
+    tmp_path: Path, step: str, unit: str, meant: str | None
+) -> None:
+    path = write(tmp_path, "".join(f"{k * Decimal(step)} 3 4 1\n" for k in range(9_000)))
+    wanted = f"probably {meant}: give" if meant else r"give time_unit \(--time-unit s, ms"
+    with pytest.raises(FileFormatError, match=f"read as {unit} .*{wanted}"):
         load(path, size=(240, 180))
+    assert len(load(path, size=(240, 180), time_unit=meant or unit)) == 9_000
 
 
-def test_a_day_with_fractions_of_seconds_is_taken_without_a_word(tmp_path: Path) -> None:
-    path = write(tmp_path, "".join(f"{10 * k}.5 3 4 1\n" for k in range(9_000)))
-    assert len(load(path, size=(240, 180))) == 9_000  # warnings are errors in tests
+def test_a_quiet_sensor_is_no_wrong_unit(tmp_path: Path) -> None:
+    path = write(tmp_path, "".join(f"{k * Decimal('0.19')} 3 4 1\n" for k in range(500)))
+    assert len(load(path, size=(240, 180))) == 500
+    assert len(load(write(tmp_path, "0.5 1 1 1\n86400.5 1 1 1\n"), size=(4, 4))) == 2
+
+
+@pytest.mark.parametrize(
+    ("text", "options"),
+    [
+        ("\ufeff0.000070 3 5 1\n0.000080 4 6 0\n", {}),
+        ("9 9\n0.000070 3 5 1\n0.000080 4 6 0\n", {}),
+        ("# exported\n\n% by hand\n70,3,5,1\n# again\n80,4,6,0\n", {}),
+        ("70\t3\t5\ttrue\n80\t4\t6\tfalse\n", {}),
+        ("Timestamp [us];X;Y;Polarity\n70;3;5;True\n80;4;6;False\n", {}),
+        ("t_ns,x,y,p\n70999,3,5,1\n80000,4,6,0\n", {}),
+        ("t (ms) x y p\n".replace(" (ms)", "[ms]") + "0.07 3 5 1\n0.08 4 6 0\n", {}),
+        ("3 5 1 70\n4 6 0 80\n", {}),
+        ("3 5 70 1\n4 6 80 0\n", {}),
+        ("3 5 0.00007 1 7\n4 6 0.00008 0 8\n", {"columns": "x,y,t,p,_"}),
+        ("a,b,c,d\n70,3,5,1\n80,4,6,0\n", {"columns": "t=a,x=b,y=c,p=d"}),
+        ("70 3 5 1\n80 4 6 0\n", {"time_unit": "us"}),
+    ],
+)  # fmt: skip
+def test_dialects_of_other_programs_are_read(
+    tmp_path: Path, text: str, options: dict[str, str]
+) -> None:
+    expected = EventStream.from_columns([3, 4], [5, 6], [70, 80], [1, 0], size=SensorSize(9, 9))
+    for name in ("events.txt", "events.csv", "events.rows"):
+        path = tmp_path / name
+        path.write_text(text, encoding="utf-8")
+        assert load(path, size=(9, 9), **options).equals(expected), name
+
+
+def test_an_order_that_is_not_certain_is_asked_for(tmp_path: Path) -> None:
+    path = tmp_path / "events.csv"
+    path.write_text("1,1,5,1\n2,1,5,1\n")
+    with pytest.raises(InputError, match=r"fit txyp and xytp \(the first is 1, 1, 5, 1\); give"):
+        load(path, size=(9, 9))
+    assert load(path, size=(9, 9), columns="t,x,y,p").x.tolist() == [1, 1]

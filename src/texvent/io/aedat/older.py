@@ -3,18 +3,18 @@
 Nothing but the first byte of a line says whether it still is text. AEDAT3.1 closes its header by a
 line of its own, jAER closes AEDAT2 by `#End Of ASCII Header`.
 
-AEDAT2, 8 bytes per event, big-endian:
+AEDAT2, 8 bytes per event, big-endian, W x H the sensor:
 
     record       u32 address · u32 time, µs
-    davis346     (259 - y)<<22 | (345 - x)<<12 | p<<11      jAER and v2e; bit 31 or 10: no event
+    davis        (H-1 - y)<<22 | (W-1 - x)<<12 | p<<11      jAER and v2e; bit 31 or 10: no event
     jaer-dvs128  (127 - y)<<8 | (127 - x)<<1 | (1 - p)      jAER; bit 31 or 15: no event
     dvs128       x<<8 | y<<1 | p                            tonic
     cifar10-dvs  (127 - x)<<8 | (127 - y)<<1 | (1 - p)      SpikingJelly
 
 The layout of the address depends on the camera and the tool; x and y count from the top left here,
-y from the bottom in jAER. A header line `# Layout: davis346` or `# AEChip: ...` names it; any other
-file is read only with the layout's format given, because a wrong one gives wrong events without any
-error. docs/files.md says which recording is read with which.
+y from the bottom in jAER. A header line `# AEChip: ...` names the camera; of any other file the
+sensor is asked for, because a wrong one gives wrong events without any error. Recordings of a
+DVS128 as tonic and SpikingJelly read them have a format of their own.
 
 AEDAT3.1, packets of events, little-endian; DVS128Gesture's:
 
@@ -137,16 +137,20 @@ Addresses: TypeAlias = NDArray[np.int64]
 class AddressLayout:
     """Pixels and polarity of 32-bit addresses; beyond the sensor, coordinates come out negative."""
 
-    name: str
     size: SensorSize
     decode: Callable[[Addresses], dict[str, Addresses]]
     not_events: int = 0
     """Addresses with one of these bits are no events."""
 
 
-def _decode_davis(address: Addresses) -> dict[str, Addresses]:
-    x, y = 345 - (address >> 12 & 1023), 259 - (address >> 22 & 511)
-    return {"x": x, "y": y, "p": address >> 11 & 1}
+def davis_layout(size: SensorSize) -> AddressLayout:
+    """The layout of a DAVIS of this size."""
+
+    def decode(address: Addresses) -> dict[str, Addresses]:
+        x, y = size.width - 1 - (address >> 12 & 1023), size.height - 1 - (address >> 22 & 511)
+        return {"x": x, "y": y, "p": address >> 11 & 1}
+
+    return AddressLayout(size, decode, SPECIAL | APS)
 
 
 def _decode_dvs(address: Addresses) -> dict[str, Addresses]:
@@ -163,11 +167,18 @@ def _decode_cifar(address: Addresses) -> dict[str, Addresses]:
 
 
 _DVS = SensorSize(128, 128)
-DAVIS346 = AddressLayout("davis346", SensorSize(346, 260), _decode_davis, SPECIAL | APS)
-JAER_DVS128 = AddressLayout("jaer-dvs128", _DVS, _decode_jaer_dvs, APS | SYNC)
-DVS128 = AddressLayout("dvs128", _DVS, _decode_dvs)
-CIFAR10_DVS = AddressLayout("cifar10-dvs", _DVS, _decode_cifar)
-LAYOUTS = {layout.name: layout for layout in (DAVIS346, JAER_DVS128, DVS128, CIFAR10_DVS)}
+JAER_DVS128 = AddressLayout(_DVS, _decode_jaer_dvs, APS | SYNC)
+DVS128 = AddressLayout(_DVS, _decode_dvs)
+CIFAR10_DVS = AddressLayout(_DVS, _decode_cifar)
+LARGEST_DAVIS = SensorSize(1024, 512)
+CHIPS = {
+    "128": _DVS,
+    "208": SensorSize(208, 192),
+    "240": SensorSize(240, 180),
+    "346": SensorSize(346, 260),
+    "640": SensorSize(640, 480),
+}
+"""Sizes of DVS and DAVIS by the number in the class of jAER that `# AEChip:` names."""
 
 
 class Aedat2Codec(BlockReader):
@@ -182,27 +193,11 @@ class Aedat2Codec(BlockReader):
         return begins_with(path, AEDAT2_MAGIC.encode())
 
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
-        """The header names the layout, which has a size, and holds the metadata."""
+        """The header names the camera, which has a size, and holds the metadata."""
         header = read_aedat_header(path, AEDAT2_MAGIC, AEDAT2_END)
-        layout = self.layout or _named_layout(path, header)
+        layout = self.layout or _find_layout(path, header, options.size)
         blocks = partial(_read_addresses, path, header.length, layout)
         return FileContents(layout.size, header.metadata(path), blocks)
-
-
-class Davis346Codec(Aedat2Codec):
-    """AEDAT2 of a DAVIS346."""
-
-    name: ClassVar[str] = "aedat2-davis346"
-    extensions: ClassVar[tuple[str, ...]] = ()
-    layout: ClassVar[AddressLayout | None] = DAVIS346
-
-
-class JaerDvs128Codec(Aedat2Codec):
-    """AEDAT2 of a DVS128, as jAER writes and shows it."""
-
-    name: ClassVar[str] = "aedat2-jaer-dvs128"
-    extensions: ClassVar[tuple[str, ...]] = ()
-    layout: ClassVar[AddressLayout | None] = JAER_DVS128
 
 
 class Dvs128Codec(Aedat2Codec):
@@ -221,22 +216,43 @@ class Cifar10DvsCodec(Aedat2Codec):
     layout: ClassVar[AddressLayout | None] = CIFAR10_DVS
 
 
-def _named_layout(path: Path, header: AedatHeader) -> AddressLayout:
-    name = header.value("Layout")
-    chip = (header.value("AEChip") or "").lower()
-    if name is None and "davis346" in chip:
-        name = DAVIS346.name
-    if name is None and chip.endswith("dvs128"):
-        name = JAER_DVS128.name
-    if name is None:
-        raise InputError(
-            f"{path} is AEDAT2 but does not say how its addresses are laid out; state the format: "
-            f"--format {Davis346Codec.name}, {JaerDvs128Codec.name} (jAER's recordings), "
-            f"{Dvs128Codec.name} (as tonic reads) or {Cifar10DvsCodec.name} (as SpikingJelly reads)"
+def _find_layout(path: Path, header: AedatHeader, size: SensorSize | None) -> AddressLayout:
+    """The layout of the camera that the header names, else of the sensor size given.
+
+    Raises:
+        InputError: there is neither, or the addresses do not fit the size.
+    """
+    chip = (header.value("AEChip") or header.value("Layout") or "").rpartition(".")[2].lower()
+    named = re.search(r"(dvs|davis)\D*(128|208|240|346|640)", chip)
+    if named is not None:
+        return JAER_DVS128 if named[1] == "dvs" else davis_layout(CHIPS[named[2]])
+    block = next(read_records(path, header.length, RECORD.itemsize), b"")
+    address = np.frombuffer(block, dtype=RECORD)["address"].astype(np.int64)
+    is_davis = bool((address >> 16 & 0x7FFF).any())
+    if size is None:
+        known = "davis240c, davis346 or its WIDTHxHEIGHT" if is_davis else "dvs128"
+        more = (
+            ""
+            if is_davis
+            else f"; or the format {Dvs128Codec.name} (as tonic reads) or {Cifar10DvsCodec.name} "
+            "(as SpikingJelly reads)"
         )
-    if name not in LAYOUTS:
-        raise FileFormatError(f"{path}: its header names an unknown layout {name[:40]!r}")
-    return LAYOUTS[name]
+        raise InputError(
+            f"{path} is AEDAT2 and does not say which camera made it; give its sensor (size= in "
+            f"Python, --sensor on the command line): {known}{more}"
+        )
+    layout = JAER_DVS128 if size == _DVS and not is_davis else davis_layout(size)
+    if size.width > LARGEST_DAVIS.width or size.height > LARGEST_DAVIS.height:
+        raise InputError(
+            f"{path} is AEDAT2, whose sensors have at most {LARGEST_DAVIS}, not {size}"
+        )
+    columns = layout.decode(address[(address & layout.not_events) == 0])
+    lowest = min((int(columns[name].min(initial=0)) for name in "xy"), default=0)
+    if lowest < 0:
+        raise InputError(
+            f"{path} has addresses outside of a sensor of {size}; give the sensor that made it"
+        )
+    return layout
 
 
 def _read_addresses(path: Path, start: int, layout: AddressLayout) -> Iterator[Columns]:

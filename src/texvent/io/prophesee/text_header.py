@@ -18,6 +18,27 @@ from texvent.errors import FileFormatError
 from texvent.io.metadata import MAX_HEADER_BYTES, header_metadata, metadata_from_json
 
 END = "end"
+HD, VGA = (1280, 720), (640, 480)
+EVK_PROXY = 0x80
+"""Bit of `system_ID` of a sensor behind another board."""
+SYSTEMS: Mapping[tuple[int, int], tuple[int, ...]] = {
+    VGA: (0x14, 0x15, 0x17, 0x19, 0x1C, 0x1D, 0x21, 0x22, 0x23, 0x28, 0x29),
+    HD: (0x1A, 0x1E, 0x1F, 0x20, 0x27, 0x2E, 0x30, 0x31, 0x32, 0x35, 0x3A, 0x42),
+    (640, 512): (0x34, 0x36),
+    (320, 320): (0x37, 0x3B, 0x40),
+}
+"""Sensor size → numbers of systems, from OpenEB's list of them."""
+CHIPS: Mapping[str, tuple[int, int]] = {
+    "genx320": (320, 320),
+    "imx636": HD,
+    "imx646": HD,
+    "imx637": (640, 512),
+    "imx647": (640, 512),
+    "320": (320, 320),
+    "4": HD,
+    "3": VGA,
+}
+"""Chip in the name of a plug-in or sensor, or generation of the sensor → its size."""
 METADATA = "texvent"
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0c\x0e-\x1f]")
 
@@ -40,7 +61,7 @@ class TextHeader:
         return name.strip(), {key.strip(): value.strip() for key, _, value in parts}
 
     def stored_size(self, path: Path) -> tuple[int, int] | None:
-        """Width and height, pixels: from `format`, else `geometry`, else `Width` and `Height`.
+        """Width and height, pixels: from `format`, `geometry`, `Width` and `Height`, or the camera.
 
         Raises:
             FileFormatError: they are no numbers.
@@ -53,6 +74,23 @@ class TextHeader:
         if "geometry" in self.fields:
             width, _, height = self.fields["geometry"].partition("x")
             return _whole(path, width), _whole(path, height)
+        return self._camera_size()
+
+    def _camera_size(self) -> tuple[int, int] | None:
+        """Size of the sensor that older headers name by a number, a plug-in or a generation."""
+        maker = self.fields.get("plugin_integrator_name", self.fields.get("integrator_name"))
+        system = self.fields.get("system_ID", "")
+        if maker in (None, "Prophesee") and system.isdecimal() and len(system) < 9:
+            number = int(system) & ~EVK_PROXY
+            found = [size for size, systems in SYSTEMS.items() if number in systems]
+            if found:
+                return found[0]
+        named = " ".join(self.fields.get(key, "") for key in ("plugin_name", "sensor_name")).lower()
+        generation = self.fields.get("sensor_generation", "").partition(".")[0]
+        for word, size in CHIPS.items():
+            is_generation = word.isdecimal()
+            if word == generation or (f"gen{word}" if is_generation else word) in named:
+                return size
         return None
 
     def metadata(self, path: Path) -> dict[str, Any]:
