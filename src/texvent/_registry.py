@@ -168,6 +168,7 @@ CODECS = Registry(
         "parquet": "texvent.io.arrays.parquet:ParquetCodec",
         "rosbag1": "texvent.io.ros.bags:Rosbag1Codec",
         "mcap": "texvent.io.ros.bags:McapCodec",
+        "rosbag2": "texvent.io.ros.bags:Rosbag2FolderCodec",
         "esim": "texvent.io.arrays.folders:EsimFolderCodec",
         "evreal": "texvent.io.arrays.folders:EvrealFolderCodec",
         "aedat2": "texvent.io.aedat.older:Aedat2Codec",

@@ -26,7 +26,7 @@ from texvent.io.ros.messages import (
     EVENT_PACKET,
     EVENT_PACKET_TEXT,
     EVENT_TEXT,
-    open_event_packet,
+    open_message,
 )
 
 PROMPT = "a red ball rolls left near a bush, handheld camera"
@@ -232,7 +232,7 @@ def test_bags_are_read_back_by_rosbags(layout: str, tmp_path: Path, native: Path
                     events += len(message.events)
                 else:
                     assert message.encoding == "evt3"
-                    assert open_event_packet(data).size == (64, 48)
+                    assert open_message(EVENT_PACKET, data, 2).size == (64, 48)
             elif connection.topic == "/cam0/image_raw":
                 images.append(message.data.reshape(message.height, message.width, 3))
             elif connection.topic == "/imu0":

@@ -14,7 +14,7 @@ import texvent
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.prophesee.evt import Evt3Codec
-from texvent.io.ros.messages import open_event_packet, pack_event_packet
+from texvent.io.ros.messages import EVENT_PACKET, open_message, pack_event_packet
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(16, 12)
@@ -195,7 +195,7 @@ def test_packed_bytes_are_those_of_rosbags(frame):
         assert (read.width, read.height, read.encoding) == (16, 12, "evt3")
         assert read.header.frame_id == frame
         assert read.header.stamp.sec * 10**9 + read.header.stamp.nanosec == packet.stamp_ns
-        assert bytes(open_event_packet(pack_event_packet(packet)).payload) == packet.payload
+        assert bytes(open_message(EVENT_PACKET, pack_event_packet(packet), 2).payload) == packet.payload
 
 
 @given(

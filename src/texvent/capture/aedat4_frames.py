@@ -29,8 +29,11 @@ from texvent.sensor import SensorSize, checked_size
 from texvent.video import Frame, PixelArray
 
 FRAMES = "FRME"
-CHANNELS: Mapping[int, int] = {0: 1, 16: 3, 24: 4}
-"""OpenCV's number of a pixel type → channels of 8 bits: grey, BGR, BGRA."""
+PIXELS: Mapping[int, tuple[int, str]] = {
+    **{0: (1, "u1"), 16: (3, "u1"), 24: (4, "u1")},
+    **{2: (1, "<u2"), 18: (3, "<u2"), 26: (4, "<u2")},
+}
+"""OpenCV's number of a pixel type → channels (grey, BGR, BGRA) and type of their values."""
 
 
 def is_aedat4(path: Path) -> bool:
@@ -50,7 +53,7 @@ class Aedat4Frames(FrameSource):
 
     Raises:
         FileFormatError: it holds no frames or was cut off; while iterating: a frame is damaged, of
-            another size than the sensor, or of pixels that are not 8-bit.
+            another size than the sensor, or of another type of pixels.
         InputError: another number of times is given than there are frames.
         MissingDependencyError: it is compressed with Zstandard, which is not installed.
     """
@@ -124,7 +127,7 @@ def read_exposure(table: Table) -> tuple[int, int]:
 
 def _open_stream(path: Path) -> tuple[Container, StreamInfo]:
     container = open_container(path)
-    stream = container.find_stream(FRAMES)
+    stream = next(iter(container.streams_of(FRAMES)), None)
     if stream is None or not container.count_packets(stream):
         kinds = ", ".join(one.identifier for one in container.streams)
         raise FileFormatError(
@@ -135,21 +138,22 @@ def _open_stream(path: Path) -> tuple[Container, StreamInfo]:
 
 
 def _read_pixels(table: Table) -> PixelArray:
-    """[H, W] grey or [H, W, 3] RGB, uint8."""
+    """[H, W] grey or [H, W, 3] RGB, uint8 or uint16."""
     kind = table.number(5, "<b", 0)
     width, height = table.number(6, "<h", 0), table.number(7, "<h", 0)
-    if kind not in CHANNELS:
+    if kind not in PIXELS:
         raise FileFormatError(
-            f"pixels of OpenCV type {kind}; those of AEDAT4 are 8-bit grey (0), BGR (16) or BGRA "
-            "(24)"
+            f"pixels of OpenCV type {kind}; texvent reads grey, BGR and BGRA of 8 bits (0, 16, 24) "
+            "or 16 (2, 18, 26)"
         )
-    channels = CHANNELS[kind]
+    channels, dtype = PIXELS[kind]
     start, count = table.vector(10)
-    if width < 1 or height < 1 or count != width * height * channels:
+    values = width * height * channels
+    if width < 1 or height < 1 or count != values * np.dtype(dtype).itemsize:
         raise FileFormatError(f"{count} bytes of pixels for {width}x{height}x{channels}")
     if start + count > len(table.data):
         raise FileFormatError("its pixels reach past the end of the packet")
-    flat = np.frombuffer(table.data, np.uint8, count, start)
+    flat = np.frombuffer(table.data, dtype, values, start)
     if channels == 1:
         return flat.reshape(height, width)
     return np.ascontiguousarray(flat.reshape(height, width, channels)[..., 2::-1])

@@ -29,7 +29,7 @@ from texvent.io.input_checks import (
     stored_or_given_size,
     stream_from_file,
 )
-from texvent.io.protocol import Columns
+from texvent.io.protocol import Columns, SideData
 from texvent.io.reading import ReadOptions, TimeUnitError
 from texvent.io.repair import RepairCounts, repair_blocks, valid_events
 from texvent.sensor import SensorSize
@@ -96,6 +96,15 @@ class BlockReader(ABC):
         if contents.seek is not None:
             packets = SeekableBlockPackets(path, contents, final_size, contents.seek)
         return EventPackets(packets, final_size, contents.metadata)
+
+    def side_data(self, path: Path) -> SideData:
+        """Triggers and IMU samples of an existing file; most formats have none.
+
+        Raises:
+            FileFormatError: the file is damaged.
+        """
+        del path
+        return {}
 
     @abstractmethod
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Iterator, Mapping
 from pathlib import Path
 from types import TracebackType
 from typing import Any, ClassVar, Protocol, Self, TypeAlias, runtime_checkable
@@ -16,6 +16,8 @@ from texvent.sensor import SensorSize
 
 Columns: TypeAlias = Mapping[str, NDArray[Any]]
 """Name → column of events: x, y, t, p, and label where it is known."""
+SideData: TypeAlias = Mapping[str, Callable[[], Iterator[Columns]]]
+"""triggers, imu: what a recording holds beside its events → reads its columns, of which t is µs."""
 
 
 class EventWriter(Protocol):

@@ -3,21 +3,26 @@
 The container is that of `aedat4_container`; a packet of events is a table EVTS.
 Coordinates are i2: sensors up to 32768 pixels a side. Times are i8 µs. Packets hold 10 ms, as
 DV's do, so that its player can seek. Provenance is in the XML of the header, as
-attribute `texvent`. The first stream of events is read; frames, IMU samples and triggers beside
-it are read over (`texvent.capture.aedat4_frames` reads the frames).
+attribute `texvent`. One stream of events is read; triggers and IMU samples beside it are side
+data, frames are read by `texvent.capture.aedat4_frames`.
+
+    TRIG  list of tables: slot 0 i64 time · 1 i8 type
+    IMUS  list of tables: slot 0 i64 time · 1 f32 temperature · 2..4 acceleration, g ·
+          5..7 rotation, degrees per second
 
 Source: iniVation, AEDAT 4.0 file format; tables in `aedat4_tables`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
 from texvent.io.aedat.aedat4_container import (
@@ -36,6 +41,7 @@ from texvent.io.aedat.aedat4_tables import (
     UNKNOWN,
     PacketEntry,
     StreamInfo,
+    Table,
     make_events,
     make_header,
     make_info,
@@ -46,8 +52,8 @@ from texvent.io.block_codec import BlockCodec, FileContents, split_by_time
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import metadata_from_json, metadata_to_json
-from texvent.io.protocol import Columns
-from texvent.io.reading import ReadOptions
+from texvent.io.protocol import Columns, SideData
+from texvent.io.reading import ReadOptions, choose
 
 PACKET_US = 10_000
 """Time per packet, µs."""
@@ -67,9 +73,20 @@ class Aedat4Codec(BlockCodec):
         """True if the file begins as AEDAT4 does."""
         return begins_with(path, MAGIC)
 
+    takes: ClassVar[tuple[str, ...]] = ("stream",)
+
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
-        """The header's XML states size and metadata of the first stream of events."""
-        container, stream = _open_events(path)
+        """The header's XML states size and metadata of the stream of events."""
+        container = open_container(path, is_whole=not options.repair)
+        streams = container.streams_of(EVENTS)
+        if not streams:
+            raise FileFormatError(f"{path} holds no stream of events")
+        names = [f"{one.number}:{one.attributes.get('source', EVENTS)}" for one in streams]
+        wanted = options.stream
+        if wanted is not None:
+            numbers = [str(one.number) for one in streams]
+            wanted = names[numbers.index(wanted)] if wanted in numbers else wanted
+        stream = streams[choose(path, names, wanted)]
         metadata: dict[str, Any] = {}
         if "texvent" in stream.attributes:
             metadata = metadata_from_json(path, stream.attributes["texvent"])
@@ -77,6 +94,16 @@ class Aedat4Codec(BlockCodec):
             metadata = {"source": stream.attributes["source"]}
         blocks = partial(_read_blocks, container, stream)
         return FileContents(stored_size(path, stream), metadata, blocks)
+
+    def side_data(self, path: Path) -> SideData:
+        """External triggers and IMU samples."""
+        container = open_container(path)
+        data: dict[str, Callable[[], Iterator[Columns]]] = {}
+        for name, identifier, read in SIDE_STREAMS:
+            streams = container.streams_of(identifier)
+            if streams:
+                data[name] = partial(_read_side, container, streams, identifier, read)
+        return data
 
     def check_target(self, target: FileTarget) -> None:
         """Refuse a compression that is not installed."""
@@ -126,12 +153,44 @@ class Aedat4ZstdCodec(Aedat4Codec):
     packing: ClassVar[Packing] = ZSTD
 
 
-def _open_events(path: Path) -> tuple[Container, StreamInfo]:
-    container = open_container(path)
-    stream = container.find_stream(EVENTS)
-    if stream is None:
-        raise FileFormatError(f"{path} holds no stream of events")
-    return container, stream
+def _read_triggers(table: Table) -> Columns:
+    rows = [(one.number(0, "<q", 0), one.number(1, "<b", 0)) for one in table.tables(0)]
+    numbers = np.array(rows, np.int64).reshape(-1, 2)
+    return {"t": numbers[:, 0], "type": numbers[:, 1]}
+
+
+def _read_imu(table: Table) -> Columns:
+    samples = list(table.tables(0))
+    columns: dict[str, NDArray[Any]] = {
+        "t": np.array([one.number(0, "<q", 0) for one in samples], np.int64)
+    }
+    for slot, name in enumerate(IMU_COLUMNS, 1):
+        columns[name] = np.array([one.real(slot) for one in samples], np.float64)
+    return columns
+
+
+IMU_COLUMNS = (
+    *("temperature_c", "acceleration_x_g", "acceleration_y_g", "acceleration_z_g"),
+    *("rotation_x_deg_s", "rotation_y_deg_s", "rotation_z_deg_s"),
+)
+SIDE_STREAMS: tuple[tuple[str, str, Callable[[Table], Columns]], ...] = (
+    ("triggers", "TRIG", _read_triggers),
+    ("imu", "IMUS", _read_imu),
+)
+
+
+def _read_side(
+    container: Container,
+    streams: Sequence[StreamInfo],
+    identifier: str,
+    read: Callable[[Table], Columns],
+) -> Iterator[Columns]:
+    for stream in streams:
+        for end, packet in container.read_packets(stream):
+            try:
+                yield read(Table.root(packet, identifier.encode()))
+            except FileFormatError as error:
+                raise FileFormatError(f"{container.path}, before byte {end}: {error}") from error
 
 
 def _read_blocks(container: Container, stream: StreamInfo) -> Iterator[Columns]:

@@ -135,9 +135,9 @@ class Container:
     length: int
     """Bytes of the file when its header was read."""
 
-    def find_stream(self, identifier: str) -> StreamInfo | None:
-        """The first stream of a type, such as EVTS; None if there is none."""
-        return next((one for one in self.streams if one.identifier == identifier), None)
+    def streams_of(self, identifier: str) -> list[StreamInfo]:
+        """The streams of a type, such as EVTS."""
+        return [one for one in self.streams if one.identifier == identifier]
 
     def count_packets(self, stream: StreamInfo) -> int:
         """Number of packets of a stream; only their heads are read.
@@ -180,8 +180,12 @@ class Container:
             raise FileFormatError(f"{self.path} became shorter while it was read; read it again")
 
 
-def open_container(path: Path) -> Container:
+def open_container(path: Path, *, is_whole: bool = True) -> Container:
     """Read the header of a file.
+
+    Args:
+        path: the file.
+        is_whole: refuse a file that was cut off before its list of packets.
 
     Raises:
         FileFormatError: the file is damaged or of another format.
@@ -203,6 +207,8 @@ def open_container(path: Path) -> Container:
         xml = table.text(2)
     except FileFormatError as error:
         raise FileFormatError(f"{path}: {error}") from error
+    if not is_whole and stop >= length:
+        stop = UNKNOWN
     if stop != UNKNOWN and not start <= stop < length:
         raise FileFormatError(
             f"{path} states its list of packets at byte {stop} of {length}; the file was cut off"

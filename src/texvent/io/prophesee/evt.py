@@ -29,7 +29,8 @@ from texvent.events import COLUMN_TYPES
 from texvent.io.block_codec import BlockCodec, FileContents, read_records, write_records
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
-from texvent.io.protocol import Columns
+from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding, read_triggers
+from texvent.io.protocol import Columns, SideData
 from texvent.io.reading import ReadOptions
 
 Words: TypeAlias = bytes | memoryview | NDArray[Any]
@@ -94,6 +95,8 @@ class EvtCodec(BlockCodec):
     version: ClassVar[str]
     """The format as `% evt` names it: `3.0`."""
     word_bytes: ClassVar[int]
+    triggers: ClassVar[TriggerCoding]
+    """Places of the fields of a trigger."""
     options: ClassVar[Mapping[str, str]] = {}
     """More of the `% format` line; each has a line of its own too, for readers that look there."""
 
@@ -148,6 +151,20 @@ class EvtCodec(BlockCodec):
         header = make_text_header(fields, target.metadata, end=True)
         return write_records(part, header + encoder.start(), encoder.encode)
 
+    def side_data(self, path: Path) -> SideData:
+        """External triggers."""
+        return {"triggers": partial(self._read_triggers, path)}
+
+    def _read_triggers(self, path: Path) -> Iterator[Columns]:
+        header = _read_header(path)
+        blocks = read_records(path, header.length, self.word_bytes)
+        return read_triggers((self.in_order(header, words) for words in blocks), self.triggers)
+
+    def in_order(self, header: TextHeader, words: bytes) -> bytes:
+        """Words whose lowest byte comes first."""
+        del header
+        return words
+
     def _read_blocks(self, path: Path, header: TextHeader) -> Iterator[Columns]:
         decoder = self.make_decoder(header)
         for words in read_records(path, header.length, self.word_bytes):
@@ -174,6 +191,7 @@ class Evt2Codec(EvtCodec):
     title: ClassVar[str] = "EVT2"
     version: ClassVar[str] = "2.0"
     word_bytes: ClassVar[int] = 4
+    triggers: ClassVar[TriggerCoding] = EVT2
     limits: ClassVar[FormatLimits] = FormatLimits("EVT2", MAX_SIDE, 1 << 34)
 
     def kernels(self) -> WordKernels:
@@ -194,6 +212,7 @@ class Evt21Codec(EvtCodec):
     title: ClassVar[str] = "EVT21"
     version: ClassVar[str] = "2.1"
     word_bytes: ClassVar[int] = 8
+    triggers: ClassVar[TriggerCoding] = EVT21
     limits: ClassVar[FormatLimits] = FormatLimits("EVT2.1", MAX_SIDE, 1 << 34)
     options: ClassVar[Mapping[str, str]] = {"endianness": LEGACY}
 
@@ -202,6 +221,11 @@ class Evt21Codec(EvtCodec):
         from texvent.io.prophesee import evt21_coding  # brings Numba
 
         return evt21_coding
+
+    def in_order(self, header: TextHeader, words: bytes) -> bytes:
+        """Words whose lowest byte comes first: halves are exchanged where the upper one does."""
+        numbers = np.frombuffer(words, "<u8")
+        return (numbers << 32 | numbers >> 32).tobytes() if is_legacy(header) else words
 
     def make_decoder(self, header: TextHeader | None = None) -> WordDecoder:
         """A decoder for a file with this header: it may have to exchange the halves of words."""
@@ -236,6 +260,7 @@ class Evt3Codec(EvtCodec):
     title: ClassVar[str] = "EVT3"
     version: ClassVar[str] = "3.0"
     word_bytes: ClassVar[int] = 2
+    triggers: ClassVar[TriggerCoding] = EVT3
     limits: ClassVar[FormatLimits] = FormatLimits("EVT3", MAX_SIDE, 1 << 42)
 
     def kernels(self) -> WordKernels:

@@ -1,11 +1,14 @@
-"""ROS bags: rosbag1 (.bag) with dvs_msgs/EventArray, MCAP (.mcap) with EventPacket of EVT3 words.
+"""ROS bags: ROS 1 (.bag) and ROS 2 (.mcap, .db3, folders of them).
 
-Topics: `/dvs/events`, one message per 10 ms; `/texvent`, one std_msgs/String with size and
-metadata as JSON, which also keeps recordings without events. Of other programs' bags the first
-topic with such messages is read; messages without events say the size too.
+Read are messages of dvs_msgs/EventArray, prophesee_event_msgs/EventArray, and
+event_camera_msgs/EventPacket encoded as evt3, mono or libcaer, on the one topic that has them, or
+the one that is chosen; messages without events say the size too.
 
-The EVT3 words of an MCAP file go on from message to message, as cameras' do: a reader that starts
-in the middle has to wait for the next change of the high time bits (4 ms).
+Written are rosbag1 with dvs_msgs/EventArray and MCAP with EventPacket of EVT3 words, on
+`/dvs/events`, one message per 10 ms; and on `/texvent` one std_msgs/String with size and metadata
+as JSON, which also keeps recordings without events. The EVT3 words of an MCAP file go on from
+message to message, as cameras' do: a reader that starts in the middle has to wait for the next
+change of the high time bits (4 ms).
 
 Needs rosbags: the extra `bags`. A bag whose recorder crashed has no index and is refused.
 """
@@ -13,7 +16,6 @@ Needs rosbags: the extra `bags`. A bag whose recorder crashed has no index and i
 from __future__ import annotations
 
 import struct
-from abc import abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
@@ -22,12 +24,13 @@ from typing import Any, ClassVar
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, one_line
-from texvent.io.block_codec import BlockCodec, FileContents
+from texvent.io.block_codec import BlockCodec, BlockReader, FileContents
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
+from texvent.io.input_checks import begins_with
 from texvent.io.metadata import parse_sidecar, sidecar_text
 from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.protocol import Columns
-from texvent.io.reading import ReadOptions
+from texvent.io.reading import ReadOptions, choose
 from texvent.io.ros.bag_writer import (
     EXTRA,
     FACTS_TOPIC,
@@ -38,47 +41,82 @@ from texvent.io.ros.bag_writer import (
     open_sensor_bag,
 )
 from texvent.io.ros.messages import (
-    EVENT_ARRAY,
-    EVENT_PACKET,
-    RawMessage,
+    EVENT_MESSAGES,
     bound_chunks,
-    open_event_array,
-    open_event_packet,
-    unpack_event_array,
+    open_message,
+    unpack_libcaer,
+    unpack_mono,
+    unpack_records,
 )
 
 TOPIC = "/dvs/events"
-OPEN_MESSAGE = {EVENT_ARRAY: open_event_array, EVENT_PACKET: open_event_packet}
-"""Type of message → what finds its parts."""
+ROSBAG1_MAGIC = b"#ROSBAG V"
+ROSBAG2_MAGICS = (b"\x89MCAP", b"SQLite format 3")
+FOLDER_FACTS = "metadata.yaml"
+TEXT_START = {1: 4, 2: 8}
+"""Version of ROS → bytes before the text in a std_msgs/String."""
 
 
-class BagCodec(BlockCodec):
-    """Base of both kinds of bag."""
+class BagReader(BlockReader):
+    """Bags of either ROS; the content says which."""
 
-    kind: ClassVar[BagKind]
-    module: ClassVar[str]
-    """Package that reads the file."""
-    message_type: ClassVar[str]
-    """Type of the messages that hold events."""
-    text_start: ClassVar[int]
-    """Bytes before the text in a std_msgs/String."""
+    takes: ClassVar[tuple[str, ...]] = ("stream",)
 
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """Size and metadata from the message of texvent, else the size of the first events."""
-        size: tuple[int, int]
+        size: tuple[int, int] | None = None
         metadata: dict[str, Any] = {}
-        with _open_bag(path, self.module) as bag:
-            facts = _first_message(bag, STRING, FACTS_TOPIC)
+        with _open_bag(path) as (bag, version):
+            facts = _first_message(bag, [one for one in bag.connections if _is_facts(one)])
             if facts is not None:
-                size, metadata = parse_sidecar(path, facts[self.text_start :].rstrip(b"\0"))
-            else:
-                data = _first_message(bag, self.message_type)
+                text = facts[TEXT_START[version] :].rstrip(b"\0")
+                size, metadata = parse_sidecar(path, text)
+            topics = _event_topics(bag)
+            if not topics:
+                kinds = sorted({one.msgtype for one in bag.connections})
+                raise FileFormatError(
+                    f"{path} holds no messages of events ({', '.join(EVENT_MESSAGES)}); it has "
+                    f"{', '.join(kinds) or 'none'}"
+                )
+            names = list(topics)
+            chosen = names[choose(path, names, options.stream)]
+            if size is None:
+                kind = topics[chosen][0].msgtype
+                data = _first_message(bag, topics[chosen])
                 if data is None:
-                    raise FileFormatError(
-                        f"{path} holds no {self.message_type}; texvent reads bags with those"
-                    )
-                size = OPEN_MESSAGE[self.message_type](data).size
-        return FileContents(size, metadata, partial(self.read_blocks, path))
+                    raise FileFormatError(f"{path}: {chosen} has no message")
+                size = open_message(kind, data, version).size
+        return FileContents(size, metadata, partial(_read_blocks, path, chosen))
+
+
+def _is_facts(connection: Any) -> bool:
+    return bool(connection.msgtype == STRING and connection.topic == FACTS_TOPIC)
+
+
+def _event_topics(bag: Any) -> dict[str, list[Any]]:
+    """Topics with messages of events → their connections."""
+    topics: dict[str, list[Any]] = {}
+    for one in bag.connections:
+        if one.msgtype in EVENT_MESSAGES:
+            topics.setdefault(one.topic, []).append(one)
+    return topics
+
+
+class Rosbag2FolderCodec(BagReader):
+    """Folders of ROS 2 bags."""
+
+    name: ClassVar[str] = "rosbag2"
+    is_folder: ClassVar[bool] = True
+
+    def recognises(self, path: Path) -> bool:
+        """True if it is a folder with the facts of a bag."""
+        return path.is_dir() and (path / FOLDER_FACTS).is_file()
+
+
+class BagCodec(BagReader, BlockCodec):
+    """Base of both kinds of bag that are written."""
+
+    kind: ClassVar[BagKind]
 
     def check_target(self, target: FileTarget) -> None:
         """Refuse to start without rosbags."""
@@ -104,10 +142,6 @@ class BagCodec(BlockCodec):
             if not is_begun:
                 write_text(text, 0)
 
-    @abstractmethod
-    def read_blocks(self, path: Path) -> Iterator[Columns]:
-        """Columns of the bag's events."""
-
 
 class Rosbag1Codec(BagCodec):
     """ROS 1 bags."""
@@ -116,43 +150,60 @@ class Rosbag1Codec(BagCodec):
     extensions: ClassVar[tuple[str, ...]] = (".bag",)
     limits: ClassVar[FormatLimits] = FormatLimits("rosbag1", 1 << 16, (1 << 32) * 1_000_000)
     kind: ClassVar[BagKind] = "rosbag1"
-    module: ClassVar[str] = ROSBAG1
-    message_type: ClassVar[str] = EVENT_ARRAY
-    text_start: ClassVar[int] = 4
 
-    def read_blocks(self, path: Path) -> Iterator[Columns]:
-        """Columns of the bag's events."""
-        for message in _messages(self, path):
-            yield unpack_event_array(message)
+    def recognises(self, path: Path) -> bool:
+        """True if the file begins as bags of ROS 1 do."""
+        return begins_with(path, ROSBAG1_MAGIC)
 
 
 class McapCodec(BagCodec):
-    """MCAP files of ROS 2."""
+    """Files of ROS 2; written as MCAP."""
 
     name: ClassVar[str] = "mcap"
-    extensions: ClassVar[tuple[str, ...]] = (".mcap",)
+    extensions: ClassVar[tuple[str, ...]] = (".mcap", ".db3")
     limits: ClassVar[FormatLimits] = FormatLimits("MCAP with EVT3", 2048, 1 << 42)
     kind: ClassVar[BagKind] = "mcap"
-    module: ClassVar[str] = ROSBAG2
-    message_type: ClassVar[str] = EVENT_PACKET
-    text_start: ClassVar[int] = 8
 
-    def read_blocks(self, path: Path) -> Iterator[Columns]:
-        """Columns of the bag's events."""
-        decoder = Evt3Codec().make_decoder()
-        for message in _messages(self, path):
-            yield decoder.decode(message.payload)
+    def recognises(self, path: Path) -> bool:
+        """True if the file begins as MCAP or SQLite does."""
+        return any(begins_with(path, magic) for magic in ROSBAG2_MAGICS)
+
+
+def _read_blocks(path: Path, topic: str) -> Iterator[Columns]:
+    decoder = None
+    with _open_bag(path) as (bag, version):
+        connections = _event_topics(bag)[topic]
+        messages = bag.messages(connections)
+        while True:
+            entry = next(messages, None)
+            if entry is None:
+                return
+            message = open_message(entry[0].msgtype, entry[2], version)
+            if message.encoding == "evt3":
+                decoder = decoder or Evt3Codec().make_decoder()
+                yield decoder.decode(message.payload)
+            else:
+                yield UNPACK[message.encoding](message)
+
+
+UNPACK = {
+    "records": unpack_records,
+    "records-2": unpack_records,
+    "mono": unpack_mono,
+    "libcaer": unpack_libcaer,
+}
 
 
 @contextmanager
-def _open_bag(path: Path, module: str) -> Iterator[Any]:
-    """A reader; whatever a damaged bag makes it raise becomes a FileFormatError."""
-    package = require(module, extra=EXTRA)
+def _open_bag(path: Path) -> Iterator[tuple[Any, int]]:
+    """A reader and the version of ROS; what a damaged bag makes it raise is a FileFormatError."""
+    version = 1 if path.is_file() and begins_with(path, ROSBAG1_MAGIC) else 2
+    package = require(ROSBAG1 if version == 1 else ROSBAG2, extra=EXTRA)
     try:
         with package.Reader(path) as bag:
-            if module == ROSBAG1:
+            if version == 1:
                 bound_chunks(bag)
-            yield bag
+            yield bag, version
     except (InputError, MissingDependencyError) as error:
         if str(path) in str(error) or isinstance(error, MissingDependencyError):
             raise
@@ -177,27 +228,9 @@ _DAMAGE = (
 """rosbags raises any of these on a damaged bag."""
 
 
-def _connections(bag: Any, kind: str, topic: str | None) -> list[Any]:
-    return [one for one in bag.connections if one.msgtype == kind and topic in (None, one.topic)][
-        :1
-    ]
-
-
-def _first_message(bag: Any, kind: str, topic: str | None = None) -> bytes | None:
-    """The first message of a type, or None."""
-    chosen = _connections(bag, kind, topic)
-    for _, _, data in bag.messages(chosen) if chosen else ():
+def _first_message(bag: Any, connections: list[Any]) -> bytes | None:
+    """The first message of some connections, or None."""
+    for _, _, data in bag.messages(connections) if connections else ():
         message: bytes = data
         return message
     return None
-
-
-def _messages(codec: BagCodec, path: Path) -> Iterator[RawMessage]:
-    with _open_bag(path, codec.module) as bag:
-        chosen = _connections(bag, codec.message_type, None)
-        messages = bag.messages(chosen) if chosen else iter(())
-        while True:
-            entry = next(messages, None)
-            if entry is None:
-                return
-            yield OPEN_MESSAGE[codec.message_type](entry[2])

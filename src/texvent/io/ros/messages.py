@@ -1,13 +1,19 @@
-"""The two ROS messages that hold events, packed and unpacked as whole arrays.
+"""The ROS messages that hold events, packed and unpacked as whole arrays.
 
-    dvs_msgs/EventArray (ROS 1): header · u32 height · u32 width · u32 n · n records of 13 bytes:
-        u16 x · u16 y · u32 s · u32 ns · bool polarity
-    event_camera_msgs/EventPacket (ROS 2, CDR): header · u32 height · u32 width · u64 seq ·
-        u64 time_base · string encoding · bool is_bigendian · bytes, here EVT3
+    dvs_msgs/EventArray, prophesee_event_msgs/EventArray: header · u32 height · u32 width · u32 n ·
+        n records: u16 x · u16 y · u32 s · u32 ns · bool polarity
+    event_camera_msgs/EventPacket: header · u32 height · u32 width · u64 seq · u64 time_base ·
+        string encoding · bool is_bigendian · bytes
+    encodings   evt3: words, whose clock counts ·
+                mono: u64 p<<63 | y<<48 | x<<32 | ns after the base ·
+                libcaer: u32 x<<17 | y<<2 | p<<1, i32 µs after the base
 
-Generic (de)serialisers take two microseconds per event; these take a hundredth of it.
+In ROS 1 fields follow one another, and the header begins with a number; in ROS 2 (CDR) each is
+aligned to its size, so that records take 16 bytes, the first two fewer. Generic (de)serialisers
+take two microseconds per event; these take a hundredth of it.
 
-Source: rpg_dvs_ros and event_camera_msgs, message definitions; OMG, DDS-XTypes (CDR).
+Source: rpg_dvs_ros, prophesee_ros_wrapper and event_camera_msgs, message definitions;
+event_camera_codecs; OMG, DDS-XTypes (CDR).
 """
 
 from __future__ import annotations
@@ -28,6 +34,7 @@ from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
 
 EVENT_ARRAY = "dvs_msgs/msg/EventArray"
+PROPHESEE_ARRAY = "prophesee_event_msgs/msg/EventArray"
 EVENT_ARRAY_TEXT = """std_msgs/Header header
 uint32 height
 uint32 width
@@ -48,6 +55,10 @@ string encoding
 bool is_bigendian
 uint8[] events
 """
+EVENT_MESSAGES = (EVENT_ARRAY, PROPHESEE_ARRAY, EVENT_PACKET)
+"""Types of messages that hold events."""
+ENCODINGS = {"evt3": 2, "mono": 8, "libcaer": 8}
+"""Encoding of a packet → bytes of a word."""
 FRAME = "dvs"
 """Coordinate frame in the messages' headers."""
 EVT3 = "evt3"
@@ -55,6 +66,17 @@ EVT3 = "evt3"
 MICROSECONDS = 1_000_000
 NS = 1000
 NS_PER_S = 1_000_000_000
+_RECORD_2 = np.dtype(
+    {
+        "names": ["x", "y", "s", "ns", "p"],
+        "formats": ["<u2", "<u2", "<u4", "<u4", "u1"],
+        "offsets": [0, 2, 6, 10, 14],
+        "itemsize": 16,
+    }
+)
+"""A record of ROS 2 that begins two bytes after a multiple of four, as all but the first."""
+TIME_BITS = 31
+"""Of libcaer's clock, which turns within a message at most once."""
 _RECORD = np.dtype([("x", "<u2"), ("y", "<u2"), ("s", "<u4"), ("ns", "<u4"), ("p", "u1")])
 
 
@@ -81,6 +103,9 @@ class RawMessage:
     size: SensorSize
     payload: memoryview
     """The events' bytes."""
+    encoding: str
+    """`records`, `records-2` of ROS 2, or what a packet names: evt3, mono, libcaer."""
+    time_base_ns: int = 0
 
 
 def pack_event_array(columns: Columns, size: SensorSize, sequence: int) -> bytes:
@@ -105,29 +130,113 @@ def pack_event_array(columns: Columns, size: SensorSize, sequence: int) -> bytes
     return head + records.tobytes()
 
 
-def open_event_array(data: bytes) -> RawMessage:
-    """The parts of a serialised dvs_msgs/EventArray.
+class _Fields:
+    """Reads the fields of a serialised message in their order."""
+
+    def __init__(self, data: bytes, version: int) -> None:
+        if version == 2 and data[:2] != b"\0\1":
+            raise FileFormatError("a message is not little-endian CDR, which texvent reads")
+        self.body = memoryview(data)[4 if version == 2 else 0 :]
+        self._is_aligned = version == 2
+        self.place = 0
+
+    def number(self, form: str) -> int:
+        """A number of a struct format, such as `I`."""
+        size = struct.calcsize(form)
+        if self._is_aligned:
+            self.place += -self.place % size
+        value: int = struct.unpack_from(f"<{form}", self.body, self.place)[0]
+        self.place += size
+        return value
+
+    def text(self) -> bytes:
+        """A string, without the zero byte that CDR puts at its end."""
+        length = self.number("I")
+        self.place += length
+        return bytes(self.body[self.place - length : self.place][:32]).rstrip(b"\0")
+
+    def header(self) -> None:
+        """A std_msgs/Header, which is read over."""
+        for form in "II" if self._is_aligned else "III":
+            self.number(form)
+        self.text()
+
+
+def open_message(kind: str, data: bytes, version: int) -> RawMessage:
+    """The parts of a serialised message of events.
+
+    Args:
+        kind: its type, one of `EVENT_MESSAGES`.
+        data: the message.
+        version: of ROS, 1 or 2.
 
     Raises:
-        FileFormatError: the message is damaged.
+        FileFormatError: the message is damaged, or its encoding is not read.
     """
     try:
-        frame_bytes = struct.unpack_from("<I", data, 12)[0]
-        start = 16 + frame_bytes
-        height, width, count = struct.unpack_from("<3I", data, start)
+        fields = _Fields(data, version)
+        fields.header()
+        height, width = fields.number("I"), fields.number("I")
+        if kind != EVENT_PACKET:
+            return _open_records(fields, SensorSize(width, height), version)
+        fields.number("Q")
+        time_base_ns = fields.number("Q")
+        encoding = fields.text().decode("latin-1")
+        fields.number("B")
+        count = fields.number("I")
     except struct.error as error:
         raise FileFormatError("a message of events is cut off") from error
-    payload = memoryview(data)[start + 12 :]
-    if len(payload) != count * _RECORD.itemsize:
+    if encoding not in ENCODINGS:
+        allowed = ", ".join(ENCODINGS)
+        raise FileFormatError(f"a message is encoded as {shown(encoding)}; texvent reads {allowed}")
+    payload = fields.body[fields.place : fields.place + count]
+    if len(payload) != count or count % ENCODINGS[encoding]:
+        raise FileFormatError(f"a message states {count} bytes of events; it is damaged")
+    return RawMessage(SensorSize(width, height), payload, encoding, time_base_ns)
+
+
+def _open_records(fields: _Fields, size: SensorSize, version: int) -> RawMessage:
+    count = fields.number("I")
+    payload = fields.body[fields.place :]
+    wanted = count * _RECORD.itemsize
+    if version == 2:
+        # Up to the last byte of the last record, which ends before the padding.
+        wanted = max(count * _RECORD_2.itemsize - 3, 0)
+    if not wanted <= len(payload) < wanted + 4:
         raise FileFormatError(f"a message states {count} events in {len(payload)} bytes")
-    return RawMessage(SensorSize(width, height), payload)
+    if version == 1:
+        return RawMessage(size, payload[:wanted], "records")
+    # The first record is aligned otherwise: moved up, it is as the others.
+    first = bytes(payload[:4]) + bytes(2) + bytes(payload[4:13]) + bytes(1)
+    moved = memoryview(first + bytes(payload[14:wanted]) + bytes(2))
+    return RawMessage(size, moved[: count * _RECORD_2.itemsize], "records-2")
 
 
-def unpack_event_array(message: RawMessage) -> dict[str, NDArray[Any]]:
-    """Columns x, y, t, p; ns that are no whole µs are rounded down."""
-    records = np.frombuffer(message.payload, dtype=_RECORD)
+def unpack_records(message: RawMessage) -> dict[str, NDArray[Any]]:
+    """Columns x, y, t, p of an EventArray; ns that are no whole µs are rounded down."""
+    kind = _RECORD if message.encoding == "records" else _RECORD_2
+    records = np.frombuffer(message.payload, dtype=kind)
     t = records["s"].astype(np.int64) * MICROSECONDS + records["ns"] // NS
     return {"x": records["x"], "y": records["y"], "t": t, "p": records["p"]}
+
+
+def unpack_mono(message: RawMessage) -> dict[str, NDArray[Any]]:
+    """Columns x, y, t, p of a packet of mono's words."""
+    words = np.frombuffer(message.payload, "<u8")
+    t = (message.time_base_ns + (words & 0xFFFFFFFF).astype(np.int64)) // NS
+    x, y = (words >> 32 & 0xFFFF).astype(np.uint16), (words >> 48 & 0x7FFF).astype(np.uint16)
+    return {"x": x, "y": y, "t": t, "p": (words >> 63).astype(np.uint8)}
+
+
+def unpack_libcaer(message: RawMessage) -> dict[str, NDArray[Any]]:
+    """Columns x, y, t, p of a packet of libcaer's events."""
+    words = np.frombuffer(message.payload, [("place", "<u4"), ("t", "<i4")])
+    stored = words["t"].astype(np.int64)
+    turns = np.concatenate([[0], np.cumsum(np.diff(stored) < 0)])[: len(stored)]
+    t = message.time_base_ns // NS + stored + (turns << TIME_BITS)
+    place = words["place"]
+    x, y = (place >> 17 & 0x7FFF).astype(np.uint16), (place >> 2 & 0x7FFF).astype(np.uint16)
+    return {"x": x, "y": y, "t": t, "p": (place >> 1 & 1).astype(np.uint8)}
 
 
 def pack_event_packet(packet: EventPacket) -> bytes:
@@ -140,37 +249,6 @@ def pack_event_packet(packet: EventPacket) -> bytes:
     head += _text(EVT3.encode()) + b"\0"
     head += bytes(-len(head) % 4) + struct.pack("<I", len(packet.payload))
     return b"\0\1\0\0" + head + packet.payload
-
-
-def open_event_packet(data: bytes) -> RawMessage:
-    """The parts of a serialised event_camera_msgs/EventPacket.
-
-    Raises:
-        FileFormatError: the message is damaged, or not of EVT3 words.
-    """
-    if data[:2] != b"\0\1":
-        raise FileFormatError("a message is not little-endian CDR, which texvent reads")
-    body = memoryview(data)[4:]
-    try:
-        place = 8
-        place += 4 + struct.unpack_from("<I", body, place)[0]
-        place += -place % 4
-        height, width = struct.unpack_from("<2I", body, place)
-        place += 8
-        place += -place % 8 + 16
-        length = struct.unpack_from("<I", body, place)[0]
-        encoding = bytes(body[place + 4 : place + 4 + min(length, 32)]).rstrip(b"\0")
-        place += 4 + length + 1
-        place += -place % 4
-        count = struct.unpack_from("<I", body, place)[0]
-    except struct.error as error:
-        raise FileFormatError("a message of events is cut off") from error
-    if encoding != EVT3.encode():
-        raise FileFormatError(f"a message is encoded as {shown(encoding)}; texvent reads evt3")
-    payload = body[place + 4 : place + 4 + count]
-    if len(payload) != count or count % 2:
-        raise FileFormatError(f"a message states {count} bytes of events; it is damaged")
-    return RawMessage(SensorSize(width, height), payload)
 
 
 def _text(text: bytes) -> bytes:

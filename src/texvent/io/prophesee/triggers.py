@@ -1,0 +1,87 @@
+"""External triggers in the words of EVT2, EVT2.1 and EVT3.
+
+    EVT2    u32: 31..28 type 10 · 27..22 low time · 12..8 channel · 0 value
+    EVT2.1  u64: 63..60 type 10 · 59..54 low time · 44..40 channel · 32 value
+    EVT3    u16: 15..12 type 10 · 11..8 channel · 0 value; the time is that of the words before it
+
+Source: Prophesee, "Data Encoding Formats" of the Metavision documentation.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.io.protocol import Columns
+
+TIME_LOW, TIME_HIGH, TRIGGER = 6, 8, 10
+Words = NDArray[np.int64]
+
+
+@dataclass(frozen=True)
+class TriggerCoding:
+    """Places of the fields in a word; a field is (lowest bit, number of bits)."""
+
+    word: str
+    kind: tuple[int, int]
+    high: tuple[int, int]
+    """High bits of the time, in a word TIME_HIGH."""
+    low: tuple[int, int] | None
+    """Low bits of the time, in the trigger; None: in a word TIME_LOW before it."""
+    channel: tuple[int, int]
+    value: tuple[int, int]
+
+    @property
+    def low_bits(self) -> int:
+        """Number of low bits of the time."""
+        return self.low[1] if self.low is not None else self.high[1]
+
+
+EVT2 = TriggerCoding("<u4", (28, 4), (0, 28), (22, 6), (8, 5), (0, 1))
+EVT21 = TriggerCoding("<u8", (60, 4), (32, 28), (54, 6), (40, 5), (32, 1))
+EVT3 = TriggerCoding("<u2", (12, 4), (0, 12), None, (8, 4), (0, 1))
+
+
+def read_triggers(blocks: Iterable[bytes], coding: TriggerCoding) -> Iterator[Columns]:
+    """Columns t (µs), channel and value of the triggers in consecutive blocks of words."""
+    turns, high, low = 0, -1, 0
+    for block in blocks:
+        words = np.frombuffer(block, coding.word)
+        kinds = _field(words, coding.kind)
+        chosen = np.isin(kinds, (TIME_LOW, TIME_HIGH, TRIGGER))
+        words, kinds = words[chosen], kinds[chosen]
+        highs = np.where(kinds == TIME_HIGH, _field(words, coding.high), -1)
+        highs = _forward(highs, high)
+        before = np.concatenate([[high], highs[:-1]])
+        wraps = (before - highs) >= 1 << (coding.high[1] - 1)
+        turn = turns + np.cumsum(wraps)
+        if coding.low is None:
+            # A new high time means its first µs until its low bits follow.
+            lows = np.where(kinds == TIME_LOW, _field(words, coding.high), -1)
+            lows = np.where((kinds == TIME_HIGH) & (highs != before), 0, lows)
+            lows = _forward(lows, low)
+        else:
+            lows = _field(words, coding.low)
+        here = (kinds == TRIGGER) & (highs >= 0)
+        time = (turn << coding.high[1] | highs) << coding.low_bits | lows
+        yield {
+            "t": time[here],
+            "channel": _field(words, coding.channel)[here],
+            "value": _field(words, coding.value)[here],
+        }
+        if len(words):
+            turns, high, low = int(turn[-1]), int(highs[-1]), int(lows[-1])
+
+
+def _field(words: NDArray[np.unsignedinteger], place: tuple[int, int]) -> Words:
+    shift, bits = place
+    return (words >> words.dtype.type(shift)).astype(np.int64) & ((1 << bits) - 1)
+
+
+def _forward(values: Words, first: int) -> Words:
+    """Values whose −1 are replaced by the last that is none."""
+    places = np.where(values >= 0, np.arange(1, len(values) + 1), 0)
+    return np.concatenate([[first], values])[np.maximum.accumulate(places)]

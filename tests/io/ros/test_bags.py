@@ -1,0 +1,149 @@
+"""Bags of other programs: both ROS, all messages and encodings, several cameras, folders."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from texvent.errors import FileFormatError, InputError
+from texvent.events import EventStream
+from texvent.io.files import load
+from texvent.io.reading import SeveralRecordingsError
+from texvent.io.ros.bag_writer import message_types
+from texvent.io.ros.messages import (
+    EVENT_ARRAY,
+    EVENT_ARRAY_TEXT,
+    EVENT_PACKET,
+    EVENT_PACKET_TEXT,
+    EVENT_TEXT,
+    PROPHESEE_ARRAY,
+)
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(9, 7)
+EVENTS = EventStream.from_columns([3, 4, 8], [5, 6, 0], [70, 80, 3_000_081], [1, 0, 1], size=SIZE)
+
+
+def types_of(version: int) -> Any:
+    from rosbags.typesys import get_types_from_msg
+
+    types = message_types(version)
+    prophesee = EVENT_ARRAY_TEXT.replace("dvs_msgs", "prophesee_event_msgs")
+    for kind, text in (
+        ("dvs_msgs/msg/Event", EVENT_TEXT),
+        (EVENT_ARRAY, EVENT_ARRAY_TEXT),
+        (EVENT_PACKET, EVENT_PACKET_TEXT),
+        ("prophesee_event_msgs/msg/Event", EVENT_TEXT),
+        (PROPHESEE_ARRAY, prophesee),
+    ):
+        if kind not in types.types:
+            types.register(get_types_from_msg(text, kind))
+    return types
+
+
+def header(types: Any, version: int) -> Any:
+    time = types.types["builtin_interfaces/msg/Time"](1, 2)
+    number = {} if version == 2 else {"seq": 0}
+    return types.types["std_msgs/msg/Header"](stamp=time, frame_id="cam", **number)
+
+
+def array_message(types: Any, kind: str, version: int, count: int) -> Any:
+    """The first events as an EventArray, made by rosbags' own serialiser."""
+    one, time = types.types[kind.replace("Array", "")], types.types["builtin_interfaces/msg/Time"]
+    rows = zip(EVENTS.x.tolist(), EVENTS.y.tolist(), EVENTS.t.tolist(), EVENTS.p, strict=True)
+    events = [
+        one(x, y, time(t // 10**6, t % 10**6 * 1000 + 999), bool(p))
+        for x, y, t, p in list(rows)[:count]
+    ]
+    return types.types[kind](header(types, version), SIZE.height, SIZE.width, events)
+
+
+def packet_message(types: Any, version: int, encoding: str, payload: bytes, base_ns: int) -> Any:
+    data = np.frombuffer(payload, np.uint8)
+    head = header(types, version)
+    return types.types[EVENT_PACKET](
+        head, SIZE.height, SIZE.width, 0, base_ns, encoding, False, data
+    )
+
+
+def write_bag(path: Path, version: int, messages: dict[str, tuple[str, list[Any]]]) -> Path:
+    from rosbags import rosbag1, rosbag2
+
+    types = types_of(version)
+    pack = types.serialize_ros1 if version == 1 else types.serialize_cdr
+    writer = rosbag1.Writer(path) if version == 1 else rosbag2.Writer(path, version=9)
+    with writer as bag:
+        for topic, (kind, sent) in messages.items():
+            connection = bag.add_connection(topic, kind, typestore=types)
+            for number, message in enumerate(sent):
+                bag.write(connection, number, pack(message, kind))
+    return path
+
+
+@pytest.mark.parametrize("kind", [EVENT_ARRAY, PROPHESEE_ARRAY])
+@pytest.mark.parametrize(("version", "name"), [(1, "a.bag"), (2, "folder")])
+def test_arrays_of_both_versions_are_read(
+    tmp_path: Path, kind: str, version: int, name: str
+) -> None:
+    types = types_of(version)
+    for count in range(4):
+        message = array_message(types, kind, version, count)
+        path = write_bag(tmp_path / f"{count}{name}", version, {"/e": (kind, [message])})
+        assert load(path).equals(EVENTS[:count])
+        if version == 2:
+            (file,) = path.glob("*.db3")
+            assert load(file).equals(EVENTS[:count])
+
+
+MONO = struct.pack("<2Q", 1 << 63 | 5 << 48 | 3 << 32 | 9, 6 << 48 | 4 << 32 | 10_999)
+CAER = struct.pack("<IiIi", 3 << 17 | 5 << 2 | 1 << 1 | 1, 2**31 - 11, 4 << 17 | 6 << 2 | 1, 0)
+
+
+@pytest.mark.parametrize("version", [1, 2])
+@pytest.mark.parametrize(
+    ("encoding", "payload", "base_ns", "times"),
+    [
+        ("mono", MONO, 70_000, [70, 80]),
+        ("libcaer", CAER, 10_000, [2**31 - 1, 2**31 + 10]),
+        ("evt3", struct.pack("<6H", 0x8000, 0x6046, 5, 0x2803, 0x6050, 6), 0, [70]),
+    ],
+)
+def test_packets_of_every_encoding_are_read(
+    tmp_path: Path, version: int, encoding: str, payload: bytes, base_ns: int, times: list[int]
+) -> None:
+    message = packet_message(types_of(version), version, encoding, payload, base_ns)
+    name = "a.bag" if version == 1 else "folder"
+    events = load(write_bag(tmp_path / name, version, {"/e": (EVENT_PACKET, [message])}))
+    assert events.t.tolist() == times
+    assert (events.x.tolist(), events.y.tolist()) == ([3, 4][: len(times)], [5, 6][: len(times)])
+    assert events.p.tolist() == [1, 0][: len(times)]
+
+
+def test_one_of_several_cameras_is_chosen(tmp_path: Path) -> None:
+    types = types_of(1)
+    left, right = (array_message(types, EVENT_ARRAY, 1, count) for count in (1, 2))
+    bag = {"/left/events": (EVENT_ARRAY, [left]), "/right/events": (EVENT_ARRAY, [right])}
+    path = write_bag(tmp_path / "stereo.bag", 1, bag)
+    with pytest.raises(SeveralRecordingsError, match="2 recordings: /left/events, /right/events"):
+        load(path)
+    for name in ("/right/events", "right/events", "1"):
+        assert load(path, stream=name).equals(EVENTS[:2])
+    with pytest.raises(InputError, match="has no stream 'top'; allowed: /left/events, /right"):
+        load(path, stream="top")
+
+
+def test_another_encoding_and_a_bag_without_events_are_named(tmp_path: Path) -> None:
+    message = packet_message(types_of(2), 2, "zip", b"", 0)
+    path = write_bag(tmp_path / "a", 2, {"/e": (EVENT_PACKET, [message])})
+    with pytest.raises(
+        FileFormatError, match="encoded as 'zip'; texvent reads evt3, mono, libcaer"
+    ):
+        load(path)
+    text = types_of(1).types["std_msgs/msg/String"]("x")
+    path = write_bag(tmp_path / "b.bag", 1, {"/t": ("std_msgs/msg/String", [text])})
+    with pytest.raises(FileFormatError, match=r"no messages of events .*; it has std_msgs/msg/Str"):
+        load(path)

@@ -1,0 +1,89 @@
+"""Triggers and IMU samples beside events: by hand, by a slow decoder, from other programs."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from texvent.io.files import codec_that_reads
+from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding, read_triggers
+
+
+def rows(blocks: list[bytes], coding: TriggerCoding) -> list[tuple[int, int, int]]:
+    found = list(read_triggers(blocks, coding))
+    columns = [np.concatenate([one[name] for one in found]) for name in ("t", "channel", "value")]
+    return list(zip(*(column.tolist() for column in columns), strict=True))
+
+
+def test_triggers_by_hand() -> None:
+    evt2 = struct.pack(
+        "<4I", 10 << 28 | 5 << 22, 8 << 28 | 3, 1 << 28, 10 << 28 | 7 << 22 | 6 << 8 | 1
+    )
+    assert rows([evt2], EVT2) == [(3 << 6 | 7, 6, 1)], "without a high time there is none"
+    evt21 = struct.pack("<2Q", 8 << 60 | 3 << 32, 10 << 60 | 7 << 54 | 6 << 40)
+    assert rows([evt21], EVT21) == [(3 << 6 | 7, 6, 0)]
+    evt3 = struct.pack("<6H", 0x8FFF, 0x6010, 0xA201, 0x8000, 0xA200, 0x0000)
+    assert rows([evt3], EVT3) == [(0xFFF << 12 | 0x10, 2, 1), (1 << 24, 2, 0)], "the counter wraps"
+
+
+def slow_evt3(words: list[int]) -> list[tuple[int, int, int]]:
+    turns, high, low, found = 0, -1, 0, []
+    for word in words:
+        kind, value = word >> 12, word & 0xFFF
+        if kind == 8:
+            turns += high - value >= 2048
+            low = low if value == high else 0
+            high = value
+        elif kind == 6:
+            low = value
+        elif kind == 10 and high >= 0:
+            found.append((turns << 24 | high << 12 | low, value >> 8, value & 1))
+    return found
+
+
+@given(
+    words=st.lists(
+        st.builds(
+            lambda kind, value: kind << 12 | value,
+            st.sampled_from([0, 2, 6, 8, 10]),
+            st.integers(0, 0xFFF),
+        )
+    ),
+    cut=st.integers(0, 20),
+)
+def test_triggers_of_any_words_in_any_blocks_are_those_of_the_slow_decoder(
+    words: list[int], cut: int
+) -> None:
+    data = np.array(words, "<u2").tobytes()
+    blocks = [data[: 2 * cut], data[2 * cut :]]
+    assert rows(blocks, EVT3) == slow_evt3(words)
+
+
+def test_triggers_and_imu_of_dv_processing_are_read(tmp_path: Path) -> None:
+    dv = pytest.importorskip("dv_processing", reason="dv-processing is not installed")
+    path = tmp_path / "e.aedat4"
+    config = dv.io.MonoCameraWriter.Config("DAVIS346_1")
+    config.addEventStream((64, 48))
+    config.addImuStream()
+    config.addTriggerStream()
+    writer = dv.io.MonoCameraWriter(str(path), config)
+    store = dv.EventStore()
+    store.push_back(100, 3, 5, True)
+    writer.writeEvents(store)
+    writer.writeImu(dv.IMU(150, 30.5, 1.5, 0.0, -1.0, 0.0, 2.5, -2.0, 0.0, 0.0, 0.0))
+    writer.writeTrigger(dv.Trigger(160, dv.TriggerType.EXTERNAL_SIGNAL_RISING_EDGE))
+    del writer
+    side = codec_that_reads(path).side_data(path)
+    (triggers,), (imu,) = side["triggers"](), side["imu"]()
+    assert {name: column.tolist() for name, column in triggers.items()} == {"t": [160], "type": [1]}
+    assert {name: column.tolist() for name, column in imu.items()} == {
+        "t": [150],
+        "temperature_c": [30.5],
+        **{"acceleration_x_g": [1.5], "acceleration_y_g": [0.0], "acceleration_z_g": [-1.0]},
+        **{"rotation_x_deg_s": [0.0], "rotation_y_deg_s": [2.5], "rotation_z_deg_s": [-2.0]},
+    }
