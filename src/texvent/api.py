@@ -250,7 +250,14 @@ def video(
 
 
 def open(
-    path: str | Path, *, format: str | None = None, size: SizeLike | None = None
+    path: str | Path,
+    *,
+    format: str | None = None,
+    size: SizeLike | None = None,
+    time_unit: str | None = None,
+    columns: str | Sequence[str] | None = None,
+    stream: str | None = None,
+    repair: bool = False,
 ) -> EventPackets:
     """Events of a file, which is read when they are asked for, with flat memory.
 
@@ -260,26 +267,39 @@ def open(
 
     Args:
         path: the file or folder; see `formats()`.
-        format: its format, where the extension does not say.
+        format: its format, where neither content nor extension says.
         size: sensor size, for formats that do not store it: (width, height), "346x260" or a name,
             such as "davis346".
+        time_unit: of text, npz, npy and HDF5: s, ms, us or ns; default: as the file states, else
+            µs of whole numbers and s of fractions.
+        columns: of text, npz, npy and HDF5: their order ("x,y,p,t") or names ("t=stamp,x=col,...").
+        stream: which recording of a file of several: group, topic, or number of the camera.
+        repair: repair damage, and count it in `metadata["repair"]`, instead of refusing it.
 
     Raises:
-        InputError: no such file, or the size is not stored and not given.
+        InputError: no such file, the size is neither stored nor given, or the file holds several
+            recordings and none is chosen.
         FileFormatError: the file is damaged or of another format.
+        ConfigError: an option that the format does not take.
     """
     from texvent.io.files import open_events
 
     if not isinstance(path, str | Path):
         raise InputError(f"cannot open {shown(path)}; give the path of an event file or folder")
-    return open_events(path, format=format, size=size)
+    return open_events(
+        path,
+        format=format,
+        size=size,
+        time_unit=time_unit,
+        columns=columns,
+        stream=stream,
+        repair=repair,
+    )
 
 
-def load(
-    path: str | Path, *, format: str | None = None, size: SizeLike | None = None
-) -> EventStream:
-    """Events of a file, in memory; arguments and errors as `open`."""
-    return open(path, format=format, size=size).collect()
+def load(path: str | Path, **options: Any) -> EventStream:
+    """Events of a file, in memory; options and errors as of `open`."""
+    return open(path, **options).collect()
 
 
 def compare(

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import cv2
+import h5py
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -21,7 +22,6 @@ from texvent.transform.undistort import (
     Calibration,
     read_calibration,
     undistort,
-    undistorted_pixels,
 )
 
 SIZE = SensorSize(8, 6)
@@ -132,18 +132,20 @@ def test_merging_keeps_the_label_only_if_all_have_one() -> None:
     assert merge([packets(labelled), packets(plain)]).collect().label is None
 
 
-ECD = Calibration(199.1, 198.8, 132.2, 110.7, -0.368, 0.151, -0.0003, -0.0018, 0.0)
+ECD = Calibration((199.1, 198.8, 132.2, 110.7), (-0.368, 0.151, -0.0003, -0.0018, 0.0))
 """The order of magnitude of a DAVIS240C's calibration."""
+FISHEYE = Calibration((110.0, 110.0, 120.0, 90.0), (-0.02, 0.004, -0.003, 0.0005), True)
 
 
-def test_undistorted_pixels_lead_back_to_where_opencv_distorts_from() -> None:
-    places = undistorted_pixels(SensorSize(240, 180), ECD)
-    y, x = np.mgrid[5:175, 5:235].astype(np.float64)
-    rays = np.stack([(x - ECD.cx) / ECD.fx, (y - ECD.cy) / ECD.fy, np.ones_like(x)], axis=-1)
-    camera = np.array([[ECD.fx, 0, ECD.cx], [0, ECD.fy, ECD.cy], [0, 0, 1.0]])
-    lens = np.array([ECD.k1, ECD.k2, ECD.p1, ECD.p2, ECD.k3])
-    still = np.zeros(3)
-    seen = cv2.projectPoints(rays.reshape(-1, 1, 3), still, still, camera, lens)[0]
+@pytest.mark.parametrize("lens", [ECD, FISHEYE], ids=["radtan", "equidistant"])
+def test_undistorted_pixels_lead_back_to_where_opencv_distorts_from(lens: Calibration) -> None:
+    places = lens.undistorted(SensorSize(240, 180))
+    y, x = np.mgrid[25:155, 35:205].astype(np.float64)
+    fx, fy, cx, cy = lens.intrinsics
+    rays = np.stack([(x - cx) / fx, (y - cy) / fy, np.ones_like(x)], axis=-1).reshape(-1, 1, 3)
+    camera = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1.0]])
+    project = cv2.fisheye.projectPoints if lens.is_equidistant else cv2.projectPoints
+    seen = project(rays, np.zeros(3), np.zeros(3), camera, np.array(lens.coefficients))[0]
     column, row = np.rint(seen.reshape(-1, 2)).astype(int).T
     back = places[row, column]
     # Rounding twice: half a pixel before, stretched by the lens, and half a pixel after.
@@ -154,17 +156,68 @@ def test_undistorted_pixels_lead_back_to_where_opencv_distorts_from() -> None:
 
 def test_a_lens_without_distortion_moves_nothing() -> None:
     events = stream([(0, 0, 1, 1), (7, 5, 2, 0), (3, 2, 3, 1)])
-    straight = Calibration(10, 10, 4, 3, 0, 0, 0, 0, 0)
+    straight = Calibration((10, 10, 4, 3))
     assert undistort(packets(events), straight).collect().equals(events)
 
 
 def test_a_calibration_file_is_nine_numbers(tmp_path: Path) -> None:
     path = tmp_path / "calib.txt"
     path.write_text("199.1 198.8 132.2 110.7 -0.368 0.151 -0.0003 -0.0018 0.0\n")
-    assert read_calibration(path) == ECD
+    read = read_calibration(path)
+    assert (read.intrinsics, read.coefficients) == (ECD.intrinsics, ECD.coefficients)
     for text in ("1 2 3", "a b", "", "0 1 1 1 0 0 0 0 0", "nan 1 1 1 0 0 0 0 0"):
         path.write_text(text)
         with pytest.raises(FileFormatError, match="calibration"):
             read_calibration(path)
     with pytest.raises(InputError, match="no such file"):
         read_calibration(tmp_path / "none.txt")
+
+
+KALIBR = """cam0:
+  camera_model: pinhole
+  distortion_coeffs: [-0.02, 0.004, -0.003, 0.0005]
+  distortion_model: equidistant
+  intrinsics: [110.0, 110.0, 120.0, 90.0]
+  resolution: [240, 180]
+"""
+
+
+def test_kalibrs_cameras_are_read_by_their_name(tmp_path: Path) -> None:
+    path = tmp_path / "chain.yaml"
+    path.write_text(KALIBR)
+    read = read_calibration(path)
+    places = read.undistorted(SensorSize(240, 180))
+    np.testing.assert_array_equal(places, FISHEYE.undistorted(SensorSize(240, 180)))
+    with pytest.raises(InputError, match="is of a 240x180 sensor, the events are 8x6"):
+        undistort(packets(stream([(0, 0, 1, 1)])), read)
+    path.write_text(KALIBR + KALIBR.replace("cam0", "cam1").replace("110.0, 110.0", "99.0, 99.0"))
+    with pytest.raises(InputError, match=r"holds cam0, cam1; choose one: .*chain.yaml:cam0"):
+        read_calibration(path)
+    assert read_calibration(Path(f"{path}:cam1")).intrinsics[0] == 99.0
+    for text in (
+        "a: 1",
+        "[1]",
+        KALIBR.replace("equidistant", "fov"),
+        "cam0: {intrinsics: [1]}",
+        "{",
+    ):
+        path.write_text(text)
+        with pytest.raises(FileFormatError, match=r"calibration|is not read"):
+            read_calibration(path)
+
+
+def test_a_rectify_map_says_where_each_pixel_belongs(tmp_path: Path) -> None:
+    path = tmp_path / "rectify_map.h5"
+    places = np.stack(np.meshgrid(np.arange(8.0), np.arange(6.0)), axis=-1).astype(np.float32)
+    places[2, 3] = (5.4, 0.6)
+    places[0, 0] = (-1, 2)
+    places[5, 7] = np.nan
+    with h5py.File(path, "w") as file:
+        file["rectify_map"] = places
+    events = stream([(3, 2, 1, 1), (0, 0, 2, 0), (7, 5, 3, 1), (1, 1, 4, 0)])
+    moved = undistort(packets(events), read_calibration(path)).collect()
+    assert list(zip(moved.x, moved.y, moved.t, strict=True)) == [(5, 1, 1), (1, 1, 4)]
+    with h5py.File(path, "w") as file:
+        file["other"] = places
+    with pytest.raises(FileFormatError, match="no rectify_map"):
+        read_calibration(path)

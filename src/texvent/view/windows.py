@@ -111,6 +111,8 @@ NEVER = np.iinfo(np.int64).min // 2
 """Time of the last event where there was none; half, so that ages do not overflow."""
 BUSIEST_WINDOWS = 50
 """A recording is cut into this many windows to find the busiest one ..."""
+MOST_EMPTY = 18_000
+"""Windows without an event, one after another, that are shown: ten minutes of a video."""
 LONGEST_STILL_US = 40_000
 """... but none is longer than this, so that moving edges stay sharp."""
 
@@ -132,6 +134,7 @@ def cut_windows(
 
     Raises:
         ConfigError: step or window is not above 0.
+        InputError: a pause would be more than `MOST_EMPTY` windows.
     """
     for start_us, part in cut_streams(packets, size, step_us, window_us):
         yield EventWindow(start_us, start_us + window_us, count_events(part))
@@ -221,6 +224,7 @@ def cut_streams(
             continue
         first_us = int(packet.t[0]) if first_us is None else first_us
         held = EventStream.concat([held, packet])
+        _refuse_pause(held.t, step_us)
         # A window is complete once an event at or after its end is known.
         while (start_us := first_us + round(index * step_us)) + window_us <= int(held.t[-1]):
             yield start_us, held.cut(start_us, start_us + window_us)
@@ -232,6 +236,23 @@ def cut_streams(
         if len(held):
             yield start_us, held.cut(start_us, start_us + window_us)
         index += 1
+
+
+def _refuse_pause(times: NDArray[np.int64], step_us: Fraction) -> None:
+    """Refuse a pause that would be hours of empty images, such as a clock that was set in between.
+
+    Raises:
+        InputError: see above.
+    """
+    pauses = np.diff(times)
+    if not len(pauses) or pauses.max() <= MOST_EMPTY * step_us:
+        return
+    at = int(pauses.argmax())
+    begin, end = (times[at : at + 2] / MICROSECONDS).tolist()
+    raise InputError(
+        f"no event from {begin:g} to {end:g} s: {int((times[at + 1] - times[at]) // step_us):,} "
+        "images would be empty; show a part (--time START,STOP), or speed the video up (--speed)"
+    )
 
 
 def time_range(packets: EventPackets) -> tuple[int, int] | None:
