@@ -165,6 +165,8 @@ CODECS = Registry(
         "v2e": "texvent.io.hdf5.native:V2eCodec",
         "dsec": "texvent.io.hdf5.native:DsecCodec",
         "dsec-blosc": "texvent.io.hdf5.native:DsecBloscCodec",
+        "event-utils": "texvent.io.hdf5.event_utils:EventUtilsCodec",
+        "timelens": "texvent.io.arrays.npz:TimelensCodec",
         "parquet": "texvent.io.arrays.parquet:ParquetCodec",
         "rosbag1": "texvent.io.ros.bags:Rosbag1Codec",
         "mcap": "texvent.io.ros.bags:McapCodec",

@@ -63,6 +63,8 @@ ALL_CASES = (
     FormatCase("v2e", "e.h5", ANY, 2**32),
     FormatCase("dsec", "e.h5", ANY),
     FormatCase("dsec-blosc", "e.h5", ANY, extra="hdf5plugin"),
+    FormatCase("event-utils", "e.h5", SHORT, 2**51),
+    FormatCase("timelens", "e.npz", ANY),
     FormatCase("parquet", "e.parquet", ANY, extra="pyarrow"),
     FormatCase("rosbag1", "e.bag", ANY, 2**32 * 10**6),
     FormatCase("mcap", "e.mcap", SensorSize(2048, 2048), 2**42),

@@ -77,6 +77,8 @@ class NpzCodec(BlockCodec):
     )
 
     takes: ClassVar[tuple[str, ...]] = TABLE_OPTIONS
+    names: ClassVar[Mapping[str, str]] = {}
+    """Column → name of its array, where that is another."""
 
     def recognises(self, path: Path) -> bool:
         """True if it is a zip archive of arrays."""
@@ -95,7 +97,10 @@ class NpzCodec(BlockCodec):
         yield blocks.append
         parts = blocks or [{name: np.empty(0, COLUMN_TYPES[name]) for name in "xytp"}]
         arrays: dict[str, Any] = {
-            **{name: np.concatenate([one[name] for one in parts]) for name in parts[0]},
+            **{
+                self.names.get(name, name): np.concatenate([one[name] for one in parts])
+                for name in parts[0]
+            },
             # eventcv reads no other integers here.
             "width": np.uint64(target.size.width),
             "height": np.uint64(target.size.height),
@@ -104,6 +109,15 @@ class NpzCodec(BlockCodec):
         }
         with part.open("wb") as file:
             np.savez(file, **arrays)
+
+
+class TimelensCodec(NpzCodec):
+    """NumPy archives with the names that TimeLens reads."""
+
+    name: ClassVar[str] = "timelens"
+    extensions: ClassVar[tuple[str, ...]] = ()
+    limits: ClassVar[FormatLimits] = FormatLimits("TimeLens npz", 1 << 16, 1 << 63)
+    names: ClassVar[Mapping[str, str]] = {"t": "timestamp", "p": "polarity"}
 
 
 def read_arrays(path: Path) -> dict[str, Any]:

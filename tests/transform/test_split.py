@@ -1,0 +1,101 @@
+"""Recordings cut into files by frame times and by tables of labels."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.errors import FileFormatError, InputError
+from texvent.event_packets import EventPackets
+from texvent.events import EventStream
+from texvent.io.files import load
+from texvent.sensor import SensorSize
+from texvent.transform.split import Interval, read_intervals, split, write_split
+
+SIZE = SensorSize(4, 3)
+TIMES = [5, 10, 11, 25, 39, 40, 41]
+
+
+def events() -> EventStream:
+    zeros = [0] * len(TIMES)
+    return EventStream.from_columns(zeros, zeros, TIMES, zeros, size=SIZE)
+
+
+def packets(*cuts: int) -> EventPackets:
+    ends = [0, *cuts, len(TIMES)]
+    return EventPackets([events()[a:b] for a, b in zip(ends, ends[1:], strict=False)], SIZE)
+
+
+@pytest.mark.parametrize("cuts", [(), (1, 2, 3, 4, 5, 6), (3, 3)])
+def test_intervals_are_half_open_and_may_overlap_or_be_empty(cuts: tuple[int, ...]) -> None:
+    intervals = [Interval(10, 25), Interval(25, 40), Interval(0, 100), Interval(90, 95)]
+    found = dict(split(packets(*cuts), intervals))
+    times = {n: [t for part in parts for t in part.t.tolist()] for n, parts in found.items()}
+    assert times == {0: [10, 11], 1: [25, 39], 2: TIMES, 3: []}
+
+
+@pytest.mark.parametrize(
+    ("text", "intervals"),
+    [
+        ("0.00001 a.png\n0.000025 b.png\n0.00004 c.png\n", [(10, 25, None), (25, 40, None)]),
+        ("# t\n10\n25\n40\n", [(10, 25, None), (25, 40, None)]),
+        ("class,startTime_usec,endTime_usec\n7,10,25\n8,20,40\n", [(10, 25, "7"), (20, 40, "8")]),
+        ("start end label\n0.00001 0.000025 wave\n", [(10, 25, "wave")]),
+        ("7 10 25\n", [(10, 25, "7")]),
+    ],
+)
+def test_times_and_tables_are_read(
+    tmp_path: Path, text: str, intervals: list[tuple[int, int, str | None]]
+) -> None:
+    path = tmp_path / "t.txt"
+    path.write_text(text)
+    assert read_intervals(path) == [Interval(*one) for one in intervals]
+
+
+def test_what_is_no_table_of_times_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "t.txt"
+    for text in (
+        "",
+        "a b\n",
+        "10\n",
+        "10\n10\n",
+        "10\nx\n",
+        "7 25 10\n",
+        "a/b 10 25\n",
+        "7 1 2\n7 1\n",
+    ):
+        path.write_text(text)
+        with pytest.raises(FileFormatError):
+            read_intervals(path)
+    with pytest.raises(InputError, match="no such file"):
+        read_intervals(tmp_path / "none.txt")
+
+
+def test_a_folder_has_one_file_per_frame_interval(tmp_path: Path) -> None:
+    folder = tmp_path / "split"
+    intervals = [Interval(10, 25), Interval(25, 40)]
+    assert write_split(packets(3), intervals, folder, format="timelens") == 4
+    assert sorted(one.name for one in folder.iterdir()) == [
+        *("000000.npz", "000001.npz", "timestamps.txt")
+    ]
+    assert (folder / "timestamps.txt").read_text() == "0.000010\n0.000025\n0.000040\n"
+    with np.load(folder / "000001.npz") as arrays:
+        assert arrays["timestamp"].tolist() == [25, 39]
+        assert arrays["polarity"].tolist() == [0, 0]
+    assert read_intervals(folder / "timestamps.txt") == intervals
+    write_split(packets(), intervals, folder, overwrite=True)
+
+
+def test_labels_make_a_folder_each(tmp_path: Path) -> None:
+    folder = tmp_path / "split"
+    write_split(
+        packets(), [Interval(0, 11, "wave"), Interval(39, 50, "clap")], folder, format="hdf5"
+    )
+    assert load(folder / "clap" / "000001.h5").t.tolist() == [39, 40, 41]
+    assert (folder / "labels.csv").read_text().splitlines() == [
+        "file,label,start_us,stop_us",
+        "wave/000000.h5,wave,0,11",
+        "clap/000001.h5,clap,39,50",
+    ]
