@@ -68,6 +68,18 @@ def test_a_hot_pixel_is_found_and_an_edge_is_not() -> None:
     assert list_hot_pixels(counts)[0] == (0, 0, 700)
 
 
+def test_what_many_cameras_do_is_a_note_and_not_a_complaint() -> None:
+    report = Soundness(10_000, 200, 0, ((3, 4, 500),), 0.0, 0.5)
+    assert report.complaints() == []
+    assert report.notes() == [
+        "200 events repeat another one exactly",
+        "1 hot pixels with 5.0% of the events; the busiest, (3, 4), fired 500 times",
+    ]
+    doubled = Soundness(10_000, 5_000, 0, ((3, 4, 2_000),), 0.0, 0.5)
+    assert len(doubled.complaints()) == 2
+    assert doubled.notes() == []
+
+
 def test_times_of_frames_are_clumped() -> None:
     count = 20_000
     rng = np.random.default_rng(2)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from pathlib import Path
 
 import numpy as np
@@ -25,7 +26,7 @@ def events() -> EventStream:
 
 def packets(*cuts: int) -> EventPackets:
     ends = [0, *cuts, len(TIMES)]
-    return EventPackets([events()[a:b] for a, b in zip(ends, ends[1:], strict=False)], SIZE)
+    return EventPackets([events()[a:b] for a, b in itertools.pairwise(ends)], SIZE)
 
 
 @pytest.mark.parametrize("cuts", [(), (1, 2, 3, 4, 5, 6), (3, 3)])

@@ -15,8 +15,12 @@ from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.transform.filters.noise_filters import mask_hot_pixels
 
-MAX_DUPLICATES = 1e-3
-"""Share of events that repeat another one exactly, above which a recording is suspicious."""
+FEW_DUPLICATES, MAX_DUPLICATES = 1e-3, 0.25
+"""Shares of events that repeat another one exactly: above the first it is said (old cameras repeat
+some), above the second a recording is suspicious, such as one that was merged with itself."""
+MAX_HOT_SHARE = 0.1
+"""Share of the events from hot pixels above which a recording is suspicious: most cameras have a
+few such pixels."""
 HOT_EVENTS, HOT_FACTOR = 100, 20.0
 """As `hot_pixels.LEAST_EVENTS` and `FACTOR`, four times as strict: what is said here casts doubt on
 a recording, while the filter `hot-pixels` only loses a pixel."""
@@ -50,13 +54,9 @@ class Soundness:
         """Suspicious findings, one sentence each; empty if there are none."""
         found = []
         if self.duplicates > MAX_DUPLICATES * self.events:
-            found.append(f"{self.duplicates:,} events repeat another one exactly")
-        if self.hot_pixels:
-            x, y, count = self.hot_pixels[0]
-            found.append(
-                f"{len(self.hot_pixels):,} hot pixels; the busiest, ({x}, {y}), fired {count:,} "
-                "times"
-            )
+            found.append(self._repeats())
+        if self._hot_events() > MAX_HOT_SHARE * self.events:
+            found.append(self._hot())
         if self.events < LEAST_EVENTS:
             return found
         if self.clumped_share > MAX_CLUMPED:
@@ -67,6 +67,29 @@ class Soundness:
         if not ONE_SIDED <= self.on_share <= 1 - ONE_SIDED:
             found.append(f"{self.on_share:.1%} of the events are ON: one polarity is missing")
         return found
+
+
+    def notes(self) -> list[str]:
+        """Findings that many sound recordings have, one sentence each."""
+        found = []
+        if FEW_DUPLICATES * self.events < self.duplicates <= MAX_DUPLICATES * self.events:
+            found.append(self._repeats())
+        if 0 < self._hot_events() <= MAX_HOT_SHARE * self.events:
+            found.append(self._hot())
+        return found
+
+    def _repeats(self) -> str:
+        return f"{self.duplicates:,} events repeat another one exactly"
+
+    def _hot_events(self) -> int:
+        return sum(count for _, _, count in self.hot_pixels)
+
+    def _hot(self) -> str:
+        x, y, count = self.hot_pixels[0]
+        return (
+            f"{len(self.hot_pixels):,} hot pixels with {self._hot_events() / self.events:.1%} of "
+            f"the events; the busiest, ({x}, {y}), fired {count:,} times"
+        )
 
 
 @dataclass

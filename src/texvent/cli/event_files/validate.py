@@ -20,7 +20,7 @@ SUSPICIOUS = 1
 SHOWN_HOT_PIXELS = 10
 DESCRIPTION = """Read a whole event file and say whether it can be trusted: order, coordinates and
 polarity (a file that breaks them is refused), exact duplicates, hot pixels, clumped timestamps,
-a missing polarity.
+a missing polarity. What many sound recordings have is a note.
 
 Exit code: 0 sound, 1 suspicious or empty, 2 damaged or unreadable."""
 
@@ -76,6 +76,7 @@ def validate(options: ValidateOptions) -> dict[str, Any]:
     return {
         "verdict": verdict,
         "complaints": complaints,
+        "notes": report.notes(),
         "checksums": "yes" if is_checked else NO_CHECKSUMS,
         "sensor": str(events.size),
         **facts,
@@ -90,10 +91,11 @@ def _lines(facts: Mapping[str, Any]) -> list[str]:
     figures = {
         name: value
         for name, value in facts.items()
-        if name not in ("verdict", "complaints", "hottest")
+        if name not in ("verdict", "complaints", "notes", "hottest")
     }
     width = max(map(len, figures))
     lines = [facts["verdict"], *(f"  {text}" for text in facts["complaints"])]
+    lines += [f"  note: {text}" for text in facts["notes"]]
     for name, value in figures.items():
         shown = f"{value:,}" if isinstance(value, int) else value
         lines.append(f"{name:<{width}}  {shown}")
