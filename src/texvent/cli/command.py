@@ -73,7 +73,7 @@ def resolve_command(
         groups,
         prog=called,
         description=description,
-        names=dict if prog else lambda: {"preset": preset_help()},
+        presets=dict if prog else preset_help,
         explain=lambda flag: _option_of_others(flag, defaults),
     )
     given.update(deciding)

@@ -129,7 +129,7 @@ class Job:
         return prepare_source(str(self.video), resolve("simulate", self.options), progress=self)
 
     def _files(self) -> RunFiles:
-        return RunFiles(events=(self.folder / "events.h5",), previews=("mp4", "html"))
+        return RunFiles(events=self.folder / "events.h5", previews=("mp4", "html"))
 
     def _count(self, frame: Frame, packet: EventStream) -> None:
         self._events += len(packet)

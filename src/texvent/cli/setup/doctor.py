@@ -18,7 +18,7 @@ from rich.markup import escape
 
 from texvent._registry import REGISTRIES
 from texvent._version import full_version
-from texvent.cli.options import refuse_arguments
+from texvent.cli.options import parse_configs
 from texvent.runtime.memory import machine_bytes
 
 DESCRIPTION = """Say what is installed, what is missing, and how to get it. Exit code 1 if something
@@ -75,7 +75,7 @@ class Finding:
 
 def run(arguments: Sequence[str]) -> int:
     """Print the report; returns 0 if everything texvent needs is there, else 1."""
-    refuse_arguments(arguments, prog="texvent doctor", description=DESCRIPTION)
+    parse_configs(arguments, {}, prog="texvent doctor", description=DESCRIPTION)
     findings = examine()
     console = Console(highlight=False, soft_wrap=True)
     width = max(len(finding.name) for finding in findings)
