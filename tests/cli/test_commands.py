@@ -179,7 +179,7 @@ def test_unknown_commands_flags_presets_and_parts_are_named(folder, capsys):
     assert "png, html, none" in fails(capsys, "simulate", CLIP, "--previews", "jpg")
     assert "'cold'" in fails(capsys, "simulate", CLIP, "--noise", "cold")
     assert "--fps: 'x' is not a rate such as 24" in fails(capsys, "simulate", CLIP, "--fps", "x")
-    assert "contrast_threshold is -1" in fails(
+    assert "--contrast-threshold is -1" in fails(
         capsys, "simulate", CLIP, "--contrast-threshold", "-1"
     )
     assert not list(folder.iterdir())
@@ -211,9 +211,9 @@ def test_a_missing_file_and_a_missing_argument_are_named(folder, capsys):
     ("words", "message"),
     [
         (("--duration", "2s"), "--duration: '2s' is not a number (Length of the video, in seconds"),
-        (("--duration", "-1"), "duration is -1 s; it must be 1e-06..86400 s"),
-        (("--fps", "0"), "fps is 0 frames per second; it must be"),
-        (("--contrast-threshold", "0"), "contrast_threshold is 0; it must be 0.0001..10"),
+        (("--duration", "-1"), "--duration is -1 s; it must be 1e-06..86400 s"),
+        (("--fps", "0"), "--fps is 0 frames per second; it must be"),
+        (("--contrast-threshold", "0"), "--contrast-threshold is 0; it must be 0.0001..10"),
         (("--seed", "1.5"), "--seed: '1.5' is not a whole number"),
         (
             ("--noise", "5"),

@@ -17,7 +17,13 @@ from texvent.options.fields import option_names
 from texvent.scenes.spec.files import is_scene_file, load_scene
 from texvent.settings.config_files import Command
 from texvent.settings.presets import preset_help
-from texvent.settings.resolution import DECIDING, Settings, apply_options, base_settings
+from texvent.settings.resolution import (
+    DECIDING,
+    Settings,
+    apply_options,
+    base_settings,
+    warn_of_idle,
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,6 +94,7 @@ def resolve_command(
         if found is not None:  # it decides the defaults of other options
             defaults = base_settings(command, config=config, **named, has_motion=True)
             settings = apply_options(defaults, {**options, "motion": found}, where="options")
+    warn_of_idle(settings, options)
     return settings, subject, output
 
 

@@ -62,19 +62,18 @@ def help_page(
         groups: section → config instance with the defaults to show. The class attribute
             `main_options` of the first names the options that "main" shows; without it, all.
         prog: how the command is called.
-        description: printed as it is.
-        presets: simulator → names of its presets; rows at the end.
+        description: paragraphs; indented ones are kept as they are.
+        presets: simulator → names of its presets; rows below all options and those of a run.
     """
     width = min(shutil.get_terminal_size().columns, WIDEST)
     sections = {title: list(declared_options(config)) for title, config in groups.items()}
     every = [option for options in sections.values() for option in options]
     operands = [option for option in every if option.is_operand]
     main = getattr(next(iter(groups.values()), None), "main_options", ())
+    usage = [prog, *(["[OPTIONS]"] if every else []), *(one.flags[0] for one in operands)]
     page = argparse.ArgumentParser(
-        usage=" ".join(
-            [prog, *(["[OPTIONS]"] if every else []), *(one.flags[0] for one in operands)]
-        ),
-        description=description,
+        usage=" ".join(usage),
+        description=_filled(description, width),
         add_help=False,
         formatter_class=functools.partial(
             argparse.RawDescriptionHelpFormatter, max_help_position=FLAG_COLUMNS, width=width
@@ -85,26 +84,28 @@ def help_page(
         chosen = page.add_argument_group()
         for option in [*operands, *(named[name] for name in main if name in named)]:
             _add(chosen, option, is_brief=True)
-        rows = [f"presets of {name}: {', '.join(own)}" for name, own in presets.items()]
         *others, last = sections
         names = f"{', '.join(others)} or {last}" if others else last
-        rows.append(f"All options: {prog} --help all. One section: --help {names}.")
-        wrapped = [textwrap.fill(row, width, subsequent_indent="    ") for row in rows]
-        page.epilog = "\n".join(wrapped)
+        more = f"All options: {prog} --help all. One section: --help {names}."
+        page.epilog = textwrap.fill(more, width)
         return page.format_help()
     for title, options in sections.items():
         if asked in (MAIN, ALL, title):
             purpose = (type(groups[title]).__doc__ or "").strip().partition("\n")[0]
-            section = page.add_argument_group(f"{title}: {purpose.rstrip('.')}")
+            heading = (title, purpose) if len(sections) > 1 else ()
+            section = page.add_argument_group(*heading)
             for option in options:
                 _add(section, option)
+    if asked in (ALL, "run"):
+        rows = [f"presets of {name}: {', '.join(own)}" for name, own in presets.items()]
+        page.epilog = "\n".join(textwrap.fill(row, width, subsequent_indent="    ") for row in rows)
     return page.format_help()
 
 
 def _add(section: Any, option: Option, *, is_brief: bool = False) -> None:
     """A row of help; if brief, only the first sentence of its text."""
     text = first_sentence(option.text) if is_brief else option.text
-    text = (text + _default(option, is_brief=is_brief)).replace("%", "%%")
+    text = (text + _default(option)).replace("%", "%%")
     if option.is_operand:
         section.add_argument(option.flags[0], help=text)
         return
@@ -118,16 +119,24 @@ def _add(section: Any, option: Option, *, is_brief: bool = False) -> None:
     section.add_argument(*flags, help=text, **more)
 
 
-def _default(option: Option, *, is_brief: bool) -> str:
+def _default(option: Option) -> str:
     """The default as help says it; nothing where it would say nothing."""
     default = option.default
     if default is REQUIRED:
         return "" if option.is_operand else " (required)"
-    if default is False or default == () or (is_brief and default is None):
+    if default is None or default is False or default == ():
         return ""
     values = default if isinstance(default, tuple) else (default,)
-    shown = " ".join("none" if one is None else str(one) for one in values)
-    return f" (default: {shown})"
+    return f" (default: {' '.join(map(str, values))})"
+
+
+def _filled(description: str, width: int) -> str:
+    """Paragraphs filled to the width, indented ones as they are."""
+    paragraphs = description.strip().split("\n\n")
+    return "\n\n".join(
+        text if text.startswith(" ") else textwrap.fill(" ".join(text.split()), width)
+        for text in paragraphs
+    )
 
 
 def first_sentence(text: str) -> str:

@@ -127,9 +127,8 @@ def write_run(
 
         def append_labelled(packet: EventStream) -> None:
             # A file without a place for the ids of objects has them in the folder of truth.
-            append(
-                packet if getattr(writer, "keeps_labels", False) else packet.with_ids(None, None)
-            )
+            is_kept = getattr(writer, "keeps_labels", False)
+            append(packet if is_kept else packet.with_ids(None, None))
 
         # The truth ends before the event file does, for it may give it its events.
         truth = _open_truth(outputs, simulation, files, facts, append_labelled)
@@ -138,12 +137,8 @@ def write_run(
         if "events" not in files.truth:
             sinks.append(lambda frame, packet: append(packet))
         stop = outputs.enter_context(stop_on_interrupt()) if files.keep_partial else StopRequest()
-        early = _run_steps(
-            simulation.steps(on_scene_change, warns=True),
-            [*sinks, on_step],
-            stop,
-            files.keep_partial,
-        )
+        steps = simulation.steps(on_scene_change, warns=True)
+        early = _run_steps(steps, [*sinks, on_step], stop, files.keep_partial)
         if early is not None:
             for output in (writer, preview, truth):
                 if output is not None:

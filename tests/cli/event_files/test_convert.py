@@ -116,7 +116,7 @@ def test_a_label_is_dropped_where_that_is_asked_for(
     label = np.zeros(len(recording), dtype=np.uint8)
     columns = (recording.x, recording.y, recording.t, recording.p)
     save("labelled.h5", EventStream(*columns, SIZE, {}, label))
-    advice = "without_label() or label_noise=False silences this"
+    advice = "without_label() or --no-label-noise silences this"
     for words, said in (((), 1), (("--drop-label",), 0)):
         assert run("convert", "labelled.h5", "x.aedat4", "--overwrite", *words) == 0
         assert load("x.aedat4") == recording
