@@ -97,8 +97,8 @@ class RunConfig:
     """Pixel model. It turns brightness into events: texvent, physical, esim, v2e, senpi, v2ce or
     voltmeter."""
     preset: str = "accurate"
-    """Set of simulator options; --help run lists them. Single options override it. Without simulator it is that of the
-    one that has the preset."""
+    """Set of simulator options; --help run lists them. Single options override it. Without
+    simulator it is that of the one that has the preset."""
     sensor: str | None = None
     """Sensor: name or WIDTHxHEIGHT. Names are those of cameras, such as davis346, and of files of
     texvent calibrate. Frames are fitted to its size, and a simulator that knows its measured

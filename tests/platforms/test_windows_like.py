@@ -103,7 +103,6 @@ def test_a_file_that_another_program_has_open_is_refused_in_one_line(
 def test_memory_that_the_system_does_not_tell_is_assumed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(memory, "_CONTROL_GROUPS", ())
     assert memory.machine_bytes() is None
-    assert memory.peak_bytes() is None
     assert memory.usable_bytes.__wrapped__() == int(memory.SHARE * memory.UNKNOWN_BYTES)
 
 

@@ -75,13 +75,8 @@ def test_a_prompt_gives_a_video_a_viewer_and_downloads(page, tmp_path):
     assert status == 200
     assert headers["Content-Security-Policy"].startswith("sandbox allow-scripts;")
     assert b"</html>" in body
-    for format, suffix in (("hdf5", ".h5"), ("evt3", ".raw")):
-        status, headers, body = ask(page, f"/download?format={format}")
-        assert status == 200
-        assert headers["Content-Disposition"] == f'attachment; filename="events{suffix}"'
-        (tmp_path / f"got{suffix}").write_bytes(body)
-        assert texvent.load(tmp_path / f"got{suffix}", format=format).equals(whole)
-    assert ask(page, "/download?format=nosuch")[0] == 400
+    (tmp_path / "got.h5").write_bytes(ask(page, "/events")[2])
+    assert texvent.load(tmp_path / "got.h5").equals(whole)
 
 
 def test_the_text_of_a_scene_file_is_a_scene(page):
@@ -164,12 +159,7 @@ def test_other_pages_cannot_start_a_job(page, headers):
 def test_a_link_from_another_page_opens_the_page(page):
     assert ask(page, sec_fetch_site="cross-site", sec_fetch_mode="navigate")[0] == 200
     assert ask(page, "/job", sec_fetch_site="cross-site", sec_fetch_mode="no-cors")[0] == 403
-    assert (
-        ask(page, "/download?format=evt3", sec_fetch_site="cross-site", sec_fetch_mode="navigate")[
-            0
-        ]
-        == 403
-    )
+    assert ask(page, "/events", sec_fetch_site="cross-site", sec_fetch_mode="navigate")[0] == 403
 
 
 @pytest.mark.parametrize("values", [{"sensor": "/etc/x.toml"}, {"generator": "./folder"}])

@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -54,6 +55,8 @@ class InfoOptions(EventFileOptions):
 
     path: Path = REQUIRED
     """Event file, video file or image folder."""
+    fps: Fraction | None = None
+    """Frame rate of an image folder without times."""
     all: bool = False
     """Print everything that is stored, options included and in full; otherwise the ten lines that
     matter."""
@@ -71,7 +74,7 @@ def run(arguments: Sequence[str]) -> int:
     elif is_still(options.path):
         facts = describe_image(options.path)
     else:
-        facts = describe_frames(open_frames(options.path, CaptureConfig()))
+        facts = describe_frames(open_frames(options.path, CaptureConfig(fps=options.fps)))
     if options.json:
         write_out(json.dumps(facts, indent=2, ensure_ascii=False) + "\n")
     else:
