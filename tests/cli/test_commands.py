@@ -74,14 +74,6 @@ def test_the_api_gives_the_events_that_the_command_writes(folder):
     assert texvent.load("out.h5").equals(direct)
 
 
-def test_events_are_the_same_packet_by_packet_and_whole():
-    options = {"interpolate": "blend", "stop": 0.2, "label_noise": True}
-    whole = texvent.simulate(CLIP, **options)
-    packets = texvent.simulate(CLIP, as_packets=True, **options)
-    assert packets.collect().equals(whole)
-    assert set(np.unique(whole.label)) == {0, 1}
-
-
 def test_printed_options_read_back_give_the_same_options(folder, capsys):
     words = ["simulate", CLIP, "--balance", "15", "--fps", "30000/1001", "--no-detect-cuts"]
     assert run(*words, "--print-config") == 0
@@ -92,14 +84,6 @@ def test_printed_options_read_back_give_the_same_options(folder, capsys):
     assert capsys.readouterr().out == printed
     assert run("simulate", CLIP, "--config", "run.toml", "--balance", 20, "--print-config") == 0
     assert tomllib.loads(capsys.readouterr().out)["simulate"]["balance"] == 20.0
-
-
-def test_a_yaml_config_sets_options_too(folder, capsys):
-    Path("run.yaml").write_text("seed: 9\nsimulate:\n  noise: none\n", encoding="utf-8")
-    assert run("simulate", CLIP, "--config", "run.yaml", "--print-config") == 0
-    tables = tomllib.loads(capsys.readouterr().out)
-    assert tables["run"]["seed"] == 9
-    assert tables["simulate"]["noise"] == "none"
 
 
 def test_the_options_of_an_event_file_make_it_again_and_serve_another_run(folder):
@@ -120,17 +104,6 @@ def test_a_dry_run_estimates_and_writes_nothing(folder, capsys):
     assert "events" in said
     assert "memory" in said
     assert not list(folder.iterdir())
-
-
-def test_quiet_says_nothing(folder, capsys):
-    assert run("simulate", CLIP, "-q", "--previews", "none", "-o", "a.npz", *QUICK) == 0
-    captured = capsys.readouterr()
-    assert captured.out == captured.err == ""
-
-
-def test_the_event_file_is_named_after_the_input_unless_told(folder):
-    assert run("simulate", CLIP, "-q", "--previews", "none", *QUICK) == 0
-    assert [path.name for path in folder.iterdir()] == ["bigbuckbunny-excerpt.h5"]
 
 
 def test_info_describes_events_and_videos(folder, capsys):
@@ -196,14 +169,6 @@ def test_a_value_that_begins_with_a_hyphen_is_read(folder, capsys):
         capsys, "simulate", CLIP, "--sensor", "--quiet"
     )
     assert "did you mean 'davis346'" in fails(capsys, "simulate", CLIP, "--sensor=davis34")
-    assert not list(folder.iterdir())
-
-
-def test_a_missing_file_and_a_missing_argument_are_named(folder, capsys):
-    assert "nope.mp4" in fails(capsys, "simulate", "nope.mp4")
-    assert "nope.h5" in fails(capsys, "info", "nope.h5")
-    assert "nope.toml" in fails(capsys, "simulate", CLIP, "--config", "nope.toml")
-    fails(capsys, "simulate")
     assert not list(folder.iterdir())
 
 
@@ -274,22 +239,6 @@ def test_a_file_that_the_system_refuses_to_grow_is_one_line(folder):
     assert not list(folder.iterdir())
 
 
-def test_words_not_understood_are_reported(folder, capsys):
-    words = [
-        "--duration",
-        "0.1",
-        "--sensor",
-        "32x24",
-        "--previews",
-        "none",
-        "--interpolate",
-        "none",
-    ]
-    assert run("generate", "a red ball zorbles", "-o", "a.h5", *words) == 0
-    assert "prompt words not understood: zorbles" in capsys.readouterr().err
-    assert "zorbles" in str(texvent.load("a.h5").metadata["prompt_report"]["not_understood"])
-
-
 def test_a_target_rate_is_reached_by_adjusting_the_threshold(folder, capsys):
     words = ["--previews", "none", "-o", "a.h5", "--interpolate", "none", "--noise", "none"]
     assert run("simulate", CLIP, "--target-rate", 100_000, *words) == 0
@@ -297,11 +246,3 @@ def test_a_target_rate_is_reached_by_adjusting_the_threshold(folder, capsys):
     events = texvent.load("a.h5")
     assert len(events) / 0.96 == pytest.approx(100_000, rel=0.05)
     assert events.metadata["settings"]["simulate"]["contrast_threshold"] != 0.2
-
-
-def test_randomized_thresholds_are_stored_and_depend_on_the_seed_only():
-    options = {"interpolate": "none", "stop": 0.1, "randomize": "v2v", "simulator": "physical"}
-    first, again, other = (texvent.simulate(CLIP, seed=seed, **options) for seed in (1, 1, 2))
-    drawn = [one.metadata["settings"]["simulate"] for one in (first, again, other)]
-    assert drawn[0] == drawn[1] != drawn[2]
-    assert first.equals(again)

@@ -54,17 +54,6 @@ def test_a_prompt_of_which_nothing_is_understood_is_refused(capsys):
     assert not Path("a.h5").exists()
 
 
-def test_strict_refuses_what_is_not_shown_as_it_says(capsys):
-    said = error_of(capsys, "generate", "a wug and a red ball", "--strict", "-o", "a.h5", *SMALL)
-    assert "not understood: wug" in said
-    assert "leave strict out" in said
-    assert not Path("a.h5").exists()
-    words = ["generate", "a red ball bounces", "--strict", "--duration", 0.1, "-o", "a.h5", *SMALL]
-    assert run(*words) == 0
-    with pytest.raises(texvent.errors.InputError, match="not understood: wug"):
-        texvent.video("a wug and a red ball", strict=True)
-
-
 def test_a_run_without_events_warns(capsys):
     still_video("still.avi")
     words = ["simulate", "still.avi", "-o", "a.h5", "--noise", "none", "--previews", "none", "-q"]

@@ -2,7 +2,6 @@
 
 import ast
 import inspect
-import typing
 
 from tests.contract import option_keywords
 
@@ -24,11 +23,6 @@ def test_every_option_of_a_run_is_a_typed_keyword():
         groups = default_settings(command).groups().values()
         names = {name for group in groups for name in option_names(type(group))}
         assert names <= set(keywords.__annotations__)
-
-
-def test_every_overload_takes_the_same_keywords():
-    for function in (generate, simulate):
-        assert len(typing.get_overloads(function)) == 3
 
 
 def test_signatures_name_every_option():

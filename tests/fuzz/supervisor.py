@@ -23,8 +23,7 @@ PREPARE_SECONDS = 120.0
 class Supervisor:
     """One worker at a time; a new one after one that had to be ended."""
 
-    def __init__(self, kill_seconds: float = KILL_SECONDS) -> None:
-        self._kill_seconds = kill_seconds
+    def __init__(self) -> None:
         self._process: subprocess.Popen[bytes] | None = None
         self._unread = b""
 
@@ -37,20 +36,19 @@ class Supervisor:
         process.stdin.flush()
         state, damage = "starting", ""
         while True:
-            answer = self._answer(self._kill_seconds if state == "reading" else PREPARE_SECONDS)
+            answer = self._answer(KILL_SECONDS if state == "reading" else PREPARE_SECONDS)
             if answer is None:
                 kind, detail = self._end()
                 if state != "reading":
                     raise AssertionError(f"the worker of {name} failed before it read: {detail}")
-                return Outcome(name, number, kind, damage, detail, self._kill_seconds)
+                return Outcome(name, number, kind, damage, detail)
             damage = answer.get("damage", damage)
             if "broken" in answer:
                 raise AssertionError(f"{name} cannot be fuzzed: {answer['broken']}")
             if "outcome" in answer:
                 if answer["outcome"] in ("hang", "blow-up"):
                     self._end()
-                seconds = answer.get("seconds", 0.0)
-                return Outcome(name, number, answer["outcome"], damage, answer["detail"], seconds)
+                return Outcome(name, number, answer["outcome"], damage, answer["detail"])
             state = answer["state"]
 
     def __enter__(self) -> Self:
@@ -100,6 +98,6 @@ class Supervisor:
         except subprocess.TimeoutExpired:
             process.kill()
             process.communicate()
-            return "hang", f"no end after {self._kill_seconds:g} s"
+            return "hang", f"no end after {KILL_SECONDS:g} s"
         process.communicate()
         return "signal", signal.Signals(-code).name if code < 0 else f"exit code {code}"

@@ -27,7 +27,7 @@ from texvent.options.parts import make_part
 from texvent.scenes.spec.data import scene_from_data
 from texvent.scenes.spec.files import load_scene, scene_text
 from texvent.scenes.staging.compose import compose_scene
-from texvent.sensor import SensorSize, parse_sensor
+from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.transform.undistort import read_calibration
 
@@ -56,14 +56,12 @@ MASK_SIZE = SensorSize(12, 9)
 TEXTS: dict[str, tuple[str, Any]] = {
     "filter": ("background-activity:window_us=5000,support=2", partial(make_part, FILTERS)),
     "time": ("0.5,2", parse_time_range),
-    "sensor": ("240x180", parse_sensor),
     "path": ("folder/name.h5", lambda text: _open_each(text)),
     "prompt": ("a red car drives left past two trees at dusk", lambda text: _stage(text)),
     **{
         option: (value, lambda text, option=option: resolve("simulate", {option: text}))
         for option, value in (
             ("preset", "paper"),
-            ("simulator", "esim"),
             ("fps", "30000/1001"),
         )
     },
@@ -92,7 +90,6 @@ def text_readers() -> list[Reader]:
             Reader(f"scene {ending}", partial(_make_scene, ending), _read_scene, 2)
             for ending in (".toml", ".json")
         ),
-        Reader("sensor file", _make_sensor_file, _read_sensor_file, 2),
         *(
             Reader(f"list {ending}", partial(_make_text, f"list{ending}", text), _read_list, 2)
             for ending, text in LISTS.items()
@@ -170,15 +167,6 @@ def _make_scene(ending: str, folder: Path) -> Path:
 
 def _read_scene(path: Path) -> str:
     return repr(describe_scene(load_scene(path), list_nouns()))[:1000]
-
-
-def _make_sensor_file(folder: Path) -> Path:
-    tables = {"run": {"simulator": "physical", "sensor": "346x260"}, "simulate": {}}
-    return _make_text("sensor.toml", tomli_w.dumps(tables), folder)
-
-
-def _read_sensor_file(path: Path) -> str:
-    return repr(resolve("simulate", {"sensor": str(path)}).as_tables())[:1000]
 
 
 def _read_list(path: Path) -> str:

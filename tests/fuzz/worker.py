@@ -6,7 +6,6 @@ libraries print goes nowhere. The parent ends the process when a reader hangs or
 
 from __future__ import annotations
 
-import functools
 import json
 import os
 import random
@@ -23,7 +22,6 @@ from typing import IO, Any
 from texvent.errors import MissingDependencyError, TexventError
 
 from .array_damage import CODE_RAN
-from .broken_readers import broken_readers
 from .damage import damage_input
 from .outcomes import LONGEST_ERROR, MAX_GROWTH_BYTES, MAX_SECONDS
 from .reader import Reader
@@ -61,7 +59,7 @@ class Session:
 
     def answer(self, name: str, number: int, finding: str | None) -> None:
         """Damage an input in the way of that number, or take a kept one, and read it."""
-        reader = _all_readers()[name]
+        reader = readers()[name]
         self.tell({"state": "preparing"})
         try:
             self._prepare(reader)
@@ -99,14 +97,14 @@ class Session:
         before = _memory("VmRSS")
         Path("/proc/self/clear_refs").write_text("5")
         start = time.monotonic()
-        result = _outcome(reader, path, self._digests[reader.name])
+        result = outcome_of(reader, path, self._digests[reader.name])
         seconds = time.monotonic() - start
         growth = _memory("VmHWM") - before
         if seconds > MAX_SECONDS:
             result = {"outcome": "hang", "detail": f"{seconds:.1f} s, then {result}"}
         if growth > MAX_GROWTH_BYTES:
             result = {"outcome": "blow-up", "detail": f"{growth >> 20} MiB, then {result}"}
-        return {**result, "seconds": round(seconds, 2), "growth": growth}
+        return result
 
     def tell(self, facts: dict[str, Any]) -> None:
         """Answer the parent."""
@@ -114,12 +112,8 @@ class Session:
         self._answers.flush()
 
 
-@functools.cache
-def _all_readers() -> dict[str, Reader]:
-    return {**readers(), **{reader.name: reader for reader in broken_readers()}}
-
-
-def _outcome(reader: Reader, path: Path, sound: Any) -> dict[str, Any]:
+def outcome_of(reader: Reader, path: Path, sound: Any) -> dict[str, Any]:
+    """What became of an input, and the error in words."""
     try:
         found = reader.read(path)
     except TexventError as error:

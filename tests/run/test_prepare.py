@@ -76,7 +76,7 @@ def test_weights_that_nothing_reads_are_a_warning(capsys, tmp_path):
     ]
     assert main([*words, "-o", str(tmp_path / "a.h5")]) == 0
     said = capsys.readouterr().err
-    assert said.count("rife.pkl', and nothing reads it: interpolate is blend") == 1
+    assert said.count("warning  --interpolator-weights has no effect: interpolate is blend") == 1
 
 
 def test_the_search_for_a_target_rate_says_how_far_it_is():

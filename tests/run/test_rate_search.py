@@ -53,8 +53,7 @@ def test_a_rate_out_of_reach_fails_and_says_what_is_near(target):
         threshold_for_rate(lambda threshold: 1000 / threshold, target)
 
 
-@pytest.mark.parametrize("simulator", ["physical", "esim"])
-@pytest.mark.parametrize("target", [10_000, 30_000])
+@pytest.mark.parametrize(("simulator", "target"), [("physical", 30_000), ("esim", 10_000)])
 def test_a_simulation_is_matched_to_a_rate(simulator, target):
     run = simulation(simulator=simulator, **({"noise_scale": None} if simulator == "esim" else {}))
     matched, found = match_rate(run, target, seconds=0.5)
@@ -62,25 +61,6 @@ def test_a_simulation_is_matched_to_a_rate(simulator, target):
     events = matched.packets.collect()
     assert len(events) / 0.5 == pytest.approx(found.ratio * target)
     assert matched.provenance["settings"]["simulate"] != run.provenance["settings"]["simulate"]
-
-
-def test_only_the_start_of_the_clip_is_simulated():
-    read = []
-
-    class Counted(Video):
-        def __iter__(self):
-            return (read.append(frame.t_us) or frame for frame in super().__iter__())
-
-    video = moving_waves(30)
-    counted = Counted(video.pixels, video.times_us)
-    measure_rate(simulation(counted, simulator="physical"), 0.2)
-    # Up to three frames more are decoded ahead.
-    assert 208_333 <= max(read) <= 333_333
-    early, late = (
-        measure_rate(simulation(one, simulator="physical"), 0.2)
-        for one in (video, Video(video.pixels, np.add(video.times_us, 10**6)))
-    )
-    assert early == late
 
 
 def test_a_higher_threshold_never_gives_a_higher_rate():
@@ -100,14 +80,6 @@ class Counter:
     def __call__(self, threshold):
         self.calls.append(threshold)
         return round(self.at_one * threshold**-self.power)
-
-
-def test_a_count_that_falls_as_one_over_the_threshold_is_matched_in_two_steps():
-    counter = Counter(10_000, 1.0)
-    match = find_threshold(counter, 100_000, start=0.2)
-    assert match.threshold == pytest.approx(0.1)
-    assert match.is_matched
-    assert len(counter.calls) == 2
 
 
 @given(power=st.floats(0.5, 3.0), wanted=st.floats(0.02, 1.0))

@@ -114,18 +114,6 @@ def test_a_kernel_is_read_from_disk_when_other_files_change(package):
     assert run(package) == (111, 1)
 
 
-def test_a_cache_folder_of_the_users_choice_follows_changes_too(package, tmp_path):
-    cache = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-    assert run(package, **cache) == (111, 0)
-    edit(package / "inner.py", "x + STEP", "x - STEP")
-    assert run(package, **cache) == (91, 0)
-    assert not list(package.rglob("*.nbi"))
-
-
-def test_without_jit_kernels_stay_python(package):
-    assert run(package, NUMBA_DISABLE_JIT="1") == (111, 0)
-
-
 def test_every_kernel_of_the_library_uses_this_decorator():
     raw = re.compile(r"numba\.n?jit|from numba import .*jit")
     files = [file for file in SOURCE.rglob("*.py") if file != SOURCE / "runtime" / "jit.py"]
