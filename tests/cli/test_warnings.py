@@ -62,16 +62,6 @@ def test_a_run_without_events_warns(capsys):
         assert len(texvent.simulate("still.avi", noise="none")) == 0
 
 
-def test_the_real_duration_is_said_where_it_differs(capsys):
-    words = ["generate", "a red ball bounces", *SMALL, "--overwrite", "-o", "a.h5"]
-    assert run(*words, "--duration", 0.4) == 0
-    said = capsys.readouterr().err
-    assert "note     the video lasts 0.375 s, not 0.4: whole frame intervals at 24 fps" in said
-    assert " s (elapsed)" in said
-    assert run(*words, "--duration", 0.5) == 0
-    assert "the video lasts" not in capsys.readouterr().err
-
-
 @pytest.fixture
 def recording(folder):
     t = np.arange(0, 400_001, 100)

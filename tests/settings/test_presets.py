@@ -52,9 +52,8 @@ def test_commands_say_the_model_and_name_options(tmp_path, monkeypatch, capsys):
     words += ["--previews", "none", "-o", "a.h5"]
     assert main([*words, "--preset", "evk4", "--simulator", "texvent"]) == 2
     assert "; give --simulator physical, --preset evk4\n" in capsys.readouterr().err
-    assert main([*words, "--preset", "evk4"]) == 0
-    assert "model    physical, preset evk4\n" in capsys.readouterr().err
-    assert texvent.load("a.h5").metadata["settings"]["run"]["simulator"] == "physical"
+    assert main([*words, "--preset", "evk4", "--print-config"]) == 0
+    assert 'simulator = "physical"\n' in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("page", [("all",), ("run",)])

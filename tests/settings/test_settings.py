@@ -1,6 +1,7 @@
 """From names and single options to the settings of a run."""
 
 import pytest
+import tomli_w
 
 from texvent.errors import ConfigError
 from texvent.sensor import SENSORS, SensorSize
@@ -95,8 +96,6 @@ def test_a_fitted_sensor_file_sets_simulator_size_and_constants(tmp_path):
 
 
 def test_settings_written_and_read_back_are_the_same(tmp_path):
-    import tomli_w
-
     settings = resolve("generate", {"fps": "30000/1001", "simulator": "esim", "seed": 4})
     path = tmp_path / "run.toml"
     path.write_text(tomli_w.dumps(settings.as_tables()), encoding="utf-8")
@@ -129,3 +128,19 @@ def test_a_broken_config_file_is_one_clear_error(tmp_path, name, text, message):
 def test_a_sensor_that_is_one_number_is_told_what_a_sensor_can_be():
     with pytest.raises(ConfigError, match=r"sensor is 32; it must be a name.*\(width, height\)"):
         resolve("generate", {"sensor": 32})
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"noise": "none", "noise_rate_hz": 5.0}, "noise_rate_hz has no effect: noise is none"),
+        ({"interpolate": "none", "max_intermediate": 5}, "max_intermediate has no effect: int"),
+        ({"camera_amplitude": 5.0}, "camera_amplitude has no effect: camera is not given"),
+    ],
+)
+def test_an_option_that_another_one_switches_off_is_said(tmp_path, options, said):
+    with pytest.warns(TexventWarning, match=said):
+        settings = resolve("simulate", options)
+    path = tmp_path / "run.toml"
+    path.write_text(tomli_w.dumps(settings.as_tables()), encoding="utf-8")
+    assert resolve("simulate", {}, config=path) == settings  # files hold all options
