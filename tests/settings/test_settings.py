@@ -3,7 +3,7 @@
 import pytest
 import tomli_w
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, TexventWarning
 from texvent.sensor import SENSORS, SensorSize
 from texvent.settings.config_files import read_config
 from texvent.settings.resolution import base_settings, resolve, unmeasured_sensor
