@@ -77,8 +77,6 @@ def test_a_time_outside_of_the_recording_is_refused(capsys, recording, source, c
     sensor = ("--sensor", "8x6")
     said = error_of(capsys, command, source, *out, *sensor, "--time", "5,6")
     assert said == "no event from 5 to 6 s: the recording runs from 0 to 0.4 s"
-    said = error_of(capsys, command, source, *out, *sensor, "--time", "100000,300000")
-    assert said.endswith("times are s: did you mean 0.1 to 0.3?")
     assert "is empty" in error_of(capsys, command, source, *out, *sensor, "--time", "0.3,0.1")
     assert not Path(out[-1]).exists()
 

@@ -22,7 +22,7 @@ from texvent.run.prepare import prepare_source
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.report import PromptReport
 from texvent.settings.resolution import Settings, unmeasured_sensor
-from texvent.video import MICROSECONDS, Frame, FrameStream
+from texvent.video import MICROSECONDS, Frame
 
 SIGNALLED = 128
 """Exit code of a process ended by signal n is this + n, as shells expect."""
@@ -165,19 +165,6 @@ def _notes(simulation: Simulation) -> Iterator[str]:
     unmeasured = unmeasured_sensor(run)
     if unmeasured is not None:
         yield f"note     {unmeasured}"
-    asked, made = getattr(simulation.settings.source, "duration", None), _duration(simulation.video)
-    if asked is not None and made is not None and abs(made - asked) > 0.01 * asked:
-        yield (
-            f"note     the video lasts {made:g} s, not {asked:g}: whole frame intervals at "
-            f"{simulation.video.fps} fps"
-        )
-
-
-def _duration(video: FrameStream) -> float | None:
-    """From the first frame to the last, s; None where it is not known."""
-    if video.fps is None or video.frame_count is None:
-        return None
-    return float((video.frame_count - 1) / video.fps)
 
 
 def _summary(tally: Tally, seconds: float) -> list[str]:

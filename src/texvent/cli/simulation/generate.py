@@ -19,12 +19,11 @@ from texvent.generate.scene_input import Subject, check_takes
 from texvent.generate.video_models.known_models import warn_low_fps
 from texvent.io.atomic import check_output
 from texvent.run.prepare import check_run, is_strict, make_scene, make_video, prepare_prompt
-from texvent.run.truth import TruthFolder
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.spec.files import is_scene_file, save_scene
 from texvent.scenes.spec.scene import Scene
 from texvent.settings.resolution import Settings
-from texvent.truth.layout import ALL, check_generator, truth_folder
+from texvent.truth.layout import check_generator
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
 generator renders simple 3-D shapes; `texvent generators` lists learned models.
@@ -173,43 +172,17 @@ def _write_video(
 
     named = default_event_file(subject_name(own.prompt)).with_suffix(VIDEO_EXTENSION)
     path = output.out or named
-    if output.format:
-        raise ConfigError("--video-only writes a video; leave out --format")
+    if output.format or output.truth:
+        raise ConfigError("--video-only writes a video; leave out --format and --truth")
     if path.suffix.lower() != VIDEO_EXTENSION:
         raise ConfigError(
             f"{path} is to hold a lossless video; its name must end in {VIDEO_EXTENSION}"
         )
     check_output(path, overwrite=output.overwrite)
-    truth = _truth_of_video(path, own, output)
     warn_low_fps(own.generator)
     with ConsoleProgress(is_quiet=output.quiet) as progress:
         video = make_video(prompt, settings, progress=progress)
         write_stream(video, path, overwrite=output.overwrite)
-        if truth is not None:
-            from texvent.truth.writer import save_truth  # brings the ray caster
-
-            save_truth(video, truth.path, truth.names, overwrite=truth.overwrite)
     if not output.quiet:
-        write_out(f"{path}\n" if truth is None else f"{path}\n{truth.path}\n")
+        write_out(f"{path}\n")
     return 0
-
-
-def _truth_of_video(path: Path, own: PromptOptions, output: OutputOptions) -> TruthFolder | None:
-    """The truth to write beside a video, checked; None where none is asked for.
-
-    Raises:
-        ConfigError: the generator does not know it, or ids of events are asked for.
-        OutputError: the folder exists already, or cannot be made.
-    """
-    parts = output.truth_parts
-    if not parts:
-        return None
-    check_generator(own.generator)
-    if "events" in parts and output.truth.strip() != ALL:
-        raise ConfigError(
-            "truth 'events' is asked for, but --video-only makes none; leave one of them out"
-        )
-    names = tuple(part for part in parts if part != "events")
-    truth = TruthFolder(truth_folder(path), names, overwrite=output.overwrite)
-    truth.check()
-    return truth
