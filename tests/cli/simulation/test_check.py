@@ -11,7 +11,7 @@ from tests.video_check.made_clips import encode, pan
 
 from texvent.cli.app import main
 from texvent.options.fields import option_names
-from texvent.settings.resolution import default_settings
+from texvent.settings.resolution import base_settings
 from texvent.video_check.checks import CHECKS
 
 OF_GENERATE = {"seed", "on_failure"}
@@ -52,7 +52,7 @@ def test_strict_says_by_its_exit_code_whether_something_was_found(clip, tmp_path
 
 
 def test_advice_names_options_that_exist():
-    settings = default_settings("simulate")
+    settings = base_settings("simulate")
     known = {name for group in settings.groups().values() for name in option_names(type(group))}
     named = r"(?:`|\b)([a-z_]+)(?:`|=')"
     advised = {name for check in CHECKS for name in re.findall(named, check.help)}
