@@ -8,7 +8,7 @@ import pytest
 
 import texvent
 from texvent.api import compare
-from texvent.errors import ConfigError, InputError, TexventError
+from texvent.errors import InputError, TexventError
 
 PROMPT = "a red ball bounces"
 SMALL = {"sensor": "48x36", "duration": 0.2, "seed": 3}
@@ -74,19 +74,6 @@ def test_a_generator_gives_its_events_once_and_never_others(tmp_path):
     assert len(part.between(50_000, 80_000).collect()) > 0
     with pytest.raises(InputError, match="can be read once, and was"):
         part.collect()
-
-
-def test_what_there_is_to_choose_from_is_listed():
-    assert texvent.generators()[0] == "procedural"
-    assert texvent.simulators()[0] == "texvent"
-    assert "flow" in texvent.interpolators()
-    assert texvent.presets()[:2] == ("accurate", "paper")
-    assert "noisy" in texvent.presets("v2e")
-    assert "davis346" in texvent.sensors()
-    assert "aedat4" in texvent.formats()
-    assert "voxel-e2vid" in texvent.representations()
-    with pytest.raises(ConfigError, match="unknown simulator"):
-        texvent.presets("v3e")
 
 
 def test_pixel_models_are_there_by_class_and_load_when_named():

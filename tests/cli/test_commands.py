@@ -199,12 +199,6 @@ def test_empty_texts_are_refused_first(folder, capsys):
         texvent.simulate("")
 
 
-def test_a_truncated_video_is_one_line_and_leaves_nothing(folder, capsys):
-    Path("short.mp4").write_bytes(CLIP.read_bytes()[:9000])
-    assert "short.mp4" in fails(capsys, "simulate", "short.mp4", "-o", "out.h5")
-    assert [path.name for path in folder.iterdir()] == ["short.mp4"]
-
-
 def test_existing_outputs_are_kept_unless_told_otherwise(folder, capsys):
     Path("out.events.png").write_text("mine", encoding="utf-8")
     said = fails(capsys, "simulate", CLIP, "-o", "out.h5", *QUICK, code=3)
@@ -235,12 +229,3 @@ def test_a_file_that_the_system_refuses_to_grow_is_one_line(folder):
     assert done.stderr.startswith("error: ")
     assert len(done.stderr.splitlines()) == 1
     assert not list(folder.iterdir())
-
-
-def test_a_target_rate_is_reached_by_adjusting_the_threshold(folder, capsys):
-    words = ["--previews", "none", "-o", "a.h5", "--interpolate", "none", "--noise", "none"]
-    assert run("simulate", CLIP, "--target-rate", 100_000, *words) == 0
-    assert "contrast threshold" in capsys.readouterr().err
-    events = texvent.load("a.h5")
-    assert len(events) / 0.96 == pytest.approx(100_000, rel=0.05)
-    assert events.metadata["settings"]["simulate"]["contrast_threshold"] != 0.2

@@ -121,16 +121,6 @@ def test_a_preview_is_not_taken_for_a_source_without_a_word(capsys, recording):
     assert not any("preview" in one for one in warnings_of(capsys, "info", "mine.mp4"))
 
 
-def test_convert_takes_its_output_with_or_without_a_flag(capsys, recording):
-    assert run("convert", "a.h5", "b.h5", "-q") == 0
-    assert run("convert", "a.h5", "-o", "c.h5", "-q") == 0
-    assert texvent.load("b.h5").equals(texvent.load("c.h5"))
-    for words in (["a.h5"], ["a.h5", "d.h5", "-o", "e.h5"]):
-        assert "name the file to write once" in error_of(capsys, "convert", *words)
-    assert run("convert", "a.h5", "-o", "a.h5", "--overwrite") == texvent.OutputError.exit_code
-    assert "which is never replaced" in capsys.readouterr().err
-
-
 def test_an_empty_recording_is_not_sound(capsys, folder):
     texvent.EventStream.empty("8x6").save("empty.h5")
     assert run("validate", "empty.h5") == 1
@@ -158,18 +148,3 @@ def test_texts_of_files_and_arguments_reach_the_terminal_written_out(capsys, fol
     assert "not understood" in err
     # Of info twice; none of the prompt's second line.
     assert sum(line.startswith("events ") for line in out.splitlines()) == 2
-
-
-def test_a_word_of_100_kb_gives_a_short_line(capsys, folder):
-    prompt = "a red ball bounces " + " ".join(
-        ["wugs", *(f"blick{i}" for i in range(9)), "x" * 99_000]
-    )
-    words = ("--duration", 0.1, "--previews", "none", "--sensor", "48x36")
-    assert run("generate", prompt, "-o", "a.h5", *words) == 0
-    assert run("info", "a.h5") == 0
-    out, err = capsys.readouterr()
-    assert max(map(len, (out + err).splitlines())) < 300
-    assert " more" in err
-    assert error_of(capsys, "generate", "x" * 99_000, "-o", "b.h5", *words)
-    assert run("info", "a.h5", "--all") == 0
-    assert "x" * 99_000 in capsys.readouterr().out

@@ -13,10 +13,8 @@ import sys
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 
-from .outcomes import BAD
 from .reader import Reader
-from .readers import readers
-from .supervisor import Supervisor
+from .worker import BAD, Worker, readers
 
 INPUTS = 80
 """Per reader of weight 1."""
@@ -36,14 +34,13 @@ def main() -> int:
 
     def run(reader: Reader) -> Counter[str]:
         counts: Counter[str] = Counter()
-        with Supervisor() as supervisor:
-            for number in range(
-                options.first, options.first + round(options.count * reader.weight)
-            ):
-                found = supervisor.one(reader.name, number)
-                counts[found.kind] += 1
-                if found.kind in BAD:
-                    sys.stdout.write(f"{found}\n")
+        worker, last = Worker(), options.first + round(options.count * reader.weight)
+        for number in range(options.first, last):
+            found = worker.one(reader.name, number)
+            counts[found.kind] += 1
+            if found.kind in BAD:
+                sys.stdout.write(f"{reader.name} {number}: {found}\n")
+        worker.end()
         figures = ", ".join(f"{count} {kind}" for kind, count in sorted(counts.items()))
         sys.stdout.write(f"{reader.name}: {figures}\n")
         sys.stdout.flush()

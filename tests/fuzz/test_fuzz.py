@@ -9,11 +9,8 @@ import pytest
 
 from texvent.errors import InputError
 
-from .outcomes import BAD, LONGEST_ERROR
 from .reader import Reader
-from .readers import readers
-from .supervisor import Supervisor
-from .worker import outcome_of
+from .worker import BAD, LONGEST_ERROR, Worker, outcome_of, readers
 
 INPUTS = 4
 FINDINGS = sorted(Path(__file__).with_name("findings").glob("*/*"))
@@ -21,22 +18,23 @@ FINDINGS = sorted(Path(__file__).with_name("findings").glob("*/*"))
 
 
 @pytest.fixture(scope="module")
-def supervisor() -> Iterator[Supervisor]:
-    with Supervisor() as one:
-        yield one
+def worker() -> Iterator[Worker]:
+    one = Worker()
+    yield one
+    one.end()
 
 
 @pytest.mark.parametrize("name", readers())
-def test_damaged_inputs_are_read_or_refused_in_one_line(supervisor: Supervisor, name: str) -> None:
-    outcomes = [supervisor.one(name, number) for number in range(INPUTS)]
+def test_damaged_inputs_are_read_or_refused_in_one_line(worker: Worker, name: str) -> None:
+    outcomes = [worker.one(name, number) for number in range(INPUTS)]
     if outcomes[0].kind == "not run":
         pytest.skip(outcomes[0].detail)
-    assert [f"{one}" for one in outcomes if one.kind in BAD] == []
+    assert [one for one in outcomes if one.kind in BAD] == []
 
 
 @pytest.mark.parametrize("path", FINDINGS, ids=lambda path: f"{path.parent.name}-{path.name}")
-def test_a_finding_is_refused_in_one_line(supervisor: Supervisor, path: Path) -> None:
-    assert supervisor.one(f"events {path.parent.name}", 0, path).kind == "refused"
+def test_a_finding_is_refused_in_one_line(worker: Worker, path: Path) -> None:
+    assert worker.one(f"events {path.parent.name}", 0, path).kind == "refused"
 
 
 @pytest.mark.parametrize(
@@ -54,7 +52,7 @@ def test_a_reader_that_misbehaves_is_told_from_one_that_refuses(
     kind: str, read: Callable[[Path], str]
 ) -> None:
     reader = Reader("x", lambda folder: folder, read)
-    assert outcome_of(reader, Path("input"), "sound")["outcome"] == kind
+    assert outcome_of(reader, Path("input"), "sound").kind == kind
 
 
 def open_nothing(error: Exception) -> str:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -16,12 +15,9 @@ from texvent._registry import FILTERS
 from texvent.batch.list_files import read_list
 from texvent.batch.manifest import OPTIONS_FILE, SAMPLES_FILE, Manifest
 from texvent.capture.frame_times import read_timestamps
-from texvent.capture.open import open_frames
 from texvent.cli.event_files.event_file_options import parse_time_range
-from texvent.config import CaptureConfig
 from texvent.errors import TexventError
 from texvent.generate.scene_input import describe_scene, list_nouns, understand
-from texvent.io.files import load
 from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask, write_pixel_mask
 from texvent.options.parts import make_part
 from texvent.scenes.spec.data import scene_from_data
@@ -56,7 +52,6 @@ MASK_SIZE = SensorSize(12, 9)
 TEXTS: dict[str, tuple[str, Any]] = {
     "filter": ("background-activity:window_us=5000,support=2", partial(make_part, FILTERS)),
     "time": ("0.5,2", parse_time_range),
-    "path": ("folder/name.h5", lambda text: _open_each(text)),
     "prompt": ("a red car drives left past two trees at dusk", lambda text: _stage(text)),
     **{
         option: (value, lambda text, option=option: resolve("simulate", {option: text}))
@@ -126,24 +121,6 @@ def _read(parse: Any, path: Path) -> str:
     """The text as a command gets it: bytes that are not UTF-8 as surrogates."""
     text = path.read_bytes().decode("utf-8", "surrogateescape")
     return repr(parse(text))[:1000]
-
-
-def _open_each(text: str) -> str:
-    """A name of a file that every reader is asked for; there is none."""
-    path = f"{text}.txt"
-    asked = (
-        load,
-        partial(load, format="evreal"),
-        partial(open_frames, config=CaptureConfig()),
-        lambda name: read_list(Path(name)),
-        lambda name: read_timestamps(Path(name), "s"),
-        lambda name: resolve("simulate", {}, config=name),
-        lambda name: resolve("simulate", {"sensor": f"{name}.toml"}),
-    )
-    for read in asked:
-        with suppress(TexventError):
-            read(path)
-    return ""
 
 
 def _stage(text: str) -> Any:

@@ -51,17 +51,6 @@ def test_compare_shows_a_similarity_beside_its_controls(pair, capsys):
     assert "stpp, controls" not in shown
 
 
-def test_text_rows_are_compared_when_the_sensor_is_named(pair, tmp_path, capsys):
-    events = zip(pair.t / 1e6, pair.x, pair.y, pair.p, strict=True)
-    rows = (f"{t:.6f} {x} {y} {p}\n" for t, x, y, p in events)
-    (tmp_path / "truth.txt").write_text("".join(rows))
-    assert main(["compare", "truth.txt", "truth.txt"]) != 0
-    assert "--sensor" in capsys.readouterr().err
-    words = ["--sensor", "16x12", "--metrics", "count_ratio", "--json"]
-    assert main(["compare", "guess.npz", "truth.txt", *words]) == 0
-    assert json.loads(capsys.readouterr().out)["scores"] == {"count_ratio": 0.5}
-
-
 def test_compare_cuts_to_the_span(pair, capsys):
     words = ["compare", "guess.npz", "truth.npz", "--json", "--time", ",0.01"]
     assert main([*words, "--metrics", "stpp"]) == 0
