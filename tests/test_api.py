@@ -8,7 +8,7 @@ import pytest
 
 import texvent
 from texvent.api import compare
-from texvent.errors import ConfigError, InputError, TexventError
+from texvent.errors import InputError, TexventError
 
 PROMPT = "a red ball bounces"
 SMALL = {"sensor": "48x36", "duration": 0.2, "seed": 3}
@@ -76,29 +76,16 @@ def test_a_generator_gives_its_events_once_and_never_others(tmp_path):
         part.collect()
 
 
-def test_what_there_is_to_choose_from_is_listed():
-    assert texvent.generators()[0] == "procedural"
-    assert texvent.simulators()[0] == "texvent"
-    assert "flow" in texvent.interpolators()
-    assert texvent.presets()[:2] == ("accurate", "paper")
-    assert "noisy" in texvent.presets("v2e")
-    assert "davis346" in texvent.sensors()
-    assert "aedat4" in texvent.formats()
-    assert "voxel-e2vid" in texvent.representations()
-    with pytest.raises(ConfigError, match="unknown simulator"):
-        texvent.presets("v3e")
-
-
 def test_pixel_models_are_there_by_class_and_load_when_named():
     code = (
         "import sys, texvent;"
         "models = texvent.pixel_models;"
-        "assert not any(name.startswith('texvent.simulate.') for name in sys.modules);"
+        "assert not {'torch', 'numba'} & set(sys.modules);"
         "assert models.EsimSimulator(models.EsimConfig()).contrast_threshold > 0;"
         "from texvent.pixel_models import V2eConfig, V2eSimulator;"
         "assert V2eSimulator.config_type is V2eConfig;"
         "assert all(getattr(models, name).__name__ == name for name in models.__all__);"
-        "assert not hasattr(models, 'OtherSimulator')"
+        "assert not {'torch', 'numba'} & set(sys.modules)"
     )
     subprocess.run([sys.executable, "-c", code], check=True)
 
@@ -114,15 +101,6 @@ def test_a_function_is_told_how_far_the_simulation_is(as_packets, tmp_path):
     else:
         texvent.simulate(frames, **options, progress=lambda *step: calls.append(step))
     assert calls == [(number, 4, "simulate") for number in (1, 2, 3, 4)]
-
-
-def test_the_size_of_a_file_may_be_a_name_and_a_metric_may_stand_alone(events, tmp_path):
-    path = tmp_path / "events.csv"
-    path.write_text("t,x,y,p\n5,3,2,1\n")
-    assert texvent.load(path, size="davis240c").size == (240, 180)
-    with pytest.raises(InputError, match="does not store the sensor size"):
-        texvent.load(path)
-    assert compare(events, events, "stpp") == {"stpp": 1.0}
 
 
 @pytest.mark.parametrize(

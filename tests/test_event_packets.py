@@ -80,20 +80,6 @@ def test_packets_are_saved_one_by_one_and_say_how_far_they_are(tmp_path, whole, 
     assert calls[-1] == (COUNT, None, "events")
 
 
-def test_a_progress_function_that_raises_stops_the_file(tmp_path, packets):
-    def stop(*step):
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        packets.save(tmp_path / "out.h5", progress=stop)
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_packets_are_shown_on_a_page(tmp_path, packets):
-    page = packets.show(tmp_path / "page.html")
-    assert f"{COUNT} events" in page.read_text(encoding="utf-8")
-
-
 def test_packets_give_an_array_per_slice_of_time(whole, packets):
     arrays = list(packets.represent("time-surface", duration_us=10_000))
     start = int(whole.t[0])

@@ -99,16 +99,6 @@ def test_a_missing_label_in_one_packet_leaves_the_whole_unlabelled():
     assert mixed.label is None
 
 
-def test_labels_are_known_even_if_no_event_is_left():
-    size = SensorSize(3, 2)
-    labelled = EventStream.empty(size)
-    labelled = EventStream(*(getattr(labelled, c) for c in "xytp"), size, {}, np.empty(0, np.uint8))
-    whole = EventPackets([labelled, labelled], size, {}).collect()
-    assert whole.label is not None
-    assert len(whole.label) == 0
-    assert EventPackets([EventStream.empty(size)], size, {}).collect().label is None
-
-
 def test_packets_collect_into_one_stream_with_the_metadata():
     packets = EventPackets(iter([stream([1]), stream([2, 3])]), SIZE, {"seed": 3})
     whole = packets.collect()

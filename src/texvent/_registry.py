@@ -10,7 +10,8 @@ from __future__ import annotations
 import difflib
 import functools
 import importlib
-from collections.abc import Mapping
+import re
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib import metadata
 from typing import Any
@@ -31,18 +32,32 @@ def load_object(target: str) -> Any:
     return getattr(importlib.import_module(module), attribute)
 
 
-def suggest(name: object, allowed: tuple[str, ...], *, longest: int = LONGEST_LISTING) -> str:
-    """Say what is allowed, and the closest match if there is one: ` did you mean 'blend'?`.
+def nearest(word: str, names: Sequence[str]) -> str | None:
+    """The name that is spelt most like a word, whole or in its first parts; None if none is close.
 
-    Where none is close, it is the first one that begins with the name.
-
-    Of a list of more than `longest` characters, only the closest match or the first names are said.
+    Example:
+        >>> nearest("contrst", ("count", "contrast_threshold")), nearest("gen", ("generate",))
+        ('contrast_threshold', 'generate')
     """
-    text = name.lower() if isinstance(name, str) and len(name) <= LONGEST_NAME else ""
-    close = difflib.get_close_matches(text, allowed, n=1)
-    if not close and len(text) >= SHORTEST_START:
-        close = [one for one in allowed if one.startswith(text)][:1]
-    listed, hint = ", ".join(allowed), f"did you mean {close[0]!r}?" if close else ""
+    word = word.lower()
+    if len(word) > LONGEST_NAME:
+        return None
+    forms = {name: name for name in names}
+    for name in names:
+        for end in re.finditer("[-_ ]", name):
+            forms.setdefault(name[: end.start()], name)
+    close = difflib.get_close_matches(word, forms, n=1)
+    begun = [one for one in names if len(word) >= SHORTEST_START and one.startswith(word)]
+    return forms[close[0]] if close else next(iter(begun), None)
+
+
+def suggest(name: object, allowed: tuple[str, ...], *, longest: int = LONGEST_LISTING) -> str:
+    """Say what is allowed, and the nearest name if there is one: ` did you mean 'blend'?`.
+
+    Of a list of more than `longest` characters, only the nearest or the first names are said.
+    """
+    near = nearest(name, allowed) if isinstance(name, str) else None
+    listed, hint = ", ".join(allowed), f"did you mean {near!r}?" if near else ""
     if len(listed) > longest:
         listed = f"{', '.join(allowed[:FIRST_NAMES])}, ... ({len(allowed)} in all)"
         return hint or f"allowed: {listed}"

@@ -7,25 +7,22 @@ dataclasses; None means "as the preset has it".
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack, overload
 
 from numpy.typing import NDArray
 
-from texvent.errors import ConfigError, InputError, shown, warn
+from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.options.keywords import GenerateOptions, SimulateOptions
 from texvent.options.signatures import naming_options
-from texvent.pipeline import Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
 from texvent.run.truth import TruthFolder, run_with_truth
 from texvent.runtime.progress import ProgressOption, open_progress
 from texvent.scenes.spec.scene import Scene
 from texvent.sensor import SizeLike
 from texvent.settings.resolution import Settings, resolve
-from texvent.simulate.signal_tally import SignalTally
 from texvent.truth.layout import check_generator
 from texvent.video import FrameStream
 
@@ -58,16 +55,6 @@ def generate(
     truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[GenerateOptions],
 ) -> EventPackets: ...
-@overload
-def generate(
-    prompt: str | Scene,
-    *,
-    as_packets: bool,
-    config: str | Path | None = None,
-    progress: ProgressOption = None,
-    truth_folder: str | Path | TruthFolder | None = None,
-    **options: Unpack[GenerateOptions],
-) -> EventStream | EventPackets: ...
 @naming_options(GenerateOptions)
 def generate(
     prompt: str | Scene,
@@ -115,7 +102,7 @@ def generate(
         run = prepare_prompt(prompt, settings, progress=shown)
         if output is not None:
             return run_with_truth(run, output, shown)
-    return run.packets if as_packets else _collected(run, progress)
+    return run.packets if as_packets else run.packets.collect(progress=progress)
 
 
 @overload
@@ -142,18 +129,6 @@ def simulate(
     truth_folder: str | Path | TruthFolder | None = None,
     **options: Unpack[SimulateOptions],
 ) -> EventPackets: ...
-@overload
-def simulate(
-    source: Source,
-    *,
-    t_us: Sequence[int] | None = None,
-    prompt: str | None = None,
-    as_packets: bool,
-    config: str | Path | None = None,
-    progress: ProgressOption = None,
-    truth_folder: str | Path | TruthFolder | None = None,
-    **options: Unpack[SimulateOptions],
-) -> EventStream | EventPackets: ...
 @naming_options(SimulateOptions)
 def simulate(
     source: Source,
@@ -213,7 +188,7 @@ def simulate(
         )
         if output is not None:
             return run_with_truth(run, output, shown)
-    return run.packets if as_packets else _collected(run, progress)
+    return run.packets if as_packets else run.packets.collect(progress=progress)
 
 
 @naming_options(GenerateOptions)
@@ -374,16 +349,6 @@ def _simulation(
         if found is not None:
             settings = resolve("simulate", {**given, "motion": found}, config=config)
     return settings, arrays
-
-
-def _collected(run: Simulation, progress: ProgressOption) -> EventStream:
-    """The events of a run, with a warning if there is no signal or hardly any."""
-    tally = SignalTally()
-    events = replace(run, tally=tally).packets.collect(progress=progress)
-    doubt = tally.doubt(run.settings.run.keep_events)
-    if doubt is not None:
-        warn(doubt)
-    return events
 
 
 def _stream(events: Events) -> EventStream:

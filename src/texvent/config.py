@@ -12,14 +12,17 @@ from __future__ import annotations
 import math
 import numbers
 import typing
+from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar, Literal, TypeAlias
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
 
+IdleOptions: TypeAlias = Mapping[str, tuple[str, tuple[str | None, ...]]]
+"""Option → another one, and those of its values with which the first one has no effect."""
 UNITS = {
     "duration": " s",
     "start": " s",
@@ -94,8 +97,8 @@ class RunConfig:
     """Pixel model. It turns brightness into events: texvent, physical, esim, v2e, senpi, v2ce or
     voltmeter."""
     preset: str = "accurate"
-    """Set of simulator options. Single options override it. Without simulator it is that of the
-    one that has the preset."""
+    """Set of simulator options; --help run lists them. Single options override it. Without
+    simulator it is that of the one that has the preset."""
     sensor: str | None = None
     """Sensor: name or WIDTHxHEIGHT. Names are those of cameras, such as davis346, and of files of
     texvent calibrate. Frames are fitted to its size, and a simulator that knows its measured
@@ -125,6 +128,13 @@ class RunConfig:
 class CaptureConfig:
     """How frames are read from a video, a folder, an array or a camera."""
 
+    idle_with: ClassVar[IdleOptions] = {
+        "timestamps_unit": ("timestamps", (None,)),
+        "camera_amplitude": ("camera", (None,)),
+        "camera_fov": ("camera", (None,)),
+        "duration": ("camera", (None,)),
+    }
+
     fps: Fraction | None = None
     """Frame rate, as 24, 29.97 or 30000/1001. Needed for image folders and arrays without
     timestamps; for a video it overrides the file's own times (for slow-motion footage)."""
@@ -146,8 +156,8 @@ class CaptureConfig:
     fit: Literal["cover", "contain", "stretch"] = "cover"
     """How frames are fitted to the sensor's size: cut the excess, add black bars, or distort."""
     motion: Path | None = None
-    """Motion vectors of a renderer, instead of optical flow: a folder (.exr, .npy, .npz), a
-    pattern such as 'out/flow_*.npy', or one file (.npy, .npz). Depth and ids in the same files are
+    """Motion vectors of a renderer, instead of optical flow. A folder (.exr, .npy, .npz), a pattern
+    such as 'out/flow_*.npy', or one file (.npy, .npz). Depth and ids in the same files are
     used too."""
     motion_back: Path | None = None
     """Vectors to the previous frame, where they are in files of their own."""
@@ -195,9 +205,17 @@ class CaptureConfig:
 class InterpolateConfig:
     """Intermediate frames: their number and their contents."""
 
+    idle_with: ClassVar[IdleOptions] = {
+        "interpolator_weights": ("interpolate", ("none", "blend", "flow", "exact", "motion")),
+        "fixed_count": ("count", ("brightness",)),
+        "count": ("interpolate", ("none",)),
+        "max_intermediate": ("interpolate", ("none",)),
+        "frames_per_pixel": ("interpolate", ("none",)),
+    }
+
     interpolate: str = "flow"
-    """What fills the time between frames: none, blend, flow, rife, super-slomo, motion or
-    exact. Blend mixes both; flow compensates motion by DIS optical flow; rife (the paper's choice)
+    """Intermediate frames: none, blend, flow, rife, super-slomo, motion or exact. Blend mixes both
+    frames; flow compensates motion by DIS optical flow; rife (the paper's choice)
     and super-slomo (its ablation E8) are trained networks; motion follows vectors that come with
     the frames; with exact the generator renders the instant itself."""
     count: Literal["brightness", "fixed"] = "brightness"

@@ -25,7 +25,7 @@ from texvent.options.keywords import SimulateOptions
 from texvent.options.signatures import naming_options
 from texvent.pairs.frame_pair import FramePair
 from texvent.pipeline import select_events, video_to_events
-from texvent.run.prepare import check_memory, check_run, warn_of_unread_weights
+from texvent.run.prepare import check_memory, check_run
 from texvent.sensor import SensorSize, SizeLike, as_size
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.protocol import Simulator
@@ -175,7 +175,6 @@ def check_steps(settings: Settings) -> None:
             "choose flow, blend, rife or none"
         )
     check_run(settings)
-    warn_of_unread_weights(settings.interpolate)
 
 
 class _SteppedFrames:

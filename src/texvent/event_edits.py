@@ -7,7 +7,7 @@ packets give packets that are made as they are read. Each is noted under `edits`
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from typing import TYPE_CHECKING, Any, Literal, NoReturn, Self
 
 if TYPE_CHECKING:
@@ -45,6 +45,10 @@ class EventEdits:
 
     __radd__ = __add__  # sum([first, second])
 
+    def _edited(self, edit: Callable[..., Any], *values: Any, **options: Any) -> Self:
+        edited: Self = edit(self, *values, **options)
+        return edited
+
     def crop(self, x: int, y: int, width: int, height: int) -> Self:
         """The events of a region, whose top left pixel (x, y) becomes (0, 0).
 
@@ -54,9 +58,7 @@ class EventEdits:
         """
         from texvent.transform.edits import Region, crop
 
-        whole: Any = self
-        part: Self = crop(whole, Region(x, y, width, height))
-        return part
+        return self._edited(crop, Region(x, y, width, height))
 
     def resize(self, size: SizeLike) -> Self:
         """All events on a sensor of another size; see `transform.edits.resize`.
@@ -66,9 +68,7 @@ class EventEdits:
         """
         from texvent.transform.edits import resize
 
-        whole: Any = self
-        resized: Self = resize(whole, size)
-        return resized
+        return self._edited(resize, size)
 
     def downsample(self, factor: int, *, how: Literal["all", "mean"] = "all") -> Self:
         """The events on blocks of factor × factor pixels; see `transform.downsample`.
@@ -82,9 +82,7 @@ class EventEdits:
         """
         from texvent.transform.downsample import downsample
 
-        whole: Any = self
-        smaller: Self = downsample(whole, factor, how=how)
-        return smaller
+        return self._edited(downsample, factor, how=how)
 
     def flip(self, axes: Axes) -> Self:
         """Mirrored: "x" exchanges left and right, "y" top and bottom, "xy" both.
@@ -94,9 +92,7 @@ class EventEdits:
         """
         from texvent.transform.edits import flip
 
-        whole: Any = self
-        mirrored: Self = flip(whole, axes)
-        return mirrored
+        return self._edited(flip, axes)
 
     def rotate(self, degrees: int) -> Self:
         """Turned clockwise by 0, 90, 180 or 270 degrees; quarter turns exchange width and height.
@@ -106,9 +102,7 @@ class EventEdits:
         """
         from texvent.transform.edits import rotate
 
-        whole: Any = self
-        turned: Self = rotate(whole, degrees)
-        return turned
+        return self._edited(rotate, degrees)
 
     def filter(self, which: str | EventFilter, **options: Any) -> Self:
         """The events that a filter keeps.
@@ -123,6 +117,4 @@ class EventEdits:
         """
         from texvent.transform.filters.apply import filter_events
 
-        whole: Any = self
-        kept: Self = filter_events(whole, which, **options)
-        return kept
+        return self._edited(filter_events, which, **options)

@@ -19,6 +19,7 @@ from texvent._registry import GENERATORS
 from texvent.capture.prepare import PreparedFrames
 from texvent.capture.transfer_adaptation import adapt_transfer
 from texvent.config import CaptureConfig, RunConfig
+from texvent.errors import warn
 from texvent.event_packets import EventPackets
 from texvent.events import NOISE, SIGNAL, EventStream
 from texvent.generate.scene_input import Subject, check_takes, prompt_of
@@ -89,11 +90,9 @@ class Simulation:
     video: FrameStream
     settings: Settings
     prompt: str | None = None
-    tally: SignalTally | None = None
-    """Counts signal and noise of the latest pass, if it is given."""
 
     def steps(
-        self, on_scene_change: OnSceneChange | None = None
+        self, on_scene_change: OnSceneChange | None = None, *, warns: bool = False
     ) -> Iterator[tuple[Frame, EventStream]]:
         """Every dense frame with the packet of events that ends at it.
 
@@ -101,9 +100,12 @@ class Simulation:
 
         Args:
             on_scene_change: called at every cut and flash.
+            warns: whether the end of the video warns of a run with hardly a signal.
+
+        Warns:
+            TexventWarning: there is no signal, or hardly any.
         """
-        run = self.settings.run
-        tally = self.tally or SignalTally()
+        run, tally = self.settings.run, SignalTally()
         with ExitStack() as threads:
             simulator, pairs = self.begin(threads)
             tally.begin(simulator)
@@ -116,6 +118,9 @@ class Simulation:
             for frame, packet in simulator.finish():
                 tally.count(packet)
                 yield frame, select_events(packet, run)
+        doubt = tally.doubt(run.keep_events) if warns else None
+        if doubt is not None:
+            warn(doubt)
 
     def begin(self, threads: ExitStack) -> tuple[Simulator, Iterator[FramePair]]:
         """A simulator at rest, and the pairs of frames that it advances through.
@@ -138,9 +143,9 @@ class Simulation:
         return (packet for _, packet in self.steps())
 
     def report_to(self, progress: Progress) -> Iterator[EventStream]:
-        """The packets; `progress` receives the number of source frames done."""
+        """The packets; `progress` receives the number of source frames done; warns as `steps`."""
         done = 0
-        for frame, packet in self.steps():
+        for frame, packet in self.steps(warns=True):
             done += frame.is_source
             progress.advance("simulate", done, self.video.frame_count)
             yield packet

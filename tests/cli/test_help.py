@@ -5,22 +5,16 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from dataclasses import dataclass
-from typing import ClassVar
 
 import pytest
 
 from texvent.cli.app import COMMANDS, main
-from texvent.cli.help import first_sentence, render_help
 
 COLUMNS, LINES = 80, 40
 EVERY_COMMAND = [
     (),
-    *((name,) for name in COMMANDS if name not in ("data", "weights", "scenes")),
+    *((name,) for name in COMMANDS if name not in ("data", "weights")),
     ("data",),
-    ("scenes",),
-    ("scenes", "list"),
-    ("scenes", "show"),
     ("data", "pull"),
     ("weights",),
     ("weights", "pull"),
@@ -54,16 +48,15 @@ def test_help_shows_what_matters_two_examples_and_where_the_rest_is(show, comman
     assert said.count(f"\n  texvent {command} ") == 2
     assert "--max-intermediate" not in said
     assert f"texvent {command} --help all" in said
-    assert "interpolate or simulate" in said.splitlines()[-1]
+    assert "interpolate or simulate" in said
 
 
 @pytest.mark.parametrize("command", ["simulate", "generate", "batch"])
 def test_help_all_shows_every_option_in_its_section(show, command):
     said = show(command, "--help", "all")
     sections = ("input", "output", "run", "interpolate", "simulate")
-    assert all(f"\n{section}: " in said for section in sections)
+    assert all(f"\n{section}:\n" in said for section in sections)
     assert all(flag in said for flag in (*MATTER, "--max-intermediate", "--no-detect-cuts"))
-    assert "(default: none)" in said
 
 
 def test_help_of_a_section_shows_that_section_alone(show):
@@ -77,32 +70,6 @@ def test_the_options_of_a_named_simulator_are_shown(show):
     assert "--cutoff-hz" in show("simulate", "--simulator", "v2e", "--help", "simulator")
     assert "--cutoff-hz" in show("simulate", "--help", "all", "--simulator", "v2e")
     assert "--cutoff-hz" not in show("simulate", "--help", "all")
-
-
-@dataclass(frozen=True, kw_only=True)
-class Example:
-    """What to do."""
-
-    main_options: ClassVar[tuple[str, ...]] = ("rate", "not_here")
-
-    rate: float = 2.0
-    """Rate of things (Eq. 4), such as 1.5. Not of others."""
-    sizes: tuple[int, ...] = (1, 2)
-    """Sizes."""
-
-
-def test_brief_help_has_the_first_sentence_and_full_help_all_of_the_text():
-    brief, full = (
-        render_help(asked, {"input": Example()}, prog="x", description="Does it.", width=60)
-        for asked in ("main", "all")
-    )
-    assert "such as 1.5. (default: 2.0)" in " ".join(brief.split())
-    assert "others" not in brief
-    assert "--sizes" not in brief
-    assert "Not of others. (default: 2.0)" in " ".join(full.split())
-    assert "--sizes [INT ...]" in full
-    assert "(default: 1 2)" in full
-    assert first_sentence("See Eq. 4 of v2e. It") == "See Eq. 4 of v2e."
 
 
 def test_help_is_readable_where_the_terminal_knows_ascii_only():

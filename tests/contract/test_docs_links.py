@@ -119,11 +119,3 @@ def test_names_that_pages_import_exist(module, name):
     file = path / "__init__.py" if path.is_dir() else path.with_suffix(".py")
     text = file.read_text(encoding="utf-8")
     assert re.search(rf"\b{name}\b", text) or (path / f"{name}.py").exists()
-
-
-def test_the_answers_in_contributing_exist():
-    text = (ROOT / "CONTRIBUTING.md").read_text(encoding="utf-8")
-    answers = re.findall(r"^\| .+\? \| `([\w/]+\.py)` \| `(\w+)` \|$", text, re.MULTILINE)
-    assert len(answers) >= 12
-    for file, name in answers:
-        assert re.search(rf"\b{name}\b", (ROOT / "src/texvent" / file).read_text("utf-8")), file

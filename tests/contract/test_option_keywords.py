@@ -2,14 +2,13 @@
 
 import ast
 import inspect
-import typing
 
 from tests.contract import option_keywords
 
 from texvent.api import generate, simulate, video
 from texvent.options.fields import option_names
 from texvent.options.keywords import GenerateOptions, SimulateOptions
-from texvent.settings.resolution import default_settings
+from texvent.settings.resolution import base_settings
 
 
 def test_the_typed_keywords_are_up_to_date():
@@ -21,14 +20,9 @@ def test_the_typed_keywords_are_up_to_date():
 
 def test_every_option_of_a_run_is_a_typed_keyword():
     for command, keywords in (("generate", GenerateOptions), ("simulate", SimulateOptions)):
-        groups = default_settings(command).groups().values()
+        groups = base_settings(command).groups().values()
         names = {name for group in groups for name in option_names(type(group))}
         assert names <= set(keywords.__annotations__)
-
-
-def test_every_overload_takes_the_same_keywords():
-    for function in (generate, simulate):
-        assert len(typing.get_overloads(function)) == 3
 
 
 def test_signatures_name_every_option():

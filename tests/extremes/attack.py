@@ -118,9 +118,9 @@ def options(simulator: str) -> Iterator[tuple[str, Run]]:
 
 def option_names(simulator: str) -> list[str]:
     """All options of a simulation but those that decide what code runs."""
-    from texvent.settings.resolution import default_settings
+    from texvent.settings.resolution import base_settings
 
-    settings = default_settings("simulate", simulator=simulator)
+    settings = base_settings("simulate", simulator=simulator)
     groups = (settings.run, settings.source, settings.interpolate, settings.simulate)
     return [name for group in groups for name in vars(group)]
 

@@ -56,33 +56,9 @@ def _hostile_value(rng: random.Random) -> Any:
     )
 
 
-def _gone(rng: random.Random, file: Any, name: str, shape: Any) -> None:
-    del rng, file, name, shape
-
-
-def _group(rng: random.Random, file: Any, name: str, shape: Any) -> None:
-    del rng, shape
-    file.create_group(name)
-
-
-def _scalar(rng: random.Random, file: Any, name: str, shape: Any) -> None:
-    del shape
-    file[name] = _hostile_value(rng)
-
-
-def _other_type(rng: random.Random, file: Any, name: str, shape: Any) -> None:
-    kind = rng.choice(("f8", "f2", "S4", "c16", "?", "u8", "i1", h5py.ref_dtype, "S1"))
-    file.create_dataset(name, shape, dtype=kind)
-
-
-def _text(rng: random.Random, file: Any, name: str, shape: Any) -> None:
-    del rng
-    file.create_dataset(name, shape, dtype=h5py.string_dtype())
-
-
-def _ragged(rng: random.Random, file: Any, name: str, shape: Any) -> None:
-    del rng
-    file.create_dataset(name, shape, dtype=h5py.vlen_dtype(np.int32))
+def _dataset(*kinds: Any) -> Any:
+    """A dataset of the old shape, of one of several types."""
+    return lambda rng, file, name, shape: file.create_dataset(name, shape, dtype=rng.choice(kinds))
 
 
 def _other_shape(rng: random.Random, file: Any, name: str, shape: Any) -> None:
@@ -92,53 +68,40 @@ def _other_shape(rng: random.Random, file: Any, name: str, shape: Any) -> None:
 
 
 def _huge(rng: random.Random, file: Any, name: str, shape: Any) -> None:
-    wide = len(shape) > 1
-    count = rng.choice((10**9, 10**12, 2**60))
-    big = (count, *shape[1:]) if wide else (count,)
+    """More rows than there is memory, stored in no bytes."""
+    big = (rng.choice((10**9, 10**12, 2**60)), *shape[1:])
     chunks = tuple(min(one, 4096) for one in big)
-    file.create_dataset(name, big, dtype="u4", chunks=chunks, compression="gzip")
+    file.create_dataset(name, big, dtype=rng.choice(("u2", "u4")), chunks=chunks)
 
 
-def _huge_plain(rng: random.Random, file: Any, name: str, shape: Any) -> None:
-    del rng, shape
-    file.create_dataset(name, (10**9,), dtype="u2", chunks=(10**6,))
+def _link(*links: Any) -> Any:
+    def put(rng: random.Random, file: Any, name: str, shape: Any) -> None:
+        del shape
+        file[name] = rng.choice(links or (h5py.SoftLink(f"/{name}"),))
 
-
-def _dangling(rng: random.Random, file: Any, name: str, shape: Any) -> None:
-    del rng, shape
-    file[name] = h5py.SoftLink("/nowhere")
-
-
-def _cycle(rng: random.Random, file: Any, name: str, shape: Any) -> None:
-    del rng, shape
-    file[name] = h5py.SoftLink(f"/{name}")
-
-
-def _elsewhere(rng: random.Random, file: Any, name: str, shape: Any) -> None:
-    del shape
-    other = rng.choice(("/dev/zero", "nowhere.h5", "/etc/passwd"))
-    file[name] = h5py.ExternalLink(other, "/x")
+    return put
 
 
 def _values(rng: random.Random, file: Any, name: str, shape: Any) -> None:
-    values = np.full(shape, rng.choice((0, 1, 2**16 - 1, 2**31, 2**62)), np.uint64)
-    file[name] = values
+    file[name] = np.full(shape, rng.choice((0, 1, 2**16 - 1, 2**31, 2**62)), np.uint64)
 
 
+_TYPES = ("f8", "f2", "S4", "c16", "?", "u8", "i1", h5py.ref_dtype, "S1")
+_ELSEWHERE = [h5py.ExternalLink(one, "/x") for one in ("/dev/zero", "nowhere.h5", "/etc/passwd")]
 _REPLACEMENTS = (
-    ("gone", _gone),
-    ("group", _group),
-    ("scalar", _scalar),
-    ("type", _other_type),
-    ("type", _other_type),
-    ("text", _text),
-    ("ragged", _ragged),
+    ("gone", lambda rng, file, name, shape: None),
+    ("group", lambda rng, file, name, shape: file.create_group(name)),
+    ("scalar", lambda rng, file, name, shape: file.create_dataset(name, data=_hostile_value(rng))),
+    ("type", _dataset(*_TYPES)),
+    ("type", _dataset(*_TYPES)),
+    ("text", _dataset(h5py.string_dtype())),
+    ("ragged", _dataset(h5py.vlen_dtype(np.int32))),
     ("shape", _other_shape),
     ("shape", _other_shape),
     ("huge", _huge),
-    ("huge", _huge_plain),
-    ("dangling", _dangling),
-    ("cycle", _cycle),
-    ("elsewhere", _elsewhere),
+    ("huge", _huge),
+    ("dangling", _link(h5py.SoftLink("/nowhere"))),
+    ("cycle", _link()),
+    ("elsewhere", _link(*_ELSEWHERE)),
     ("values", _values),
 )

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
 
-from .outcomes import BAD, Outcome, table
-from .readers import readers
-from .supervisor import Supervisor
+from texvent.errors import InputError
+
+from .reader import Reader
+from .worker import BAD, LONGEST_ERROR, Worker, outcome_of, readers
 
 INPUTS = 4
 FINDINGS = sorted(Path(__file__).with_name("findings").glob("*/*"))
@@ -17,38 +18,42 @@ FINDINGS = sorted(Path(__file__).with_name("findings").glob("*/*"))
 
 
 @pytest.fixture(scope="module")
-def supervisor() -> Iterator[Supervisor]:
-    with Supervisor() as one:
-        yield one
+def worker() -> Iterator[Worker]:
+    one = Worker()
+    yield one
+    one.end()
 
 
 @pytest.mark.parametrize("name", readers())
-def test_damaged_inputs_are_read_or_refused_in_one_line(supervisor: Supervisor, name: str) -> None:
-    outcomes = [supervisor.one(name, number) for number in range(INPUTS)]
+def test_damaged_inputs_are_read_or_refused_in_one_line(worker: Worker, name: str) -> None:
+    outcomes = [worker.one(name, number) for number in range(INPUTS)]
     if outcomes[0].kind == "not run":
         pytest.skip(outcomes[0].detail)
-    assert [f"{one}" for one in outcomes if one.kind in BAD] == []
+    assert [one for one in outcomes if one.kind in BAD] == []
 
 
 @pytest.mark.parametrize("path", FINDINGS, ids=lambda path: f"{path.parent.name}-{path.name}")
-def test_a_finding_is_refused_in_one_line(supervisor: Supervisor, path: Path) -> None:
-    assert supervisor.one(f"events {path.parent.name}", 0, path).kind == "refused"
+def test_a_finding_is_refused_in_one_line(worker: Worker, path: Path) -> None:
+    assert worker.one(f"events {path.parent.name}", 0, path).kind == "refused"
 
 
-def test_a_reader_that_misbehaves_is_told_from_one_that_refuses() -> None:
-    changed = Path(__file__)
-    with Supervisor(kill_seconds=3.0) as supervisor:
-        found = {kind: supervisor.one(f"broken {kind}", 0, changed).kind for kind in BAD}
-    assert found == {kind: kind for kind in BAD}
+@pytest.mark.parametrize(
+    ("kind", "read"),
+    [
+        ("same", lambda path: "sound"),
+        ("changed", lambda path: "other"),
+        ("refused", lambda path: open_nothing(InputError(f"{path}: no"))),
+        ("too long", lambda path: open_nothing(InputError("x" * LONGEST_ERROR))),
+        ("traceback", lambda path: open_nothing(KeyError("x"))),
+        ("blow-up", lambda path: open_nothing(MemoryError())),
+    ],
+)
+def test_a_reader_that_misbehaves_is_told_from_one_that_refuses(
+    kind: str, read: Callable[[Path], str]
+) -> None:
+    reader = Reader("x", lambda folder: folder, read)
+    assert outcome_of(reader, Path("input"), "sound").kind == kind
 
 
-def test_the_table_has_a_row_per_reader_and_names_what_did_not_run() -> None:
-    outcomes = [
-        Outcome("a", 0, "refused", "", ""),
-        Outcome("a", 1, "hang", "", ""),
-        Outcome("b", 0, "not run", "", ""),
-    ]
-    lines = table(outcomes).splitlines()
-    assert lines[2] == "| a | 2 | 0 | 0 | 1 | 0 | 0 | 0 | 1 | 0 | 0 | 0 |"
-    assert lines[3].startswith("| **all** | 2 |")
-    assert lines[-1] == "Not run, a package is missing: b."
+def open_nothing(error: Exception) -> str:
+    raise error

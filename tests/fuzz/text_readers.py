@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from contextlib import suppress
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -16,18 +15,15 @@ from texvent._registry import FILTERS
 from texvent.batch.list_files import read_list
 from texvent.batch.manifest import OPTIONS_FILE, SAMPLES_FILE, Manifest
 from texvent.capture.frame_times import read_timestamps
-from texvent.capture.open import open_frames
 from texvent.cli.event_files.event_file_options import parse_time_range
-from texvent.config import CaptureConfig
 from texvent.errors import TexventError
 from texvent.generate.scene_input import describe_scene, list_nouns, understand
-from texvent.io.files import load
 from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask, write_pixel_mask
 from texvent.options.parts import make_part
 from texvent.scenes.spec.data import scene_from_data
 from texvent.scenes.spec.files import load_scene, scene_text
 from texvent.scenes.staging.compose import compose_scene
-from texvent.sensor import SensorSize, parse_sensor
+from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.transform.undistort import read_calibration
 
@@ -56,14 +52,11 @@ MASK_SIZE = SensorSize(12, 9)
 TEXTS: dict[str, tuple[str, Any]] = {
     "filter": ("background-activity:window_us=5000,support=2", partial(make_part, FILTERS)),
     "time": ("0.5,2", parse_time_range),
-    "sensor": ("240x180", parse_sensor),
-    "path": ("folder/name.h5", lambda text: _open_each(text)),
     "prompt": ("a red car drives left past two trees at dusk", lambda text: _stage(text)),
     **{
         option: (value, lambda text, option=option: resolve("simulate", {option: text}))
         for option, value in (
             ("preset", "paper"),
-            ("simulator", "esim"),
             ("fps", "30000/1001"),
         )
     },
@@ -92,7 +85,6 @@ def text_readers() -> list[Reader]:
             Reader(f"scene {ending}", partial(_make_scene, ending), _read_scene, 2)
             for ending in (".toml", ".json")
         ),
-        Reader("sensor file", _make_sensor_file, _read_sensor_file, 2),
         *(
             Reader(f"list {ending}", partial(_make_text, f"list{ending}", text), _read_list, 2)
             for ending, text in LISTS.items()
@@ -131,24 +123,6 @@ def _read(parse: Any, path: Path) -> str:
     return repr(parse(text))[:1000]
 
 
-def _open_each(text: str) -> str:
-    """A name of a file that every reader is asked for; there is none."""
-    path = f"{text}.txt"
-    asked = (
-        load,
-        partial(load, format="evreal"),
-        partial(open_frames, config=CaptureConfig()),
-        lambda name: read_list(Path(name)),
-        lambda name: read_timestamps(Path(name), "s"),
-        lambda name: resolve("simulate", {}, config=name),
-        lambda name: resolve("simulate", {"sensor": f"{name}.toml"}),
-    )
-    for read in asked:
-        with suppress(TexventError):
-            read(path)
-    return ""
-
-
 def _stage(text: str) -> Any:
     return compose_scene(
         understand(text, list_nouns()), seed=0, size=SensorSize(64, 48), duration_s=1.0
@@ -170,15 +144,6 @@ def _make_scene(ending: str, folder: Path) -> Path:
 
 def _read_scene(path: Path) -> str:
     return repr(describe_scene(load_scene(path), list_nouns()))[:1000]
-
-
-def _make_sensor_file(folder: Path) -> Path:
-    tables = {"run": {"simulator": "physical", "sensor": "346x260"}, "simulate": {}}
-    return _make_text("sensor.toml", tomli_w.dumps(tables), folder)
-
-
-def _read_sensor_file(path: Path) -> str:
-    return repr(resolve("simulate", {"sensor": str(path)}).as_tables())[:1000]
 
 
 def _read_list(path: Path) -> str:

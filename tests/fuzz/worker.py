@@ -1,140 +1,190 @@
-"""The process that reads damaged inputs, one after another: lines of JSON in, lines of JSON out.
+"""A process that reads damaged inputs one after another, and its parent, which ends it in time.
 
-A word on standard input is a reader and a number; the answer is what became of it. Whatever the
-libraries print goes nowhere. The parent ends the process when a reader hangs or fills the memory.
+Whatever libraries print goes nowhere. The parent ends the process when a reader hangs or fills the
+memory, and begins another one.
 """
 
 from __future__ import annotations
 
 import functools
-import json
+import multiprocessing
 import os
 import random
 import resource
 import shutil
-import sys
+import signal
 import tempfile
 import time
 import traceback
 import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing.connection import Connection
 from pathlib import Path
-from typing import IO, Any
+from typing import Any
 
 from texvent.errors import MissingDependencyError, TexventError
 
 from .array_damage import CODE_RAN
-from .broken_readers import broken_readers
 from .damage import damage_input
-from .outcomes import LONGEST_ERROR, MAX_GROWTH_BYTES, MAX_SECONDS
+from .document_readers import document_readers
+from .event_readers import event_readers
+from .frame_readers import frame_readers
+from .motion_readers import motion_readers
 from .reader import Reader
-from .readers import readers
+from .text_readers import text_readers
 
+PREPARE_SECONDS = 120.0
+"""Loading libraries and compiling kernels for a reader's sound input."""
+MAX_SECONDS, KILL_SECONDS = 10.0, 20.0
+MAX_GROWTH_BYTES = 10**9
 ADDRESS_SPACE_MARGIN = 3 * 2**30
 """What a reader may reserve beyond what the process holds; more is MemoryError."""
-
-
-def main() -> None:
-    """Answer until standard input ends."""
-    answers = os.fdopen(os.dup(1), "w")
-    nowhere = os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 1)
-    warnings.simplefilter("error")
-    with tempfile.TemporaryDirectory() as folder:
-        os.chdir(folder)
-        session = Session(Path(folder), answers)
-        for line in sys.stdin:
-            try:
-                session.answer(*json.loads(line))
-            except Exception:  # noqa: BLE001  # ends the run: the fuzzer itself is wrong
-                session.tell({"broken": traceback.format_exc(limit=-6)})
-        os.chdir("/")
-
-
-class Session:
-    """Sound inputs made once, and a place for their damaged copies."""
-
-    def __init__(self, folder: Path, answers: IO[str]) -> None:
-        self._folder = folder
-        self._answers = answers
-        self._sound: dict[str, tuple[Path, Path]] = {}
-        self._digests: dict[str, Any] = {}
-
-    def answer(self, name: str, number: int, finding: str | None) -> None:
-        """Damage an input in the way of that number, or take a kept one, and read it."""
-        reader = _all_readers()[name]
-        self.tell({"state": "preparing"})
-        try:
-            self._prepare(reader)
-        except MissingDependencyError as error:
-            self.tell({"outcome": "not run", "detail": str(error).split(";")[0]})
-            return
-        place, relative = self._sound[name]
-        copy = self._folder / "damaged"
-        shutil.rmtree(copy, ignore_errors=True)
-        shutil.copytree(place, copy)
-        if finding is None:
-            kind = damage_input(random.Random(f"{name} {number}"), copy)
-        else:
-            shutil.copy(finding, copy / relative)
-            kind = f"finding {Path(finding).name}"
-        _allow_memory(ADDRESS_SPACE_MARGIN)
-        self.tell({"state": "reading", "damage": kind})
-        result = self._read(reader, copy / relative)
-        _allow_memory(None)
-        if (self._folder / CODE_RAN).exists():
-            result = {"outcome": "code ran", "detail": kind}
-            (self._folder / CODE_RAN).rmdir()
-        self.tell({**result, "damage": kind})
-
-    def _prepare(self, reader: Reader) -> None:
-        """Read the sound input once, so that what loads and compiles does so untimed."""
-        if reader.name in self._sound:
-            return
-        place = Path(tempfile.mkdtemp(dir=self._folder))
-        path = reader.make(place)
-        self._digests[reader.name] = reader.read(path)
-        self._sound[reader.name] = place, path.relative_to(place)
-
-    def _read(self, reader: Reader, path: Path) -> dict[str, Any]:
-        before = _memory("VmRSS")
-        Path("/proc/self/clear_refs").write_text("5")
-        start = time.monotonic()
-        result = _outcome(reader, path, self._digests[reader.name])
-        seconds = time.monotonic() - start
-        growth = _memory("VmHWM") - before
-        if seconds > MAX_SECONDS:
-            result = {"outcome": "hang", "detail": f"{seconds:.1f} s, then {result}"}
-        if growth > MAX_GROWTH_BYTES:
-            result = {"outcome": "blow-up", "detail": f"{growth >> 20} MiB, then {result}"}
-        return {**result, "seconds": round(seconds, 2), "growth": growth}
-
-    def tell(self, facts: dict[str, Any]) -> None:
-        """Answer the parent."""
-        self._answers.write(json.dumps(facts) + "\n")
-        self._answers.flush()
+LONGEST_ERROR = 300
+"""Characters of an error, its path left out."""
+BAD = ("several lines", "too long", "traceback", "hang", "blow-up", "signal", "code ran")
+"""Outcomes that must never be. Others: "same" and "changed" (read, with which content), "refused"
+(one line of error), "not run" (a package is missing)."""
 
 
 @functools.cache
-def _all_readers() -> dict[str, Reader]:
-    return {**readers(), **{reader.name: reader for reader in broken_readers()}}
+def readers() -> dict[str, Reader]:
+    """Name → reader."""
+    pictures = [*frame_readers(), *motion_readers()]
+    found = [*event_readers(), *pictures, *text_readers(), *document_readers()]
+    return {reader.name: reader for reader in found}
 
 
-def _outcome(reader: Reader, path: Path, sound: Any) -> dict[str, Any]:
+@dataclass(frozen=True)
+class Outcome:
+    """What became of one input."""
+
+    kind: str
+    detail: str = ""
+    damage: str = ""
+
+
+class Worker:
+    """One process at a time; a new one after one that had to be ended."""
+
+    def __init__(self) -> None:
+        self._process: Any = None
+        self._pipe: Any = None
+
+    def one(self, name: str, number: int, finding: Path | None = None) -> Outcome:
+        """Outcome of one damaged input, or of a kept finding."""
+        if self._process is None:
+            context = multiprocessing.get_context("spawn")
+            self._pipe, theirs = context.Pipe()
+            self._process = context.Process(target=_serve, args=(theirs,), daemon=True)
+            self._process.start()
+            theirs.close()
+        self._pipe.send((name, number, finding))
+        damage = self._receive(PREPARE_SECONDS)
+        if isinstance(damage, Outcome):
+            assert damage.kind == "not run", f"{name} cannot be fuzzed: {damage.detail}"
+            return damage
+        found = self._receive(KILL_SECONDS)
+        if found.kind in ("hang", "blow-up"):
+            self.end()
+        return Outcome(found.kind, found.detail, damage)
+
+    def _receive(self, seconds: float) -> Any:
+        """The next answer, or what became of a process that gives none."""
+        try:
+            if self._pipe.poll(seconds):
+                return self._pipe.recv()
+            self.end()
+            return Outcome("hang", f"no end after {seconds:g} s")
+        except EOFError:
+            self._process.join()
+            code, self._process = self._process.exitcode, None
+            return Outcome("signal", signal.Signals(-code).name if code < 0 else f"exit {code}")
+
+    def end(self) -> None:
+        """End the process, if there is one."""
+        if self._process is not None:
+            self._process.kill()
+            self._process.join()
+            self._process = None
+
+
+def _serve(pipe: Connection) -> None:
+    """Answer until the parent closes the pipe: first the kind of damage, then the outcome."""
+    nowhere = os.open(os.devnull, os.O_WRONLY)
+    for stream in (1, 2):
+        os.dup2(nowhere, stream)
+    warnings.simplefilter("error")
+    with tempfile.TemporaryDirectory() as folder:
+        os.chdir(folder)
+        sound: dict[str, tuple[Path, Path, Any]] = {}
+        while True:
+            try:
+                name, number, finding = pipe.recv()
+            except EOFError:
+                break
+            try:
+                _answer(pipe, Path(folder), sound, (readers()[name], number, finding))
+            except MissingDependencyError as error:
+                pipe.send(Outcome("not run", str(error).split(";")[0]))
+            except Exception:  # noqa: BLE001  # the fuzzer itself is wrong
+                pipe.send(Outcome("broken", traceback.format_exc(limit=-6)))
+        os.chdir("/")
+
+
+def _answer(
+    pipe: Connection,
+    folder: Path,
+    sound: dict[str, tuple[Path, Path, Any]],
+    task: tuple[Reader, int, Path | None],
+) -> None:
+    reader, number, finding = task
+    if reader.name not in sound:
+        # Read once, so that what loads and compiles does so untimed.
+        place = Path(tempfile.mkdtemp(dir=folder))
+        path = reader.make(place)
+        sound[reader.name] = place, path.relative_to(place), reader.read(path)
+    place, relative, wanted = sound[reader.name]
+    copy = folder / "damaged"
+    shutil.rmtree(copy, ignore_errors=True)
+    shutil.copytree(place, copy)
+    if finding is None:
+        damage = damage_input(random.Random(f"{reader.name} {number}"), copy)
+    else:
+        shutil.copy(finding, copy / relative)
+        damage = f"finding {finding.name}"
+    pipe.send(damage)
+    before = _memory("VmRSS")
+    Path("/proc/self/clear_refs").write_text("5")
+    start = time.monotonic()
+    with _bounded_memory():
+        result = outcome_of(reader, copy / relative, wanted)
+    seconds, growth = time.monotonic() - start, _memory("VmHWM") - before
+    if seconds > MAX_SECONDS:
+        result = Outcome("hang", f"{seconds:.1f} s, then {result}")
+    if growth > MAX_GROWTH_BYTES:
+        result = Outcome("blow-up", f"{growth >> 20} MiB, then {result}")
+    if (folder / CODE_RAN).exists():
+        result = Outcome("code ran")
+        (folder / CODE_RAN).rmdir()
+    pipe.send(result)
+
+
+def outcome_of(reader: Reader, path: Path, sound: Any) -> Outcome:
+    """What became of an input, and the error in words."""
     try:
         found = reader.read(path)
     except TexventError as error:
         message = str(error)
         bare = message.replace(f"{path}", "").replace(f"{path.parent}", "")
-        if "\n" in message:
-            return {"outcome": "several lines", "detail": message}
-        if len(bare) >= LONGEST_ERROR:
-            return {"outcome": "too long", "detail": f"{len(bare)}: {bare[:700]}"}
-        return {"outcome": "refused", "detail": bare}
+        kind = "refused" if len(bare) < LONGEST_ERROR else "too long"
+        return Outcome("several lines" if "\n" in message else kind, bare[:700])
     except MemoryError:
-        return {"outcome": "blow-up", "detail": traceback.format_exc(limit=-4)}
+        return Outcome("blow-up", traceback.format_exc(limit=-4))
     except Exception:  # noqa: BLE001  # any other error is what is looked for
-        return {"outcome": "traceback", "detail": traceback.format_exc(limit=-4)}
-    return {"outcome": "same" if found == sound else "changed", "detail": ""}
+        return Outcome("traceback", traceback.format_exc(limit=-4))
+    return Outcome("same" if found == sound else "changed")
 
 
 def _memory(field: str) -> int:
@@ -145,11 +195,11 @@ def _memory(field: str) -> int:
     raise AssertionError(field)
 
 
-def _allow_memory(margin: int | None) -> None:
+@contextmanager
+def _bounded_memory() -> Iterator[None]:
     hard = resource.getrlimit(resource.RLIMIT_AS)[1]
-    limit = hard if margin is None else _memory("VmSize") + margin
-    resource.setrlimit(resource.RLIMIT_AS, (limit, hard))
-
-
-if __name__ == "__main__":
-    main()
+    resource.setrlimit(resource.RLIMIT_AS, (_memory("VmSize") + ADDRESS_SPACE_MARGIN, hard))
+    try:
+        yield
+    finally:
+        resource.setrlimit(resource.RLIMIT_AS, (hard, hard))

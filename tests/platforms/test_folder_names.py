@@ -62,12 +62,6 @@ def test_simulate(folder: Path, source: str, is_absolute: bool) -> None:
     assert {path.suffix for path in folder.glob(f"{out.stem}*")} == {".h5", ".mp4", ".png", ".html"}
 
 
-def test_generate() -> None:
-    words = ("--sensor", "32x24", "--duration", 0.1, "--interpolate", "none")
-    assert run("generate", "a red ball bounces", "-o", "Ball 球 1.h5", *words) == 0
-    assert texvent.load("Ball 球 1.h5").metadata["prompt"] == "a red ball bounces"
-
-
 @pytest.mark.parametrize("extension", ["aedat4", "raw", "csv", "npz", "dat", "bag", "mcap"])
 def test_convert_and_info(extension: str, capsys: pytest.CaptureFixture[str]) -> None:
     target = f"umge wandelt 事.{extension}"
@@ -93,8 +87,3 @@ def test_dataset_make(folder: Path) -> None:
     assert samples.labels == ("größer",)
     assert len(samples[0].events) > 0
     assert run("dataset", "verify", "Satz 1 事") == 0
-
-
-def test_an_error_names_the_path_as_it_was_given(capsys: pytest.CaptureFixture[str]) -> None:
-    assert run("info", "fehlt 事件 é.h5") == 2
-    assert "fehlt 事件 é.h5" in capsys.readouterr().err

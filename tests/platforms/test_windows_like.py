@@ -7,7 +7,6 @@ import os
 import re
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -16,7 +15,6 @@ from tests.platforms import windows_like
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, OutputError
-from texvent.generate.opensora.external_program import run_program
 from texvent.io import atomic
 from texvent.io.atomic import atomic_file, atomic_folder
 from texvent.runtime import memory
@@ -64,20 +62,6 @@ def test_files_and_folders_appear_whole_without_locks(tmp_path: Path) -> None:
     assert {path.name for path in tmp_path.iterdir()} == {"a.bin", "set", left.name}
 
 
-def test_parts_without_locks_are_not_held_open_while_they_are_renamed(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    # Windows would refuse the rename.
-    monkeypatch.setattr(atomic, "CAN_SWEEP", False)
-    with atomic.hidden_file(tmp_path, ".h5") as part:
-        held = {os.readlink(f"/proc/self/fd/{number}") for number in open_descriptors()}
-        assert str(part) not in held
-
-
-def open_descriptors() -> list[str]:
-    return [name for name in os.listdir("/proc/self/fd") if os.path.exists(f"/proc/self/fd/{name}")]
-
-
 def test_a_file_that_another_program_has_open_is_refused_in_one_line(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -103,21 +87,7 @@ def test_a_file_that_another_program_has_open_is_refused_in_one_line(
 def test_memory_that_the_system_does_not_tell_is_assumed(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(memory, "_CONTROL_GROUPS", ())
     assert memory.machine_bytes() is None
-    assert memory.peak_bytes() is None
     assert memory.usable_bytes.__wrapped__() == int(memory.SHARE * memory.UNKNOWN_BYTES)
-
-
-@pytest.mark.usefixtures("no_posix")
-def test_threads_read_parts_of_one_shard_without_pread(tmp_path: Path) -> None:
-    from texvent.dataset.loading.shard_files import ShardFiles
-
-    content = os.urandom(1 << 16)
-    (tmp_path / "shard.tar").write_bytes(content)
-    files = ShardFiles(tmp_path, ["shard.tar"])
-    offsets = [(7919 * number) % 60_000 for number in range(4000)]
-    with ThreadPoolExecutor(8) as threads:
-        read = list(threads.map(lambda begin: files.read(0, begin, 50), offsets))
-    assert read == [content[begin : begin + 50] for begin in offsets]
 
 
 @pytest.mark.parametrize(("system", "words"), [("win32", "dshow"), ("darwin", "avfoundation")])
@@ -127,22 +97,3 @@ def test_a_camera_named_as_on_linux_is_refused_with_another_way(
     monkeypatch.setattr(sys, "platform", system)
     with pytest.raises(InputError, match=rf"a camera's name on Linux.*ffmpeg -f {words} .* -o"):
         open_frames("/dev/video77", CaptureConfig())
-
-
-def test_a_program_and_its_log_end_without_process_groups(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    wait = subprocess.Popen.wait
-    waited: list[subprocess.Popen[bytes]] = []
-
-    def interrupted_once(self: subprocess.Popen[bytes], timeout: float | None = None) -> int:
-        waited.append(self)
-        if len(waited) == 1:
-            raise KeyboardInterrupt
-        return wait(self, timeout)
-
-    monkeypatch.delattr(os, "killpg")
-    monkeypatch.setattr(subprocess.Popen, "wait", interrupted_once)
-    with pytest.raises(KeyboardInterrupt):
-        run_program(["sleep", "60"], cwd=tmp_path, log=tmp_path / "log")
-    assert waited[0].returncode is not None

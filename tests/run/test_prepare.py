@@ -8,13 +8,11 @@ import pytest
 import texvent
 from texvent.cli.app import main
 from texvent.dataset.samples import SimulatedSamples
-from texvent.errors import ConfigError, InputError, MissingDependencyError
+from texvent.errors import ConfigError, InputError
 from texvent.generate.procedural import ProceduralGenerator
 from texvent.generate.videos.stored_video import write_video
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source, prepare_video
-from texvent.runtime.progress import CallbackProgress
 from texvent.settings.resolution import resolve
-from texvent.simulate.model_options import contrast_threshold_of
 from texvent_lab.bench.fidelity.entries import simulate_video
 
 PROMPT = "a red ball bounces"
@@ -35,10 +33,6 @@ def prompts(monkeypatch):
     return called
 
 
-def words(options):
-    return [word for name, value in options.items() for word in (f"--{name}", str(value))]
-
-
 def of_api(folder, options):
     texvent.generate(PROMPT, **options)
 
@@ -51,13 +45,6 @@ def of_samples(folder, options):
 def test_an_impossible_backend_is_refused_before_a_generator_starts(tmp_path, prompts, enter):
     with pytest.raises(ConfigError, match="simulator v2e has no backend gpu"):
         enter(tmp_path, IMPOSSIBLE)
-    assert prompts == []
-
-
-def test_missing_weights_are_named_before_a_generator_starts(tmp_path, prompts):
-    options = {**SMALL, "simulator": "v2ce", "weights": str(tmp_path / "none.pt")}
-    with pytest.raises((InputError, MissingDependencyError), match=r"no such|none\.pt|torch"):
-        prepare_prompt(PROMPT, resolve("generate", options))
     assert prompts == []
 
 
@@ -76,20 +63,7 @@ def test_weights_that_nothing_reads_are_a_warning(capsys, tmp_path):
     ]
     assert main([*words, "-o", str(tmp_path / "a.h5")]) == 0
     said = capsys.readouterr().err
-    assert said.count("rife.pkl', and nothing reads it: interpolate is blend") == 1
-
-
-def test_the_search_for_a_target_rate_says_how_far_it_is():
-    calls = []
-    options = {**SMALL, "noise": "none", "interpolate": "blend", "target_rate": 20_000.0}
-    settings = resolve("generate", options)
-    run = prepare_prompt(
-        PROMPT, settings, progress=CallbackProgress(lambda *step: calls.append(step))
-    )
-    assert calls[0] == (1, 9, "target rate")
-    assert calls[-1][2].startswith("rate     ")
-    threshold = contrast_threshold_of(run.settings.simulate)
-    assert threshold != contrast_threshold_of(settings.simulate)
+    assert said.count("warning  --interpolator-weights has no effect: interpolate is blend") == 1
 
 
 def test_a_prompt_a_source_and_a_video_make_the_same_run():
@@ -118,15 +92,3 @@ def test_a_prompt_changes_no_level_of_a_stored_video(tmp_path, options):
     )
     assert len(unnamed) > 0
     assert named.equals(unnamed)
-
-
-def test_samples_of_videos_honour_the_target_rate():
-    frames = np.random.default_rng(0).uniform(0, 255, (6, 24, 32)).astype(np.float32)
-    options = {"fps": 10, "noise": "none", "interpolate": "blend", "target_rate": 4_000.0}
-    sample = SimulatedSamples(
-        videos=[frames],
-        simulation=options,
-        representation="event-frame",
-        representation_options={"kind": "count"},
-    ).make(0)
-    assert sample["representation"].sum() / 0.5 == pytest.approx(4_000, rel=0.15)

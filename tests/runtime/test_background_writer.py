@@ -39,15 +39,6 @@ def test_everything_arrives_in_order_from_one_other_thread():
     assert threading.main_thread() not in sink.threads
 
 
-def test_no_more_waits_than_the_depth():
-    sink = Slow(wait_s=0.002)
-    with BackgroundWriter(sink) as behind:
-        for number in range(4 * DEPTH):
-            behind.append(number)
-            # Those that wait, and the one that is being written.
-            assert number - len(sink.taken) <= DEPTH
-
-
 @pytest.mark.parametrize("refused", [0, 3, 99])
 def test_an_error_of_the_sink_is_raised_where_the_work_is(refused):
     sink = Slow(refused)

@@ -2,9 +2,6 @@ from __future__ import annotations
 
 import contextlib
 import signal
-import sys
-import threading
-import time
 
 import pytest
 
@@ -32,13 +29,6 @@ def test_ctrl_c_takes_effect_after_the_block() -> None:
     assert signal.getsignal(signal.SIGINT) is signal.default_int_handler
 
 
-def test_without_ctrl_c_nothing_happens_and_handlers_come_back() -> None:
-    before = [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)]
-    with delay_interrupts():
-        pass
-    assert [signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)] == before
-
-
 def test_an_interrupt_inside_a_compiled_function_is_one() -> None:
     # As CPython says it when C code returns a result with an exception set.
     def work() -> None:
@@ -52,38 +42,6 @@ def test_an_interrupt_inside_a_compiled_function_is_one() -> None:
     assert caught.value.number == signal.SIGTERM
     with pytest.raises(SystemError, match="another"), raise_interrupted():
         raise SystemError("another")
-
-
-def test_a_signal_in_a_finaliser_is_neither_lost_nor_printed(capfd) -> None:
-    class Signalling:
-        def __del__(self) -> None:
-            signal.raise_signal(signal.SIGTERM)
-            time.sleep(0.0)  # the handler runs here, and what it raises is dropped
-
-    def work() -> None:
-        with raise_interrupted():
-            done = Signalling()
-            del done
-            time.sleep(60.0)
-
-    before = sys.unraisablehook
-    with pytest.raises(Interrupted, match="SIGTERM"):
-        work()
-    assert sys.unraisablehook is before
-    assert capfd.readouterr().err == ""
-
-
-def test_other_threads_are_left_alone() -> None:
-    seen: list[object] = []
-
-    def work() -> None:
-        with delay_interrupts():
-            seen.append(signal.getsignal(signal.SIGINT))
-
-    thread = threading.Thread(target=work)
-    thread.start()
-    thread.join()
-    assert seen == [signal.default_int_handler]
 
 
 @pytest.mark.parametrize("number", ENDING)

@@ -85,10 +85,8 @@ def edit(path, before, after):
 
 
 EDITS = (
-    ("inner", "x + STEP", "x - STEP", 91),
-    ("steps", "10", "20", 81),
-    ("limits", "100", "200", 181),
-    ("entry", "0 * x", "5 * x", 186),
+    ("steps", "10", "20", 121),
+    ("limits", "100", "200", 221),
 )
 """File, text before and after, and what the kernel returns from then on."""
 
@@ -100,30 +98,11 @@ def test_a_kernel_is_compiled_again_when_a_file_that_it_uses_changes(package):
         assert run(package) == (result, 0)
 
 
-def test_a_kernel_is_compiled_again_when_a_type_of_its_arguments_is_renamed(package):
-    run(package)
-    for name in ("limits", "entry"):
-        edit(package / f"{name}.py", "Limits", "Bounds")
-    assert run(package) == (111, 0)
-
-
 def test_a_kernel_is_read_from_disk_when_other_files_change(package):
     run(package)
     (package / "other.py").write_text("A = 2\n")
     os.utime(package / "inner.py", (0, 0))
     assert run(package) == (111, 1)
-
-
-def test_a_cache_folder_of_the_users_choice_follows_changes_too(package, tmp_path):
-    cache = {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-    assert run(package, **cache) == (111, 0)
-    edit(package / "inner.py", "x + STEP", "x - STEP")
-    assert run(package, **cache) == (91, 0)
-    assert not list(package.rglob("*.nbi"))
-
-
-def test_without_jit_kernels_stay_python(package):
-    assert run(package, NUMBA_DISABLE_JIT="1") == (111, 0)
 
 
 def test_every_kernel_of_the_library_uses_this_decorator():

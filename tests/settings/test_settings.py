@@ -1,8 +1,9 @@
 """From names and single options to the settings of a run."""
 
 import pytest
+import tomli_w
 
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError, TexventWarning
 from texvent.sensor import SENSORS, SensorSize
 from texvent.settings.config_files import read_config
 from texvent.settings.resolution import base_settings, resolve, unmeasured_sensor
@@ -55,12 +56,6 @@ def test_a_sensor_may_be_given_as_numbers_or_as_an_object(sensor, name):
     assert resolve("simulate", {"sensor": sensor}).run.sensor == name
 
 
-@pytest.mark.parametrize("sensor", [(64,), (64, 48, 3), 64, ("a", "b"), (-1, 5)])
-def test_what_is_no_sensor_is_refused(sensor):
-    with pytest.raises(ConfigError, match="sensor"):
-        resolve("simulate", {"sensor": sensor})
-
-
 def test_a_sensor_without_measured_constants_is_said_to_have_none():
     with_constants = resolve("simulate", {"simulator": "voltmeter", "sensor": "davis346"})
     assert unmeasured_sensor(with_constants.run) is None
@@ -101,8 +96,6 @@ def test_a_fitted_sensor_file_sets_simulator_size_and_constants(tmp_path):
 
 
 def test_settings_written_and_read_back_are_the_same(tmp_path):
-    import tomli_w
-
     settings = resolve("generate", {"fps": "30000/1001", "simulator": "esim", "seed": 4})
     path = tmp_path / "run.toml"
     path.write_text(tomli_w.dumps(settings.as_tables()), encoding="utf-8")
@@ -132,20 +125,22 @@ def test_a_broken_config_file_is_one_clear_error(tmp_path, name, text, message):
         read_config(path)
 
 
-def test_a_single_option_is_stronger_than_the_config_file(tmp_path):
-    path = tmp_path / "run.toml"
-    path.write_text('sensor = "64x48"\nsimulator = "esim"\nseed = 4\nfps = 30\n', encoding="utf-8")
-    given = {"sensor": "dvs128", "simulator": "texvent", "fps": 50}
-    settings = resolve("generate", given, config=path)
-    assert (settings.run.sensor, settings.run.simulator) == ("dvs128", "texvent")
-    assert (settings.source.fps, settings.run.seed) == (50, 4)
-
-
-def test_a_missing_config_file_is_named(tmp_path):
-    with pytest.raises(InputError, match=r"nope\.toml"):
-        read_config(tmp_path / "nope.toml")
-
-
 def test_a_sensor_that_is_one_number_is_told_what_a_sensor_can_be():
     with pytest.raises(ConfigError, match=r"sensor is 32; it must be a name.*\(width, height\)"):
         resolve("generate", {"sensor": 32})
+
+
+@pytest.mark.parametrize(
+    ("options", "said"),
+    [
+        ({"noise": "none", "noise_rate_hz": 5.0}, "noise_rate_hz has no effect: noise is none"),
+        ({"interpolate": "none", "max_intermediate": 5}, "max_intermediate has no effect: int"),
+        ({"camera_amplitude": 5.0}, "camera_amplitude has no effect: camera is not given"),
+    ],
+)
+def test_an_option_that_another_one_switches_off_is_said(tmp_path, options, said):
+    with pytest.warns(TexventWarning, match=said):
+        settings = resolve("simulate", options)
+    path = tmp_path / "run.toml"
+    path.write_text(tomli_w.dumps(settings.as_tables()), encoding="utf-8")
+    assert resolve("simulate", {}, config=path) == settings  # files hold all options

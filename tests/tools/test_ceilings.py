@@ -29,12 +29,6 @@ def test_a_room_above_its_ceiling_is_named(tree: Path) -> None:
     assert faults(ceilings(data=1), {}, tree) == ["room: 2 (data); the ceiling is 1"]
 
 
-def test_what_a_room_does_not_name_has_no_ceiling(tree: Path) -> None:
-    room = {name: most for name, most in ceilings()["room"].items() if name != "data"}
-    assert faults({"room": room}, ceilings(data=1), tree) == []
-    assert "3 / 3" in table({"room": room}, tree)
-
-
 def test_a_raised_ceiling_is_named(tree: Path) -> None:
     assert faults(ceilings(python=9), ceilings(python=3), tree) == [
         "room: the ceiling of python was 3; keep it"

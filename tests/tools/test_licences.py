@@ -1,7 +1,7 @@
 """Licences of packages: read from metadata, allowed or refused, listed on their page."""
 
 import pytest
-from tools.licences import Package, faults, is_allowed, licence_of, needed_by, page
+from tools.licences import Package, faults, is_allowed, licence_of, needed_by
 
 
 @pytest.mark.parametrize(
@@ -91,9 +91,3 @@ def test_parts_are_followed_through_extras_and_markers():
     }
     users = needed_by(packages, {"base": ["a"], "more": ["texvent[other]", "C"]})
     assert users == {"a": {"base", "more"}, "b": {"base", "more"}, "c": {"base", "more"}}
-
-
-def test_the_page_lists_packages_by_part_and_names_those_not_seen():
-    text = page({"numpy": Package("numpy", "2.4.6+local", "BSD-3-Clause", ())})
-    assert "| numpy | 2.4.6 | BSD-3-Clause | base |" in text
-    assert "numba (base)" in text.rpartition("Not looked at")[2]

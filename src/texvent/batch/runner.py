@@ -19,7 +19,6 @@ from texvent.errors import (
     MissingDependencyError,
     OutputError,
     TexventError,
-    warn,
     warnings_to,
 )
 from texvent.io.files import open_events
@@ -28,7 +27,6 @@ from texvent.run.prepare import is_strict, prepare_prompt, prepare_source, repor
 from texvent.runtime.progress import NoProgress, Progress
 from texvent.scenes.report import PromptReport
 from texvent.settings.resolution import Settings
-from texvent.simulate.signal_tally import SignalTally
 from texvent.video import Frame
 
 BATCH_KEY = "batch_key"
@@ -50,7 +48,7 @@ class BatchPlan:
 
     def files_of(self, sample: Sample) -> RunFiles:
         """The files of a sample."""
-        return replace(self.files, events=(self.folder / f"{sample.name}{self.extension}",))
+        return replace(self.files, events=self.folder / f"{sample.name}{self.extension}")
 
     def settings_of(self, sample: Sample) -> Settings:
         """The options of a sample: those of the batch, with its seed."""
@@ -147,7 +145,7 @@ def make_sample(
         ConfigError, OutputError, MissingDependencyError: what all samples would meet.
     """
     files = plan.files_of(sample)
-    overwrite = plan.files.overwrite or is_replaceable or _is_own(files.events[0], sample)
+    overwrite = plan.files.overwrite or is_replaceable or _is_own(files.events, sample)
     settings, events = plan.settings_of(sample), 0
     found: list[str] = []
     report: PromptReport | None = None
@@ -165,11 +163,7 @@ def make_sample(
             report = PromptReport.of_metadata(simulation.video.metadata)
             facts = {**simulation.provenance, BATCH_KEY: sample.key}
             files = replace(files, overwrite=overwrite)
-            tally = SignalTally()
-            write_run(replace(simulation, tally=tally), files, metadata=facts, on_step=count)
-            doubt = tally.doubt(settings.run.keep_events)
-            if doubt is not None:
-                warn(doubt)
+            write_run(simulation, files, metadata=facts, on_step=count)
     except ENDING_ALL:
         raise
     except TexventError as error:

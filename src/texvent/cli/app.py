@@ -13,7 +13,7 @@ from importlib import metadata
 
 from texvent._registry import suggest
 from texvent._version import full_version
-from texvent.cli.notices import one_line_warnings, say, write_out
+from texvent.cli.notices import one_line_warnings, say, with_flags, write_out
 from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError, shown
 from texvent.io.atomic import protected_inputs, remove_own_parts
 from texvent.runtime.interrupts import raise_interrupted
@@ -117,7 +117,7 @@ def _run(words: list[str], *, is_process: bool = False) -> int:
         with raise_interrupted(until_exit=is_process), protected_inputs(), one_line_warnings():
             return _dispatch(words)
     except TexventError as error:
-        say(f"error: {error}")
+        say(f"error: {with_flags(str(error))}")
         return error.exit_code
     except SystemExit as stop:
         # Help was shown.

@@ -17,7 +17,7 @@ from texvent.options.fields import option_names
 from texvent.scenes.spec.files import is_scene_file, load_scene
 from texvent.settings.config_files import Command
 from texvent.settings.presets import preset_help
-from texvent.settings.resolution import DECIDING, Settings, apply_options, base_settings
+from texvent.settings.resolution import DECIDING, Settings, base_settings, resolve
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -73,7 +73,7 @@ def resolve_command(
         groups,
         prog=called,
         description=description,
-        names=dict if prog else lambda: {"preset": preset_help()},
+        presets=dict if prog else preset_help,
         explain=lambda flag: _option_of_others(flag, defaults),
     )
     given.update(deciding)
@@ -81,13 +81,12 @@ def resolve_command(
         given["config"] = Path(config)
     subject, output = with_given(subject, given), with_given(output, given)
     own = {*option_names(type(subject)), *option_names(type(output)), *DECIDING}
-    options = {name: value for name, value in given.items() if name not in own}
-    settings = apply_options(defaults, options, where="options")
+    options = {name: value for name, value in given.items() if name not in own} | named
+    settings = resolve(command, options, config=config)
     if command == "simulate" and settings.source.motion is None:
         found = find_motion(subject)
         if found is not None:  # it decides the defaults of other options
-            defaults = base_settings(command, config=config, **named, has_motion=True)
-            settings = apply_options(defaults, {**options, "motion": found}, where="options")
+            settings = resolve(command, {**options, "motion": found}, config=config)
     return settings, subject, output
 
 

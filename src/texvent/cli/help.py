@@ -2,26 +2,24 @@
 
 from __future__ import annotations
 
-import dataclasses
+import argparse
 import difflib
+import functools
 import itertools
 import re
 import shutil
 import textwrap
-import typing
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from types import MappingProxyType
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from texvent.cli.option_types import REQUIRED, metavar
+from texvent.cli.option_types import REQUIRED, Option, declared_options
 from texvent.errors import ConfigError
-from texvent.options.fields import option_help
 
 HELP_FLAGS = ("-h", "--help")
 MAIN, ALL = "main", "all"
 WIDEST = 100
 """Columns; longer lines are hard to read."""
-FLAG_COLUMNS = 30
+FLAG_COLUMNS = 28
 
 
 def asked_help(arguments: Sequence[str], sections: Iterable[str]) -> str | None:
@@ -49,16 +47,15 @@ def asked_help(arguments: Sequence[str], sections: Iterable[str]) -> str | None:
     return None
 
 
-def render_help(
+def help_page(
     asked: str,
     groups: Mapping[str, Any],
     *,
     prog: str,
     description: str,
-    names: Mapping[str, Mapping[str, Sequence[str]]] = MappingProxyType({}),
-    width: int | None = None,
+    presets: Mapping[str, Sequence[str]],
 ) -> str:
-    """Help as text.
+    """Help as text, as wide as the terminal, at most 100 columns.
 
     Args:
         asked: as `asked_help` returns it.
@@ -66,106 +63,80 @@ def render_help(
             `main_options` of the first names the options that "main" shows; without it, all.
         prog: how the command is called.
         description: paragraphs; indented ones are kept as they are.
-        names: option → what it may be, by what decides that: rows below the option.
-        width: columns; default: those of the terminal, at most 100.
+        presets: simulator → names of its presets; rows below all options and those of a run.
     """
-    width = width or min(shutil.get_terminal_size().columns, WIDEST)
-    sections = {title: _options(config) for title, config in groups.items()}
+    width = min(shutil.get_terminal_size().columns, WIDEST)
+    sections = {title: list(declared_options(config)) for title, config in groups.items()}
     every = [option for options in sections.values() for option in options]
-    operands = [option for option in every if option.is_positional]
+    operands = [option for option in every if option.is_operand]
     main = getattr(next(iter(groups.values()), None), "main_options", ())
-    usage = ["usage:", prog, *(["[OPTIONS]"] if every else []), *(one.flags for one in operands)]
-    lines = [" ".join(usage), ""]
-    lines += [*_filled(description, width), ""]
+    usage = [prog, *(["[OPTIONS]"] if every else []), *(one.flags[0] for one in operands)]
+    page = argparse.ArgumentParser(
+        usage=" ".join(usage),
+        description=_filled(description, width),
+        add_help=False,
+        formatter_class=functools.partial(
+            argparse.RawDescriptionHelpFormatter, max_help_position=FLAG_COLUMNS, width=width
+        ),
+    )
     if asked == MAIN and main:
         named = {option.name: option for option in every}
-        shown = [*operands, *(named[name] for name in main if name in named)]
-        for option in shown:
-            lines += option.lines(width, is_brief=True)
-            lines += _rows(names.get(option.name, {}), width)
-        lines += ["", *_more(prog, sections, width)]
-        return "\n".join([*lines, ""])
+        chosen = page.add_argument_group()
+        for option in [*operands, *(named[name] for name in main if name in named)]:
+            _add(chosen, option, is_brief=True)
+        *others, last = sections
+        names = f"{', '.join(others)} or {last}" if others else last
+        more = f"All options: {prog} --help all. One section: --help {names}."
+        page.epilog = textwrap.fill(more, width)
+        return page.format_help()
     for title, options in sections.items():
         if asked in (MAIN, ALL, title):
             purpose = (type(groups[title]).__doc__ or "").strip().partition("\n")[0]
-            lines += textwrap.wrap(f"{title}: {purpose}", width)
+            heading = (title, purpose) if len(sections) > 1 else ()
+            section = page.add_argument_group(*heading)
             for option in options:
-                lines += option.lines(width)
-                lines += _rows(names.get(option.name, {}), width)
-            lines.append("")
-    return "\n".join(lines)
+                _add(section, option)
+    if asked in (ALL, "run"):
+        rows = [f"presets of {name}: {', '.join(own)}" for name, own in presets.items()]
+        page.epilog = "\n".join(textwrap.fill(row, width, subsequent_indent="    ") for row in rows)
+    return page.format_help()
 
 
-@dataclasses.dataclass(frozen=True)
-class _Option:
-    """An option as help shows it."""
-
-    name: str
-    flags: str
-    """Such as "-o, --out PATH", or what an operand is called."""
-    text: str
-    default: Any
-    is_positional: bool
-
-    def lines(self, width: int, *, is_brief: bool = False) -> list[str]:
-        """Flags on the left, text on the right; if brief, its first sentence on two lines."""
-        room, default = max(width - FLAG_COLUMNS, 20), self._default()
-        flags, text = f"  {self.flags}", self.text
-        if is_brief:
-            flags = re.sub(r"\{.*\}", "NAME", flags)
-            default = "" if self.default is None else default
-            text = first_sentence(text)
-        right = textwrap.wrap(text + default, room, break_on_hyphens=False) or [""]
-        while is_brief and len(right) > 2:
-            text = f"{text.removesuffix(' ...').rpartition(' ')[0]} ..."
-            right = textwrap.wrap(text + default, room, break_on_hyphens=False)
-        if len(flags) >= FLAG_COLUMNS:
-            right = ["", *right]
-        rows = itertools.zip_longest([flags], right, fillvalue="")
-        return [f"{left:<{FLAG_COLUMNS}}{one}".rstrip() for left, one in rows]
-
-    def _default(self) -> str:
-        if self.default is REQUIRED:
-            return "" if self.is_positional else " (required)"
-        if self.default is False or self.default == ():
-            return ""
-        values = self.default if isinstance(self.default, tuple) else (self.default,)
-        shown = " ".join("none" if one is None else str(one) for one in values)
-        return f" (default: {shown})"
+def _add(section: Any, option: Option, *, is_brief: bool = False) -> None:
+    """A row of help; if brief, only the first sentence of its text."""
+    text = first_sentence(option.text) if is_brief else option.text
+    text = (text + _default(option)).replace("%", "%%")
+    if option.is_operand:
+        section.add_argument(option.flags[0], help=text)
+        return
+    flags, more = option.flags, {}
+    if option.hint is bool:
+        more["action"] = "store_true"
+        flags = (*flags, f"--no-{option.flags[-1][2:]}") if option.default is True else flags
+    else:
+        more["metavar"] = "NAME" if is_brief and option.choices else option.metavar
+        more["nargs"] = "+" if option.is_list else None
+    section.add_argument(*flags, help=text, **more)
 
 
-def _options(config: Any) -> list[_Option]:
-    """The options of a config instance, its values being the defaults."""
-    hints, texts = typing.get_type_hints(type(config)), option_help(type(config))
-    short_flags = getattr(config, "short_flags", {})
-    options = []
-    for field in dataclasses.fields(config):
-        name, default = field.name, getattr(config, field.name)
-        is_positional = name in getattr(config, "positional", ())
-        flag = f"--{name.replace('_', '-')}"
-        spellings = [short_flags[name], flag] if name in short_flags else [flag]
-        if default is True:
-            spellings.append(f"--no-{flag[2:]}")
-        value = metavar(hints[name])
-        if name in getattr(config, "repeated", ()):
-            value = value.removeprefix("[").removesuffix(" ...]")
-        flags = f"{', '.join(spellings)} {value}".rstrip()
-        flags = name.upper() if is_positional else flags
-        options.append(_Option(name, flags, texts.get(name, ""), default, is_positional))
-    return options
+def _default(option: Option) -> str:
+    """The default as help says it; nothing where it would say nothing."""
+    default = option.default
+    if default is REQUIRED:
+        return "" if option.is_operand else " (required)"
+    if default is None or default is False or default == ():
+        return ""
+    values = default if isinstance(default, tuple) else (default,)
+    return f" (default: {' '.join(map(str, values))})"
 
 
-def _rows(names: Mapping[str, Sequence[str]], width: int) -> Iterator[str]:
-    """A row for each owner of names."""
-    column = 6 + max(map(len, names), default=0)
-    for owner, own in names.items():
-        yield from textwrap.wrap(
-            ", ".join(own),
-            width,
-            initial_indent=f"    {owner}".ljust(column),
-            subsequent_indent=" " * column,
-            break_on_hyphens=False,
-        )
+def _filled(description: str, width: int) -> str:
+    """Paragraphs filled to the width, indented ones as they are."""
+    paragraphs = description.strip().split("\n\n")
+    return "\n\n".join(
+        text if text.startswith(" ") else textwrap.fill(" ".join(text.split()), width)
+        for text in paragraphs
+    )
 
 
 def first_sentence(text: str) -> str:
@@ -176,19 +147,3 @@ def first_sentence(text: str) -> str:
         'Balance α (Eq. 1), in levels.'
     """
     return re.split(r"(?<=[.!?])\s+(?=[A-Z])", text, maxsplit=1)[0]
-
-
-def _filled(description: str, width: int) -> list[str]:
-    """Paragraphs filled to the width, indented ones as they are."""
-    lines: list[str] = []
-    for paragraph in description.strip().split("\n\n"):
-        is_verbatim = paragraph.startswith(" ")
-        filled = textwrap.wrap(" ".join(paragraph.split()), width, break_on_hyphens=False)
-        lines += ["", *(paragraph.splitlines() if is_verbatim else filled)]
-    return lines[1:]
-
-
-def _more(prog: str, sections: Iterable[str], width: int) -> list[str]:
-    *others, last = sections
-    names = f"{', '.join(others)} or {last}" if others else last
-    return textwrap.wrap(f"All options: {prog} --help all. One section: --help {names}.", width)

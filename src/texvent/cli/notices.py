@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import sys
 import warnings
 from collections.abc import Callable, Iterator
@@ -38,6 +39,34 @@ def one_line_warnings() -> Iterator[None]:
         yield
 
 
+def with_flags(message: str) -> str:
+    """A message of the Python API as the command line says it: options by their flags.
+
+    Example:
+        >>> with_flags("options: sensor is 'x'; give simulator='esim' and a white_level")
+        "--sensor is 'x'; give --simulator esim and a --white-level"
+    """
+    if message.startswith("config file"):
+        return message
+    from texvent.options.keywords import GenerateOptions, SimulateOptions  # brings NumPy
+
+    names = "|".join({**SimulateOptions.__annotations__, **GenerateOptions.__annotations__})
+    for pattern in (
+        rf"\b(?P<name>{names})='?(?P<value>[\w.-]+)'?",
+        rf"^(?:options: )?(?P<name>{names})(?= is | needs | makes )",
+        rf"(?<![\w./-])(?P<name>(?=[a-z]+_)(?:{names}))(?![\w./-])",
+    ):
+        message = re.sub(pattern, _flag, message)
+    return message
+
+
+def _flag(match: re.Match[str]) -> str:
+    name, value = match["name"].replace("_", "-"), match.groupdict().get("value")
+    if value in ("True", "False"):
+        return f"--{name}" if value == "True" else f"--no-{name}"
+    return f"--{name}{f' {value}' if value else ''}"
+
+
 def say(line: str) -> None:
     """Write a line to stderr, its columns as they are."""
     sys.stderr.write(visible(" ".join(line.splitlines())) + "\n")
@@ -69,7 +98,7 @@ def result_console() -> Iterator[Console]:
 
 def say_warning(message: str) -> None:
     """Write a warning to stderr; coloured in a terminal."""
-    text = visible(" ".join(message.split()))
+    text = visible(" ".join(with_flags(message).split()))
     has_colours = sys.stderr.isatty() and not os.environ.get("NO_COLOR")
     first, last = (_BOLD_YELLOW, _PLAIN) if has_colours else ("", "")
     sys.stderr.write(f"{first}warning  {text}{last}\n")

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import itertools
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
@@ -25,14 +24,12 @@ class OutputOptions:
     """Output files and messages."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
-    repeated: ClassVar[tuple[str, ...]] = ("out", "format")
 
-    out: tuple[Path, ...] = ()
+    out: Path | None = None
     """Event file; its extension decides the format. Without it: a name made from the input, in the
-    current folder. Given again, it writes the events to one more file."""
-    format: tuple[str, ...] = ()
-    """Format to write, where the extension does not say which (docs/files.md lists them); for
-    several files, one for each."""
+    current folder."""
+    format: str | None = None
+    """Format to write, where the extension does not say which (docs/files.md lists them)."""
     previews: str = "mp4,png,html"
     """Files beside the events: mp4, png, html or none. With commas between: a video of frames and
     events (.events.mp4), an image of the busiest moment (.events.png), a page with point cloud,
@@ -59,12 +56,14 @@ class OutputOptions:
         """Kinds of preview to write, as file extensions without the dot.
 
         Raises:
-            ConfigError: an unknown kind.
+            ConfigError: an unknown kind, or none beside others.
         """
-        if self.previews == "none":
-            return ()
         given = [kind.strip() for kind in self.previews.split(",") if kind.strip()]
+        if given == ["none"]:
+            return ()
         for kind in given:
+            if kind == "none":
+                raise ConfigError(f"previews is {shown(self.previews)}; give none alone, or kinds")
             if kind not in PREVIEWS:
                 raise ConfigError(
                     f"previews has {shown(kind)}; {suggest(kind, (*PREVIEWS, 'none'))}"
@@ -84,26 +83,19 @@ class OutputOptions:
         """The files to write, checked; without a name, one is made from a prompt or a file's name.
 
         Raises:
-            ConfigError: there are more formats than files, or fewer.
-            OutputError: a file is named twice, exists already, is an input, or its folder is
-                missing or not writable.
+            ConfigError: an unknown format.
+            OutputError: a file exists already, is an input, or its folder is missing or not
+                writable.
         """
-        events = self.out or (default_event_file(subject, self.format),)
-        if self.format and len(self.format) != len(events):
-            raise ConfigError(
-                f"there are {len(self.format)} --format for {len(events)} event files; give one "
-                "for each -o, or none"
-            )
         files = RunFiles(
-            events=events,
-            formats=self.format,
+            events=self.out or default_event_file(subject, self.format),
+            format=self.format,
             previews=self.preview_kinds,
             truth=self.truth_parts,
             overwrite=self.overwrite,
             keep_partial=self.keep_partial,
         )
-        for path, format in itertools.zip_longest(events, self.format):
-            codec_for(path, format)
+        codec_for(files.events, self.format)
         overwrite = self.overwrite or self.dry_run  # which writes nothing
         check_outputs(files.paths, overwrite=overwrite)
         if files.truth_folder is not None:
@@ -111,8 +103,8 @@ class OutputOptions:
         return files
 
 
-def default_event_file(subject: str, format: Sequence[str] = ()) -> Path:
+def default_event_file(subject: str, format: str | None = None) -> Path:
     """A name made of the first words of a prompt or of a file's name, in the current folder."""
     words = re.findall(r"[a-z0-9]+", subject.lower())[:8]
-    extension = extension_of(format[0]) if format else ".h5"
+    extension = extension_of(format) if format else ".h5"
     return Path(f"{'-'.join(words) or 'events'}{extension}")

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -14,9 +13,8 @@ import tomli_w
 from texvent.cli.dry_run import measure_start
 from texvent.cli.notices import say, write_out
 from texvent.cli.outputs import OutputOptions
-from texvent.errors import few, warn
+from texvent.errors import few
 from texvent.events import EventStream
-from texvent.io.atomic import noting_completed
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles, write_run
@@ -24,8 +22,7 @@ from texvent.run.prepare import prepare_source
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.report import PromptReport
 from texvent.settings.resolution import Settings, unmeasured_sensor
-from texvent.simulate.signal_tally import SignalTally
-from texvent.video import MICROSECONDS, Frame, FrameStream
+from texvent.video import MICROSECONDS, Frame
 
 SIGNALLED = 128
 """Exit code of a process ended by signal n is this + n, as shells expect."""
@@ -48,8 +45,6 @@ class Tally:
     last_us: int = 0
     first_us: int | None = None
     scene_changes: list[str] = field(default_factory=list)
-    kinds: SignalTally = field(default_factory=SignalTally)
-    """Signal and noise, whether the run keeps them or not."""
 
     def add(self, frame: Frame, packet: EventStream) -> None:
         """Count one step."""
@@ -110,20 +105,18 @@ def execute(simulation: Simulation, options: OutputOptions, files: RunFiles) -> 
     if options.dry_run:
         return _estimate(simulation, options, files)
     progress = ConsoleProgress(is_quiet=options.quiet)
-    _announce(progress, _notes(simulation))
+    for line in _notes(simulation):
+        progress.announce(line)
     tally, started, total = Tally(), time.perf_counter(), simulation.video.frame_count
-    simulation = replace(simulation, tally=tally.kinds)
 
     def count(frame: Frame, packet: EventStream) -> None:
         tally.add(frame, packet)
         progress.advance("frames", tally.source_frames, total)
 
-    with progress, _saying_what_is_complete(files.outputs):
+    with progress:
         early = write_run(simulation, files, on_step=count, on_scene_change=tally.add_scene_change)
-    _announce(progress, _summary(tally, time.perf_counter() - started))
-    doubt = tally.kinds.doubt(simulation.settings.run.keep_events)
-    if doubt is not None:
-        warn(doubt)
+    for line in _summary(tally, time.perf_counter() - started):
+        progress.announce(line)
     if early is not None:
         progress.announce(
             f"stopped  at {early.t_us / MICROSECONDS:.3f} s; the files end there (complete = false)"
@@ -150,24 +143,6 @@ def _estimate(simulation: Simulation, options: OutputOptions, files: RunFiles) -
     return 0
 
 
-def _announce(progress: ConsoleProgress, lines: Iterable[str]) -> None:
-    for line in lines:
-        progress.announce(line)
-
-
-@contextmanager
-def _saying_what_is_complete(paths: Sequence[Path]) -> Iterator[None]:
-    """If the block fails, name the files that it completed before."""
-    with noting_completed() as completed:
-        try:
-            yield
-        except BaseException:
-            named = [str(path) for path in paths if path.resolve() in completed]
-            if named:
-                say(f"complete {', '.join(named)}")
-            raise
-
-
 def describe_scene(metadata: Mapping[str, Any], *, with_words: bool = False) -> Iterator[str]:
     """Lines on the scene of a prompt; warnings have named words that are not shown.
 
@@ -190,29 +165,14 @@ def _notes(simulation: Simulation) -> Iterator[str]:
     unmeasured = unmeasured_sensor(run)
     if unmeasured is not None:
         yield f"note     {unmeasured}"
-    asked, made = getattr(simulation.settings.source, "duration", None), _duration(simulation.video)
-    if asked is not None and made is not None and abs(made - asked) > 0.01 * asked:
-        yield (
-            f"note     the video lasts {made:g} s, not {asked:g}: whole frame intervals at "
-            f"{simulation.video.fps} fps"
-        )
-
-
-def _duration(video: FrameStream) -> float | None:
-    """From the first frame to the last, s; None where it is not known."""
-    if video.fps is None or video.frame_count is None:
-        return None
-    return float((video.frame_count - 1) / video.fps)
 
 
 def _summary(tally: Tally, seconds: float) -> list[str]:
     """Summary of a run that took `seconds`."""
     rate = tally.events / tally.seconds if tally.seconds else 0.0
     share = f", {tally.on_events / tally.events:.0%} ON" if tally.events else ""
-    kinds = f": {tally.kinds.signal:,} signal, {tally.kinds.noise:,} noise"
     lines = [
-        f"events   {tally.events:,} in {tally.seconds:.3f} s ({rate:,.0f} per second{share})"
-        f"{kinds if tally.events == tally.kinds.signal + tally.kinds.noise else ''}",
+        f"events   {tally.events:,} in {tally.seconds:.3f} s ({rate:,.0f} per second{share})",
         f"frames   {tally.source_frames:,} source + {tally.intermediate_frames:,} intermediate, "
         f"computed in {seconds:.1f} s (elapsed)",
     ]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
@@ -25,17 +24,16 @@ PREVIEW_SUFFIX = ".events"
 """Stands before the extension of previews, so that none takes the name of a source video."""
 
 OnStep = Callable[[Frame, EventStream], None]
-Append = Callable[[EventStream], None]
 
 
 @dataclass(frozen=True)
 class RunFiles:
     """Which files a run writes."""
 
-    events: Sequence[Path]
-    """Event files, at least one; previews are named after the first."""
-    formats: Sequence[str | None] = ()
-    """Format of each, None where its extension decides; empty: for all."""
+    events: Path
+    """Event file; previews are named after it."""
+    format: str | None = None
+    """Its format; None where its extension decides."""
     previews: tuple[str, ...] = ()
     """Kinds of preview, as file extensions without the dot."""
     overwrite: bool = False
@@ -48,14 +46,13 @@ class RunFiles:
     @property
     def preview_stem(self) -> Path:
         """Previews without their extension: `clip.events` for `clip.h5`."""
-        path = self.events[0]
-        name = path.with_suffix("").name.removesuffix(PREVIEW_SUFFIX)
-        return path.with_name(f"{name}{PREVIEW_SUFFIX}")
+        name = self.events.with_suffix("").name.removesuffix(PREVIEW_SUFFIX)
+        return self.events.with_name(f"{name}{PREVIEW_SUFFIX}")
 
     @property
     def truth_folder(self) -> Path | None:
         """Folder of ground truth, such as `clip.truth` for `clip.h5`; None where none is wanted."""
-        return truth_folder(self.events[0]) if self.truth else None
+        return truth_folder(self.events) if self.truth else None
 
     @property
     def outputs(self) -> tuple[Path, ...]:
@@ -67,7 +64,7 @@ class RunFiles:
         """All files but the truth."""
         stem = self.preview_stem
         previews = (stem.with_name(f"{stem.name}.{kind}") for kind in self.previews)
-        return (*self.events, *previews)
+        return (self.events, *previews)
 
 
 @dataclass(frozen=True)
@@ -114,32 +111,36 @@ def write_run(
     Raises:
         OutputError: a file exists already, or cannot be written.
         InputError: the frames cannot be used.
+
+    Warns:
+        TexventWarning: there is no signal, or hardly any.
     """
     facts = metadata or simulation.provenance
     with ExitStack() as outputs:
-        # The exit stack closes in reverse: the event files are safe on disk before the previews
-        # end.
+        # The exit stack closes in reverse: the event file is safe on disk before the previews end.
         preview = _open_previews(outputs, simulation, files, facts)
-        sinks: list[Callable[[Frame, EventStream], None]] = []
+        sinks: list[OnStep] = []
         if preview is not None:
             sinks.append(outputs.enter_context(BackgroundWriter(preview)).append)
-        writers = [
-            outputs.enter_context(_open_events(path, format, simulation, files, facts))
-            for path, format in itertools.zip_longest(files.events, files.formats)
-        ]
-        appends = [outputs.enter_context(BackgroundWriter(writer)).append for writer in writers]
-        # The truth ends before the event files do, for it may give them their events.
-        truth = _open_truth(outputs, simulation, files, facts, _labelled(writers, appends))
+        writer = outputs.enter_context(_open_events(simulation, files, facts))
+        append = outputs.enter_context(BackgroundWriter(writer)).append
+
+        def append_labelled(packet: EventStream) -> None:
+            # A file without a place for the ids of objects has them in the folder of truth.
+            is_kept = getattr(writer, "keeps_labels", False)
+            append(packet if is_kept else packet.with_ids(None, None))
+
+        # The truth ends before the event file does, for it may give it its events.
+        truth = _open_truth(outputs, simulation, files, facts, append_labelled)
         if truth is not None:
             sinks.append(outputs.enter_context(BackgroundWriter(truth)).append)
         if "events" not in files.truth:
-            sinks += [_takes_packets(append) for append in appends]
+            sinks.append(lambda frame, packet: append(packet))
         stop = outputs.enter_context(stop_on_interrupt()) if files.keep_partial else StopRequest()
-        early = _run_steps(
-            simulation.steps(on_scene_change), [*sinks, on_step], stop, files.keep_partial
-        )
+        steps = simulation.steps(on_scene_change, warns=True)
+        early = _run_steps(steps, [*sinks, on_step], stop, files.keep_partial)
         if early is not None:
-            for output in (*writers, preview, truth):
+            for output in (writer, preview, truth):
                 if output is not None:
                     output.add_metadata(early.facts)
     return early
@@ -167,45 +168,15 @@ def _run_steps(
     return None
 
 
-def _open_events(
-    path: Path,
-    format: str | None,
-    simulation: Simulation,
-    files: RunFiles,
-    facts: Mapping[str, Any],
-) -> EventWriter:
+def _open_events(simulation: Simulation, files: RunFiles, facts: Mapping[str, Any]) -> EventWriter:
     """A writer of the events; a format that the name does not tell is stored."""
     return open_writer(
-        path,
+        files.events,
         size=simulation.video.size,
-        metadata=facts if format is None else {**facts, "format": format},
-        format=format,
+        metadata=facts if files.format is None else {**facts, "format": files.format},
+        format=files.format,
         overwrite=files.overwrite,
     )
-
-
-def _takes_packets(append: Append) -> OnStep:
-    def append_packet(frame: Frame, packet: EventStream) -> None:
-        del frame
-        append(packet)
-
-    return append_packet
-
-
-def _labelled(
-    writers: Sequence[EventWriter], appends: Sequence[Append]
-) -> Callable[[EventStream], None]:
-    """Gives events with the ids of their objects to all writers, without where there is no place.
-
-    These files have them in the folder of truth.
-    """
-
-    def append_packet(packet: EventStream) -> None:
-        plain = packet.with_ids(None, None)
-        for writer, append in zip(writers, appends, strict=True):
-            append(packet if getattr(writer, "keeps_labels", False) else plain)
-
-    return append_packet
 
 
 def _open_previews(
@@ -233,7 +204,7 @@ def _open_truth(
     simulation: Simulation,
     files: RunFiles,
     facts: Mapping[str, Any],
-    on_events: Append,
+    on_events: Callable[[EventStream], None],
 ) -> Any:
     """The folder of truth, open; None where none is wanted."""
     if files.truth_folder is None:

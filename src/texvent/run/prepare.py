@@ -11,8 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
-from texvent.config import InterpolateConfig
-from texvent.errors import InputError, shown, warn
+from texvent.errors import InputError, warn
 from texvent.generate.scene_input import Subject, check_takes, prompt_of, read
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
 from texvent.run.rate_search import reach_target_rate
@@ -75,21 +74,6 @@ def check_memory(settings: Settings, size: SensorSize) -> None:
         )
 
 
-def warn_of_unread_weights(config: InterpolateConfig) -> None:
-    """Say so if weights are given to an interpolator that ships with texvent and reads none.
-
-    No error: files of former versions store such runs, and can be made again.
-    """
-    name, weights = config.interpolate, config.interpolator_weights
-    if weights is None or name not in INTERPOLATORS.builtin:
-        return
-    if not hasattr(INTERPOLATORS.load(name), "provenance"):
-        warn(
-            f"interpolator_weights is {shown(str(weights))}, and nothing reads it: interpolate is "
-            f"{name}, not rife or super-slomo"
-        )
-
-
 def prepare_prompt(
     prompt: Subject,
     settings: Settings,
@@ -109,7 +93,6 @@ def prepare_prompt(
         InputError: the prompt is empty, a file is missing, or the target rate is out of reach.
     """
     check_run(settings)
-    warn_of_unread_weights(settings.interpolate)
     _check_prompt(prompt)
     simulation = text_to_events(prompt, settings, progress=progress)
     simulation = replace(simulation, prompt=prompt_of(prompt))
@@ -225,7 +208,6 @@ def prepare_video(
 ) -> Simulation:
     """The run of a video that is open already; arguments and errors as `prepare_source`."""
     check_run(settings)
-    warn_of_unread_weights(settings.interpolate)
     check_memory(settings, video.size)
     simulation = video_to_events(video, settings, prompt=prompt)
     return reach_target_rate(simulation, progress=progress)

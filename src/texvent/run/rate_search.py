@@ -25,17 +25,6 @@ UNREACHED = 0.1
 """Relative difference from which the rate counts as out of reach."""
 
 
-class RateMatch(NamedTuple):
-    """Result of the search."""
-
-    contrast_threshold: float
-    """δ, log units."""
-    rate_hz: float
-    """Events per second with it, over the part that was simulated."""
-    steps: int
-    """Number of trials."""
-
-
 def reach_target_rate(simulation: Simulation, *, progress: Progress | None = None) -> Simulation:
     """The run with the contrast threshold that its option `target_rate` asks for, if it is set.
 
@@ -48,8 +37,8 @@ def reach_target_rate(simulation: Simulation, *, progress: Progress | None = Non
     simulation, match = match_rate(simulation, target_hz, progress=progress)
     if progress is not None:
         progress.announce(
-            f"rate     {match.rate_hz:,.0f} events per second in the first second, with contrast "
-            f"threshold {match.contrast_threshold:.4g} ({match.steps} trials)"
+            f"rate     {match.ratio * target_hz:,.0f} events per second in the first second, with "
+            f"contrast threshold {match.threshold:.4g} ({match.steps} trials)"
         )
     return simulation
 
@@ -60,7 +49,7 @@ def match_rate(
     *,
     seconds: float = 1.0,
     progress: Progress | None = None,
-) -> tuple[Simulation, RateMatch]:
+) -> tuple[Simulation, ThresholdMatch]:
     """A simulation whose contrast threshold makes its start fire at a wanted rate.
 
     Args:
@@ -98,10 +87,10 @@ def match_rate(
         return measure_rate(with_threshold(threshold), seconds)
 
     match = threshold_for_rate(rate_of, target_hz)
-    return with_threshold(match.contrast_threshold), match
+    return with_threshold(match.threshold), match
 
 
-def threshold_for_rate(rate_of: Callable[[float], float], target_hz: float) -> RateMatch:
+def threshold_for_rate(rate_of: Callable[[float], float], target_hz: float) -> ThresholdMatch:
     """The threshold at which a falling function takes a value, by bisection of its logarithm.
 
     Args:
@@ -119,7 +108,7 @@ def threshold_for_rate(rate_of: Callable[[float], float], target_hz: float) -> R
             f"second; the nearest is {rate_hz:,.0f} at {match.threshold:.3g}. Choose "
             "a rate nearer to that, or change the noise, which no threshold removes"
         )
-    return RateMatch(match.threshold, rate_hz, match.steps)
+    return match
 
 
 def measure_rate(simulation: Simulation, seconds: float) -> float:

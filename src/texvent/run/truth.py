@@ -4,16 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from texvent.errors import ConfigError, warn
+from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.pipeline import Simulation
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.progress import Progress
-from texvent.simulate.signal_tally import SignalTally
 from texvent.truth.layout import ALL, PARTS, check_truth_folder, parse_parts
 
 if TYPE_CHECKING:
@@ -78,21 +77,17 @@ def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> 
         TexventWarning: there is no signal, or hardly any.
     """
     packets = [EventStream.empty(run.video.size)]
-    has_ids, done, tally = "events" in folder.names, 0, SignalTally()
+    has_ids, done = "events" in folder.names, 0
     with ExitStack() as stack:
         writer = stack.enter_context(_truth_writer(run, folder, packets.append))
         background = stack.enter_context(BackgroundWriter(writer))
-        for frame, packet in replace(run, tally=tally).steps():
+        for frame, packet in run.steps(warns=True):
             background.append(frame, packet)
             if not has_ids:
                 packets.append(packet)
             done += frame.is_source
             progress.advance("simulate", done, run.video.frame_count)
-    events = EventStream.concat(packets)
-    doubt = tally.doubt(run.settings.run.keep_events)
-    if doubt is not None:
-        warn(doubt)
-    return events.with_metadata(run.provenance)
+    return EventStream.concat(packets).with_metadata(run.provenance)
 
 
 def _truth_writer(

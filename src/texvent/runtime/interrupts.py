@@ -6,7 +6,6 @@ They are Ctrl-C, SIGTERM and SIGHUP; on Windows Ctrl-C, SIGTERM and Ctrl-Break.
 from __future__ import annotations
 
 import signal
-import sys
 import threading
 import time
 from collections.abc import Callable, Iterator
@@ -20,9 +19,6 @@ ENDING: tuple[signal.Signals, ...] = tuple(
 )
 REPEAT_S = 2.0
 """Further signals within this time are ignored: they belong to the first, which is cleaning up."""
-
-_AGAIN_S = 0.01
-"""After which a signal comes again that met a callback, in which exceptions are dropped."""
 
 Handler = Callable[[int, FrameType | None], object]
 
@@ -61,15 +57,7 @@ def raise_interrupted(*, until_exit: bool = False) -> Iterator[None]:
             last_s, received = time.monotonic(), Interrupted(number)
             raise received
 
-    def signal_again(error: BaseException | None) -> bool:
-        nonlocal last_s
-        if error is not received:
-            return False
-        last_s = -REPEAT_S
-        threading.Timer(_AGAIN_S, _signal_main_thread, [received.number]).start()
-        return True
-
-    with _handling(interrupt, only_callable=False), _dropped(signal_again):
+    with _handling(interrupt, only_callable=False):
         try:
             yield
         except (KeyboardInterrupt, SystemError) as error:
@@ -82,37 +70,6 @@ def raise_interrupted(*, until_exit: bool = False) -> Iterator[None]:
                 for number in ENDING:
                     signal.signal(number, signal.SIG_IGN)
             raise interrupted from None
-
-
-def _signal_main_thread(number: int) -> None:
-    """A signal that ends what the main thread waits for, where the system can do that."""
-    if hasattr(signal, "pthread_kill"):
-        signal.pthread_kill(threading.main_thread().ident or 0, number)
-    else:
-        signal.raise_signal(number)
-
-
-@contextmanager
-def _dropped(take: Callable[[BaseException | None], bool]) -> Iterator[None]:
-    """Offer exceptions that Python drops, in finalisers and the like; those not taken are printed.
-
-    Outside the main thread this does nothing.
-    """
-    if threading.current_thread() is not threading.main_thread():
-        yield
-        return
-    before = sys.unraisablehook
-
-    def hook(unraisable: sys.UnraisableHookArgs) -> None:
-        if not take(unraisable.exc_value):
-            before(unraisable)
-
-    sys.unraisablehook = hook
-    try:
-        yield
-    finally:
-        if sys.unraisablehook is hook:
-            sys.unraisablehook = before
 
 
 def _interrupted_in(error: BaseException) -> Interrupted | None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import functools
 import os
-import sys
 from pathlib import Path
 
 SHARE = 0.8
@@ -34,17 +33,6 @@ def machine_bytes() -> int | None:
         return os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
     except (AttributeError, ValueError):  # Windows has no sysconf
         return None
-
-
-def peak_bytes() -> int | None:
-    """The most memory that this process has had at once, bytes; None where it is not known."""
-    try:
-        import resource
-    except ImportError:  # Windows has no such module
-        return None
-    # Linux reports ru_maxrss in KiB, macOS in bytes.
-    unit = 1 if sys.platform == "darwin" else 1024
-    return resource.getrusage(resource.RUSAGE_SELF).ru_maxrss * unit
 
 
 def _process_limits() -> list[int]:

@@ -7,14 +7,14 @@ options. The command line and the Python API both come through here, so they can
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
-from texvent.config import CaptureConfig, InterpolateConfig, RunConfig, check_range
-from texvent.errors import ConfigError, shown
+from texvent.config import CaptureConfig, IdleOptions, InterpolateConfig, RunConfig, check_range
+from texvent.errors import ConfigError, shown, warn
 from texvent.options.fields import option_names
 from texvent.options.values import plain, with_options
 from texvent.sensor import SENSORS, Sensor, SensorSize, find_sensor, parse_sensor
@@ -24,6 +24,13 @@ from texvent.simulate.model_options import with_contrast_threshold
 
 DEFAULT_SENSOR = "davis346"
 """Size of a generated scene when no sensor is named and the generator has no wish of its own."""
+ALONG_MOTION = "motion"
+"""The interpolator of frames that come with motion vectors."""
+RENDERED = "exact"
+"""The interpolator of what is known at any instant."""
+"""Tables of options in a config file."""
+DECIDING = ("generator", "simulator", "preset", "sensor", "motion", "motion_back", "camera")
+"""Options that decide which other options there are, or their defaults."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,78 +67,6 @@ class Settings:
         if self.generator:
             tables["generate"] = {"generator": self.generator, **tables["generate"]}
         return tables
-
-
-def default_settings(
-    command: Command,
-    *,
-    generator: str | None = None,
-    simulator: str | None = None,
-    preset: str | None = None,
-    has_motion: bool = False,
-    has_camera: bool = False,
-) -> Settings:
-    """Settings before any single option: the defaults of the named parts and preset.
-
-    Args:
-        command: "generate" (from a prompt) or "simulate" (from frames).
-        generator: name of the generator, or None for the default.
-        simulator: name of the simulator, or None for the default, or that which has the preset.
-        preset: name of the preset, or None for the simulator's first.
-        has_motion: whether the frames come with motion vectors.
-        has_camera: whether they are made by a camera that moves over a still image.
-
-    Raises:
-        ConfigError: a part or preset of that name does not exist.
-    """
-    simulator_name, preset_name = find_preset(simulator, preset)
-    simulator_class = SIMULATORS.load(simulator_name)
-    presets = simulator_class.presets
-    run = RunConfig(simulator=simulator_name, preset=preset_name)
-    if command == "simulate":
-        return Settings(
-            run=run,
-            source=CaptureConfig(),
-            interpolate=_interpolation(
-                simulator_class, has_motion=has_motion, has_camera=has_camera
-            ),
-            simulate=presets[preset_name],
-        )
-    generator_name = generator or next(iter(GENERATORS.builtin))
-    generator_class = GENERATORS.load(generator_name)
-    return Settings(
-        run=dataclasses.replace(
-            run, sensor=getattr(generator_class, "default_sensor", DEFAULT_SENSOR)
-        ),
-        source=generator_class.config_type(),
-        interpolate=_interpolation(simulator_class, generator_class),
-        simulate=presets[preset_name],
-        generator=generator_name,
-    )
-
-
-def _interpolation(
-    *parts: Any, has_motion: bool = False, has_camera: bool = False
-) -> InterpolateConfig:
-    """Interpolation as the first of the parts that has a wish wants it, else as the frames do."""
-    for part in parts:
-        wish = getattr(part, "default_interpolate", None)
-        if wish is not None:
-            return InterpolateConfig(interpolate=wish)
-    if has_camera:
-        return InterpolateConfig(interpolate=RENDERED)
-    if has_motion:
-        return InterpolateConfig(interpolate=ALONG_MOTION)
-    return InterpolateConfig()
-
-
-ALONG_MOTION = "motion"
-"""The interpolator of frames that come with motion vectors."""
-RENDERED = "exact"
-"""The interpolator of what is known at any instant."""
-"""Tables of options in a config file."""
-DECIDING = ("generator", "simulator", "preset", "sensor", "motion", "motion_back", "camera")
-"""Options that decide which other options there are, or their defaults."""
 
 
 def base_settings(
@@ -171,9 +106,12 @@ def base_settings(
         parts["preset"] = sensor_preset(parts["simulator"], chosen.get("sensor"))
     where = f"config file {config}" if config is not None else "options"
     named = chosen.get("motion"), chosen.get("motion_back")
-    has_motion = has_motion or any(one is not None for one in named)
-    has_camera = command == "simulate" and chosen.get("camera") is not None
-    defaults = default_settings(command, **parts, has_motion=has_motion, has_camera=has_camera)
+    usual = None
+    if command == "simulate" and chosen.get("camera") is not None:
+        usual = RENDERED
+    elif has_motion or any(one is not None for one in named):
+        usual = ALONG_MOTION
+    defaults = _default_settings(command, **parts, interpolate=usual)
     try:
         return apply_options(defaults, chosen, where=where)
     except ConfigError as error:
@@ -181,6 +119,49 @@ def base_settings(
         if config is None or message.startswith(where):
             raise
         raise ConfigError(f"{where}: {message}") from None
+
+
+def _default_settings(
+    command: Command,
+    *,
+    generator: str | None,
+    simulator: str | None,
+    preset: str | None,
+    interpolate: str | None,
+) -> Settings:
+    """Settings before any single option: the defaults of the named parts and preset.
+
+    Args:
+        command: "generate" (from a prompt) or "simulate" (from frames).
+        generator: its name, or None for the default.
+        simulator: its name, or None for the default, or that which has the preset.
+        preset: its name, or None for the simulator's first.
+        interpolate: the interpolator that suits recorded frames, if not the default.
+
+    Raises:
+        ConfigError: a part or preset of that name does not exist.
+    """
+    simulator_name, preset_name = find_preset(simulator, preset)
+    simulator_class = SIMULATORS.load(simulator_name)
+    run = RunConfig(simulator=simulator_name, preset=preset_name)
+    generator_name, source, parts = None, CaptureConfig(), [simulator_class]
+    if command == "generate":
+        generator_name = generator or next(iter(GENERATORS.builtin))
+        generator_class = GENERATORS.load(generator_name)
+        size = getattr(generator_class, "default_sensor", DEFAULT_SENSOR)
+        run = dataclasses.replace(run, sensor=size)
+        source = generator_class.config_type()
+        parts.append(generator_class)
+    # Some models and generators prefer an interpolator.
+    wishes = [getattr(part, "default_interpolate", None) for part in parts]
+    chosen = next((one for one in (*wishes, interpolate) if one is not None), None)
+    return Settings(
+        run=run,
+        source=source,
+        interpolate=InterpolateConfig(**({} if chosen is None else {"interpolate": chosen})),
+        simulate=simulator_class.presets[preset_name],
+        generator=generator_name,
+    )
 
 
 def sensor_preset(simulator: str | None, sensor: str | None) -> str | None:
@@ -250,7 +231,9 @@ def resolve(
         single["sensor"] = _sensor_text(single["sensor"])
     deciding = {name: single.pop(name) for name in DECIDING if name in single}
     base = base_settings(command, config=config, has_motion=has_motion, **deciding)
-    return apply_options(base, single, where="options")
+    settings = apply_options(base, single, where="options")
+    warn_of_idle(settings, single)
+    return settings
 
 
 def _sensor_text(sensor: Any) -> Any:
@@ -303,6 +286,25 @@ def apply_options(settings: Settings, options: Mapping[str, Any], *, where: str)
         INTERPOLATORS.load(result.interpolate.interpolate)
     result.size  # noqa: B018  (parses the sensor, so a wrong name fails before any work)
     return result
+
+
+def warn_of_idle(settings: Settings, given: Iterable[str]) -> None:
+    """Warn of options that another one switches off.
+
+    A config lists them in `idle_with`: option → the deciding option, and those of its values with
+    which the first one has no effect.
+
+    Warns:
+        TexventWarning: an option that was given has no effect.
+    """
+    for config in settings.groups().values():
+        idle_with: IdleOptions = getattr(config, "idle_with", {})
+        for name in idle_with.keys() & set(given):
+            decider, values = idle_with[name]
+            value = getattr(config, decider)
+            if value in values:
+                said = "is not given" if value is None else f"is {value}"
+                warn(f"{name} has no effect: {decider} {said}")
 
 
 def _as_number(value: Any, where: str) -> float:

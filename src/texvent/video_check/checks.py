@@ -22,8 +22,6 @@ NOISE_CORRELATION = 0.4
 REPEAT_SHARE = 0.02
 MOTION_SHARE = 0.04
 """Of the longer side, per frame: 13 px of 320."""
-LOW_RATE_HZ, HIGH_RATE_HZ = 0.05, 100.0
-"""Events per pixel and second. A DAVIS346 reads 12 million per second, 133 per pixel."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,10 +57,6 @@ def _motion(one: Measurements) -> str:
         f"{one['motion_px']:.1f} px per frame, {one['motion_share']:.1%} of the side; "
         f"fastest {one['fast_px']:.0f} px"
     )
-
-
-def _rate(one: Measurements) -> str:
-    return f"{one['rate_hz']:.3g} ± {one['rate_error_hz']:.2g} per pixel and s"
 
 
 ANOTHER_SEED = "generate: another `seed`, on_failure='retry'"
@@ -167,15 +161,6 @@ CHECKS = (
         effect="interpolation loses motion this fast: ghosts instead of edges",
         help="more frames per second; `motion` of a renderer; generate: interpolate='exact'",
     ),
-    Check(
-        name="event rate",
-        needs="rate_hz",
-        is_found=lambda one: not LOW_RATE_HZ <= one["rate_hz"] <= HIGH_RATE_HZ,
-        value=_rate,
-        limit=f"{LOW_RATE_HZ:g} to {HIGH_RATE_HZ:g}",
-        effect="below: little more than noise; above: more than sensors read out",
-        help="`contrast_threshold`, or `target_rate`",
-    ),
 )
 """In the order of the table."""
 
@@ -243,7 +228,7 @@ def check_video(frames: Iterable[Frame]) -> VideoReport:
 
 
 def evaluate(measurements: Measurements) -> VideoReport:
-    """The report of a video's measurements, with or without those of motion and rate."""
+    """The report of a video's measurements, with or without those of motion."""
     made = [check for check in CHECKS if check.needs in measurements]
     found = [check for check in made if check.is_found(measurements)]
     return VideoReport(

@@ -2,17 +2,15 @@
 
 from __future__ import annotations
 
-import shutil
 import threading
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Literal
 
-from texvent.errors import InputError, TexventError, warnings_to
+from texvent.errors import TexventError, warnings_to
 from texvent.events import EventStream
 from texvent.generate.scene_input import Subject
-from texvent.io.files import extension_of, open_events, save
 from texvent.pipeline import Simulation
 from texvent.run.files import RunFiles, write_run
 from texvent.run.prepare import prepare_prompt, prepare_source
@@ -51,7 +49,6 @@ class Job:
     """Part that is done, 0..1; None where it is not known."""
     _stop: threading.Event = field(default_factory=threading.Event)
     _thread: threading.Thread | None = None
-    _converting: threading.Lock = field(default_factory=threading.Lock)
     _events: int = 0
     _frames: int = 0
 
@@ -95,24 +92,8 @@ class Job:
 
     def file(self, name: str) -> Path | None:
         """A result by name: events, video or page; None where there is none."""
-        path = dict(zip(RESULTS, self._files().paths, strict=True)).get(name)
+        path = dict(zip(("events", "video", "page"), self._files().paths, strict=True)).get(name)
         return path if path is not None and self.state == "done" and path.is_file() else None
-
-    def converted(self, format: str) -> Path:
-        """The events in a format; folders are packed into one zip file.
-
-        Raises:
-            InputError: there are no events yet, or the format cannot hold them.
-            ConfigError: there is no such format.
-        """
-        if self.state != "done":
-            raise InputError("there are no events to download; make some first")
-        target = self.folder / f"download{extension_of(format)}"
-        with self._converting:
-            save(target, open_events(self.folder / "events.h5"), format=format, overwrite=True)
-            if target.is_dir():
-                target = Path(shutil.make_archive(str(target), "zip", root_dir=target))
-        return target
 
     def announce(self, line: str) -> None:
         """Progress of a slow generator, as a line."""
@@ -129,7 +110,7 @@ class Job:
         return prepare_source(str(self.video), resolve("simulate", self.options), progress=self)
 
     def _files(self) -> RunFiles:
-        return RunFiles(events=(self.folder / "events.h5",), previews=("mp4", "html"))
+        return RunFiles(events=self.folder / "events.h5", previews=("mp4", "html"))
 
     def _count(self, frame: Frame, packet: EventStream) -> None:
         self._events += len(packet)
@@ -140,10 +121,6 @@ class Job:
         if self._stop.is_set():
             raise _StoppedError
         self.text, self.share = text, share
-
-
-RESULTS = ("events", "video", "page")
-"""Names of the files that a run writes, in order."""
 
 
 def _subject(text: str) -> Subject:

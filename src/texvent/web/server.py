@@ -19,9 +19,9 @@ from pathlib import Path
 from typing import Any, Self
 from urllib.parse import parse_qs
 
-from texvent._registry import CODECS, GENERATORS, SIMULATORS
+from texvent._registry import GENERATORS, SIMULATORS
 from texvent.config import RunConfig
-from texvent.errors import InputError, TexventError
+from texvent.errors import InputError
 from texvent.sensor import SENSORS
 from texvent.web.job import Job
 
@@ -45,6 +45,13 @@ VIEWER_POLICY = (
     "sandbox allow-scripts; default-src 'none'; script-src 'unsafe-inline'; "
     "style-src 'unsafe-inline'; img-src data:; frame-ancestors 'self'"
 )
+NOTHING_POLICY = "default-src 'none'"
+RESULTS = {
+    "events": ("application/octet-stream", NOTHING_POLICY),
+    "video": ("video/mp4", NOTHING_POLICY),
+    "page": ("text/html; charset=utf-8", VIEWER_POLICY),
+}
+"""Files that a run writes, in order: their kinds, and what a browser may do with them."""
 
 
 class PageServer:
@@ -143,16 +150,13 @@ class _Handler(BaseHTTPRequestHandler):
         """The page, the state of the job, or one of its files."""
         if self._is_refused():
             return
-        path, _, query = self.path.partition("?")
-        job = self.page.job
+        path, job = self.path.partition("?")[0], self.page.job
         if path == "/":
             self._send(page_html(), "text/html; charset=utf-8", policy=POLICY)
         elif path == "/job":
             facts = {"state": "none", "text": ""} if job is None else job.describe()
             self._send(json.dumps(facts), "application/json")
-        elif path == "/download" and job is not None:
-            self._download(job, parse_qs(query).get("format", [""])[0])
-        elif path in ("/video", "/page") and job is not None:
+        elif path[1:] in RESULTS and job is not None:
             self._result(job, path[1:])
         else:
             self._refuse(HTTPStatus.NOT_FOUND, "there is no such page")
@@ -241,23 +245,9 @@ class _Handler(BaseHTTPRequestHandler):
         path = job.file(name)
         if path is None:
             self._refuse(HTTPStatus.NOT_FOUND, "there is no such result")
-        elif name == "video":
-            self._send(path.read_bytes(), "video/mp4")
         else:
-            self._send(path.read_bytes(), "text/html; charset=utf-8", policy=VIEWER_POLICY)
-
-    def _download(self, job: Job, format: str) -> None:
-        try:
-            path = job.converted(format)
-            content = path.read_bytes()
-        except (TexventError, OSError) as error:  # its job may just have been replaced
-            self._refuse(HTTPStatus.BAD_REQUEST, str(error))
-            return
-        self._send(
-            content,
-            "application/octet-stream",
-            disposition=f'attachment; filename="events{"".join(path.suffixes)}"',
-        )
+            kind, policy = RESULTS[name]
+            self._send(path.read_bytes(), kind, policy=policy)
 
     def _refuse(self, status: int, text: str) -> None:
         self.close_connection = True  # the body was not read
@@ -269,13 +259,10 @@ class _Handler(BaseHTTPRequestHandler):
         kind: str,
         *,
         status: int = HTTPStatus.OK,
-        policy: str = "default-src 'none'",
-        disposition: str | None = None,
+        policy: str = NOTHING_POLICY,
     ) -> None:
         body = content.encode() if isinstance(content, str) else content
         headers = {**HEADERS, "Content-Type": kind, "Content-Security-Policy": policy}
-        if disposition is not None:
-            headers["Content-Disposition"] = disposition
         self.send_response(status)
         for name, value in headers.items():
             self.send_header(name, value)
@@ -330,6 +317,5 @@ def page_html() -> str:
         "simulator": RunConfig.simulator,
         "presets": {name: list(SIMULATORS.load(name).presets) for name in SIMULATORS.names()},
         "sensors": list(SENSORS),
-        "formats": CODECS.names(),
     }
     return template.replace("{{choices}}", json.dumps(choices).replace("<", "\\u003c"))

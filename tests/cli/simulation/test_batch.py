@@ -172,7 +172,6 @@ def test_mistakes_are_one_line(folder, capsys):
     assert run("batch", "none.txt") == 2
     assert run("batch", "p.txt", "--jobs", "0") == 2
     assert run("batch", "p.txt", "--keep-partial") == 2
-    assert run("batch", "p.txt", "-o", "a", "-o", "b") == 2
     assert all(len(line) < 300 for line in capsys.readouterr().err.splitlines())
 
 

@@ -57,9 +57,8 @@ def test_calibrate_writes_a_preset_and_says_how_good_it_is(recording, tmp_path, 
         (("--seconds", "0"), "seconds"),
         (("--events", "nowhere.npz"), "no such file"),
         (("--frames-gamma", "-1"), "gamma"),
-        (("--scene", "static"), "leave out --frames"),
         (("--report", "a.html"), "must end in .png, .svg or .pdf"),
-        (("--flicker-hz", "5"), "are for --scene flicker"),
+        (("--flicker-hz", "5"), "leave out --frames"),
         (("--start-preset", "nowhere.toml"), "nowhere.toml"),
     ],
 )
@@ -87,13 +86,13 @@ def scenes(tmp_path_factory):
 
 def test_events_alone_are_measured_one_scene_after_the_other(scenes, tmp_path, capsys):
     rest, both, page = tmp_path / "rest.toml", tmp_path / "both.toml", tmp_path / "page.png"
-    first = ["calibrate", "--events", str(scenes / "rest.npz"), "--scene", "static"]
+    first = ["calibrate", "--events", str(scenes / "rest.npz")]
     assert main([*first, "-o", str(rest), "--report", str(page)]) == 0
     said = capsys.readouterr()
     assert said.out == f"{rest}\n{page}\n"
     assert "found noise_rate_hz" in said.err
     assert page.read_bytes().startswith(b"\x89PNG")
-    second = ["calibrate", "--events", str(scenes / "flicker.npz"), "--scene", "flicker"]
+    second = ["calibrate", "--events", str(scenes / "flicker.npz")]
     light = ["--flicker-hz", "5", "--flicker-ratio", "6", "--start-preset", str(rest)]
     pixels = tmp_path / "pixels.npz"
     report = ["--report", str(tmp_path / "flicker.pdf"), "--threshold-map", str(pixels), "-q"]
@@ -111,12 +110,10 @@ def test_events_alone_are_measured_one_scene_after_the_other(scenes, tmp_path, c
 @pytest.mark.parametrize(
     ("more", "message"),
     [
-        ((), "a moving scene needs --frames"),
-        (("--scene", "flicker"), "needs --flicker-hz"),
-        (("--scene", "flicker", "--flicker-hz", "5", "--flicker-ratio", "1"), "flicker_ratio"),
-        (("--scene", "still"), "--scene"),
-        (("--scene", "static", "--threshold-map", "a.npz"), "is for --scene flicker"),
-        (("--scene", "flicker", "--flicker-hz", "5", "--threshold-map", "a.h5"), "in .npz"),
+        (("--keep", "balance"), "--keep is for"),
+        (("--flicker-hz", "5", "--flicker-ratio", "1"), "flicker_ratio"),
+        (("--threshold-map", "a.npz"), "are for --flicker-hz"),
+        (("--flicker-hz", "5", "--threshold-map", "a.h5"), "in .npz"),
     ],
 )
 def test_scenes_without_frames_are_refused_in_one_line(scenes, tmp_path, capsys, more, message):

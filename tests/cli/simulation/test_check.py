@@ -11,7 +11,7 @@ from tests.video_check.made_clips import encode, pan
 
 from texvent.cli.app import main
 from texvent.options.fields import option_names
-from texvent.settings.resolution import default_settings
+from texvent.settings.resolution import base_settings
 from texvent.video_check.checks import CHECKS
 
 OF_GENERATE = {"seed", "on_failure"}
@@ -37,10 +37,9 @@ def test_the_table_names_what_was_found_first_and_fits(clip, capsys, monkeypatch
 
 
 def test_json_has_all_measurements(clip, capsys):
-    assert main(["check", str(clip), "-q", "--json", "--sensor", "64x48"]) == 0
+    assert main(["check", str(clip), "-q", "--json"]) == 0
     facts = json.loads(capsys.readouterr().out)
     assert facts["found"] == ["repeated frames"]
-    assert facts["sensor"] == "64x48"
     assert [one["check"] for one in facts["findings"]] == [check.name for check in CHECKS]
     assert facts["measurements"]["pattern_period"] == 5
 
@@ -53,7 +52,7 @@ def test_strict_says_by_its_exit_code_whether_something_was_found(clip, tmp_path
 
 
 def test_advice_names_options_that_exist():
-    settings = default_settings("simulate")
+    settings = base_settings("simulate")
     known = {name for group in settings.groups().values() for name in option_names(type(group))}
     named = r"(?:`|\b)([a-z_]+)(?:`|=')"
     advised = {name for check in CHECKS for name in re.findall(named, check.help)}
@@ -65,11 +64,10 @@ def test_advice_names_options_that_exist():
     ("words", "said"),
     [
         (["none.mp4"], "none.mp4"),
-        (["{clip}", "--target-rate", "1000"], "target_rate decides the event rate"),
+        (["{clip}", "--camera", "pan"], "--camera makes frames of an image"),
         (["{clip}", "-o", "out.h5"], "-o"),
-        (["{clip}", "--sensor", "0x0"], "0x0"),
     ],
-    ids=["missing", "target rate", "output", "sensor"],
+    ids=["missing", "camera", "output"],
 )
 def test_bad_input_is_one_line(clip, capsys, words, said):
     assert main(["check", *(word.format(clip=clip) for word in words)]) == 2

@@ -13,17 +13,19 @@ def test_a_preview_shows_the_scene_and_says_what_is_shown_and_nothing_more(
 ):
     monkeypatch.chdir(tmp_path)
     words = ["generate", "a wug and a red ball bounce", "--sensor", "64x48", "--duration", "0.5"]
-    assert main([*words, "--preview", "scene.png", "-o", "out.h5"]) == 0
+    assert main([*words, "--preview", "scene.png"]) == 0
     said = capsys.readouterr()
     assert said.out == "scene.png\n"
     assert "scene    1 ball, red, bounces" in said.err
     assert "warning  prompt words not understood: wug" in said.err
-    assert "warning  --preview stops before the events, so -o has no effect" in said.err
-    assert not Path("out.h5").exists()
+    assert [path.name for path in Path().iterdir()] == ["scene.png"]
     image = cv2.imread("scene.png")
     assert image.shape == (48, 3 * 64 + 2 * 4, 3)
     assert not np.array_equal(image[:, :64], image[:, 68:132])
     assert main([*words, "--preview", "scene.png"]) == 3  # exists already
     assert main([*words, "--preview", "scene.jpg"]) == 2
     assert main([*words, "--preview", "a.png", "--generator", "wan-1.3b"]) == 2
+    for other in (["-o", "out.h5"], ["--dry-run"], ["--write-scene", "a.toml"]):
+        assert main([*words, "--preview", "a.png", *other]) == 2
+        assert "--preview" in capsys.readouterr().err
     assert not Path("a.png").exists()

@@ -9,7 +9,7 @@ from texvent._registry import GENERATORS
 from texvent.errors import ConfigError, TexventWarning
 from texvent.generate.video_models import known_models
 from texvent.generate.video_models.known_models import MODELS
-from texvent.settings.resolution import default_settings, resolve
+from texvent.settings.resolution import base_settings, resolve
 
 
 def test_few_frames_per_second_are_warned_about_and_24_are_not():
@@ -22,7 +22,7 @@ def test_few_frames_per_second_are_warned_about_and_24_are_not():
 
 
 def test_a_row_gives_its_own_defaults_to_the_options():
-    settings = default_settings("generate", generator="wan-1.3b")
+    settings = base_settings("generate", generator="wan-1.3b")
     assert settings.source.fps == 16
     assert (settings.source.frames, settings.source.height, settings.source.width) == (81, 480, 832)
     assert settings.source.steps == 50
@@ -30,8 +30,8 @@ def test_a_row_gives_its_own_defaults_to_the_options():
 
 
 def test_events_of_a_learned_model_have_the_size_of_its_video_unless_a_sensor_is_named():
-    assert default_settings("generate", generator="wan-1.3b").size is None
-    assert default_settings("generate").size == (346, 260)
+    assert base_settings("generate", generator="wan-1.3b").size is None
+    assert base_settings("generate").size == (346, 260)
     named = resolve("generate", {"generator": "wan-1.3b", "sensor": "davis240c"})
     assert named.size == (240, 180)
 

@@ -156,18 +156,18 @@ def test_no_server_and_no_answer_in_time_are_one_line():
 def test_the_command_line(tmp_path, capsys):
     path = tmp_path / "car.toml"
     with served(reply(ANSWER)) as (url, _):
-        flags = ["--reader", "llm", "--llm-url", url]
+        flags = ["--llm-url", url]
         assert main(["generate", PROMPT, *flags, "--write-scene", str(path)]) == 0
     assert load_scene(path).prompt == PROMPT
     assert "noun 'sun'" in capsys.readouterr().err
     with served(reply({**ANSWER, "objects": [TREE]})) as (url, _):
-        flags = ["--reader", "llm", "--llm-url", url, "--strict"]
+        flags = ["--llm-url", url, "--strict"]
         assert main(["generate", PROMPT, *flags, "--write-scene", str(tmp_path / "no.toml")]) == 2
     assert "strict: the prompt is not shown as it says: not understood: red, " in (
         capsys.readouterr().err
     )
-    for wrong in (["--reader", "llm"], ["--reader", "llm", "--llm-url", "localhost"],
-                  ["--reader", "llm", "--llm-url", url, "--generator", "wan-1.3b"]):  # fmt: skip
+    for wrong in (["--llm-url", "localhost"],
+                  ["--llm-url", url, "--generator", "wan-1.3b"]):  # fmt: skip
         assert main(["generate", PROMPT, *wrong]) == 2
         assert capsys.readouterr().err.count("\n") == 1
 

@@ -15,7 +15,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.options.fields import option_help, option_names
 from texvent.pipeline import video_to_events
-from texvent.settings.resolution import default_settings, resolve
+from texvent.settings.resolution import base_settings, resolve
 from texvent.simulate.packets import FrameInterval, make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati
@@ -185,7 +185,7 @@ def test_frames_are_scaled_as_in_training():
 
 def test_every_option_has_a_help_text_and_a_name_of_its_own():
     assert set(option_help(V2ceConfig)) == set(option_names(V2ceConfig))
-    settings = default_settings("simulate", simulator="v2ce")
+    settings = base_settings("simulate", simulator="v2ce")
     names = [name for group in settings.groups().values() for name in option_names(type(group))]
     assert len(names) == len(set(names))
 

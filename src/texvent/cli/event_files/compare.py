@@ -3,35 +3,44 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+import math
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar, NamedTuple
+from typing import Any, ClassVar
 
-from texvent.cli.event_files.comparison_output import Candidate, Findings, show
-from texvent.cli.notices import write_out
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from texvent.cli.event_files.event_file_options import parse_time_range
+from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.io.files import load
-from texvent.metrics.compare import compare, describe_metrics, load_metric
+from texvent.io.input_checks import refuse_missing
+from texvent.metrics.compare import (
+    GOOD,
+    compare,
+    describe_metrics,
+    load_metric,
+    plain_values,
+    score_text,
+)
 from texvent.metrics.controls import CONTROLLED, run_controls
 from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric
-from texvent.metrics.stpp import Stpp
-from texvent.metrics.uncertainty import check_window, score_windows
+from texvent.metrics.uncertainty import LEAST_WINDOWS, WindowScores, check_window, score_windows
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.sensor import SensorSize, parse_sensor
+from texvent.sensor import parse_sensor
 from texvent.video import MICROSECONDS
 
 DESCRIPTION = """Compare event files of one sensor: one or several to judge, then the true one. Each
 metric says what it does not see, and how sure it is over windows of time; of several files, which
 is closer. docs/metrics.md gives definitions and the self-test."""
-
-LATEST_S = 1e12
-"""Beyond any clock: the seconds since 1970 are below 2e9."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -45,20 +54,14 @@ class CompareOptions:
     the same scene."""
     metrics: str | None = None
     """Names of metrics, separated by commas; default: all whose weights are here."""
-    start: float | None = None
-    """Compare from this time on, in seconds."""
-    stop: float | None = None
-    """Compare up to this time, in seconds."""
+    time: str | None = None
+    """Compare START,STOP only, in seconds; either may be left out."""
     window: float | None = None
     """Windows of this length for intervals, in seconds; default: 0.1, longer above 50 windows."""
-    intervals: bool = True
-    """Score windows too; --no-intervals takes half of the time."""
     sensor: str | None = None
     """Sensor size, for event formats that do not store it."""
     rvt_weights: Path | None = None
     """RVT's published checkpoint (rvt-t.ckpt, rvt-s.ckpt or rvt-b.ckpt): adds the metric eqs."""
-    levels: bool = False
-    """Show the level matrix of STPP too: how far apart in time and space the events are."""
     json: bool = False
     """Print JSON instead of a table; undefined values are null."""
 
@@ -68,20 +71,8 @@ class CompareOptions:
                 f"{self.files[0]} is the only file; give one or several to judge, and last the one "
                 "with the truth"
             )
-        for name in ("start", "stop"):
-            check_range(name, getattr(self, name), -LATEST_S, LATEST_S)
         check_range("window", self.window, 1e-6, 1e6)
         check_window(self.window_us)
-
-    @property
-    def predicted(self) -> tuple[Path, ...]:
-        """The files to judge."""
-        return self.files[:-1]
-
-    @property
-    def reference(self) -> Path:
-        """The file with the truth."""
-        return self.files[-1]
 
     @property
     def window_us(self) -> int | None:
@@ -89,90 +80,68 @@ class CompareOptions:
         return None if self.window is None else round(self.window * MICROSECONDS)
 
 
+@dataclass(frozen=True, kw_only=True)
+class Comparison:
+    """Recordings and their scores."""
+
+    paths: Sequence[Path]
+    """The files to judge, and last the true one."""
+    predicted: Mapping[str, EventStream]
+    """Label → stream to judge."""
+    reference: EventStream
+    metrics: Sequence[Metric]
+    scores: Mapping[str, Mapping[str, float]]
+    """Label → metric → value."""
+    windows: WindowScores
+    controls: Mapping[str, Mapping[str, float]]
+    """Metric → control → value, of the metrics that are not shown without."""
+    left_out: Mapping[str, str]
+    """Metric → what it lacks."""
+
+
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
     (options,) = parse_configs(
         arguments, {"input": CompareOptions()}, prog="texvent compare", description=DESCRIPTION
     )
-    findings = _judge(options, _prepare(options))
+    found = _compare(options)
     if options.json:
-        write_out(json.dumps(findings.document(), indent=2, ensure_ascii=False) + "\n")
+        write_out(json.dumps(plain_values(_document(found)), indent=2, ensure_ascii=False) + "\n")
     else:
-        show(findings)
+        with result_console() as console:
+            _show(console, found)
     return 0
 
 
-class _Inputs(NamedTuple):
-    """Recordings that are compared."""
-
-    predicted: dict[str, EventStream]
-    """Name → stream to judge."""
-    reference: EventStream
-    span_us: tuple[int, int] | None
-    """Range that all are cut to, µs."""
-    metrics: list[Metric]
-    left_out: dict[str, str]
-    """Metric → what it lacks."""
-
-
-def _prepare(options: CompareOptions) -> _Inputs:
+def _compare(options: CompareOptions) -> Comparison:
     metrics, left_out = _choose_metrics(options)
-    span_us = _span(options)
-    names = _names(options.predicted)
-    size = parse_sensor(options.sensor) if options.sensor else None
-    whole = [_load(path, size) for path in options.files]
-    cut = whole
-    if span_us is not None:
-        cut = [one.cut(*span_us) for one in whole]
-        _refuse_empty_span(options, cut, whole)
-    predicted = dict(zip(names, cut[:-1], strict=True))
-    return _Inputs(predicted, cut[-1], span_us, metrics, left_out)
-
-
-def _judge(options: CompareOptions, inputs: _Inputs) -> Findings:
-    """All scores."""
-    reference, metrics = inputs.reference, inputs.metrics
-    windows = None
-    candidates = {}
+    names = _names(options.files[:-1])
+    *judged, reference = _streams(options)
+    predicted = dict(zip(names, judged, strict=True))
     with ConsoleProgress() as progress:
-        for (name, events), path in zip(inputs.predicted.items(), options.predicted, strict=True):
-            scores = compare(events, reference, metrics, progress=progress)
-            levels = Stpp().levels(events, reference).tolist() if options.levels else None
-            candidates[name] = Candidate(path, len(events), scores, levels)
-        if options.intervals:
-            windows = score_windows(
-                inputs.predicted, reference, metrics, window_us=options.window_us, progress=progress
-            )
-    controls = {one.name: run_controls(one, reference) for one in metrics if one.name in CONTROLLED}
-    return Findings(
-        candidates=candidates,
-        reference=options.reference,
-        reference_events=len(reference),
-        span_us=inputs.span_us,
+        scores = {
+            name: compare(events, reference, metrics, progress=progress)
+            for name, events in predicted.items()
+        }
+        windows = score_windows(
+            predicted, reference, metrics, window_us=options.window_us, progress=progress
+        )
+    return Comparison(
+        paths=options.files,
+        predicted=predicted,
+        reference=reference,
         metrics=metrics,
-        controls=controls,
+        scores=scores,
         windows=windows,
-        left_out=inputs.left_out,
+        controls={
+            one.name: run_controls(one, reference) for one in metrics if one.name in CONTROLLED
+        },
+        left_out=left_out,
     )
 
 
-def _names(paths: Sequence[Path]) -> list[str]:
-    """Labels of the files in tables: their names, or paths where names are equal.
-
-    Raises:
-        ConfigError: a file is given twice.
-    """
-    names = [path.name for path in paths]
-    if len(set(names)) < len(names):
-        names = [str(path) for path in paths]
-    twice = next((name for name in names if names.count(name) > 1), None)
-    if twice is not None:
-        raise ConfigError(f"{twice} is given twice; give each file to judge once")
-    return names
-
-
 def _choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, str]]:
-    """The metrics asked for, or all; and what those missing that are left out, by name."""
+    """The chosen metrics, or all; and the requirements of those that are left out, by name."""
     known = dict(describe_metrics())
     if options.rvt_weights is not None:
         known[EventQualityScore.name] = load_eqs(options.rvt_weights)
@@ -190,35 +159,120 @@ def _choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, st
     return chosen, left_out
 
 
-def _refuse_empty_span(
-    options: CompareOptions, cut: Sequence[EventStream], whole: Sequence[EventStream]
-) -> None:
-    """Two streams without events would be alike: rather a wrong span than a perfect score."""
-    if any(map(len, cut)):
-        return
-    clocks = [
-        f"{path} from {one.t[0] / MICROSECONDS:.3f} to {one.t[-1] / MICROSECONDS:.3f} s"
-        for path, one in zip(options.files, whole, strict=True)
-        if len(one)
-    ]
-    raise InputError(
-        f"no file has events between --start and --stop; {' and '.join(clocks) or 'all are empty'}"
-    )
+def _names(paths: Sequence[Path]) -> list[str]:
+    """Labels of the files in tables: their names, or paths where names are equal.
+
+    Raises:
+        ConfigError: a file is given twice.
+    """
+    names = [path.name for path in paths]
+    if len(set(names)) < len(names):
+        names = [str(path) for path in paths]
+    twice = next((name for name in names if names.count(name) > 1), None)
+    if twice is not None:
+        raise ConfigError(f"{twice} is given twice; give each file to judge once")
+    return names
 
 
-def _load(path: Path, size: SensorSize | None) -> EventStream:
-    if not path.exists():
-        raise InputError(f"no such file: {path}")
-    return load(path, size=size)
+def _streams(options: CompareOptions) -> list[EventStream]:
+    """The recordings, cut to the time asked for.
 
-
-def _span(options: CompareOptions) -> tuple[int, int] | None:
-    if options.start is None and options.stop is None:
-        return None
-    start = round((options.start or 0.0) * MICROSECONDS)
-    stop = 2**62 if options.stop is None else round(options.stop * MICROSECONDS)
-    if start >= stop:
-        raise ConfigError(
-            f"stop is {options.stop:g} s; it must come after start ({start / MICROSECONDS:g} s)"
+    Raises:
+        InputError: none has an event there: two empty streams would be alike.
+    """
+    span_us = None if options.time is None else parse_time_range(options.time)
+    size = parse_sensor(options.sensor) if options.sensor else None
+    for path in options.files:
+        refuse_missing(path)
+    whole = [load(path, size=size) for path in options.files]
+    cut = whole if span_us is None else [one.cut(*span_us) for one in whole]
+    if span_us is not None and not any(map(len, cut)):
+        clocks = [
+            f"{path} from {one.t[0] / MICROSECONDS:.3f} to {one.t[-1] / MICROSECONDS:.3f} s"
+            for path, one in zip(options.files, whole, strict=True)
+            if len(one)
+        ]
+        raise InputError(
+            f"no file has events in the time {options.time}; "
+            f"{' and '.join(clocks) or 'all are empty'}"
         )
-    return start, stop
+    return cut
+
+
+def _document(found: Comparison) -> dict[str, Any]:
+    """Document for `--json`: for one candidate its scores, for several a list of them."""
+    *judged, reference = found.paths
+    every = [
+        {
+            "predicted": {"path": str(path), "events": len(found.predicted[name])},
+            "scores": dict(found.scores[name]),
+            "window_means": {
+                metric.name: {
+                    **found.windows.mean(metric.name, name).document(),
+                    "values": found.windows.values[metric.name, name].tolist(),
+                }
+                for metric in found.metrics
+            },
+        }
+        for path, name in zip(judged, found.predicted, strict=True)
+    ]
+    document = {
+        **(every[0] if len(every) == 1 else {"candidates": every}),
+        "reference": {"path": str(reference), "events": len(found.reference)},
+        "controls": found.controls,
+        "windows": {"window_us": found.windows.window_us, "starts_us": found.windows.starts_us},
+        "left_out": found.left_out,
+    }
+    if len(every) > 1:
+        document["differences"] = [one.document() for one in found.windows.verdicts()]
+    return document
+
+
+def _show(console: Console, found: Comparison) -> None:
+    """Values of all candidates, blind spots, then which of two is closer, metric by metric."""
+    is_single = len(found.predicted) == 1
+    titles = ["value", "mean of windows"] if is_single else list(map(escape, found.predicted))
+    table = Table("metric", *titles, "unit", "good", box=None, pad_edge=False)
+    blind = Table("metric", "does not see", box=None, pad_edge=False)
+    for metric in found.metrics:
+        values = [score_text(one[metric.name]) for one in found.scores.values()]
+        if is_single:
+            values += [_mean_text(found.windows, metric.name, name) for name in found.predicted]
+        table.add_row(metric.name, *values, metric.unit, GOOD[metric.better])
+        blind.add_row(metric.name, metric.blind_to)
+    console.print(table, "", blind, sep="\n")
+    for line in _window_notes(found.windows, is_single=is_single):
+        console.print(f"\n{line}", markup=False)
+    for name, values_by_control in found.controls.items():
+        controls = Table(f"{name}, controls of the reference", "value", box=None, pad_edge=False)
+        for control, value in values_by_control.items():
+            controls.add_row(control, score_text(value))
+        console.print("", controls, sep="\n")
+    for name, missing in found.left_out.items():
+        console.print(f"\n{name} was left out: {missing}", style="dim", markup=False)
+
+
+def _window_notes(windows: WindowScores, *, is_single: bool) -> Iterator[str]:
+    """Which windows intervals are of, and the differences of several candidates."""
+    count, seconds = len(windows.starts_us), windows.window_us / MICROSECONDS
+    if count < LEAST_WINDOWS:
+        yield (
+            f"no intervals: {count} whole windows of {seconds:g} s are too few, "
+            f"{LEAST_WINDOWS} are needed; --window makes them shorter"
+        )
+    else:
+        yield f"intervals and differences: of the means of {count} windows of {seconds:g} s"
+    if not is_single:
+        yield "\n".join(f"{one.metric}: {one.sentence}" for one in windows.verdicts())
+
+
+def _mean_text(windows: WindowScores, metric: str, candidate: str) -> str:
+    """A mean of windows and its interval; empty where there are too few."""
+    if len(windows.starts_us) < LEAST_WINDOWS:
+        return ""
+    mean = windows.mean(metric, candidate)
+    if math.isnan(mean.mean):
+        return "undefined"
+    if not mean.is_enough:
+        return f"{mean.mean:.4f} (too few)"
+    return f"{mean.mean:.4f} [{mean.interval.low:.4f}, {mean.interval.high:.4f}]"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar, cast
 
@@ -15,18 +15,16 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError, shown, warn
 from texvent.event_packets import EventPackets
-from texvent.events import EventStream
-from texvent.io.atomic import check_outputs
 from texvent.io.files import open_events, open_writer
-from texvent.io.pixel_mask import check_mask_name, read_pixel_mask, write_pixel_mask
-from texvent.options.parts import make_part, read_part
+from texvent.io.pixel_mask import read_pixel_mask
+from texvent.options.parts import make_part
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import parse_sensor
 from texvent.transform.downsample import downsample
 from texvent.transform.edits import Axes, Region, crop, flip, merge, resize, rotate, start_at_zero
-from texvent.transform.filters.apply import EventFilter, filter_events
-from texvent.transform.filters.noise_filters import MaskFilter, find_hot_pixels
-from texvent.transform.packets import map_packets, note_edit
+from texvent.transform.filters.apply import filter_events
+from texvent.transform.filters.noise_filters import MaskFilter
+from texvent.transform.packets import note_edit
 from texvent.transform.undistort import read_calibration, undistort
 
 DESCRIPTION = """Convert an event file, or a part of it, to another format. Memory stays flat.
@@ -36,14 +34,8 @@ DESCRIPTION = """Convert an event file, or a part of it, to another format. Memo
   texvent convert left.h5 both.h5 --merge right.h5
   texvent convert davis.h5 clean.h5 --filter hot-pixels background-activity
 
-Edits happen in this order: merge, mask, save-mask, filter, undistort, crop,
+Edits happen in this order: merge, mask, filter, undistort, crop,
 resize, downsample, rotate, flip, from-zero, time."""
-
-MASK = "mask"
-TEXT_FILTERS = replace(
-    FILTERS, builtin={name: target for name, target in FILTERS.builtin.items() if name != MASK}
-)
-"""Filters whose options can be written as text."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -52,7 +44,7 @@ class ConvertOptions:
 
     positional: ClassVar[tuple[str, ...]] = ("path", "to")
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "crop": "--roi", "quiet": "-q"}
-    outputs: ClassVar[tuple[str, ...]] = ("to", "out", "save_mask")
+    outputs: ClassVar[tuple[str, ...]] = ("to", "out")
     main_options: ClassVar[tuple[str, ...]] = (
         *("format", "sensor", "merge", "mask", "filter", "crop", "resize", "from_zero", "time"),
         "overwrite",
@@ -74,8 +66,6 @@ class ConvertOptions:
     """More files of the same sensor, whose events are added in time order."""
     mask: Path | None = None
     """Leave out the pixels of a mask: .npy, .png (white is left out) or .txt (x y per line)."""
-    save_mask: Path | None = None
-    """Write the hot pixels of the input as a mask, for --mask; reads the input once more."""
     filter: tuple[str, ...] = ()
     """Filters, in order: background-activity, refractory, hot-pixels, rate-limit; options follow a
     colon, as in refractory:period_us=500 (docs/toolbox.md)."""
@@ -95,8 +85,6 @@ class ConvertOptions:
     """Count time from the first event: for clock times, which many formats cannot hold."""
     time: str | None = None
     """Keep START,STOP in seconds, START included; either may be left out."""
-    drop_label: bool = False
-    """Leave out the signal/noise label; without a warning where the format has no place for it."""
     overwrite: bool = False
     """Replace the file if it exists already."""
     quiet: bool = False
@@ -122,10 +110,8 @@ def run(arguments: Sequence[str]) -> int:
         arguments, {"input": ConvertOptions()}, prog="texvent convert", description=DESCRIPTION
     )
     out = options.target
-    given = _open_inputs(options)
-    masked = _masked(given, options)
     # Nothing is written until all options are accepted.
-    events = edit(masked, given, options)
+    events = edit(_open_inputs(options), options)
     count = 0
     writer = open_writer(
         out,
@@ -134,9 +120,6 @@ def run(arguments: Sequence[str]) -> int:
         format=options.format,
         overwrite=options.overwrite,
     )
-    if options.save_mask is not None:
-        hot = find_hot_pixels(masked)
-        write_pixel_mask(options.save_mask, hot, overwrite=options.overwrite)
     with writer:
         for packet in events:
             writer.append(packet)
@@ -148,15 +131,14 @@ def run(arguments: Sequence[str]) -> int:
     return 0
 
 
-def edit(events: EventPackets, given: EventPackets, options: ConvertOptions) -> EventPackets:
-    """The recording after all edits but the mask; all that were asked for are noted in it.
-
-    Args:
-        events: the recording, its mask applied.
-        given: the recording before.
-        options: the command line.
-    """
-    events = _filtered(events, options)
+def edit(given: EventPackets, options: ConvertOptions) -> EventPackets:
+    """The recording after all edits that were asked for; they are noted in it."""
+    events = given
+    if options.mask is not None:
+        mask = read_pixel_mask(options.mask, events.size)
+        events = filter_events(events, MaskFilter(mask))
+    for chosen in [make_part(FILTERS, text) for text in options.filter]:
+        events = filter_events(events, chosen)
     if options.undistort is not None:
         events = undistort(events, read_calibration(options.undistort))
     if options.crop is not None:
@@ -172,38 +154,8 @@ def edit(events: EventPackets, given: EventPackets, options: ConvertOptions) -> 
     if options.from_zero:
         events = start_at_zero(events)
     events = keep_time_range(events, options.time)
-    if options.drop_label:
-        events = map_packets(events, EventStream.without_label)
     edits = _edits(options)
     return note_edit(events, given, **edits) if edits else events
-
-
-def _masked(events: EventPackets, options: ConvertOptions) -> EventPackets:
-    """The recording without the pixels of a mask; names of masks are checked."""
-    if options.save_mask is not None:
-        check_mask_name(options.save_mask)
-        check_outputs([options.target, options.save_mask], overwrite=options.overwrite)
-    if options.mask is None:
-        return events
-    return filter_events(events, MaskFilter(read_pixel_mask(options.mask, events.size)))
-
-
-def _filtered(events: EventPackets, options: ConvertOptions) -> EventPackets:
-    for chosen in [_make_filter(text) for text in options.filter]:
-        events = filter_events(events, chosen)
-    return events
-
-
-def _make_filter(text: str) -> EventFilter:
-    """The filter that a text names.
-
-    Raises:
-        ConfigError: unknown name or option, or the mask, which has an option of its own.
-    """
-    if read_part(text)[0] == MASK:
-        raise ConfigError(f"--filter {MASK} cannot be given as text; use --mask FILE")
-    chosen: EventFilter = make_part(TEXT_FILTERS, text)
-    return chosen
 
 
 def parse_region(text: str) -> Region:

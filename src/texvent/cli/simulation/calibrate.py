@@ -45,7 +45,7 @@ recording does not tell stays as in --start-preset. The result is a config file.
 
   texvent calibrate --frames slider_depth --events slider_depth/events.txt \\
       --sensor davis240c -o my.toml
-  texvent calibrate --events rest.raw --scene static -o my.toml
+  texvent calibrate --events rest.raw -o my.toml
   texvent simulate video.mp4 --sensor my.toml"""
 FILES = (".toml", ".yaml", ".yml")
 
@@ -58,20 +58,18 @@ class CalibrateOptions:
     outputs: ClassVar[tuple[str, ...]] = ("out", "report", "threshold_map")
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     main_options: ClassVar[tuple[str, ...]] = (
-        "frames", "events", "scene", "flicker_hz", "flicker_ratio", "out", "report",
+        "frames", "events", "flicker_hz", "flicker_ratio", "out", "report",
         "threshold_map", "sensor", "start_preset", "frames_gamma", "seconds", "overwrite",
     )  # fmt: skip
 
     frames: str | None = None
-    """Video file, image folder or AEDAT4 recording, on the clock of the events; for a moving
-    scene only."""
+    """Video file, image folder or AEDAT4 recording of a moving scene, on the clock of the events.
+    Without it, nothing in the scene moves, under steady light."""
     events: Path = REQUIRED
     """Event file."""
-    scene: Literal["moving", "static", "flicker"] = "moving"
-    """Recorded scene: anything that moves; nothing that does, under steady light; or a flat
-    field whose light switches between two brightnesses."""
     flicker_hz: float | None = None
-    """Cycles of that light per second, within 2 %."""
+    """The scene is a flat field whose light switches between two brightnesses, so many times per
+    second, within 2 %."""
     flicker_ratio: float | None = None
     """Brightness of the bright half of a cycle over that of the dark one. Without it,
     thresholds are only compared with one another."""
@@ -113,29 +111,16 @@ class CalibrateOptions:
             )
 
     def _check_scene(self) -> None:
-        if self.scene == "flicker" and self.flicker_hz is None and self.events is not REQUIRED:
-            raise ConfigError(
-                "--scene flicker needs --flicker-hz, the cycles of the light per second"
-            )
-        if self.scene != "flicker" and (self.flicker_hz or self.flicker_ratio):
-            raise ConfigError("--flicker-hz and --flicker-ratio are for --scene flicker")
-        if self.scene != "flicker" and self.threshold_map is not None:
-            raise ConfigError("--threshold-map is for --scene flicker")
+        if self.flicker_hz is None and (self.flicker_ratio or self.threshold_map):
+            raise ConfigError("--flicker-ratio and --threshold-map are for --flicker-hz")
         if self.threshold_map is not None and self.threshold_map.suffix != ".npz":
             raise ConfigError(f"--threshold-map is {self.threshold_map}; its name must end in .npz")
         if self.report is not None and self.report.suffix.lower() not in FORMATS:
             raise ConfigError(f"--report is {self.report}; its name must end in .png, .svg or .pdf")
-        if self.scene != "moving" and self.keep:
-            raise ConfigError("--keep is for --scene moving")
-        if self.scene != "moving" and self.frames is not None:
-            raise ConfigError(
-                f"--scene {self.scene} is measured from events alone; leave out --frames"
-            )
-        if self.scene == "moving" and self.frames is None and self.events is not REQUIRED:
-            raise ConfigError(
-                "a moving scene needs --frames; events alone tell something of --scene static or "
-                "--scene flicker"
-            )
+        if self.frames is None and self.keep:
+            raise ConfigError("--keep is for a scene with --frames")
+        if self.flicker_hz is not None and self.frames is not None:
+            raise ConfigError("--flicker-hz is measured from events alone; leave out --frames")
 
     @property
     def start_config(self) -> PhysicalConfig:
@@ -171,7 +156,7 @@ def run(arguments: Sequence[str]) -> int:
     size = parse_sensor(options.sensor) if options.sensor else None
     events = load(options.events, format=options.format, size=size)
     progress = ConsoleProgress(is_quiet=options.quiet)
-    if options.scene == "moving":
+    if options.frames is not None:
         frames = open_frames(options.frames, capture)
         recording = Recording(frames, events, interpolate)
         config, lines, compare = _fit(recording, start, options, progress)

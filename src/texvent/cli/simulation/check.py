@@ -5,14 +5,14 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass
-from pathlib import Path
 from typing import Any, ClassVar
 
 from rich.table import Table
 
-from texvent.cli.command import resolve_command
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_configs
+from texvent.config import CaptureConfig
 from texvent.run.check import VideoCheckResult, check_frames, open_source
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.video import MICROSECONDS
@@ -22,37 +22,28 @@ FOUND = 1
 """Exit code with --strict of a video in which something was found."""
 SHOWN_CUTS = 8
 DESCRIPTION = """Look through a video once and say what in it harms events, and which option helps:
-frozen or repeated frames, flicker, cuts, levels, motion per frame, the event rate to expect.
-All options of texvent simulate that decide events are taken: the rate is for them.
+frozen or repeated frames, flicker, cuts, levels, motion per frame. texvent simulate --dry-run says
+how many events to expect.
 
   texvent check clip.mp4
-  texvent check clip.mp4 --sensor davis346 --contrast-threshold 0.3 --all
+  texvent check frames/ --fps 120 --all
 
 Exit code: 0; with --strict 1 if something was found."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class CheckOptions:
-    """Which frames."""
+    """Which frames, and output of the report."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("source",)
     positional: ClassVar[tuple[str, ...]] = ("source",)
+    short_flags: ClassVar[dict[str, str]] = {"quiet": "-q"}
     main_options: ClassVar[tuple[str, ...]] = (
-        "all", "json", "strict", "quiet", "sensor", "fit", "fps", "start", "stop", "simulator",
-        "preset", "contrast_threshold", "config",
+        "all", "json", "strict", "quiet", "fps", "start", "stop", "transfer", "white_level",
     )  # fmt: skip
 
     source: str = REQUIRED
     """Video file, image folder, camera (/dev/video0), stream (rtsp://...) or - (standard input)."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class CheckOutput:
-    """Output of the report."""
-
-    short_flags: ClassVar[dict[str, str]] = {"quiet": "-q"}
-    outputs: ClassVar[tuple[str, ...]] = ()
-
     all: bool = False
     """Say of every check what it is for, also of those that found nothing."""
     json: bool = False
@@ -61,35 +52,31 @@ class CheckOutput:
     """End with exit code 1 if something was found."""
     quiet: bool = False
     """No progress."""
-    config: Path | None = None
-    """TOML or YAML file with options; flags override it."""
 
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns its exit code."""
-    settings, own, output = resolve_command(
-        "simulate",
+    options, capture = parse_configs(
         arguments,
-        CheckOptions(),
-        description=DESCRIPTION,
+        {"input": CheckOptions(), "capture": CaptureConfig()},
         prog="texvent check",
-        output=CheckOutput(),
+        description=DESCRIPTION,
     )
-    with ConsoleProgress(is_quiet=output.quiet) as progress:
-        found = check_frames(open_source(own.source, settings), settings, progress)
-    if output.json:
+    with ConsoleProgress(is_quiet=options.quiet) as progress:
+        found = check_frames(open_source(options.source, capture), progress)
+    if options.json:
         write_out(json.dumps(describe_check(found), indent=2) + "\n")
     else:
-        _print_check(found, is_whole=output.all)
+        _print_check(found, is_whole=options.all)
     is_fine = not any(one.is_found for one in found.report.findings)
-    return 0 if is_fine or not output.strict else FOUND
+    return 0 if is_fine or not options.strict else FOUND
 
 
 def describe_check(found: VideoCheckResult) -> dict[str, Any]:
     """All that was found, JSON-ready."""
     return {
         "found": [*found.report.problems, *found.report.remarks],
-        "sensor": str(found.size),
+        "size": str(found.size),
         "findings": [one.as_facts() for one in found.report.findings],
         "measurements": {name: round(one, 6) for name, one in found.report.measurements.items()},
         "cuts_s": [time / MICROSECONDS for time in found.cut_times_us],
@@ -131,7 +118,7 @@ def _summary(found: VideoCheckResult) -> list[str]:
     measurements, report = found.report.measurements, found.report
     names = [*report.problems, *report.remarks]
     lines = [
-        f"{measurements['frames']:.0f} frames, {measurements['fps']:.4g} fps, sensor {found.size}",
+        f"{measurements['frames']:.0f} frames, {measurements['fps']:.4g} fps, {found.size}",
         f"found: {', '.join(names)}" if names else "nothing found",
     ]
     if found.cut_times_us:

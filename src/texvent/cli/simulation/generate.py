@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 from texvent._registry import GENERATORS
 from texvent.cli.command import read_subject, resolve_command, subject_name
@@ -13,18 +13,17 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions, default_event_file
 from texvent.cli.run import execute, print_settings
-from texvent.cli.simulation.preview import check_preview, write_preview
+from texvent.cli.simulation.preview import write_preview
 from texvent.errors import ConfigError, InputError, warn
 from texvent.generate.scene_input import Subject, check_takes
 from texvent.generate.video_models.known_models import warn_low_fps
 from texvent.io.atomic import check_output
 from texvent.run.prepare import check_run, is_strict, make_scene, make_video, prepare_prompt
-from texvent.run.truth import TruthFolder
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.spec.files import is_scene_file, save_scene
 from texvent.scenes.spec.scene import Scene
 from texvent.settings.resolution import Settings
-from texvent.truth.layout import ALL, check_generator, truth_folder
+from texvent.truth.layout import check_generator
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
 generator renders simple 3-D shapes; `texvent generators` lists learned models.
@@ -55,15 +54,12 @@ class PromptOptions:
     video_only: bool = False
     """Write the generated video (.avi, lossless, 16 bits) instead of events, and stop."""
     preview: Path | None = None
-    """Stills of the scene (.png) instead of events. Says what is shown, and stops; with --dry-run
-    the estimate follows."""
+    """Stills of the scene (.png) instead of events. Says what is shown, and stops."""
     write_scene: Path | None = None
     """Write the scene of the prompt as a file (.toml, .json) instead of events, and stop."""
-    reader: Literal["words", "llm"] = "words"
-    """Reader of the prompt: the embedded one (words), or a language model behind
-    --llm-url. See docs/scenes.md."""
     llm_url: str | None = None
-    """OpenAI-compatible server of the language model, such as http://localhost:8080/v1."""
+    """A language model reads the prompt instead of the embedded reader: its OpenAI-compatible
+    server, such as http://localhost:8080/v1. See docs/scenes.md."""
     llm_model: str | None = None
     """Name of the model on that server."""
 
@@ -75,9 +71,10 @@ def run(arguments: Sequence[str]) -> int:
     )
     if output.print_config:
         return print_settings(settings)
+    _refuse_two_results(own, output)
     prompt = (
         _written(own, settings)
-        if own.reader == "llm"
+        if own.llm_url is not None
         else read_subject(own.prompt, getattr(settings.source, "assets", None))
     )
     if own.write_scene is not None:
@@ -85,16 +82,8 @@ def run(arguments: Sequence[str]) -> int:
     if own.video_only:
         return _write_video(prompt, own, settings, output)
     if own.preview is not None:
-        generator_class = GENERATORS.load(str(settings.generator))
-        check_preview(own.preview, generator_class, overwrite=output.overwrite)
-        if output.out and not output.dry_run:
-            warn("--preview stops before the events, so -o has no effect; run again without it")
-        write_preview(
-            prompt, settings, own.preview, overwrite=output.overwrite,
-            is_quiet=output.quiet,
-        )  # fmt: skip
-        if not output.dry_run:
-            return 0
+        write_preview(prompt, settings, own.preview, output)
+        return 0
     check_run(settings)
     files = output.files(subject_name(own.prompt))
     if files.truth:
@@ -106,6 +95,24 @@ def run(arguments: Sequence[str]) -> int:
     with ConsoleProgress(is_quiet=output.quiet) as progress:
         simulation = prepare_prompt(prompt, settings, progress=progress)
     return execute(simulation, output, files)
+
+
+def _refuse_two_results(own: PromptOptions, output: OutputOptions) -> None:
+    """Refuse options that stop before the events beside each other or -o.
+
+    Raises:
+        ConfigError: two are given.
+    """
+    asked = {
+        "-o": output.out is not None and not own.video_only and not output.dry_run,
+        "--dry-run": output.dry_run,
+        "--video-only": own.video_only,
+        "--preview": own.preview is not None,
+        "--write-scene": own.write_scene is not None,
+    }
+    given = [flag for flag, is_given in asked.items() if is_given]
+    if len(given) > 1:
+        raise ConfigError(f"{' and '.join(given)} exclude each other; give one of them")
 
 
 def _written(own: PromptOptions, settings: Settings) -> Scene:
@@ -122,12 +129,12 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
         write_scene,
     )
 
-    if own.llm_url is None or is_scene_file(own.prompt):
-        raise ConfigError("--reader llm takes a sentence, and --llm-url with the model's server")
+    if is_scene_file(own.prompt):
+        raise ConfigError(f"--llm-url reads a sentence, and {own.prompt} is a scene file")
     name = str(settings.generator)
     check_takes(Scene(), GENERATORS.load(name), name)
     scene, report = write_scene(
-        own.prompt, Endpoint(url=own.llm_url, model=own.llm_model or Endpoint.model)
+        own.prompt, Endpoint(url=own.llm_url or "", model=own.llm_model or Endpoint.model)
     )
     refusal = report.refusal() if is_strict(settings) else None
     if refusal is not None:
@@ -164,44 +171,18 @@ def _write_video(
     from texvent.generate.videos.stored_video import write_stream  # brings PyAV
 
     named = default_event_file(subject_name(own.prompt)).with_suffix(VIDEO_EXTENSION)
-    path, *more = output.out or (named,)
-    if more or output.format:
-        raise ConfigError("--video-only writes one video; give one -o, and no --format")
+    path = output.out or named
+    if output.format or output.truth:
+        raise ConfigError("--video-only writes a video; leave out --format and --truth")
     if path.suffix.lower() != VIDEO_EXTENSION:
         raise ConfigError(
             f"{path} is to hold a lossless video; its name must end in {VIDEO_EXTENSION}"
         )
     check_output(path, overwrite=output.overwrite)
-    truth = _truth_of_video(path, own, output)
     warn_low_fps(own.generator)
     with ConsoleProgress(is_quiet=output.quiet) as progress:
         video = make_video(prompt, settings, progress=progress)
         write_stream(video, path, overwrite=output.overwrite)
-        if truth is not None:
-            from texvent.truth.writer import save_truth  # brings the ray caster
-
-            save_truth(video, truth.path, truth.names, overwrite=truth.overwrite)
     if not output.quiet:
-        write_out(f"{path}\n" if truth is None else f"{path}\n{truth.path}\n")
+        write_out(f"{path}\n")
     return 0
-
-
-def _truth_of_video(path: Path, own: PromptOptions, output: OutputOptions) -> TruthFolder | None:
-    """The truth to write beside a video, checked; None where none is asked for.
-
-    Raises:
-        ConfigError: the generator does not know it, or ids of events are asked for.
-        OutputError: the folder exists already, or cannot be made.
-    """
-    parts = output.truth_parts
-    if not parts:
-        return None
-    check_generator(own.generator)
-    if "events" in parts and output.truth.strip() != ALL:
-        raise ConfigError(
-            "truth 'events' is asked for, but --video-only makes none; leave one of them out"
-        )
-    names = tuple(part for part in parts if part != "events")
-    truth = TruthFolder(truth_folder(path), names, overwrite=output.overwrite)
-    truth.check()
-    return truth

@@ -122,7 +122,7 @@ class SceneObject:
     """A body of the scene, or several copies of it."""
 
     noun: Annotated[str, Word("noun")]
-    """Model: a noun of `texvent scenes list`, or of a folder of your own models; any word beside
+    """Model: a noun of `texvent scenes`, or of a folder of your own models; any word beside
     `model`."""
     model: str | None = None
     """Path of a model of your own (GLB, OBJ, PLY), which a scene file may give relative to its own

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
-from texvent.config import check_choices, check_range
+from texvent.config import IdleOptions, check_choices, check_range
 from texvent.errors import ConfigError
 
 CachePolicy = Literal["local", "global", "none"]
@@ -24,6 +24,11 @@ class TexventConfig:
     Raises:
         ConfigError: an option is out of range, or two contradict each other.
     """
+
+    idle_with: ClassVar[IdleOptions] = dict.fromkeys(
+        ("noise_rate_hz", "noise_scale", "noise_intensity", "noise_on_fraction"),
+        ("noise", ("none",)),
+    )
 
     contrast_threshold: float = 0.2
     """Contrast threshold δ of ln(α + I). A change of brightness by it fires an event."""
