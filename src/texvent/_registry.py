@@ -119,7 +119,7 @@ GENERATORS = Registry(
     "generator",
     {
         "procedural": "texvent.generate.procedural:ProceduralGenerator",
-        "opensora": "texvent.generate.opensora.generator:OpenSoraGenerator",
+        "opensora": "texvent.generate.opensora:OpenSoraGenerator",
     },
     table="texvent.generate.video_models.known_models",
 )

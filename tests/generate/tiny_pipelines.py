@@ -279,23 +279,6 @@ def ltx(folder):
     )
 
 
-def clip_text(length=40):
-    tokenizer = t5(None)["tokenizer"]
-    config = transformers.CLIPTextConfig(
-        vocab_size=len(tokenizer),
-        hidden_size=16,
-        intermediate_size=16,
-        num_hidden_layers=2,
-        num_attention_heads=2,
-        max_position_embeddings=length,
-        eos_token_id=tokenizer.eos_token_id,
-        bos_token_id=None,
-        pad_token_id=tokenizer.pad_token_id,
-    )
-    tokenizer.model_max_length = length
-    return {"tokenizer": tokenizer, "text_encoder": transformers.CLIPTextModel(config).eval()}
-
-
 BUILDERS = {
     "wan": wan,
     "wan22": wan22,

@@ -16,7 +16,6 @@ from tests.platforms import windows_like
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, OutputError
-from texvent.generate.opensora.external_program import run_program
 from texvent.io import atomic
 from texvent.io.atomic import atomic_file, atomic_folder
 from texvent.runtime import memory
@@ -127,22 +126,3 @@ def test_a_camera_named_as_on_linux_is_refused_with_another_way(
     monkeypatch.setattr(sys, "platform", system)
     with pytest.raises(InputError, match=rf"a camera's name on Linux.*ffmpeg -f {words} .* -o"):
         open_frames("/dev/video77", CaptureConfig())
-
-
-def test_a_program_and_its_log_end_without_process_groups(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    wait = subprocess.Popen.wait
-    waited: list[subprocess.Popen[bytes]] = []
-
-    def interrupted_once(self: subprocess.Popen[bytes], timeout: float | None = None) -> int:
-        waited.append(self)
-        if len(waited) == 1:
-            raise KeyboardInterrupt
-        return wait(self, timeout)
-
-    monkeypatch.delattr(os, "killpg")
-    monkeypatch.setattr(subprocess.Popen, "wait", interrupted_once)
-    with pytest.raises(KeyboardInterrupt):
-        run_program(["sleep", "60"], cwd=tmp_path, log=tmp_path / "log")
-    assert waited[0].returncode is not None

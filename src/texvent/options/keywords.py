@@ -154,9 +154,6 @@ class GeneratorOptions(TypedDict, total=False):
     negative_prompt: str | None
     image: str | Path | None
     lora: Sequence[str] | None
-    dtype: Literal["auto", "float32", "bfloat16", "float16"] | None
-    quantize: Literal["auto", "none", "8bit", "4bit"] | None
-    generator_device: str | None
 
 
 class SimulateOptions(

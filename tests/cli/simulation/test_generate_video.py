@@ -84,11 +84,11 @@ def test_the_list_of_generators_names_size_rate_licence_and_the_extra(folder, ca
     row = next(line for line in shown.splitlines() if line.startswith("cosmos-7b"))
     cells = ["cosmos-7b", "24", "121", "1280x704", "36", "74", "/", "24.4", "-", "NVIDIA"]
     assert row.split()[:10] == cells
-    row = next(line for line in shown.splitlines() if line.startswith("kandinsky5-distill"))
-    assert row.split()[-2:] == ["35", "MIT"]
+    row = next(line for line in shown.splitlines() if line.startswith("wan-1.3b"))
+    assert row.split()[-2:] == ["240", "Apache-2.0"]
     assert "NVIDIA Open Model License; ends if its guardrail is bypassed (" in shown
     assert "cosmos3-nano, cosmos3-super: OpenMDW-1.1 (github.com/NVIDIA/cosmos:" in shown
-    assert "  kandinsky5-lite, kandinsky5-distill: H100; github.com/kandinskylab" in shown
+    assert "  cogvideox-2b, cogvideox-5b, cogvideox1.5-5b: H100; github.com/zai-org" in shown
     assert shown.splitlines()[0].startswith("procedural")
     assert "pip install 'texvent[generate]'" in shown
 
@@ -111,8 +111,8 @@ def test_the_list_as_json_has_every_row_with_its_licence_and_source(folder, caps
     assert row["licence_source"] == "github.com/Tencent-Hunyuan/HunyuanVideo-1.5: LICENSE"
     assert (row["fps"], row["is_low_fps"], rows["cogvideox-2b"]["is_low_fps"]) == (24, False, True)
     assert (row["is_recommended"], rows["cogvideox-2b"]["is_recommended"]) == (True, False)
-    assert rows["kandinsky5-distill"]["time_s"] == 35
-    assert "H100" in rows["kandinsky5-distill"]["time_source"]
+    assert rows["cogvideox-2b"]["time_s"] == 45
+    assert "H100" in rows["cogvideox-2b"]["time_source"]
 
 
 def test_a_damaged_download_does_not_end_the_list(folder, capsys, monkeypatch):

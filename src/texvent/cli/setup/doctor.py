@@ -42,7 +42,6 @@ BASE = {
 EXTRAS = {
     "generate": ("diffusers", "learned text-to-video models: Cosmos, Wan, CogVideoX, ..."),
     "cosmos": ("cosmos_guardrail", "the guardrail that Cosmos models must not run without"),
-    "quantize": ("bitsandbytes", "learned models with 8 or 4 bits: --quantize"),
     "rife": ("torch", "RIFE interpolation"),
     "v2ce": ("torch", "the V2CE simulator"),
     "plot": ("matplotlib", "events.plot()"),

@@ -25,7 +25,6 @@ from texvent.generate.diffusers_models.guardrail import (
     guardrail_version,
     needs_guardrail,
 )
-from texvent.generate.diffusers_models.latents import Latents, decode_latents, read_latents
 from texvent.generate.diffusers_models.pipeline_call import (
     call_pipeline,
     check_options,
@@ -42,7 +41,6 @@ from texvent.generate.diffusers_models.pipeline_loading import (
 )
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.known_models import VideoModel
-from texvent.generate.video_models.loading import quiet_libraries
 from texvent.generate.video_models.lora import Lora, check_loras, parse_lora
 from texvent.generate.video_models.model_files import (
     find_downloaded,
@@ -59,16 +57,12 @@ from texvent.runtime.progress import NoProgress, Progress
 from texvent.video import PixelArray
 
 EXTRA = "generate"
-PIXEL_OPTIONS = (
-    *("frames", "width", "height", "steps", "guidance"),
-    *("negative_prompt", "dtype", "quantize"),
-)
+PIXEL_OPTIONS = ("frames", "width", "height", "steps", "guidance", "negative_prompt")
 """Options that decide the pixels, beside model, prompt, seed and files."""
 PIXEL_FACTS = ("call", "sigmas", "scheduler")
 """Fields of a model's row that decide the pixels too."""
 PACKAGES = ("diffusers", "transformers", "torch")
 """Packages that decide the pixels beside the weights; their versions go into the metadata."""
-SECOND_TRANSFORMER = "transformer_2"
 
 
 class DiffusersGenerator:
@@ -113,20 +107,6 @@ class DiffusersGenerator:
             seed=self.seed,
             progress=progress,
         )
-
-    def generate_latents(self, prompt: str, *, progress: Progress | None = None) -> Latents:
-        """Denoised latents for `prompt`, with the scale and shift of their decoder.
-
-        Raises:
-            InputError: the model's decoder is not known, or the model has a guardrail that must
-                see finished frames; and what `generate` raises.
-        """
-        self._check(prompt)
-        return self._loaded(progress or NoProgress()).latents(prompt, self.seed)
-
-    def decode(self, latents: Latents) -> Iterator[PixelArray]:
-        """Frames of latents, [H, W, 3] float32 in 0..1."""
-        return decode_latents(self._loaded(NoProgress()).pipeline, latents)
 
     def plan(self, prompt: str) -> str | None:
         """What making the video would take, or None if it was made before. Touches no network.
@@ -187,8 +167,7 @@ class DiffusersGenerator:
             name = model.image_pipeline or name
         if name is None:
             return
-        with quiet_libraries():
-            pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
+        pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
         if pipeline_class is not None:  # else the installed one is too old, which loading says
             check_options(pipeline_class, config)
 
@@ -235,7 +214,7 @@ class DiffusersGenerator:
         if config.image is not None:
             facts["image"] = _sha256(config.image)
         if self._loras:
-            facts["lora"] = [[_lora_content(one), one.weight, one.noise] for one in self._loras]
+            facts["lora"] = [[_lora_content(one), one.weight] for one in self._loras]
         if model.folder is None:
             facts["source"] = model.source
         else:
@@ -278,9 +257,8 @@ class _ModelRun:
     ) -> None:
         self._model, self._config, self._fps, self.progress = model, config, fps, progress
         self._files = find_files(model, progress.announce)
-        self._index = read_pipeline_index(self._files.folder)
-        self.has_guardrail = needs_guardrail(self._index)
-        device, free = resolve_device(config.generator_device)
+        self.has_guardrail = needs_guardrail(read_pipeline_index(self._files.folder))
+        device, free = resolve_device()
         self._request = LoadRequest(
             folder=self._files.folder,
             content=" ".join([fingerprint(self._files.folder), *map(_lora_content, loras)]),
@@ -290,9 +268,8 @@ class _ModelRun:
             loras=loras,
             scheduler=tuple(model.scheduler.items()),
         )
-        second = self._index.get(SECOND_TRANSFORMER) or [None]
         self._pipeline_class = find_pipeline_class(self._request)
-        check_loras(loras, self._pipeline_class, has_two=second[0] is not None)
+        check_loras(loras, self._pipeline_class)
 
     @functools.cached_property
     def pipeline(self) -> Pipeline:
@@ -307,20 +284,17 @@ class _ModelRun:
         """Frames [H, W, 3] float32 in 0..1."""
         if self.has_guardrail:
             check_prompt(getattr(self.pipeline, PART, None), prompt)
-        return iter(self._call(prompt, seed, "np"))
-
-    def latents(self, prompt: str, seed: int) -> Latents:
-        """Denoised latents.
-
-        Raises:
-            InputError: the model has a guardrail, or its decoder is not known.
-        """
-        if self.has_guardrail:
-            raise InputError(
-                f"{self._model.name} gives no latents: its guardrail must see the frames"
-            )
-        output = self._call(prompt, seed, "latent")
-        return read_latents(self.pipeline, output, self._config.frames, self._fps)
+        frames = call_pipeline(
+            self.pipeline,
+            prompt,
+            self._config,
+            model=self._model,
+            fps=self._fps,
+            # Of the CPU: the same noise on every device.
+            generator=require("torch", extra=EXTRA).Generator("cpu").manual_seed(seed),
+            progress=self.progress,
+        )
+        return iter(frames)
 
     def provenance(self) -> dict[str, Any]:
         """Origin of the frames, beside prompt, seed and options."""
@@ -329,27 +303,12 @@ class _ModelRun:
             "commit": self._files.commit,
             "pipeline": self._pipeline_class.__name__,
             "dtype": self._request.placement.dtype,
-            "quantize": self._request.placement.quantize,
             "licence": self._model.licence_and_terms,
             **{name: metadata.version(name) for name in PACKAGES},
         }
         if self.has_guardrail:
             facts["guardrail"] = guardrail_version()
         return {name: value for name, value in facts.items() if value is not None}
-
-    def _call(self, prompt: str, seed: int, kind: str) -> Any:
-        """Frames ("np") or latents ("latent")."""
-        return call_pipeline(
-            self.pipeline,
-            prompt,
-            self._config,
-            model=self._model,
-            fps=self._fps,
-            # Of the CPU: the same noise on every device.
-            generator=require("torch", extra=EXTRA).Generator("cpu").manual_seed(seed),
-            output_type=kind,
-            progress=self.progress,
-        )
 
 
 def _sha256(path: Path) -> str:
