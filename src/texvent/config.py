@@ -167,13 +167,10 @@ class CaptureConfig:
     """Ids of objects, in files as --motion, or .png."""
     camera: str | None = None
     """Over a still image: saccade, shake, pan or FILE. The camera moves as N-MNIST's sensor did, as
-    if held by hand, or to the right; or as a file says: positions (t x y [roll [zoom]]: s, px,
-    degrees) or poses (t tx ty tz qx qy qz qw)."""
+    if held by hand, or to the right; or as a file says (t x y [roll [zoom]]: s, px, degrees)."""
     camera_amplitude: float | None = None
     """Size of the movement, px: the longest saccade (5.5), the shake's root mean square (2), or the
     pan's px per second (60)."""
-    camera_fov: float | None = None
-    """Angle that the image spans horizontally, degrees; poses need it."""
     duration: float | None = None
     """How long the camera moves, s. Without it, as long as its path: 0.315 (saccade), 1 (shake,
     pan), or what its file says."""
@@ -185,7 +182,6 @@ class CaptureConfig:
         check_range("fps", self.fps, *FPS_RANGE)
         check_range("depth_scale", self.depth_scale, 1e-9, 1e9)
         check_range("camera_amplitude", self.camera_amplitude, 1e-6, 1e6)
-        check_range("camera_fov", self.camera_fov, 1e-3, 179.0)
         check_range("duration", self.duration, 1e-6, 86_400.0)
         if self.stop is not None and not self.stop > self.start:
             raise ConfigError(f"stop is {self.stop:g} s; it must be after start ({self.start:g} s)")

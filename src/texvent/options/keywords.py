@@ -126,7 +126,6 @@ class CaptureOptions(TypedDict, total=False):
     instances: Field | None
     camera: str | None
     camera_amplitude: float | None
-    camera_fov: float | None
     duration: float | None
 
 

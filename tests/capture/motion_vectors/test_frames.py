@@ -62,11 +62,6 @@ def test_half_resolution():
     np.testing.assert_allclose(motions[0].forward, 2 * FORWARD[0].repeat(2, 0).repeat(2, 1), 1e-6)
 
 
-def test_units_per_second():
-    stream = opened({"motion": FORWARD * np.float32(25)}, motion_convention="px/s")
-    check_exact(stream, backward=False)
-
-
 @pytest.mark.parametrize("name", ["npy", "npz"])
 def test_folders_with_a_file_per_frame(tmp_path, name):
     for index, flow in enumerate(FORWARD):
@@ -107,9 +102,7 @@ def test_a_pattern_names_files_among_others(tmp_path):
     [
         (-FORWARD, "(from|backward)"),
         (FORWARD * np.float32([1, -1]), "y-up"),
-        (FORWARD[..., ::-1], "yx"),
         (FORWARD / 2, "scale=2"),
-        (FORWARD / np.float32([scene.WIDTH, scene.HEIGHT]), "fraction"),
         (FORWARD / np.float32([scene.WIDTH / 2, scene.HEIGHT / 2]), "ndc"),
     ],
 )

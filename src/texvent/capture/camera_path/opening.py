@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from texvent.capture.camera_path.motion import CameraPath, Pan, Saccades, Shake
 from texvent.capture.camera_path.photo_frames import PhotoFrames
-from texvent.capture.camera_path.trajectory_file import PoseFile, read_trajectory
+from texvent.capture.camera_path.trajectory_file import read_trajectory
 from texvent.capture.image_folder import coding_facts, read_image
 from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels, usable_pixels
 from texvent.capture.linear_light import (
@@ -35,7 +35,7 @@ FPS = Fraction(60)
 """Frames per second, unless asked for: what lies between is exact as well."""
 PRESETS = ("saccade", "shake", "pan")
 MOST_FRAMES = 10_000_000
-OF_CAMERA = ("camera_amplitude", "camera_fov", "duration")
+OF_CAMERA = ("camera_amplitude", "duration")
 """Options that only a camera path has."""
 OF_VIDEOS = ("timestamps", "start", "stop", "fit", "motion", "motion_back", "instances")
 """Options that a camera path does not have."""
@@ -85,12 +85,6 @@ def open_photo(
         files["depth"] = str(given)
     elif given is not None:
         facts["depth"] = "array"
-    focal_px = _focal_px(config, path, levels.shape[1])
-    if isinstance(path, PoseFile) and path.moves and metres is None:
-        raise InputError(
-            f"the camera of {config.camera} changes its position, which needs the depth of the "
-            "image; give depth=FILE, or poses that only turn"
-        )
     return PhotoFrames(
         levels,
         path,
@@ -99,7 +93,6 @@ def open_photo(
         intervals,
         size,
         metres,
-        focal_px,
         {**facts, **({"camera_files": files} if files else {})},
     )
 
@@ -207,19 +200,6 @@ def _depth(given: Any, config: CaptureConfig, levels: NDArray[np.float32]) -> ND
         stored, where = np.asarray(given), "depth"
     height, width = levels.shape
     return metric_depth(stored, config.depth_scale, (width, height), where)
-
-
-def _focal_px(config: CaptureConfig, path: CameraPath, width: int) -> float | None:
-    if not isinstance(path, PoseFile):
-        if config.camera_fov is not None:
-            raise ConfigError("camera_fov is for poses (t tx ty tz qx qy qz qw); leave it out")
-        return None
-    if config.camera_fov is None:
-        raise InputError(
-            f"{config.camera} holds poses, whose effect depends on the field of view of the image; "
-            "give `camera_fov`: the angle that it spans horizontally, degrees"
-        )
-    return width / 2 / math.tan(math.radians(config.camera_fov) / 2)
 
 
 def field_of(arrays: Mapping[str, Any] | None) -> Any:

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.camera_path.motion import CameraPath, CameraPose
+from texvent.capture.camera_path.motion import CameraPath, CameraPose2D
 from texvent.capture.camera_path.view import Planes, View, depth_range, fitted_view, split_planes
 from texvent.sensor import SensorSize
 from texvent.transfer import WHITE, encode_srgb
@@ -49,8 +49,6 @@ class PhotoFrames(NotebookFrames):
     """None: the image's own size, pixel by pixel."""
     depth: NDArray[np.float32] | None = None
     """[H, W] m, inf where there is no surface; None: the image is flat."""
-    focal_px: float | None = None
-    """Focal length in px of the image; only poses need it."""
     facts: Mapping[str, Any] = field(default_factory=dict)
     """Where the image comes from."""
     view: View = field(init=False)
@@ -63,7 +61,7 @@ class PhotoFrames(NotebookFrames):
         reference, nearness = _nearness(self.depth)
         times = np.linspace(self.start_us, self._time(self.intervals), INSTANTS)
         places = [self.path(float(t_us)) for t_us in times]
-        start = View(image, self.sensor or image, 1.0, self.focal_px, reference)
+        start = View(image, self.sensor or image, 1.0, reference)
         view = fitted_view(start, places, nearness, is_pixelwise=self.sensor is None)
         wanted = max(1, round(view.scale / PX_ALONG))
         levels, view, block = _averaged(self.levels, view, wanted)
@@ -121,14 +119,14 @@ class PhotoFrames(NotebookFrames):
     def _time(self, index: int) -> int:
         return frame_time_us(index, self.fps, self.start_us)
 
-    def _motion(self, index: int, place: CameraPose, seen: NDArray[np.uint8]) -> Motion:
+    def _motion(self, index: int, place: CameraPose2D, seen: NDArray[np.uint8]) -> Motion:
         forward, backward = (
             self._planes.vectors(place, self.path(self._time(other)), seen)
             if 0 <= other < self.frame_count
             else None
             for other in (index + 1, index - 1)
         )
-        depth = None if self.depth is None else self._planes.depth(place, seen)
+        depth = None if self.depth is None else self._planes.depth(seen)
         return Motion(forward, backward, depth)
 
 
@@ -151,9 +149,8 @@ def _averaged(
     top, left = (view.image.height - height * block) // 2, (view.image.width - width * block) // 2
     inside = levels[top : top + height * block, left : left + width * block]
     blocks = inside.reshape(height, block, width, block).mean(axis=(1, 3), dtype=np.float64)
-    focal = None if view.focal_px is None else view.focal_px / block
     size = SensorSize(width, height)
-    view = replace(view, image=size, scale=view.scale / block, focal_px=focal)
+    view = replace(view, image=size, scale=view.scale / block)
     return blocks.astype(np.float32), view, block
 
 

@@ -1,4 +1,4 @@
-"""View of a moved camera: its scale over the image, and one homography per plane of equal depth."""
+"""View of a moved camera: its scale over the image, and one affine map per plane of equal depth."""
 
 from __future__ import annotations
 
@@ -11,15 +11,13 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.camera_path.motion import CameraPose, CameraPose2D, Pose
+from texvent.capture.camera_path.motion import CameraPose2D
 from texvent.errors import InputError
 from texvent.sensor import SensorSize
 
 Float64Array = NDArray[np.float64]
 STEPS = 30
 """Halvings of the interval in which the scale is looked for."""
-NEAREST = 1e-3
-"""Least distance to a plane, by the distance that it had."""
 MOST_REACH = 3.0
 """The mirrored image reaches from -3 to 3 if the image reaches from -1 to 1."""
 
@@ -34,12 +32,10 @@ class View:
     """Of the sensor, px."""
     scale: float = 1.0
     """Px of the image per px of the sensor, when the camera has not moved."""
-    focal_px: float | None = None
-    """Focal length in px of the image; only poses need it."""
     reference_m: float = 1.0
     """Depth of surfaces that move by the px that a path states, m."""
 
-    def matrix(self, place: CameraPose, nearness: float = 1.0) -> Float64Array:
+    def matrix(self, place: CameraPose2D, nearness: float = 1.0) -> Float64Array:
         """Where a flat, upright surface is seen.
 
         Args:
@@ -51,55 +47,13 @@ class View:
         """
         centre_x, centre_y = self.sensor.width / 2, self.sensor.height / 2
         image_x, image_y = self.image.width / 2, self.image.height / 2
-        if isinstance(place, CameraPose2D):
-            factor = self.scale / place.zoom
-            cos, sin = factor * math.cos(place.roll), factor * math.sin(place.roll)
-            x = self.scale * place.x * nearness + image_x - (cos * centre_x - sin * centre_y)
-            y = self.scale * place.y * nearness + image_y - (sin * centre_x + cos * centre_y)
-            return np.array([[cos, -sin, x], [sin, cos, y], [0.0, 0.0, 1.0]])
-        to_first = place.rotation + np.outer(place.position, (0, 0, nearness / self.reference_m))
-        return np.asarray(self._to_image() @ to_first @ self._to_rays())
+        factor = self.scale / place.zoom
+        cos, sin = factor * math.cos(place.roll), factor * math.sin(place.roll)
+        x = self.scale * place.x * nearness + image_x - (cos * centre_x - sin * centre_y)
+        y = self.scale * place.y * nearness + image_y - (sin * centre_x + cos * centre_y)
+        return np.array([[cos, -sin, x], [sin, cos, y], [0.0, 0.0, 1.0]])
 
-    def homography(self, place: CameraPose, nearness: float = 1.0) -> Float64Array:
-        """View of a plane of the image that stays where it was when the image was taken.
-
-        Returns:
-            [3, 3] as `matrix`, which puts the plane that far in front of a moved camera instead.
-        """
-        if isinstance(place, CameraPose2D):
-            return self.matrix(place, nearness)
-        shift = place.position * (nearness / self.reference_m)
-        ahead = max(1 - shift[2], NEAREST)  # a plane that the camera has passed stays in front
-        to_first = place.rotation + np.outer(shift, place.rotation[2]) / ahead
-        return np.asarray(self._to_image() @ to_first @ self._to_rays())
-
-    def share_ahead(self, place: Pose, nearness: float, points: Float64Array) -> Float64Array:
-        """Depth along a moved camera's axis by the depth that a plane had, [n].
-
-        Args:
-            place: the camera.
-            nearness: of the plane.
-            points: [n, 3] px of the sensor, homogeneous.
-        """
-        image = points @ self.homography(place, nearness).T
-        rays = image / image[:, 2:] @ np.linalg.inv(self._to_image()).T
-        return np.asarray(
-            (rays - place.position * (nearness / self.reference_m)) @ place.rotation[:, 2]
-        )
-
-    def _to_rays(self) -> Float64Array:
-        """Sensor px → rays in the camera's axes."""
-        step = self.scale / float(self.focal_px or 1.0)
-        x, y = self.sensor.width / 2, self.sensor.height / 2
-        return np.array([[step, 0.0, -step * x], [0.0, step, -step * y], [0.0, 0.0, 1.0]])
-
-    def _to_image(self) -> Float64Array:
-        """Rays in the first camera's axes → image px."""
-        focal = float(self.focal_px or 1.0)
-        x, y = self.image.width / 2, self.image.height / 2
-        return np.array([[focal, 0.0, x], [0.0, focal, y], [0.0, 0.0, 1.0]])
-
-    def reach(self, places: Sequence[CameraPose], nearness: Sequence[float] = (1.0,)) -> float:
+    def reach(self, places: Sequence[CameraPose2D], nearness: Sequence[float] = (1.0,)) -> float:
         """How far corners of the sensor come from the image's centre: 1 is its border.
 
         Args:
@@ -107,23 +61,20 @@ class View:
             nearness: of the surfaces that are looked at.
 
         Returns:
-            The farther of both axes; inf where a corner looks to the side or backward.
+            The farther of both axes.
         """
         width, height = self.sensor
         corners = np.array([[0, 0, 1], [width, 0, 1], [0, height, 1], [width, height, 1]], float)
         points = np.stack([self.matrix(one, near) for one in places for near in nearness])
         points = points @ corners.T
-        depth = points[:, 2]
-        if not (depth > 0).all():
-            return math.inf
-        x = np.abs(points[:, 0] / depth * 2 / self.image.width - 1).max()
-        y = np.abs(points[:, 1] / depth * 2 / self.image.height - 1).max()
+        x = np.abs(points[:, 0] * 2 / self.image.width - 1).max()
+        y = np.abs(points[:, 1] * 2 / self.image.height - 1).max()
         return float(max(x, y))
 
 
 def fitted_view(
     start: View,
-    places: Sequence[CameraPose],
+    places: Sequence[CameraPose2D],
     nearness: Sequence[float],
     *,
     is_pixelwise: bool,
@@ -158,13 +109,13 @@ def fitted_view(
     return _checked(view, places, nearness)
 
 
-def _checked(view: View, places: Sequence[CameraPose], nearness: Sequence[float]) -> View:
+def _checked(view: View, places: Sequence[CameraPose2D], nearness: Sequence[float]) -> View:
     reach = view.reach(places, nearness)
     if reach > MOST_REACH:
-        far = "to its side or behind it" if math.isinf(reach) else f"{reach / 2:.1f} times its size"
         raise InputError(
-            f"the camera path leads {far} away from the image ({view.image}), which is mirrored "
-            "beyond its border only once; give a shorter path, a larger image or a smaller sensor"
+            f"the camera path leads {reach / 2:.1f} times its size away from the image "
+            f"({view.image}), which is mirrored beyond its border only once; give a shorter path, "
+            "a larger image or a smaller sensor"
         )
     return view
 
@@ -207,7 +158,7 @@ class Planes:
     step: float = 0.0
     """Planes whose nearness differs by at most this are of one surface, without gaps."""
 
-    def render(self, place: CameraPose) -> tuple[Float32Array, NDArray[np.uint8]]:
+    def render(self, place: CameraPose2D) -> tuple[Float32Array, NDArray[np.uint8]]:
         """Levels and planes that the camera sees, [h, w]; the image is mirrored at its border."""
         levels = self._warp(self.levels, place, 0)
         seen = np.zeros(levels.shape, np.uint8)
@@ -225,38 +176,31 @@ class Planes:
             seen[both[..., 1] > 0.5] = index
         return levels, seen
 
-    def depth(self, place: CameraPose, seen: NDArray[np.uint8]) -> Float32Array:
-        """Depth along the camera's axis of the planes that it sees, [h, w] m."""
+    def depth(self, seen: NDArray[np.uint8]) -> Float32Array:
+        """Depth of the planes that the camera sees, [h, w] m."""
         with np.errstate(divide="ignore"):
             metres = self.view.reference_m / np.array(self.nearness)
-        depth = metres[seen]
-        if isinstance(place, Pose):
-            for index, near in enumerate(self.nearness):
-                of_plane = seen == index
-                share = self.view.share_ahead(place, near, _centres(of_plane))
-                depth[of_plane] *= share
-        return depth.astype(np.float32)
+        return np.asarray(metres[seen], np.float32)
 
-    def vectors(self, now: CameraPose, other: CameraPose, seen: NDArray[np.uint8]) -> Float32Array:
+    def vectors(
+        self, now: CameraPose2D, other: CameraPose2D, seen: NDArray[np.uint8]
+    ) -> Float32Array:
         """[h, w, 2] from each pixel's centre to its place in the other view, px."""
         result = np.empty((*seen.shape, 2), np.float32)
         for index, near in enumerate(self.nearness):
             of_plane = seen == index
             points = _centres(of_plane)
-            to_other = np.linalg.solve(
-                self.view.homography(other, near), self.view.homography(now, near)
-            )
-            moved = points @ to_other.T
-            result[of_plane] = moved[:, :2] / moved[:, 2:] - points[:, :2]
+            to_other = np.linalg.solve(self.view.matrix(other, near), self.view.matrix(now, near))
+            result[of_plane] = (points @ to_other.T - points)[:, :2]
         return result
 
-    def _warp(self, image: Float32Array, place: CameraPose, index: int) -> Float32Array:
+    def _warp(self, image: Float32Array, place: CameraPose2D, index: int) -> Float32Array:
         """The image as seen in one plane: means over the area of each sensor pixel."""
-        fineness = max(1, round(self.view.scale / getattr(place, "zoom", 1.0)))
+        fineness = max(1, round(self.view.scale / place.zoom))
         size = self.view.sensor.width * fineness, self.view.sensor.height * fineness
-        # OpenCV counts from the centres of pixels, homographies from their corners.
+        # OpenCV counts from the centres of pixels, these maps from their corners.
         to_sensor = np.array([[1, 0, 0.5], [0, 1, 0.5], [0, 0, fineness]]) / fineness
-        to_image = self.view.homography(place, self.nearness[index]) @ to_sensor
+        to_image = self.view.matrix(place, self.nearness[index]) @ to_sensor
         to_image[:2] -= 0.5 * to_image[2]
         flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
         fine = cv2.warpPerspective(
@@ -288,7 +232,7 @@ class Planes:
 
 
 def split_planes(
-    view: View, levels: Float32Array, depth: Float32Array, places: Sequence[CameraPose]
+    view: View, levels: Float32Array, depth: Float32Array, places: Sequence[CameraPose2D]
 ) -> Planes:
     """Planes of an image with depth, as many as a camera path parts.
 
@@ -326,13 +270,13 @@ def depth_range(depth: Float32Array) -> tuple[float, float]:
     return float(near), float(far)
 
 
-def _parting_px(view: View, places: Sequence[CameraPose], nearness: Sequence[float]) -> float:
+def _parting_px(view: View, places: Sequence[CameraPose2D], nearness: Sequence[float]) -> float:
     """Px of the image by which surfaces of two depths part at most, at the view's centre."""
     centre = np.array([view.sensor.width / 2, view.sensor.height / 2, 1.0])
     parted = 0.0
     for place in places:
         near, far = (view.matrix(place, one) @ centre for one in nearness)
-        parted = max(parted, float(np.hypot(*(near[:2] / near[2] - far[:2] / far[2]))))
+        parted = max(parted, float(np.hypot(*(near - far)[:2])))
     return parted
 
 
