@@ -196,11 +196,9 @@ class InterpolateConfig:
     exact. Blend mixes both; flow compensates motion by DIS optical flow; rife (the paper's choice)
     and super-slomo (its ablation E8) are trained networks; motion follows vectors that come with
     the frames; with exact the generator renders the instant itself."""
-    count: Literal["brightness", "fixed"] = "brightness"
-    """How many intermediate frames: as many as the brightness change needs (Eq. 4), or a fixed
-    number."""
-    fixed_count: int = 10
-    """Intermediate frames per pair with --count fixed (10 is the paper's ablation E7)."""
+    fixed_count: int | None = None
+    """Intermediate frames per pair, always so many (10 is the paper's ablation E7). Without it, as
+    many as the brightness change needs (Eq. 4)."""
     max_intermediate: int = 64
     """Upper limit of Eq. 4's count per pair."""
     frames_per_pixel: float | None = None

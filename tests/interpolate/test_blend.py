@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import InputError
-from texvent.interpolate.blend import BlendInterpolator
+from texvent.interpolate.simple import BlendInterpolator
 from texvent.video import Frame
 
 

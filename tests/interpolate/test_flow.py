@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from texvent.interpolate.blend import BlendInterpolator
 from texvent.interpolate.flow import FlowInterpolator
+from texvent.interpolate.simple import BlendInterpolator
 from texvent.pairs import motion_interpolation
 from texvent.video import Frame
 

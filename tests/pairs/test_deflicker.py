@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
-from texvent.interpolate.densify import densify
+from texvent.interpolate.pairing import densify
 from texvent.pairs.deflicker import PASSED_SHARE, global_gain, steady_frames
 from texvent.video import Frame, Video
 

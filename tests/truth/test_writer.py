@@ -258,7 +258,7 @@ def test_the_parts_of_a_folder_of_truth_are_motion_that_simulate_reads(written, 
 
 def test_frames_in_between_move_the_ids_along(tmp_path):
     parts = texvent.TruthFolder(tmp_path / "m.truth", "events")
-    options = {"interpolate": "flow", "count": "fixed", "fixed_count": 3, "noise": "none"}
+    options = {"interpolate": "flow", "fixed_count": 3, "noise": "none"}
     events = texvent.simulate(MotionFrames(), truth_folder=parts, **options)
     ids = texvent.load_truth(tmp_path / "m.truth").event_instance
     swept = MotionFrames().ids(0)

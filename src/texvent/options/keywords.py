@@ -41,7 +41,6 @@ class InterpolateOptions(TypedDict, total=False):
     """Options of the intermediate frames."""
 
     interpolate: str | None
-    count: Literal["brightness", "fixed"] | None
     fixed_count: int | None
     max_intermediate: int | None
     frames_per_pixel: float | None

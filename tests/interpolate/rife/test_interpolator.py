@@ -10,8 +10,8 @@ import pytest
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import FileFormatError
-from texvent.interpolate.densify import densify
 from texvent.interpolate.networks import image_tensors
+from texvent.interpolate.pairing import densify
 from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
 from texvent.pairs.instants import matching_levels
@@ -216,7 +216,7 @@ def test_inference_mode_does_not_leak_to_the_caller(build):
 
 def test_a_video_is_densified_with_rife(build):
     video = Video(noise(), [0, 40_000])
-    config = InterpolateConfig(interpolate="rife", count="fixed", fixed_count=2, detect_cuts=False)
+    config = InterpolateConfig(interpolate="rife", fixed_count=2, detect_cuts=False)
     frames = list(densify(video, build(), config, balance=30.0, contrast_threshold=0.2))
     assert [frame.is_source for frame in frames] == [True, False, False, True]
 
