@@ -68,7 +68,6 @@ def open_photo(
         FileFormatError: a file is damaged.
         ConfigError: an option does not go with the others.
     """
-    _refuse_options_of_videos(config)
     path, files = _path(config, seed)
     levels, facts = _levels(source, config)
     fps = FPS if config.fps is None else Fraction(config.fps)
@@ -97,29 +96,23 @@ def open_photo(
     )
 
 
-def _refuse_options_of_videos(config: CaptureConfig) -> None:
-    default = CaptureConfig()
-    for name in OF_VIDEOS:
-        if getattr(config, name) != getattr(default, name):
-            hint = "; `duration` says how long it lasts" if name in ("start", "stop") else ""
-            raise ConfigError(
-                f"{name} is for videos, and `camera` makes one of an image{hint}; leave {name} out"
-            )
-
-
-def check_no_camera(config: CaptureConfig) -> None:
-    """Refuse options of a camera path where there is none.
+def check_camera_options(config: CaptureConfig) -> None:
+    """Refuse options of videos beside `camera`, and those of a camera path without it.
 
     Raises:
         ConfigError: there is such an option.
     """
-    for name in OF_CAMERA:
-        if getattr(config, name) is not None:
+    default = CaptureConfig()
+    for name in OF_CAMERA if config.camera is None else OF_VIDEOS:
+        if getattr(config, name) == getattr(default, name):
+            continue
+        if config.camera is None:
             hint = "; `stop` ends a video" if name == "duration" else ""
-            raise ConfigError(
-                f"{name} is for a camera that moves over a still image (`camera`){hint}; leave it "
-                "out"
-            )
+            reason = f"is for a camera that moves over a still image (`camera`){hint}"
+        else:
+            hint = "; `duration` says how long it lasts" if name in ("start", "stop") else ""
+            reason = f"is for videos, and `camera` makes one of an image{hint}"
+        raise ConfigError(f"{name} {reason}; leave {name} out")
 
 
 def _path(config: CaptureConfig, seed: int) -> tuple[CameraPath, dict[str, str]]:

@@ -26,19 +26,35 @@ MOST = 1e6
 
 
 @dataclass(frozen=True, eq=False)
-class SmoothRows:
-    """Numbers between rows: cubic pieces whose slopes at a row come from its neighbours.
+class PathFile:
+    """A path through the rows of a file, in px of the sensor.
 
-    Before the first row and after the last, that row is held.
+    Between rows it is cubic, with slopes at a row from its neighbours; before the first row and
+    after the last, that row is held.
     """
 
     times_us: NDArray[np.int64]
     """[n], increasing, n >= 2."""
     values: Float64Array
-    """[n, k]"""
+    """[n, 4] x, y, px; roll, radians; natural logarithm of the zoom."""
 
-    def __call__(self, t_us: float) -> Float64Array:
-        """The numbers at `t_us`, [k].
+    @property
+    def start_us(self) -> int:
+        """Time of the first row, µs."""
+        return int(self.times_us[0])
+
+    @property
+    def seconds(self) -> float:
+        """From the first row to the last, s."""
+        return float(self.times_us[-1] - self.times_us[0]) / MICROSECONDS
+
+    @property
+    def facts(self) -> Mapping[str, Any]:
+        """The kind of file."""
+        return {"camera": "positions"}
+
+    def __call__(self, t_us: float) -> CameraPose2D:
+        """The pose at `t_us`.
 
         Source: cubic Hermite splines, slopes by differences of second order.
         """
@@ -54,37 +70,12 @@ class SmoothRows:
         start, stop = self.values[row], self.values[row + 1]
         bend = 2 * (start - stop) + span * (slopes[here] + slopes[here + 1])
         rise = 3 * (stop - start) - span * (2 * slopes[here] + slopes[here + 1])
-        return np.asarray(start + u * (span * slopes[here] + u * (rise + u * bend)))
-
-
-@dataclass(frozen=True, eq=False)
-class PlaceFile:
-    """A path in pixels of the sensor: x, y, px; roll, radians; natural logarithm of the zoom."""
-
-    rows: SmoothRows
-
-    @property
-    def start_us(self) -> int:
-        """Time of the first row, µs."""
-        return int(self.rows.times_us[0])
-
-    @property
-    def seconds(self) -> float:
-        """From the first row to the last, s."""
-        return float(self.rows.times_us[-1] - self.rows.times_us[0]) / MICROSECONDS
-
-    @property
-    def facts(self) -> Mapping[str, Any]:
-        """The kind of file."""
-        return {"camera": "positions"}
-
-    def __call__(self, t_us: float) -> CameraPose2D:
-        """Between two rows."""
-        x, y, roll, log_zoom = map(float, self.rows(t_us))
+        found = start + u * (span * slopes[here] + u * (rise + u * bend))
+        x, y, roll, log_zoom = map(float, found)
         return CameraPose2D(x, y, roll, math.exp(log_zoom))
 
 
-def read_trajectory(path: Path) -> PlaceFile:
+def read_trajectory(path: Path) -> PathFile:
     """A path from a text file, one instant per line.
 
     Args:
@@ -118,7 +109,7 @@ def read_trajectory(path: Path) -> PlaceFile:
     whole[:, 2] = np.radians(whole[:, 2])
     _refuse_rows(path, whole[:, 3] <= 0, "a zoom that is not above 0")
     whole[:, 3] = np.log(whole[:, 3])
-    return PlaceFile(SmoothRows(times_us, whole))
+    return PathFile(times_us, whole)
 
 
 def _read_table(path: Path) -> Float64Array:
