@@ -82,19 +82,6 @@ def wan(folder):
     )
 
 
-def wan22(folder):
-    return diffusers.WanPipeline(
-        **t5(folder, transformers.UMT5EncoderModel, transformers.UMT5Config),
-        vae=wan_vae(),
-        scheduler=diffusers.UniPCMultistepScheduler(
-            prediction_type="flow_prediction", use_flow_sigmas=True, flow_shift=3.0
-        ),
-        transformer=wan_transformer(),
-        transformer_2=wan_transformer(),
-        boundary_ratio=0.875,
-    )
-
-
 def cogvideox_vae():
     return diffusers.AutoencoderKLCogVideoX(
         block_out_channels=(8, 8, 8, 8),
@@ -105,14 +92,14 @@ def cogvideox_vae():
     )
 
 
-def cogvideox(folder, *, heads=8, head_size=4, **facts):
+def cogvideox(folder):
     return diffusers.CogVideoXPipeline(
         **t5(folder),
         vae=cogvideox_vae(),
         scheduler=diffusers.CogVideoXDDIMScheduler(),
         transformer=diffusers.CogVideoXTransformer3DModel(
-            num_attention_heads=heads,
-            attention_head_dim=head_size,
+            num_attention_heads=8,
+            attention_head_dim=4,
             in_channels=4,
             out_channels=4,
             time_embed_dim=2,
@@ -124,19 +111,7 @@ def cogvideox(folder, *, heads=8, head_size=4, **facts):
             patch_size=2,
             temporal_compression_ratio=4,
             max_text_seq_length=226,
-            **facts,
         ),
-    )
-
-
-def cogvideox15(folder):
-    return cogvideox(
-        folder,
-        heads=4,
-        head_size=16,
-        patch_size_t=2,
-        use_rotary_positional_embeddings=True,
-        patch_bias=False,
     )
 
 
@@ -281,11 +256,9 @@ def ltx(folder):
 
 BUILDERS = {
     "wan": wan,
-    "wan22": wan22,
     "cosmos": cosmos,
     "cosmos25": cosmos25,
     "cogvideox": cogvideox,
-    "cogvideox15": cogvideox15,
     "ltx": ltx,
 }
 

@@ -1,6 +1,5 @@
 """LoRA on pipelines of the real classes, against matrices merged by hand."""
 
-import json
 import os
 import shutil
 import sys
@@ -38,7 +37,7 @@ MATRICES = {
 LAYERS = {
     f"blocks.{b}.{own}": f"blocks.{b}.{name}" for b in (0, 1) for own, name in MATRICES.items()
 }
-NAMINGS = ("diffusers", "diffusers-scaled", "wan", "musubi")
+NAMINGS = ("diffusers", "wan")
 
 
 class Quiet:
@@ -64,29 +63,17 @@ def factors(weights, seed=1):
 def save_adapter(folder, pairs, naming):
     """Save the pairs as a program of that kind does; return the path and the scale it means."""
     folder.mkdir()
-    path, scale = folder / "adapter.safetensors", ALPHA / RANK
-    by_name = {}
+    path, by_name = folder / "adapter.safetensors", {}
     for own, name in LAYERS.items():
-        first, second = pairs[name]
-        if naming.startswith("diffusers"):
+        if naming == "diffusers":
             keys = f"transformer.{name}.lora_A.weight", f"transformer.{name}.lora_B.weight"
-        elif naming == "wan":
+        else:
             keys = (f"diffusion_model.{own}.lora_{one}.weight" for one in ("down", "up"))
             by_name[f"diffusion_model.{own}.alpha"] = torch.tensor(ALPHA)
-        else:
-            flat = own.replace(".", "_")
-            keys = (f"lora_unet_{flat}.lora_{one}.weight" for one in ("down", "up"))
-            by_name[f"lora_unet_{flat}.alpha"] = torch.tensor(ALPHA)
-        by_name.update(zip(keys, (first, second), strict=True))
-    metadata = {"format": "pt"}
-    if naming == "diffusers":
-        scale = 1.0  # without a note of alpha
-    if naming == "diffusers-scaled":
-        facts = {"r": RANK, "lora_alpha": ALPHA, "target_modules": sorted(LAYERS.values())}
-        config = {f"transformer.{name}": value for name, value in facts.items()}
-        metadata["lora_adapter_metadata"] = json.dumps(config)
-    save_file({name: tensor.contiguous() for name, tensor in by_name.items()}, path, metadata)
-    return path, scale
+        by_name.update(zip(keys, pairs[name], strict=True))
+    tensors = {name: tensor.contiguous() for name, tensor in by_name.items()}
+    save_file(tensors, path, {"format": "pt"})
+    return path, 1.0 if naming == "diffusers" else ALPHA / RANK
 
 
 def merge(model, folder, pairs, weight):
