@@ -159,8 +159,7 @@ class CaptureConfig:
     """Compare warped with real frames, and refuse vectors that fit clearly better if they are
     meant otherwise."""
     depth: Path | None = None
-    """Depth along the optical axis, m, in files as --motion, or .png; decides what is in front.
-    With --camera, that of the image: nearer surfaces move more."""
+    """Depth along the optical axis, m, in files as --motion, or .png; decides what is in front."""
     depth_scale: float | None = None
     """Metres per stored step of depth: 0.001 for mm. Needed for PNG."""
     instances: Path | None = None

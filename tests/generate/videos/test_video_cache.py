@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import InputError, OutputError
+from texvent.errors import InputError
 from texvent.generate.videos.stored_video import (
     reopen,
     to_16_bits,

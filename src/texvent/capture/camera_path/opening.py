@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -23,8 +22,6 @@ from texvent.capture.linear_light import (
     linear_facts,
     to_light,
 )
-from texvent.capture.motion_vectors.conventions import metric_depth
-from texvent.capture.motion_vectors.fields import FRAME_EXTENSIONS, read_file
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, shown
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
@@ -37,7 +34,10 @@ PRESETS = ("saccade", "shake", "pan")
 MOST_FRAMES = 10_000_000
 OF_CAMERA = ("camera_amplitude", "duration")
 """Options that only a camera path has."""
-OF_VIDEOS = ("timestamps", "start", "stop", "fit", "motion", "motion_back", "instances")
+OF_VIDEOS = (
+    *("timestamps", "start", "stop", "fit"),
+    *("motion", "motion_back", "depth", "depth_scale", "instances"),
+)
 """Options that a camera path does not have."""
 
 
@@ -52,7 +52,6 @@ def open_photo(
     *,
     size: SensorSize | None = None,
     seed: int = 0,
-    depth: Any = None,
 ) -> PhotoFrames:
     """Frames of a camera that moves over an image.
 
@@ -61,15 +60,16 @@ def open_photo(
         config: with `camera`.
         size: of the sensor; None: that of the image.
         seed: of the shake.
-        depth: of the image, [H, W] m, in memory; it replaces `config.depth`.
 
     Raises:
         InputError: the source is no image, or a file does not fit it.
         FileFormatError: a file is damaged.
         ConfigError: an option does not go with the others.
     """
-    path, files = _path(config, seed)
+    path = _path(config, seed)
     levels, facts = _levels(source, config)
+    if config.camera not in PRESETS:
+        facts["camera_files"] = {"path": config.camera}
     fps = FPS if config.fps is None else Fraction(config.fps)
     seconds = path.seconds if config.duration is None else config.duration
     intervals = max(1, math.ceil(Fraction(round(seconds * MICROSECONDS), MICROSECONDS) * fps))
@@ -78,12 +78,6 @@ def open_photo(
             f"{seconds:g} s at {float(fps):g} fps are {intervals:,} frames; at most "
             f"{MOST_FRAMES:,} are made: give a lower fps or a shorter duration"
         )
-    given = config.depth if depth is None else depth
-    metres = None if given is None else _depth(given, config, levels)
-    if isinstance(given, str | Path):
-        files["depth"] = str(given)
-    elif given is not None:
-        facts["depth"] = "array"
     return PhotoFrames(
         levels,
         path,
@@ -91,8 +85,7 @@ def open_photo(
         fps,
         intervals,
         size,
-        metres,
-        {**facts, **({"camera_files": files} if files else {})},
+        facts,
     )
 
 
@@ -115,15 +108,15 @@ def check_camera_options(config: CaptureConfig) -> None:
         raise ConfigError(f"{name} {reason}; leave {name} out")
 
 
-def _path(config: CaptureConfig, seed: int) -> tuple[CameraPath, dict[str, str]]:
-    """The camera's path, and the file that it is from."""
+def _path(config: CaptureConfig, seed: int) -> CameraPath:
+    """The camera's path: a preset, or that of a file."""
     camera, amplitude = str(config.camera), config.camera_amplitude
     if camera == "saccade":
-        return Saccades(amplitude), {}
+        return Saccades(amplitude)
     if camera == "shake":
-        return Shake(amplitude, seed), {}
+        return Shake(amplitude, seed)
     if camera == "pan":
-        return Pan(amplitude, config.duration or Pan.seconds), {}
+        return Pan(amplitude, config.duration or Pan.seconds)
     file = usable_path(camera).expanduser()
     if not file.exists():
         raise InputError(
@@ -135,7 +128,7 @@ def _path(config: CaptureConfig, seed: int) -> tuple[CameraPath, dict[str, str]]
             "camera_amplitude is for saccade, shake and pan; a file states its own sizes, so leave "
             "it out"
         )
-    return read_trajectory(file), {"path": camera}
+    return read_trajectory(file)
 
 
 def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], dict[str, Any]]:
@@ -177,31 +170,3 @@ def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], di
     elif coding == GAMMA and pixels.dtype.kind == "f":
         refuse_unit_range(float(pixels.max()), where)
     return np.asarray(Frame(pixels, 0).luma, dtype=np.float32), facts
-
-
-def _depth(given: Any, config: CaptureConfig, levels: NDArray[np.float32]) -> NDArray[np.float32]:
-    """[H, W] m."""
-    if isinstance(given, str | Path):
-        path = usable_path(usable_path(given).expanduser())
-        if path.suffix.lower() not in FRAME_EXTENSIONS or not path.is_file():
-            raise InputError(
-                f"depth is {shown(str(given))}; give one file that exists, of one of "
-                f"{', '.join(FRAME_EXTENSIONS)}"
-            )
-        stored, where = read_file(path, "depth")["depth"], str(path)
-    else:
-        stored, where = np.asarray(given), "depth"
-    height, width = levels.shape
-    return metric_depth(stored, config.depth_scale, (width, height), where)
-
-
-def field_of(arrays: Mapping[str, Any] | None) -> Any:
-    """The depth among fields in memory.
-
-    Raises:
-        ConfigError: there are others.
-    """
-    others = [name for name, one in (arrays or {}).items() if one is not None and name != "depth"]
-    if others:
-        raise ConfigError(f"{others[0]} is for videos, and camera makes one of an image")
-    return (arrays or {}).get("depth")
