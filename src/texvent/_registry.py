@@ -132,7 +132,6 @@ INTERPOLATORS = Registry(
         "exact": "texvent.interpolate.simple:ExactInterpolator",
         "motion": "texvent.interpolate.motion.interpolator:MotionInterpolator",
         "rife": "texvent.interpolate.rife.interpolator:RifeInterpolator",
-        "super-slomo": "texvent.interpolate.super_slomo.interpolator:SuperSlomoInterpolator",
     },
 )
 SIMULATORS = Registry(

@@ -191,10 +191,10 @@ class InterpolateConfig:
     """Intermediate frames: their number and their contents."""
 
     interpolate: str = "flow"
-    """What fills the time between frames: none, blend, flow, rife, super-slomo, motion or
-    exact. Blend mixes both; flow compensates motion by DIS optical flow; rife (the paper's choice)
-    and super-slomo (its ablation E8) are trained networks; motion follows vectors that come with
-    the frames; with exact the generator renders the instant itself."""
+    """What fills the time between frames: none, blend, flow, rife, motion or exact. Blend mixes
+    both; flow compensates motion by DIS optical flow; rife (the paper's choice) is a trained
+    network; motion follows vectors that come with the frames; with exact the generator renders the
+    instant itself."""
     fixed_count: int | None = None
     """Intermediate frames per pair, always so many (10 is the paper's ablation E7). Without it, as
     many as the brightness change needs (Eq. 4)."""
@@ -212,7 +212,7 @@ class InterpolateConfig:
     """Detect scene cuts and flashes and let them happen at one instant instead of smearing them
     over the frame interval."""
     interpolator_weights: Path | None = None
-    """Weights of rife or super-slomo. Without it, rife uses what texvent weights pull fetched."""
+    """Weights of rife. Without it, those that texvent weights pull fetched."""
 
     def __post_init__(self) -> None:
         if self.deflicker and self.interpolate == "exact":

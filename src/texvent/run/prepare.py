@@ -86,7 +86,7 @@ def warn_of_unread_weights(config: InterpolateConfig) -> None:
     if not hasattr(INTERPOLATORS.load(name), "provenance"):
         warn(
             f"interpolator_weights is {shown(str(weights))}, and nothing reads it: interpolate is "
-            f"{name}, not rife or super-slomo"
+            f"{name}, not rife"
         )
 
 

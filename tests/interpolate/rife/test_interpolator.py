@@ -9,8 +9,7 @@ import pytest
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import FileFormatError
-from texvent.interpolate.networks import image_tensors
-from texvent.interpolate.rife.interpolator import RifeInterpolator
+from texvent.interpolate.rife.interpolator import RifeInterpolator, image_tensors
 from texvent.interpolate.rife.weights import read_rife_weights, write_rife_weights
 from texvent.pairs.instants import matching_levels
 from texvent.pipeline import video_to_events

@@ -32,7 +32,6 @@ from texvent.generate.diffusers_models.pipeline_call import (
 )
 from texvent.generate.diffusers_models.pipeline_loading import (
     LoadRequest,
-    find_kept,
     find_pipeline_class,
     load_pipeline,
     place,
@@ -209,11 +208,7 @@ class DiffusersGenerator:
 
     def _frames(self, prompt: str, seed: int, progress: Progress) -> Iterator[PixelArray]:
         """Frames [H, W, 3] float32 in 0..1."""
-        request = self._prepare(progress)
-        if find_kept(request) is None:
-            placement = request.placement.describe()
-            progress.announce(f"loading {self.model.source} ({placement})")
-        pipeline = load_pipeline(request)
+        pipeline = load_pipeline(self._prepare(progress), progress.announce)
         if self._has_guardrail:
             check_prompt(getattr(pipeline, PART, None), prompt)
         frames = call_pipeline(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -70,24 +71,24 @@ class LoadRequest:
     """Settings of the noise schedule that replace the saved ones."""
 
 
-def load_pipeline(request: LoadRequest) -> Pipeline:
+def load_pipeline(request: LoadRequest, announce: Callable[[str], None] | None = None) -> Pipeline:
     """The pipeline, in evaluation mode, placed as asked. The last one is kept for the next prompt.
+
+    Args:
+        request: model, files and placement.
+        announce: receives a line before minutes of loading.
 
     Raises:
         FileFormatError: a weight file does not fit its network.
         InputError: diffusers has no such class, or a file is missing.
         MissingDependencyError: a package is not installed.
     """
-    kept = find_kept(request)
-    if kept is None:
+    if request not in _KEPT:
         forget_pipeline()  # before the next is loaded: memory holds one
-        kept = _KEPT[request] = _load(request)
-    return kept
-
-
-def find_kept(request: LoadRequest) -> Pipeline | None:
-    """The pipeline for that request if it is loaded already, else None."""
-    return _KEPT.get(request)
+        if announce is not None:
+            announce(f"loading {request.folder} ({request.placement.describe()})")
+        _KEPT[request] = _load(request)
+    return _KEPT[request]
 
 
 def resolve_device(name: str = "auto", option: str = "device") -> tuple[str, int | None]:
