@@ -30,7 +30,7 @@ class Long:
             yield Frame(pictures[index % 16].copy(), frame_time_us(index, self.fps))
 
 path, count, interpolate = sys.argv[1], int(sys.argv[2]), sys.argv[3]
-settings = resolve("simulate", {"interpolate": interpolate, "fixed_count": 1, "count": "fixed"})
+settings = resolve("simulate", {"interpolate": interpolate, "fixed_count": 1})
 save(path, video_to_events(Long(count), settings).packets)
 print(resource.getrusage(resource.RUSAGE_SELF).ru_maxrss)
 """

@@ -8,7 +8,7 @@ import pytest
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError
-from texvent.interpolate.densify import densify
+from texvent.interpolate.pairing import densify
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import select_events, video_to_events
 from texvent.settings.resolution import resolve

@@ -33,7 +33,7 @@ def test_another_package_adds_a_part_but_cannot_replace_one(tmp_path, monkeypatc
     _registry._plugged_in.cache_clear()
     try:
         assert INTERPOLATORS.load("hold").__name__ == "Hold"
-        assert INTERPOLATORS.load("blend").__module__ == "texvent.interpolate.blend"
+        assert INTERPOLATORS.load("blend").__module__ == "texvent.interpolate.simple"
         assert "mine" in CODECS.names()
     finally:
         _registry._plugged_in.cache_clear()

@@ -1,8 +1,7 @@
-"""Options of texvent as inputs of nodes: type, default, range and help from the dataclasses."""
+"""Options of texvent as inputs of nodes: type, default and help from the dataclasses."""
 
 from __future__ import annotations
 
-import dataclasses
 import math
 import types
 import typing
@@ -18,9 +17,7 @@ Widget = tuple[Any, dict[str, Any]]
 """Type of an input, or its choices; and what ComfyUI's page knows of it."""
 LARGEST_INT = 2**53 - 1
 """Largest whole number that JavaScript holds exactly."""
-LARGEST_FLOAT = 1e12
-HALVINGS = 120
-NEAR = 1e-9
+FLOATS = {"min": -1e12, "max": 1e12}
 
 
 def widgets(config: Any, names: Iterable[str] = ()) -> dict[str, Widget]:
@@ -63,58 +60,11 @@ def _widget(config: Any, name: str, hint: Any, help_text: str) -> Widget:
         return "BOOLEAN", facts
     if hint != kind or kind not in (int, float):
         return "STRING", {**facts, "default": "" if default is None else str(default)}
-    low, high = accepted_range(config, name)
+    # Wide, because the node itself refuses what the option does not take.
     if kind is int:
-        return "INT", {**facts, "min": int(low), "max": int(high), "step": 1}
+        return "INT", {**facts, "min": -LARGEST_INT, "max": LARGEST_INT, "step": 1}
     step = 10.0 ** (math.floor(math.log10(abs(default))) - 1) if default else 0.01
-    return "FLOAT", {**facts, "min": low, "max": high, "step": step, "round": False}
-
-
-def accepted_range(config: Any, name: str) -> tuple[float, float]:
-    """The lowest and highest value that a config accepts for an option, found by asking it.
-
-    The values that it accepts are an interval around its own. Where another option must change
-    first, so that it accepts no other value, all are allowed; running the node then says which.
-    """
-    value = getattr(config, name)
-    furthest = LARGEST_INT if isinstance(value, int) else LARGEST_FLOAT
-    low, high = (_limit(config, name, value, end) for end in (-furthest, furthest))
-    return (low, high) if low < high else (min(value, 0), furthest)
-
-
-def _limit(config: Any, name: str, inside: float, outside: float) -> float:
-    """The last accepted value on the way from one that is accepted to one far away."""
-    if _accepts(config, name, outside):
-        return outside
-    is_whole = isinstance(inside, int)
-    if inside * outside < 0 and _accepts(config, name, type(inside)(0)):
-        inside = type(inside)(0)
-    for _ in range(HALVINGS):
-        middle = (inside + outside) // 2 if is_whole else (inside + outside) / 2
-        if middle in (inside, outside):
-            break
-        if _accepts(config, name, middle):
-            inside = middle
-        else:
-            outside = middle
-    return inside if is_whole else _rounded(config, name, inside)
-
-
-def _rounded(config: Any, name: str, limit: float) -> float:
-    """The limit with as few digits as it has, for halving only comes near it."""
-    for digits in range(1, 16):
-        short = float(f"{limit:.{digits - 1}e}")
-        if abs(short - limit) <= NEAR * abs(limit) and _accepts(config, name, short):
-            return short
-    return limit
-
-
-def _accepts(config: Any, name: str, value: float) -> bool:
-    try:
-        dataclasses.replace(config, **{name: value})
-    except ConfigError:
-        return False
-    return True
+    return "FLOAT", {**facts, **FLOATS, "step": step, "round": False}
 
 
 def _plain_type(hint: Any) -> Any:

@@ -134,20 +134,19 @@ GENERATORS = Registry(
     "generator",
     {
         "procedural": "texvent.generate.procedural:ProceduralGenerator",
-        "opensora": "texvent.generate.opensora.generator:OpenSoraGenerator",
+        "opensora": "texvent.generate.opensora:OpenSoraGenerator",
     },
     table="texvent.generate.video_models.known_models",
 )
 INTERPOLATORS = Registry(
     "interpolator",
     {
-        "none": "texvent.interpolate.none:NoInterpolator",
-        "blend": "texvent.interpolate.blend:BlendInterpolator",
+        "none": "texvent.interpolate.simple:NoInterpolator",
+        "blend": "texvent.interpolate.simple:BlendInterpolator",
         "flow": "texvent.interpolate.flow:FlowInterpolator",
-        "exact": "texvent.interpolate.exact:ExactInterpolator",
+        "exact": "texvent.interpolate.simple:ExactInterpolator",
         "motion": "texvent.interpolate.motion.interpolator:MotionInterpolator",
         "rife": "texvent.interpolate.rife.interpolator:RifeInterpolator",
-        "super-slomo": "texvent.interpolate.super_slomo.interpolator:SuperSlomoInterpolator",
     },
 )
 SIMULATORS = Registry(

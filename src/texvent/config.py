@@ -169,21 +169,17 @@ class CaptureConfig:
     """Compare warped with real frames, and refuse vectors that fit clearly better if they are
     meant otherwise."""
     depth: Path | None = None
-    """Depth along the optical axis, m, in files as --motion, or .png; decides what is in front.
-    With --camera, that of the image: nearer surfaces move more."""
+    """Depth along the optical axis, m, in files as --motion, or .png; decides what is in front."""
     depth_scale: float | None = None
     """Metres per stored step of depth: 0.001 for mm. Needed for PNG."""
     instances: Path | None = None
     """Ids of objects, in files as --motion, or .png."""
     camera: str | None = None
     """Over a still image: saccade, shake, pan or FILE. The camera moves as N-MNIST's sensor did, as
-    if held by hand, or to the right; or as a file says: positions (t x y [roll [zoom]]: s, px,
-    degrees) or poses (t tx ty tz qx qy qz qw)."""
+    if held by hand, or to the right; or as a file says (t x y [roll [zoom]]: s, px, degrees)."""
     camera_amplitude: float | None = None
     """Size of the movement, px: the longest saccade (5.5), the shake's root mean square (2), or the
     pan's px per second (60)."""
-    camera_fov: float | None = None
-    """Angle that the image spans horizontally, degrees; poses need it."""
     duration: float | None = None
     """How long the camera moves, s. Without it, as long as its path: 0.315 (saccade), 1 (shake,
     pan), or what its file says."""
@@ -195,7 +191,6 @@ class CaptureConfig:
         check_range("fps", self.fps, *FPS_RANGE)
         check_range("depth_scale", self.depth_scale, 1e-9, 1e9)
         check_range("camera_amplitude", self.camera_amplitude, 1e-6, 1e6)
-        check_range("camera_fov", self.camera_fov, 1e-3, 179.0)
         check_range("duration", self.duration, 1e-6, 86_400.0)
         if self.stop is not None and not self.stop > self.start:
             raise ConfigError(f"stop is {self.stop:g} s; it must be after start ({self.start:g} s)")
@@ -207,22 +202,19 @@ class InterpolateConfig:
 
     idle_with: ClassVar[IdleOptions] = {
         "interpolator_weights": ("interpolate", ("none", "blend", "flow", "exact", "motion")),
-        "fixed_count": ("count", ("brightness",)),
-        "count": ("interpolate", ("none",)),
+        "fixed_count": ("interpolate", ("none",)),
         "max_intermediate": ("interpolate", ("none",)),
         "frames_per_pixel": ("interpolate", ("none",)),
     }
 
     interpolate: str = "flow"
-    """Intermediate frames: none, blend, flow, rife, super-slomo, motion or exact. Blend mixes both
-    frames; flow compensates motion by DIS optical flow; rife (the paper's choice)
-    and super-slomo (its ablation E8) are trained networks; motion follows vectors that come with
-    the frames; with exact the generator renders the instant itself."""
-    count: Literal["brightness", "fixed"] = "brightness"
-    """How many intermediate frames: as many as the brightness change needs (Eq. 4), or a fixed
-    number."""
-    fixed_count: int = 10
-    """Intermediate frames per pair with --count fixed (10 is the paper's ablation E7)."""
+    """What fills the time between frames: none, blend, flow, rife, motion or exact. Blend mixes
+    both; flow compensates motion by DIS optical flow; rife (the paper's choice) is a trained
+    network; motion follows vectors that come with the frames; with exact the generator renders the
+    instant itself."""
+    fixed_count: int | None = None
+    """Intermediate frames per pair, always so many (10 is the paper's ablation E7). Without it, as
+    many as the brightness change needs (Eq. 4)."""
     max_intermediate: int = 64
     """Upper limit of Eq. 4's count per pair."""
     frames_per_pixel: float | None = None
@@ -237,7 +229,7 @@ class InterpolateConfig:
     """Detect scene cuts and flashes and let them happen at one instant instead of smearing them
     over the frame interval."""
     interpolator_weights: Path | None = None
-    """Weights of rife or super-slomo. Without it, rife uses what texvent weights pull fetched."""
+    """Weights of rife. Without it, those that texvent weights pull fetched."""
 
     def __post_init__(self) -> None:
         if self.deflicker and self.interpolate == "exact":

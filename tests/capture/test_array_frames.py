@@ -30,14 +30,6 @@ def test_given_times_are_kept_as_they_are():
     assert stream.fps is None
 
 
-def test_half_floats_and_booleans_are_widened():
-    half = list(open_frames(ramp(np.float16), AT_100))
-    assert half[0].pixels.dtype == np.float32
-    mask = list(open_frames(np.eye(4, dtype=bool)[None].repeat(2, 0), AT_100))
-    assert mask[0].pixels.dtype == np.uint8
-    assert mask[0].pixels.max() == 255
-
-
 def test_a_list_can_be_read_again_and_a_generator_once():
     images = list(ramp(np.uint8))
     stream = open_frames(images, AT_100)
@@ -48,11 +40,6 @@ def test_a_list_can_be_read_again_and_a_generator_once():
     assert [np.array_equal(f.pixels, p) for f, p in zip(frames, images, strict=True)] == [True] * 3
     with pytest.raises(InputError, match="generator of frames can be read once, and was"):
         iter(stream).__next__()
-
-
-def test_npy_files_are_read(tmp_path):
-    np.save(tmp_path / "a.npy", ramp(np.uint16))
-    assert len(list(open_frames(tmp_path / "a.npy", AT_100))) == 3
 
 
 def test_floats_up_to_one_are_refused_unless_white_is_known():
@@ -135,3 +122,11 @@ def test_a_damaged_npy_file_is_refused(tmp_path):
     (tmp_path / "a.npy").write_bytes(b"nonsense")
     with pytest.raises(InputError, match="not a NumPy array"):
         open_frames(tmp_path / "a.npy", AT_100)
+
+
+def test_half_floats_and_booleans_are_widened():
+    half = list(open_frames(ramp(np.float16), AT_100))
+    assert half[0].pixels.dtype == np.float32
+    mask = list(open_frames(np.eye(4, dtype=bool)[None].repeat(2, 0), AT_100))
+    assert mask[0].pixels.dtype == np.uint8
+    assert mask[0].pixels.max() == 255

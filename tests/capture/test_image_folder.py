@@ -4,7 +4,6 @@ import cv2
 import numpy as np
 import pytest
 
-from texvent.capture.image_folder import list_images
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError
@@ -16,12 +15,6 @@ def save_images(folder, count=3, dtype=np.uint8, channels=(), name="frame{}.png"
         pixels = np.full((4, 6, *channels), 100 + step * index, dtype)
         assert cv2.imwrite(str(folder / name.format(index)), pixels)
     return folder
-
-
-def test_numbers_in_names_sort_as_numbers(tmp_path):
-    save_images(tmp_path, 12)
-    names = [path.name for path in list_images(tmp_path)]
-    assert names == [f"frame{i}.png" for i in range(12)]
 
 
 def test_a_frame_rate_gives_the_times(tmp_path):
@@ -86,14 +79,3 @@ def test_a_damaged_image_is_named(tmp_path):
     (tmp_path / "frame1.png").write_bytes(b"not an image")
     with pytest.raises(FileFormatError, match=r"frame1\.png cannot be decoded"):
         list(open_frames(tmp_path, CaptureConfig(fps=Fraction(10))))
-
-
-def test_images_of_two_sizes_are_refused_unless_fitted(tmp_path):
-    save_images(tmp_path)
-    cv2.imwrite(str(tmp_path / "frame1.png"), np.zeros((8, 8), np.uint8))
-    config = CaptureConfig(fps=Fraction(10))
-    with pytest.raises(InputError, match="is 8x8, the frames before it are 6x4"):
-        list(open_frames(tmp_path, config))
-    from texvent.sensor import SensorSize
-
-    assert len(list(open_frames(tmp_path, config, size=SensorSize(4, 4)))) == 3

@@ -6,16 +6,13 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent._registry import SIMULATORS
 from texvent.capture.transfer_adaptation import gamma_coded
 from texvent.interpolate.flow import PairFlow
 from texvent.interpolate.motion.interpolator import MotionPair
 from texvent.pairs.instants import matching_levels
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
-from texvent.settings.resolution import resolve
 from texvent.transfer import Transfer, decode_srgb, encode_srgb
 from texvent.video import Frame, Motion, Video, transfer_of
-from texvent.view.drawing.event_image import frame_image
 
 LINEAR_MODELS = ("esim", "physical", "senpi", "v2e", "voltmeter")
 QUIET = {"simulator": "physical", "preset": "clean"}
@@ -49,13 +46,6 @@ def columns(events):
     return events.t.tolist(), events.x.tolist(), events.y.tolist(), events.p.tolist()
 
 
-def test_the_models_that_take_linear_light_are_these():
-    models = {name: SIMULATORS.load(name) for name in SIMULATORS.builtin}
-    assert {name for name, one in models.items() if getattr(one, "takes_linear", False)} == set(
-        LINEAR_MODELS
-    )
-
-
 @pytest.mark.parametrize("simulator", ["esim", "senpi", "v2e", "voltmeter"])
 def test_log_models_take_the_logarithm_of_light(simulator):
     options = {"simulator": simulator, "interpolate": "none", "seed": 3}
@@ -77,39 +67,12 @@ def test_physical_decodes_linear_frames_no_more():
     assert events.metadata["source"]["transfer"] == "linear"
 
 
-def test_physical_gives_the_same_events_for_a_gamma_coded_twin():
-    # 16 bits: a step is at most 2.2 / 65535 of white, and 2 % of the darkest light here.
-    linear = video(brightest=0.6)
-    sixteen = recoded(
-        linear, lambda light: np.rint(65535 * (light / 1.0) ** (1 / 2.2)).astype(np.uint16)
-    )
-    ours = texvent.simulate(linear, **QUIET, interpolate="none")
-    twins = texvent.simulate(sixteen, **QUIET, interpolate="none")
-    assert len(ours) > 1000
-    # Times are interpolated and whole µs: rounding moves some by one, and a level that a pixel
-    # just reaches may be missed.
-    assert abs(len(ours) - len(twins)) <= 2
-    if len(ours) == len(twins):
-        assert np.abs(np.sort(ours.t) - np.sort(twins.t)).max() <= 20
-
-
 def test_texvent_sees_linear_frames_as_gamma_coded_ones():
     linear = video()
     coded = recoded(linear, encode_srgb)
     ours, twins = (texvent.simulate(one, seed=2) for one in (linear, coded))
     assert columns(ours) == columns(twins)
     assert "transfer" not in ours.metadata["source"]
-
-
-@pytest.mark.parametrize("simulator", ["texvent", *LINEAR_MODELS])
-def test_light_above_white_gives_events_that_clipping_loses(simulator):
-    options = {"simulator": simulator, "interpolate": "none", "seed": 1}
-    whole = texvent.simulate(video(), **options)
-    clipped = texvent.simulate(video(highest=1.0), **options)
-    in_glare, left = (
-        int(((abs(one.x - 24.0) < 3) & (abs(one.y - 24.0) < 3)).sum()) for one in (whole, clipped)
-    )
-    assert in_glare > 1.5 * left + 5
 
 
 def test_single_frames_are_decoded_too():
@@ -165,18 +128,3 @@ def test_known_motion_adds_light_up_and_stays_linear():
     ]
     image, _ = MotionPair.of(frames[0], frames[0]).draw(0.5)
     assert image == pytest.approx(frames[0].pixels, rel=1e-5)
-
-
-@pytest.mark.parametrize("interpolate", ["flow", "blend", "none"])
-def test_intermediate_frames_say_that_they_are_linear(interpolate):
-    settings = resolve("simulate", {**QUIET, "interpolate": interpolate})
-    from texvent.run.prepare import prepare_source
-
-    steps = prepare_source(video(3), settings).steps()
-    assert {frame.transfer for frame, _ in steps} == {Transfer.LINEAR}
-
-
-def test_previews_show_light_gamma_coded_and_end_at_white():
-    light = np.array([[0.0, 0.0021, 0.2140, 1.0, 50.0]], np.float32)
-    shown = frame_image(Frame(255 * light, 0, transfer=Transfer.LINEAR))
-    assert shown[..., 1].tolist() == [[0, 7, 127, 255, 255]]

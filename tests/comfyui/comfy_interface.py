@@ -1,19 +1,15 @@
-"""ComfyUI's published V1 interface: how it loads a folder, checks a graph and runs it.
+"""ComfyUI's published V1 interface: how it loads a folder and runs a graph.
 
-Not ComfyUI: no server, no cache. What is loaded, refused and called follows `nodes.py` and
-`execution.py` of ComfyUI.
+Not ComfyUI: no server, no cache. It follows `nodes.py` and `execution.py` of ComfyUI.
 """
 
 from __future__ import annotations
 
 import importlib.util
-import inspect
 import sys
 from pathlib import Path
 from types import ModuleType
 
-WIDGETS = ("INT", "FLOAT", "STRING", "BOOLEAN")
-CONVERT = {"INT": int, "FLOAT": float, "STRING": str, "BOOLEAN": bool}
 FOLDER = Path(__file__).parents[2] / "comfyui" / "texvent_nodes"
 
 
@@ -51,47 +47,6 @@ def folder_paths(output: Path) -> ModuleType:
     return module
 
 
-def check(graph: dict, classes: dict) -> list[str]:
-    """What ComfyUI would refuse: node, input and reason."""
-    errors = []
-    for name, node in graph.items():
-        cls, given = classes[node["class_type"]], dict(node["inputs"])
-        inputs = cls.INPUT_TYPES()
-        known = {**inputs["required"], **inputs.get("optional", {})}
-        custom = inspect.getfullargspec(cls.VALIDATE_INPUTS).args[1:] if _validates(cls) else []
-        for key, info in known.items():
-            if key not in given:
-                if key in inputs["required"]:
-                    errors.append(f"{name}.{key}: required input is missing")
-                continue
-            error = _check_value(graph, classes, given, key, info, key in custom)
-            if error is not None:
-                errors.append(f"{name}.{key}: {error}")
-        # Of the custom check, every input that it names is given, and gets its message.
-        values = {key: given[key] for key in custom if key in given}
-        answer = cls.VALIDATE_INPUTS(**values) if custom else True
-        errors += [f"{name}.{key}: {answer}" for key in values if answer is not True]
-    return errors
-
-
-def _check_value(graph, classes, given, key, info, skips) -> str | None:
-    kind, facts, value = info[0], info[1] if len(info) > 1 else {}, given[key]
-    if _is_link(value):
-        returned = classes[graph[value[0]]["class_type"]].RETURN_TYPES[value[1]]
-        wanted = "COMBO" if isinstance(kind, list) else kind
-        return None if returned == wanted else f"got {returned}, expected {wanted}"
-    if isinstance(kind, list):
-        return None if skips or value in kind else f"{value!r} is not in the list"
-    if kind not in WIDGETS:
-        return "must be linked"
-    given[key] = value = CONVERT[kind](value)
-    if not skips and "min" in facts and value < facts["min"]:
-        return f"{value} is below {facts['min']}"
-    if not skips and "max" in facts and value > facts["max"]:
-        return f"{value} is above {facts['max']}"
-    return None
-
-
 def run(graph: dict, classes: dict) -> dict[str, dict]:
     """The outputs of every node: `result` and, of output nodes, `ui`. Nodes come in order."""
     done: dict[str, dict] = {}
@@ -115,10 +70,6 @@ def defaults(cls, **inputs) -> dict:
         if len(info) > 1 and "default" in info[1]
     }
     return {"class_type": cls.__name__, "inputs": {**widgets, **inputs}}
-
-
-def _validates(cls) -> bool:
-    return hasattr(cls, "VALIDATE_INPUTS")
 
 
 def _is_link(value) -> bool:

@@ -1,9 +1,8 @@
-"""The nodes, loaded, checked and run by ComfyUI's published interface (comfy_interface.py)."""
+"""The nodes, loaded and run by ComfyUI's published interface (comfy_interface.py)."""
 
 import dataclasses
 import re
 import sys
-import tomllib
 from fractions import Fraction
 from types import SimpleNamespace
 
@@ -81,26 +80,8 @@ def test_options_of_a_pixel_model_are_those_of_its_dataclass(simulator):
     assert inputs["preset"][0] == list(presets)
     assert all(info[1]["tooltip"] for info in inputs.values())
     graph = {"model": comfy.defaults(cls)}
-    assert comfy.check(graph, ALL) == []
     (options,) = comfy.run(graph, ALL)["model"]["result"]
     assert options == {"simulator": simulator, "preset": next(iter(presets))}
-
-
-@pytest.mark.parametrize(
-    ("simulator", "name", "low", "high"),
-    [
-        ("texvent", "contrast_threshold", 1e-4, 10.0),
-        ("texvent", "noise_rate_hz", 0.0, 1e4),
-        ("texvent", "residual_decay_hz", 0.0, 1e6),
-        ("v2e", "leak_rate_decades", 0.0, 1.0),
-        ("v2e", "refractory_period_us", 0, 10**9),
-        ("voltmeter", "k4", -0.01, 0.01),
-        ("esim", "log_eps", 1e-9, 1.0),
-    ],
-)
-def test_ranges_are_those_that_the_dataclass_accepts(simulator, name, low, high):
-    facts = CLASSES[f"TexventModel{simulator.capitalize()}"].INPUT_TYPES()["required"][name][1]
-    assert (facts["min"], facts["max"]) == (low, high)
 
 
 def test_images_become_the_events_of_texvent(output):
@@ -115,7 +96,6 @@ def test_images_become_the_events_of_texvent(output):
             CLASSES["TexventSaveEvents"], events=["events", 0], filename_prefix="a/b", format="npz"
         ),
     }  # fmt: skip
-    assert comfy.check(graph, ALL) == []
     done = comfy.run(graph, ALL)
     truth = texvent.simulate(
         IMAGES * np.float32(255), fps=50, interpolate="blend", simulator="esim", seed=4,
@@ -135,7 +115,6 @@ def test_a_video_keeps_its_frame_rate_and_alpha_is_left_out():
         "video": {"class_type": "Video", "inputs": {}},
         "events": comfy.defaults(CLASSES["TexventVideoToEvents"], video=["video", 0]),
     }
-    assert comfy.check(graph, ALL) == []
     events = comfy.run(graph, ALL)["events"]["result"][0]
     truth = texvent.simulate(IMAGES * np.float32(255), fps="30000/1001", progress=False)
     assert events.equals(truth)
@@ -152,7 +131,6 @@ def test_a_prompt_gives_events_and_a_report():
             cls, prompt="a red ball bounces", duration=0.1, fps=20.0, sensor="32x24", seed=1
         )
     }
-    assert comfy.check(graph, ALL) == []
     events, report = comfy.run(graph, ALL)["events"]["result"]
     truth = texvent.generate(
         "a red ball bounces", duration=0.1, fps=20, sensor="32x24", seed=1, progress=False
@@ -172,32 +150,6 @@ def test_names_stay_inside_the_output_folder(output, tmp_path, prefix):
         CLASSES["TexventSaveEvents"]().save(events, prefix, "hdf5")
     assert list((tmp_path / "outside").iterdir()) == []
     assert [one.name for one in output.iterdir()] == ["link"]
-
-
-@pytest.mark.parametrize(
-    ("node", "inputs", "words"),
-    [
-        ("TexventImagesToEvents", {"fps": 0.0}, "n.fps: 0.0 is below 0.001"),
-        ("TexventImagesToEvents", {"sensor": "davis999"}, "n.sensor: unknown sensor 'davis999'"),
-        ("TexventImagesToEvents", {"interpolate": "exact"}, "'exact' is not in the list"),
-        ("TexventModelV2e", {"cutoff_hz": -1.0}, "n.cutoff_hz: -1.0 is below 0.0"),
-        ("TexventModelV2e", {"preset": "x"}, "n.preset: 'x' is not in the list"),
-        ("TexventModelTexvent", {"noise": "pink"}, "n.noise: 'pink' is not in the list"),
-        ("TexventSaveEvents", {"format": "avi"}, "'avi' is not in the list"),
-        ("TexventPreviewEvents", {"events": ["images", 0]}, "got IMAGE, expected TEXVENT_EVENTS"),
-    ],
-)
-def test_bad_inputs_are_refused_before_anything_runs(node, inputs, words):
-    links = {"TexventImagesToEvents": {"images": ["images", 0]}}
-    if node in ("TexventSaveEvents", "TexventPreviewEvents"):
-        links[node] = {"events": ["events", 0]}
-    graph = {
-        "images": {"class_type": "Images", "inputs": {}},
-        "events": comfy.defaults(CLASSES["TexventImagesToEvents"], images=["images", 0]),
-        "n": comfy.defaults(CLASSES[node], **{**links.get(node, {}), **inputs}),
-    }
-    (error,) = comfy.check(graph, ALL)
-    assert words in error
 
 
 def test_an_option_that_was_changed_overrides_the_preset():
@@ -259,14 +211,3 @@ def test_tensors_go_in_and_come_out():
     assert drawn.dtype == torch.float32
     assert drawn.shape[1:] == (12, 16, 3)
     assert 0.0 <= float(drawn.min()) <= float(drawn.max()) == 1.0
-
-
-def test_the_folder_describes_itself_to_the_registry():
-    facts = tomllib.loads((comfy.FOLDER / "pyproject.toml").read_text(encoding="utf-8"))
-    name, version = facts["project"]["name"], facts["project"]["version"]
-    assert re.fullmatch(r"[a-z][a-z0-9-]{0,99}", name)
-    assert re.fullmatch(r"\d+\.\d+\.\d+", version)
-    assert facts["tool"]["comfy"].keys() >= {"PublisherId", "DisplayName", "Icon"}
-    assert facts["project"]["urls"]["Repository"]
-    assert facts["project"]["dependencies"] == ["texvent"]
-    assert (comfy.FOLDER / "requirements.txt").read_text().split() == ["texvent"]

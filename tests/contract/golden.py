@@ -67,7 +67,7 @@ MORE_CASES: list[dict[str, Any]] = [
     {**STILL, "simulator": "texvent", **PAPER, "cache": "global"},
     {**STILL, "simulator": "esim"},
     {**FLOW, "simulator": "texvent", **PAPER, "dtype": "float32"},
-    {**FLOW, "simulator": "texvent", "count": "fixed", "fixed_count": 3},
+    {**FLOW, "simulator": "texvent", "fixed_count": 3},
     {**FLOW, "simulator": "texvent", "frames_per_pixel": 1.0},
     {**FLOW, "simulator": "texvent", "detect_cuts": False},
     {**FLOW, "simulator": "texvent", "deflicker": True},

@@ -13,7 +13,7 @@ import transformers
 from diffusers.pipelines.ltx2 import LTX2TextConnectors, LTX2Vocoder
 
 from . import tiny_pipelines
-from .tiny_pipelines import clip_text, qwen, t5, wan_vae
+from .tiny_pipelines import qwen, t5, wan_vae
 
 WAN_LIKE = {
     "patch_size": (1, 2, 2),
@@ -95,15 +95,6 @@ def wan_image_to_video():
     )
 
 
-def skyreels():
-    return diffusers.SkyReelsV2Pipeline(
-        **umt5(),
-        vae=wan_vae(),
-        scheduler=flow_unipc(),
-        transformer=diffusers.SkyReelsV2Transformer3DModel(**WAN_LIKE),
-    )
-
-
 def ltx():
     return tiny_pipelines.ltx(None)
 
@@ -180,44 +171,6 @@ def ltx2():
     )
 
 
-def hunyuan_vae(levels=4):
-    return diffusers.AutoencoderKLHunyuanVideo(
-        latent_channels=4,
-        down_block_types=("HunyuanVideoDownBlock3D",) * levels,
-        up_block_types=("HunyuanVideoUpBlock3D",) * levels,
-        block_out_channels=(8,) * levels,
-        layers_per_block=1,
-        norm_num_groups=4,
-    )
-
-
-def hunyuan():
-    letters = t5(None)["tokenizer"]
-    llama = transformers.LlamaConfig(**SMALL_TEXT, vocab_size=len(letters), pad_token_id=0)
-    clip = clip_text(length=77)
-    return diffusers.HunyuanVideoPipeline(
-        tokenizer=letters,
-        text_encoder=transformers.LlamaModel(llama).eval(),
-        tokenizer_2=clip["tokenizer"],
-        text_encoder_2=clip["text_encoder"],
-        vae=hunyuan_vae(),
-        scheduler=flow_match(shift=7.0),
-        transformer=diffusers.HunyuanVideoTransformer3DModel(
-            in_channels=4,
-            out_channels=4,
-            num_attention_heads=2,
-            attention_head_dim=10,
-            num_layers=1,
-            num_single_layers=1,
-            num_refiner_layers=1,
-            patch_size=1,
-            text_embed_dim=16,
-            pooled_projection_dim=16,
-            rope_axes_dim=(2, 4, 4),
-        ),
-    )
-
-
 def qwen_text():
     """The text half of Qwen2.5-VL, with its tokenizer."""
     parts = qwen()
@@ -284,65 +237,11 @@ def hunyuan15_image():
     )
 
 
-def mochi():
-    return diffusers.MochiPipeline(
-        **t5(None),
-        vae=diffusers.AutoencoderKLMochi(
-            latent_channels=12,
-            encoder_block_out_channels=(32,) * 4,
-            decoder_block_out_channels=(32,) * 4,
-            layers_per_block=(1,) * 5,
-        ),
-        scheduler=flow_match(),
-        transformer=diffusers.MochiTransformer3DModel(
-            num_attention_heads=2,
-            attention_head_dim=8,
-            num_layers=2,
-            pooled_projection_dim=16,
-            in_channels=12,
-            text_embed_dim=32,
-            time_embed_dim=4,
-        ),
-    )
-
-
 def gemma_tokenizer():
     specials = ["<pad>", "<eos>", "<bos>", "<unk>", "<start_of_turn>", "<end_of_turn>", "▁"]
     letters = specials + [chr(code) for code in range(33, 127)]
     vocabulary = {letter: number for number, letter in enumerate(letters)}
     return transformers.GemmaTokenizer(vocab=vocabulary, merges=[])
-
-
-def kandinsky_text():
-    clip = clip_text(length=77)
-    return {
-        **qwen(),
-        "tokenizer_2": clip["tokenizer"],
-        "text_encoder_2": clip["text_encoder"],
-        "vae": hunyuan_vae(),
-    }
-
-
-KANDINSKY = {
-    "in_visual_dim": 4,
-    "out_visual_dim": 4,
-    "in_text_dim": 16,
-    "in_text_dim2": 16,
-    "time_dim": 16,
-    "model_dim": 16,
-    "ff_dim": 32,
-    "num_text_blocks": 1,
-    "num_visual_blocks": 1,
-    "axes_dims": (2, 2, 4),
-}
-
-
-def kandinsky5():
-    return diffusers.Kandinsky5T2VPipeline(
-        **kandinsky_text(),
-        scheduler=flow_match(shift=5.0),
-        transformer=diffusers.Kandinsky5Transformer3DModel(**KANDINSKY),
-    )
 
 
 def cosmos3():
@@ -373,8 +272,6 @@ def cosmos3():
 
 FAMILIES = {
     "wan-image": Family(wan_image_to_video, "WanImageToVideoPipeline", takes_image=True),
-    "skyreels": Family(skyreels, "SkyReelsV2Pipeline", named="SkyReels-V2-T2V-14B-720P-Diffusers"),
-    "hunyuan": Family(hunyuan, "HunyuanVideoPipeline"),
     "hunyuan15": Family(hunyuan15, "HunyuanVideo15Pipeline", steps=0),
     "hunyuan15-image": Family(
         hunyuan15_image,
@@ -384,8 +281,6 @@ FAMILIES = {
         size=(28, 36),
         takes_image=True,
     ),
-    "mochi": Family(mochi, "MochiPipeline", {"frames": 7}, frames=7),
-    "kandinsky5": Family(kandinsky5, "Kandinsky5T2VPipeline"),
     "cosmos3": Family(cosmos3, "Cosmos3OmniPipeline"),
     "ltx-image": Family(ltx, "LTXImageToVideoPipeline", takes_image=True, named="LTX-Video"),
     "ltx2": Family(ltx2, "LTX2Pipeline", named="LTX-2"),

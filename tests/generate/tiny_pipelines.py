@@ -82,19 +82,6 @@ def wan(folder):
     )
 
 
-def wan22(folder):
-    return diffusers.WanPipeline(
-        **t5(folder, transformers.UMT5EncoderModel, transformers.UMT5Config),
-        vae=wan_vae(),
-        scheduler=diffusers.UniPCMultistepScheduler(
-            prediction_type="flow_prediction", use_flow_sigmas=True, flow_shift=3.0
-        ),
-        transformer=wan_transformer(),
-        transformer_2=wan_transformer(),
-        boundary_ratio=0.875,
-    )
-
-
 def cogvideox_vae():
     return diffusers.AutoencoderKLCogVideoX(
         block_out_channels=(8, 8, 8, 8),
@@ -105,14 +92,14 @@ def cogvideox_vae():
     )
 
 
-def cogvideox(folder, *, heads=8, head_size=4, **facts):
+def cogvideox(folder):
     return diffusers.CogVideoXPipeline(
         **t5(folder),
         vae=cogvideox_vae(),
         scheduler=diffusers.CogVideoXDDIMScheduler(),
         transformer=diffusers.CogVideoXTransformer3DModel(
-            num_attention_heads=heads,
-            attention_head_dim=head_size,
+            num_attention_heads=8,
+            attention_head_dim=4,
             in_channels=4,
             out_channels=4,
             time_embed_dim=2,
@@ -124,19 +111,7 @@ def cogvideox(folder, *, heads=8, head_size=4, **facts):
             patch_size=2,
             temporal_compression_ratio=4,
             max_text_seq_length=226,
-            **facts,
         ),
-    )
-
-
-def cogvideox15(folder):
-    return cogvideox(
-        folder,
-        heads=4,
-        head_size=16,
-        patch_size_t=2,
-        use_rotary_positional_embeddings=True,
-        patch_bias=False,
     )
 
 
@@ -279,30 +254,11 @@ def ltx(folder):
     )
 
 
-def clip_text(length=40):
-    tokenizer = t5(None)["tokenizer"]
-    config = transformers.CLIPTextConfig(
-        vocab_size=len(tokenizer),
-        hidden_size=16,
-        intermediate_size=16,
-        num_hidden_layers=2,
-        num_attention_heads=2,
-        max_position_embeddings=length,
-        eos_token_id=tokenizer.eos_token_id,
-        bos_token_id=None,
-        pad_token_id=tokenizer.pad_token_id,
-    )
-    tokenizer.model_max_length = length
-    return {"tokenizer": tokenizer, "text_encoder": transformers.CLIPTextModel(config).eval()}
-
-
 BUILDERS = {
     "wan": wan,
-    "wan22": wan22,
     "cosmos": cosmos,
     "cosmos25": cosmos25,
     "cogvideox": cogvideox,
-    "cogvideox15": cogvideox15,
     "ltx": ltx,
 }
 

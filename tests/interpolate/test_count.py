@@ -13,7 +13,7 @@ from hypothesis.extra import numpy as hnp
 
 from texvent.brightness import balanced_log
 from texvent.errors import ConfigError, InputError
-from texvent.interpolate.count import count_intermediate
+from texvent.interpolate.count_policy import count_intermediate
 from texvent.pairs.instants import intermediate_times_us
 from texvent.video import Frame
 

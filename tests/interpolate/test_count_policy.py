@@ -5,10 +5,10 @@ import pytest
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.config import InterpolateConfig
-from texvent.interpolate.blend import BlendInterpolator
 from texvent.interpolate.count_policy import CountPolicy
-from texvent.interpolate.densify import densify
 from texvent.interpolate.flow import PairFlow
+from texvent.interpolate.pairing import densify
+from texvent.interpolate.simple import BlendInterpolator
 from texvent.simulate.build import benefits_from_denser_frames
 from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent.video import Frame, Motion, Video
@@ -79,19 +79,8 @@ def test_models_whose_pixels_fire_once_per_frame_get_eq4_alone():
     assert gaining == {"physical", "esim", "v2e", "voltmeter", "texvent"}
 
 
-def test_two_frames_per_pixel_are_twice_as_many_as_one(policy, contrast_pair, monkeypatch):
-    monkeypatch.setattr(PairFlow, "motion_px", lambda *_: 15.3)
-    assert policy(frames_per_pixel=1.0).count(*contrast_pair) == 16
-    assert policy(frames_per_pixel=2.0).count(*contrast_pair) == 31
-    assert policy(frames_per_pixel=0.5).count(*contrast_pair) == 11
-
-
-def test_motion_lowers_nothing(policy, contrast_pair):
-    assert policy(frames_per_pixel=1.0).count(*contrast_pair) == 11
-
-
 def test_a_fixed_count_and_none_ignore_motion(policy, faint_pair):
-    assert policy(frames_per_pixel=1.0, count="fixed", fixed_count=2).count(*faint_pair) == 2
+    assert policy(frames_per_pixel=1.0, fixed_count=2).count(*faint_pair) == 2
     assert policy(frames_per_pixel=1.0, interpolate="none").count(*faint_pair) == 0
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from texvent.errors import ConfigError
-from texvent.interpolate.exact import ExactInterpolator
+from texvent.interpolate.simple import ExactInterpolator
 from texvent.video import Frame, Video
 
 

@@ -5,7 +5,6 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.capture.camera_path.motion import rotation_matrix
 from texvent.scenes.lens import Lens
 from texvent.scenes.scene import Camera, project
 from texvent.truth.poses import (
@@ -14,6 +13,7 @@ from texvent.truth.poses import (
     pose_matrix,
     pose_row,
     quaternion,
+    rotation_matrix,
 )
 
 from .hand_video import SIZE, level

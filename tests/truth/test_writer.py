@@ -229,8 +229,7 @@ def test_arrays_of_a_renderer_pass_through_too(tmp_path):
     assert (truth.event_instance == 5).mean() > 0.98
 
 
-@pytest.mark.parametrize("by_part", [True, False])
-def test_a_folder_of_truth_is_motion_that_simulate_reads(written, tmp_path, by_part):
+def test_the_parts_of_a_folder_of_truth_are_motion_that_simulate_reads(written, tmp_path):
     folder, truth, _ = written
     parts = {
         "motion": str(folder / "flow/forward_npz"),
@@ -243,7 +242,7 @@ def test_a_folder_of_truth_is_motion_that_simulate_reads(written, tmp_path, by_p
         frames,
         t_us=truth.times_us.tolist(),
         truth_folder=texvent.TruthFolder(tmp_path / "b.truth", "flow,flow-back,depth,ids,boxes"),
-        **(parts if by_part else {"motion": str(folder)}),
+        **parts,
     )
     again = texvent.load_truth(tmp_path / "b.truth")
     for index in range(len(truth)):
@@ -257,16 +256,9 @@ def test_a_folder_of_truth_is_motion_that_simulate_reads(written, tmp_path, by_p
         np.testing.assert_array_equal(again.boxes[name], truth.boxes[name])
 
 
-def test_a_folder_of_truth_without_flow_is_no_motion(tmp_path):
-    (tmp_path / "truth.json").write_text("{}", encoding="utf-8")
-    frames = np.stack([frame.pixels for frame in board_video()])
-    with pytest.raises(InputError, match="holds truth, but no flow; make it with --truth flow"):
-        texvent.simulate(frames, fps=25, motion=str(tmp_path))
-
-
 def test_frames_in_between_move_the_ids_along(tmp_path):
     parts = texvent.TruthFolder(tmp_path / "m.truth", "events")
-    options = {"interpolate": "flow", "count": "fixed", "fixed_count": 3, "noise": "none"}
+    options = {"interpolate": "flow", "fixed_count": 3, "noise": "none"}
     events = texvent.simulate(MotionFrames(), truth_folder=parts, **options)
     ids = texvent.load_truth(tmp_path / "m.truth").event_instance
     swept = MotionFrames().ids(0)

@@ -11,7 +11,7 @@ from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
 from texvent.events import EventStream
-from texvent.interpolate.densify import densify
+from texvent.interpolate.pairing import densify
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import MICROSECONDS, Frame, FrameStream

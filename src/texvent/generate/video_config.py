@@ -51,19 +51,11 @@ class DiffusersConfig(GeneratedVideoConfig):
     image: Path | None = None
     """Image to start from, where the model can."""
     lora: tuple[str, ...] = ()
-    """LoRA that diffusers loads: FILE or hub:org/name[/file], each with :WEIGHT if it is not 1,
-    and with :high or :low where a model has two transformers. May be repeated."""
-    dtype: Literal["auto", "float32", "bfloat16", "float16"] = "auto"
-    """Number format of the weights; auto: the model's own on a GPU, float32 on a CPU."""
+    """LoRA that diffusers loads: FILE or hub:org/name[/file], each with :WEIGHT if it is not 1.
+    May be repeated."""
     offload: Literal["auto", "none", "model", "sequential"] = "auto"
     """Which parts wait in the computer's memory: none, whole parts that are not in use, or every
     layer (slow, fits small GPUs); auto: by the GPU's free memory."""
-    quantize: Literal["auto", "none", "8bit", "4bit"] = "auto"
-    """Store the weights of the video transformer in fewer bits (needs bitsandbytes and a GPU);
-    it changes the video a little. auto: only where the GPU's free memory would otherwise force
-    layer-by-layer offload and bitsandbytes is installed."""
-    generator_device: str = "auto"
-    """Where to generate: auto, cpu, cuda, cuda:1, mps."""
 
     repeated: ClassVar[tuple[str, ...]] = ("lora",)
 

@@ -41,7 +41,6 @@ class InterpolateOptions(TypedDict, total=False):
     """Options of the intermediate frames."""
 
     interpolate: str | None
-    count: Literal["brightness", "fixed"] | None
     fixed_count: int | None
     max_intermediate: int | None
     frames_per_pixel: float | None
@@ -126,7 +125,6 @@ class CaptureOptions(TypedDict, total=False):
     instances: Field | None
     camera: str | None
     camera_amplitude: float | None
-    camera_fov: float | None
     duration: float | None
 
 
@@ -154,9 +152,6 @@ class GeneratorOptions(TypedDict, total=False):
     negative_prompt: str | None
     image: str | Path | None
     lora: Sequence[str] | None
-    dtype: Literal["auto", "float32", "bfloat16", "float16"] | None
-    quantize: Literal["auto", "none", "8bit", "4bit"] | None
-    generator_device: str | None
 
 
 class SimulateOptions(

@@ -73,8 +73,8 @@ def describe_source(metadata: Mapping[str, Any]) -> dict[str, Any]:
 
     Args:
         metadata: of a video; `source` names what it was read from, `motion` the files of its
-            motion vectors, `camera_files` those of a camera's path and of the image's depth; they
-            get theirs under "motion_fingerprint" and "camera_fingerprint".
+            motion vectors, `camera_files` that of a camera's path; they get theirs under
+            "motion_fingerprint" and "camera_fingerprint".
     """
     found = {"fingerprint": fingerprint(metadata.get("source"))}
     for name, key in (("motion", "motion_fingerprint"), ("camera_files", "camera_fingerprint")):

@@ -19,12 +19,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.camera_path.motion import rotation_matrix
 from texvent.errors import FileFormatError, InputError, one_line, shown
 from texvent.io.arrays.npz import read_arrays
 from texvent.io.input_checks import existing_file, existing_folder
 from texvent.sensor import SensorSize, checked_size
 from texvent.truth.layout import DIRECTIONS, FACTS, FORMAT, TIMES
+from texvent.truth.poses import rotation_matrix
 
 STEPS_PER_PX = 128.0
 ZERO = 2.0**15

@@ -21,6 +21,18 @@ POSE_HEADER = "# timestamp tx ty tz qx qy qz qw\n"
 INTRINSICS_HEADER = "# t_us fx fy cx cy\n"
 
 
+def rotation_matrix(quaternion: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The rotation matrix [3, 3] of a quaternion (x, y, z, w) of any length but 0."""
+    x, y, z, w = quaternion / np.linalg.norm(quaternion)
+    return np.array(
+        [
+            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
+            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
+            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
+        ]
+    )
+
+
 def quaternion(rotation: NDArray[np.float64]) -> NDArray[np.float64]:
     """The unit quaternion (x, y, z, w), w >= 0, of a rotation matrix [3, 3].
 

@@ -1,7 +1,5 @@
 """Paths of the camera: presets, and trajectory files good and bad."""
 
-import contextlib
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -92,34 +90,6 @@ def test_between_rows_a_path_is_smooth(tmp_path):
         assert path(1e6 * t).y == pytest.approx(5 * t * t)
 
 
-POSES = "0 1 2 3 0 0 0 1\n1 1 2 3 0 0.1 0 0.99498743710662\n"
-
-
-def test_poses_count_from_the_first_one(tmp_path):
-    path = read_trajectory(written(tmp_path, POSES))
-    assert not path.moves
-    np.testing.assert_allclose(path(0).rotation, np.eye(3), atol=1e-12)
-    angle = 2 * np.arcsin(0.1)
-    expected = [[np.cos(angle), 0, np.sin(angle)], [0, 1, 0], [-np.sin(angle), 0, np.cos(angle)]]
-    np.testing.assert_allclose(path(1_000_000).rotation, expected, atol=1e-9)
-    half = path(500_000).rotation
-    np.testing.assert_allclose(half @ half, expected, atol=1e-6)
-
-
-def test_positions_of_poses_are_along_the_first_cameras_axes(tmp_path):
-    turned = "0.5 0.5 0.5 0.5"  # x to y, y to z, z to x
-    path = read_trajectory(written(tmp_path, f"0 5 5 5 {turned}\n1 7 5 5 {turned}\n"))
-    assert path.moves
-    np.testing.assert_allclose(path(1e6).position, [0, 0, 2], atol=1e-12)
-
-
-def test_a_quaternion_of_the_other_sign_is_the_same_pose(tmp_path):
-    flipped = POSES.replace("0 0.1 0 0.99498743710662", "0 -0.1 0 -0.99498743710662")
-    one, other = (read_trajectory(written(tmp_path, text)) for text in (POSES, flipped))
-    for t_us in (250_000, 1_000_000):
-        np.testing.assert_allclose(one(t_us).rotation, other(t_us).rotation, atol=1e-12)
-
-
 @pytest.mark.parametrize(
     ("text", "said"),
     [
@@ -132,7 +102,7 @@ def test_a_quaternion_of_the_other_sign_is_the_same_pose(tmp_path):
         ("1e30 1 2\n2e30 2 3\n", "below 285 years"),
         ("0 1 2\n1 2 wall\n", "could not convert string 'wall'"),
         ("0 1 2 0 0\n1 2 3 0 1\n", "row 1, has a zoom that is not above 0"),
-        ("0 0 0 0 0 0 0 2\n1 0 0 0 0 0 0 1\n", "row 1, has a quaternion"),
+        ("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", "rows of 8 columns; allowed"),
     ],
 )
 def test_a_bad_file_gets_one_clear_line(tmp_path, text, said):
@@ -163,14 +133,3 @@ def test_any_path_goes_through_its_rows_and_is_finite_between(tmp_path_factory, 
     for index, (x, y) in enumerate(rows):
         assert (path(1e6 * index).x, path(1e6 * index).y) == pytest.approx((x, y), abs=1e-6)
     assert np.isfinite([path(t_us).x, path(t_us).y]).all()
-
-
-WORDS = st.sampled_from(["0", "1", "-2.5", "1e9", "nan", "t", ",", "#", "\x00", "1/0", "\u0661"])
-
-
-@given(st.lists(st.lists(WORDS, max_size=9), max_size=5))
-def test_any_text_is_read_or_refused_as_such(tmp_path_factory, rows):
-    file = tmp_path_factory.mktemp("paths") / "path.txt"
-    file.write_text("\n".join(" ".join(row) for row in rows))
-    with contextlib.suppress(InputError, FileFormatError):
-        assert read_trajectory(file)(1e5) is not None

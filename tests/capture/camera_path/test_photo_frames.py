@@ -14,7 +14,6 @@ from texvent.video import RenderableStream
 
 ROWS, COLUMNS = np.mgrid[:60, :80]
 PHOTO = np.uint8(127 + 60 * np.sin(0.31 * COLUMNS) + 60 * np.cos(0.23 * ROWS + 0.1 * COLUMNS))
-DEPTH = np.where((COLUMNS > 30) & (COLUMNS < 50), 1.5, 3.0)
 
 
 @pytest.fixture
@@ -24,8 +23,8 @@ def photo(tmp_path):
     return path
 
 
-def frames_of(source=PHOTO, size=None, seed=0, depth=None, **options):
-    return open_photo(source, CaptureConfig(**options), size=size, seed=seed, depth=depth)
+def frames_of(source=PHOTO, size=None, seed=0, **options):
+    return open_photo(source, CaptureConfig(**options), size=size, seed=seed)
 
 
 def test_frames_can_be_rendered_at_any_instant():
@@ -61,10 +60,9 @@ def test_a_sensor_sees_as_much_of_the_image_as_its_path_allows():
     assert video.metadata["amplitude_px"] == 80
 
 
-@pytest.mark.parametrize("depth", [None, np.full((480, 640), 2.0)])
-def test_large_images_are_averaged_in_blocks_without_a_shift(depth):
+def test_large_images_are_averaged_in_blocks_without_a_shift():
     ramp = np.add.outer(0.05 * np.arange(480), 0.1 * np.arange(640)).astype(np.float32)
-    video = frames_of(ramp, camera="pan", size=SensorSize(12, 9), duration=0.01, depth=depth)
+    video = frames_of(ramp, camera="pan", size=SensorSize(12, 9), duration=0.01)
     assert video.view.image.width < 640
     image = video.at(5_000).pixels
     # What is left over of whole blocks may be odd: half a px of the image, 0.05 levels.
@@ -73,10 +71,9 @@ def test_large_images_are_averaged_in_blocks_without_a_shift(depth):
     np.testing.assert_allclose(np.diff(image, axis=1), 0.1 * scale, rtol=0.01)
 
 
-@pytest.mark.parametrize("depth", [None, np.full(PHOTO.shape, 2.0)])
-def test_motion_vectors_lead_to_the_same_brightness(depth):
+def test_motion_vectors_lead_to_the_same_brightness():
     ramp = (3 * COLUMNS + 0.5 * ROWS).astype(np.float32)
-    video = frames_of(ramp, camera="shake", seed=1, duration=0.1, depth=depth)
+    video = frames_of(ramp, camera="shake", seed=1, duration=0.1)
     first, second = list(video)[:2]
     x, y = first.motion.forward[30, 40]
     slope = 3 * x + 0.5 * y
@@ -84,15 +81,6 @@ def test_motion_vectors_lead_to_the_same_brightness(depth):
     assert change == pytest.approx(-slope, abs=1e-3)
     np.testing.assert_allclose(second.motion.backward[30, 40], [-x, -y], atol=1e-6)
     assert first.motion.backward is None
-
-
-def test_depth_is_told_and_near_things_move_more():
-    video = frames_of(camera="pan", depth=DEPTH, duration=0.1)
-    frame = next(iter(video))
-    assert set(np.unique(frame.motion.depth)) == {1.5, 3.0}
-    speeds = np.abs(frame.motion.forward[30, :, 0])
-    assert speeds.max() == pytest.approx(2.0, rel=1e-4)  # 60 px/s at the median depth of 3 m
-    assert speeds.min() == pytest.approx(1.0, rel=1e-4)
 
 
 def test_events_are_exact_by_default_and_the_same_from_file_and_array(photo):
@@ -116,9 +104,6 @@ def test_enough_frames_are_rendered_that_nothing_moves_by_more_than_a_pixel():
     assert len(texvent.simulate(stripes, noise="none", **options)) > 20 * 60
 
 
-POSES = "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n"
-
-
 @pytest.mark.parametrize(
     ("options", "error", "said"),
     [
@@ -126,22 +111,16 @@ POSES = "0 0 0 0 0 0 0 1\n0.1 0.1 0 0 0 0 0 1\n"
         ({"camera": "pan", "start": 1.0}, ConfigError, "start is for videos.*`duration` says"),
         ({"camera": "pan", "fit": "stretch"}, ConfigError, "fit is for videos"),
         ({"camera": "pan", "motion": "flow"}, ConfigError, "motion is for videos"),
-        ({"camera": "pan", "camera_fov": 60.0}, ConfigError, "camera_fov is for poses"),
+        ({"camera": "pan", "depth": "d.npy"}, ConfigError, "depth is for videos"),
         ({"camera": "pan", "duration": 0.0}, ConfigError, "duration is 0 s; it must be"),
         ({"camera": "pan", "camera_amplitude": -1.0}, ConfigError, "camera_amplitude is -1"),
         ({"camera": "pan", "fps": 1e6, "duration": 1e4}, ConfigError, "10,000,000,000 frames"),
-        ({"camera": "POSES"}, InputError, "give `camera_fov`"),
-        ({"camera": "POSES", "camera_fov": 60.0}, InputError, "give depth=FILE, or poses that"),
-        ({"camera": "POSES", "camera_amplitude": 2.0}, ConfigError, "a file states its own sizes"),
         ({"duration": 2.0}, ConfigError, r"duration is for a camera .*; `stop` ends a video"),
         ({"camera_amplitude": 2.0}, ConfigError, r"camera_amplitude is for a camera"),
         ({}, InputError, "is one image, so nothing changes; move a camera over it with `camera`"),
     ],
 )
-def test_what_does_not_go_together_gets_one_line(photo, tmp_path, options, error, said):
-    poses = tmp_path / "poses.txt"
-    poses.write_text(POSES)
-    options = {name: str(poses) if one == "POSES" else one for name, one in options.items()}
+def test_what_does_not_go_together_gets_one_line(photo, options, error, said):
     with pytest.raises(error, match=said) as caught:
         texvent.simulate(photo, **options)
     assert "\n" not in str(caught.value)
@@ -162,29 +141,13 @@ def test_what_is_no_image_gets_one_line(photo, tmp_path):
         texvent.simulate([PHOTO], camera="pan")
     with pytest.raises(InputError, match="so they are probably"):
         texvent.simulate(PHOTO / 255.0, camera="pan")
-    with pytest.raises(ConfigError, match="t_us is for frames"):
+    with pytest.raises(ConfigError, match="t_us is for videos"):
         open_frames(PHOTO, CaptureConfig(camera="pan"), t_us=[0, 1])
     with pytest.raises(ConfigError, match="motion is for videos"):
         texvent.simulate(PHOTO, camera="pan", motion=np.zeros((1, 60, 80, 2)))
     photo.write_bytes(photo.read_bytes()[:40])
     with pytest.raises(FileFormatError, match="cannot be decoded"):
         texvent.simulate(photo, camera="pan")
-
-
-@pytest.mark.parametrize(
-    ("depth", "said"),
-    [
-        (np.ones((5, 5)), "80x60"),
-        (np.where(COLUMNS == 3, np.nan, 1.0), "NaN or negative"),
-        (np.ones((60, 80), np.uint16), "give `depth_scale`"),
-    ],
-)
-def test_bad_depth_gets_one_line(depth, said, tmp_path, photo):
-    np.save(tmp_path / "depth.npy", depth)
-    for given in (depth, tmp_path / "depth.npy"):
-        with pytest.raises(InputError, match=said) as caught:
-            texvent.simulate(photo, camera="pan", depth=given)
-        assert "\n" not in str(caught.value)
 
 
 def test_white_level_and_deep_pixels_keep_the_scale():

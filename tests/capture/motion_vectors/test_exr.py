@@ -2,7 +2,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.capture.motion_vectors import moving_scene as scene
 
 import texvent
 from texvent.capture.motion_vectors.exr_image import exr_frame
@@ -58,11 +57,6 @@ def test_what_is_not_linear_rec_709_is_refused(tmp_path, header, message):
         exr_frame(path)
 
 
-def test_linear_light_is_said_to_be_so(tmp_path):
-    path = write(tmp_path / "a.exr", colour(np.ones((2, 2))), colorInteropID="lin_rec709_scene")
-    assert exr_frame(path).max() == 1.0
-
-
 def test_damage_and_missing_colour_are_one_line(tmp_path):
     whole = write(tmp_path / "a.exr", colour(np.ones((8, 8)))).read_bytes()
     (tmp_path / "cut.exr").write_bytes(whole[: len(whole) // 2])
@@ -70,35 +64,6 @@ def test_damage_and_missing_colour_are_one_line(tmp_path):
         exr_frame(tmp_path / "cut.exr")
     with pytest.raises(InputError, match=r"has no colour \(R, G, B or Y\); its channels: Depth\.Z"):
         exr_frame(write(tmp_path / "z.exr", {"Depth.Z": np.ones((2, 2))}))
-
-
-def test_passes_of_blender_in_files_of_their_own(tmp_path):
-    for index in range(scene.FRAMES):
-        motion = scene.forward(index)
-        passes = {
-            **{f"ViewLayer.Vector.{one}": -motion[..., k] for k, one in enumerate("XY")},
-            "ViewLayer.Vector.Z": -motion[..., 0],
-            "ViewLayer.Vector.W": motion[..., 1],
-            "ViewLayer.Depth.Z": scene.depth(index),
-            "ViewLayer.IndexOB.X": scene.instances(index),  # its name before Blender 5
-        }
-        passes["ViewLayer.Vector.Y"] = motion[..., 1]
-        write(tmp_path / f"{index:04}.exr", passes)
-    film = scene.stack(scene.frame)
-    config = CaptureConfig(fps=25, motion=tmp_path)
-    frames = list(open_frames(film, config))
-    np.testing.assert_allclose(frames[1].motion.forward, scene.forward(1), rtol=1e-6)
-    np.testing.assert_allclose(frames[1].motion.backward, scene.backward(1), rtol=1e-6)
-    assert np.array_equal(frames[1].motion.depth, scene.depth(1))
-    assert np.array_equal(frames[1].motion.instance, scene.instances(1))
-    assert open_frames(film, config).metadata["motion_convention"] == "blender"
-
-
-def test_channels_that_are_not_known_are_listed(tmp_path):
-    for index in range(scene.FRAMES):
-        write(tmp_path / f"{index}.exr", {"u": np.ones((4, 4)), "v": np.ones((4, 4))})
-    with pytest.raises(InputError, match=r"no pass that is known .* its channels: u, v"):
-        open_frames(scene.stack(scene.frame), CaptureConfig(fps=25, motion=tmp_path))
 
 
 def test_a_real_render_of_blender():

@@ -62,11 +62,6 @@ def test_half_resolution():
     np.testing.assert_allclose(motions[0].forward, 2 * FORWARD[0].repeat(2, 0).repeat(2, 1), 1e-6)
 
 
-def test_units_per_second():
-    stream = opened({"motion": FORWARD * np.float32(25)}, motion_convention="px/s")
-    check_exact(stream, backward=False)
-
-
 @pytest.mark.parametrize("name", ["npy", "npz"])
 def test_folders_with_a_file_per_frame(tmp_path, name):
     for index, flow in enumerate(FORWARD):
@@ -107,9 +102,7 @@ def test_a_pattern_names_files_among_others(tmp_path):
     [
         (-FORWARD, "(from|backward)"),
         (FORWARD * np.float32([1, -1]), "y-up"),
-        (FORWARD[..., ::-1], "yx"),
         (FORWARD / 2, "scale=2"),
-        (FORWARD / np.float32([scene.WIDTH, scene.HEIGHT]), "fraction"),
         (FORWARD / np.float32([scene.WIDTH / 2, scene.HEIGHT / 2]), "ndc"),
     ],
 )
@@ -128,13 +121,6 @@ def test_exchanged_directions_are_named():
     second = np.stack([scene.backward(i * i) * (2 * i - 1) for i in range(4)])
     with pytest.raises(InputError, match=r"meant (forward|backward); exchange the two"):
         opened({"motion": second, "motion_back": first}, film=uneven)
-
-
-def test_vectors_of_another_film_are_warned_of():
-    rng = np.random.default_rng(0)
-    noise = rng.integers(0, 256, FILM.shape, dtype=np.uint8)
-    with pytest.warns(TexventWarning, match=r"explain little: .* check that the vectors belong"):
-        opened({"motion": FORWARD}, film=noise)
 
 
 @pytest.mark.parametrize(
@@ -204,14 +190,6 @@ def test_depth_in_millimetres():
     np.testing.assert_allclose(next(iter(stream)).motion.depth, DEPTH[0], 1e-6)
 
 
-def test_no_surface_is_infinitely_far():
-    depth = DEPTH.copy()
-    depth[:, 0, 0], depth[:, 0, 1] = 0.0, 1e10  # KITTI's and Isaac's mark, and Blender's
-    found = next(iter(opened({"motion": FORWARD, "depth": depth}))).motion.depth
-    assert np.isinf(found[0, :2]).all()
-    assert np.isfinite(found).sum() == found.size - 2
-
-
 def test_start_stop_and_fit_change_motion_as_pixels():
     given = {"motion": FORWARD, "depth": DEPTH, "instances": INSTANCES}
     stream = opened(given, SensorSize(32, 24), start=0.08, stop=0.2)
@@ -224,12 +202,6 @@ def test_start_stop_and_fit_change_motion_as_pixels():
             np.tile(np.float32(scene.SQUARE_PX) / 2, (inside.sum(), 1))
         )
         assert set(frame.motion.depth[inside]) == {scene.NEAR_M}
-
-
-def test_the_metadata_says_what_the_vectors_mean():
-    facts = opened({"motion": BACKWARD}, motion_convention="isaac").metadata
-    assert facts["motion"] == {"motion": "motion"}
-    assert facts["motion_convention"] == "isaac"
 
 
 def test_a_folder_with_passes_beside_its_frames_is_found(tmp_path):
@@ -307,12 +279,6 @@ def test_a_missing_file_is_not_taken_for_one_field_per_pair(tmp_path, missing, i
         check_exact(open_frames(FILM, config), backward=False)
 
 
-def test_files_named_after_times_have_no_gap(tmp_path):
-    for index, time in enumerate((0, 41_667, 83_333, 125_000, 166_667)):
-        np.save(tmp_path / f"{time}.npy", FORWARD[index])
-    check_exact(open_frames(FILM, CaptureConfig(fps=Fraction(24), motion=tmp_path)), backward=False)
-
-
 def test_depth_and_ids_in_images(tmp_path):
     for name, values in (("depth", (DEPTH * 1000).astype(np.uint16)), ("ids", INSTANCES)):
         (tmp_path / name).mkdir()
@@ -324,3 +290,11 @@ def test_depth_and_ids_in_images(tmp_path):
     assert np.array_equal(motions[2].instance, INSTANCES[2])
     with pytest.raises(InputError, match="is an image; vectors are read from"):
         opened({"motion": tmp_path / "ids"})
+
+
+def test_no_surface_is_infinitely_far():
+    depth = DEPTH.copy()
+    depth[:, 0, 0], depth[:, 0, 1] = 0.0, 1e10  # KITTI's and Isaac's mark, and Blender's
+    found = next(iter(opened({"motion": FORWARD, "depth": depth}))).motion.depth
+    assert np.isinf(found[0, :2]).all()
+    assert np.isfinite(found).sum() == found.size - 2

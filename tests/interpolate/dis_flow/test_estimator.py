@@ -25,14 +25,6 @@ def test_flow_is_the_same_with_one_and_two_threads(moving_texture, monkeypatch):
     np.testing.assert_array_equal(*flows)
 
 
-def test_flow_does_not_remember_the_pair_before(moving_texture):
-    first, second, other = (moving_texture(dx) for dx in (0, 3, 11))
-    fresh = DisFlow().both_ways(first, second)
-    used = DisFlow()
-    used.both_ways(other, first)
-    np.testing.assert_array_equal(used.both_ways(first, second), fresh)
-
-
 @pytest.mark.parametrize("shape", [(1, 1), (6, 8), (8, 300), (300, 8), (2, 900)])
 def test_flow_is_finite_on_tiny_frames_and_strips(shape):
     first = np.random.default_rng(3).uniform(0, 255, shape).astype(np.float32)

@@ -10,9 +10,7 @@ from tests.interpolate.dis_flow import compiled, reference
 
 from texvent.interpolate.dis_flow.definitions import MARGIN, size_of
 from texvent.interpolate.dis_flow.estimator import (
-    coarse_to_fine,
     count_levels,
-    make_pyramid,
     match_level,
 )
 
@@ -62,13 +60,6 @@ def test_doubling_a_flow_doubles_its_vectors_and_joins_their_places(kernels):
     # Rows 1, 1.5, 2.5, 3 and columns +0, +.25, +.75 of the first component, twice.
     np.testing.assert_allclose(got[0], 2 * np.add.outer([1, 1.5, 2.5, 3], [0, 0.25, 0.75]))
     np.testing.assert_allclose(got[1, :, 0], [0, 4, 12, 16])
-
-
-def test_a_shift_is_found_on_one_level():
-    start, stop = (compiled.make_level(waves((40, 56), dx)) for dx in (0.0, 1.6))
-    flow = match_level(start, stop, np.zeros((2, 40, 56), np.float32), True)
-    assert np.median(np.abs(flow[0, 8:-8, 8:-8] - 1.6)) < 0.05
-    assert np.median(np.abs(flow[1, 8:-8, 8:-8])) < 0.05
 
 
 @KERNELS
@@ -144,16 +135,3 @@ def test_compiled_parts_equal_their_definitions(shape, spread, is_coarsest, seed
     np.testing.assert_array_equal(
         compiled.refine(*wanted, joined), reference.refine(*wanted, joined)
     )
-
-
-def test_levels_from_coarse_to_fine_find_a_far_shift():
-    images = waves((64, 80), seed=3), waves((64, 80), 5.0, -2.0, seed=3)
-    flow = coarse_to_fine(*(make_pyramid(one, 0, 1) for one in images))
-    assert np.median(np.abs(flow[0, 12:-12, 12:-12] - 5.0)) < 0.05
-
-
-def test_frames_that_are_no_numbers_do_no_harm():
-    level = compiled.make_level(np.full((16, 24), np.nan, np.float32))
-    start = np.full((2, 16, 24), np.nan, np.float32)
-    flow = match_level(level, level, start, True)
-    assert flow.shape == (2, 16, 24)

@@ -58,7 +58,7 @@ def test_chosen_pixels_are_those_of_the_whole_frame():
 def test_events_agree_with_those_of_every_instant_rendered(prompt):
     streams = {}
     for interpolate in ("motion", "exact"):
-        options = {"interpolate": interpolate, "count": "fixed", "fixed_count": 6}
+        options = {"interpolate": interpolate, "fixed_count": 6}
         settings = resolve("generate", {**options, "simulator": "esim"})
         run = Simulation(video=video(prompt), settings=settings)
         streams[interpolate] = run.packets.collect()

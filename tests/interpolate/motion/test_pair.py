@@ -81,14 +81,6 @@ def test_random_surfaces_are_drawn_as_defined():
         assert np.mean(np.abs(image - expected) > 0.05) < 0.02
 
 
-def test_texture_is_found_where_it_has_moved():
-    pair = MotionPair.of(*moving_texture(2.6, -1.4))
-    for place in (0.25, 0.5, 0.75):
-        image, _ = pair.draw(place)
-        truth = texture(2.6 * place, -1.4 * place)
-        assert np.abs(image - truth)[3:-3, 3:-3].max() < 0.5
-
-
 def test_source_frames_are_met_exactly_at_both_ends():
     for first, second in (moving_texture(2.0, 1.0), bar_pair()):
         pair = MotionPair.of(first, second)
@@ -112,16 +104,6 @@ def test_what_the_nearer_thing_reveals_comes_from_the_frame_that_shows_it():
     assert image[:, 4] == pytest.approx(160.0, abs=0.5)  # covered at first, free by now
     assert image[:, 8] == pytest.approx(40.0, abs=0.5)  # the bar is here, in neither frame
     assert image[:, 12] == pytest.approx(160.0, abs=0.5)  # covered in the end, not yet
-
-
-def test_what_has_no_depth_is_behind_everything():
-    sky = []
-    for frame in bar_pair(start=4.0, step=6.0, wide=3.0):
-        depth = np.where(frame.motion.depth == OBJECT_M, frame.motion.depth, np.nan)
-        sky.append(replace(frame, motion=replace(frame.motion, depth=depth.astype(np.float32))))
-    image, _ = MotionPair.of(*sky).draw(0.5)
-    assert image[:, 8] == pytest.approx(40.0, abs=0.5)
-    assert image[:, 4] == pytest.approx(160.0, abs=0.5)
 
 
 def test_without_depth_the_faster_thing_is_nearer():
@@ -183,15 +165,6 @@ def test_a_bounce_between_frames_is_followed_straight():
     )
     image, _ = pair.draw(0.5)
     assert np.abs(image - texture(1.5))[3:-3, 4:-4].max() < 0.5
-
-
-def test_unknown_vectors_are_left_to_the_other_frame():
-    first, second = moving_texture(2.0, 0.0)
-    forward = first.motion.forward.copy()
-    forward[4:7, 5:8] = np.nan
-    gappy = Frame(first.pixels, 0, motion=Motion(forward=forward, depth=FLAT))
-    image, _ = MotionPair.of(gappy, second).draw(0.5)
-    assert np.abs(image - texture(1.0))[3:-3, 3:-3].max() < 1.0
 
 
 def test_frames_at_rest_are_mixed_in_place():

@@ -9,7 +9,6 @@ from .rife_files import random_tensors
 pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
 
-from texvent.interpolate.networks import warp  # noqa: E402  (torch first)
 from texvent.interpolate.rife.network import (  # noqa: E402
     LAYOUTS,
     RIFE_4_0,
@@ -18,6 +17,7 @@ from texvent.interpolate.rife.network import (  # noqa: E402
     Motion,
     RifeNetwork,
     move_motion,
+    warp,
 )
 
 

@@ -11,7 +11,7 @@ from tests.simulate.gpu.clips import rows
 
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
-from texvent.interpolate.count import count_intermediate
+from texvent.interpolate.count_policy import count_intermediate
 from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.pairs.instants import intermediate_times_us
 from texvent.simulate.gpu.frames import GpuPairs

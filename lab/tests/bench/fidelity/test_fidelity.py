@@ -52,7 +52,7 @@ def test_an_ideal_model_with_true_frames_recovers_the_ideal_oracle():
     truth = record(scene, {"ideal": (IDEAL, 1)})["ideal"]
     options = {"simulator": "physical", "preset": "clean", "interpolate": "exact"}
     # The oracle's dark level on the camera's linear scale; 200 frames between two.
-    same_pixel = {"balance": 255 * EXPOSURE * IDEAL.dark_level, "count": "fixed"}
+    same_pixel = {"balance": 255 * EXPOSURE * IDEAL.dark_level}
     settings = resolve("simulate", {**options, **same_pixel, "fixed_count": 199})
     events = video_to_events(TrueFrames(scene), settings).packets.collect()
     scores = compare(events, truth, ["count_ratio", "stpp", "nearest", "van_rossum"])

@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any, ClassVar, NamedTuple, Protocol, TypeAlias
+from typing import Any, ClassVar, NamedTuple, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,18 +17,6 @@ from numpy.typing import NDArray
 from texvent.video import MICROSECONDS
 
 Float64Array = NDArray[np.float64]
-
-
-def rotation_matrix(quaternion: Float64Array) -> Float64Array:
-    """The rotation matrix [3, 3] of a quaternion (x, y, z, w) of any length but 0."""
-    x, y, z, w = quaternion / np.linalg.norm(quaternion)
-    return np.array(
-        [
-            [1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)],
-            [2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)],
-            [2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)],
-        ]
-    )
 
 
 @dataclass(frozen=True)
@@ -45,19 +33,6 @@ class CameraPose2D:
     """Magnification about the centre of the view."""
 
 
-@dataclass(frozen=True, eq=False)
-class Pose:
-    """Where the camera is in space, as seen from where the image was taken."""
-
-    rotation: Float64Array
-    """[3, 3] from this camera's axes to the first one's: x right, y down, z forward."""
-    position: Float64Array
-    """[3] m, along the first camera's axes."""
-
-
-CameraPose: TypeAlias = CameraPose2D | Pose
-
-
 class CameraPath(Protocol):
     """A path that is known at any instant."""
 
@@ -71,7 +46,7 @@ class CameraPath(Protocol):
         """What it is, JSON-serialisable, for provenance."""
         ...
 
-    def __call__(self, t_us: float) -> CameraPose:
+    def __call__(self, t_us: float) -> CameraPose2D:
         """Where the camera is at `t_us`, µs."""
         ...
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 
 from texvent.capture.camera_path.motion import CameraPath, Pan, Saccades, Shake
 from texvent.capture.camera_path.photo_frames import PhotoFrames
-from texvent.capture.camera_path.trajectory_file import PoseFile, read_trajectory
+from texvent.capture.camera_path.trajectory_file import read_trajectory
 from texvent.capture.image_folder import coding_facts, read_image
 from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels, usable_pixels
 from texvent.capture.linear_light import (
@@ -23,8 +22,6 @@ from texvent.capture.linear_light import (
     linear_facts,
     to_light,
 )
-from texvent.capture.motion_vectors.conventions import metric_depth
-from texvent.capture.motion_vectors.fields import FRAME_EXTENSIONS, read_file
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, shown
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, usable_path
@@ -35,9 +32,12 @@ FPS = Fraction(60)
 """Frames per second, unless asked for: what lies between is exact as well."""
 PRESETS = ("saccade", "shake", "pan")
 MOST_FRAMES = 10_000_000
-OF_CAMERA = ("camera_amplitude", "camera_fov", "duration")
+OF_CAMERA = ("camera_amplitude", "duration")
 """Options that only a camera path has."""
-OF_VIDEOS = ("timestamps", "start", "stop", "fit", "motion", "motion_back", "instances")
+OF_VIDEOS = (
+    *("timestamps", "start", "stop", "fit"),
+    *("motion", "motion_back", "depth", "depth_scale", "instances"),
+)
 """Options that a camera path does not have."""
 
 
@@ -52,7 +52,6 @@ def open_photo(
     *,
     size: SensorSize | None = None,
     seed: int = 0,
-    depth: Any = None,
 ) -> PhotoFrames:
     """Frames of a camera that moves over an image.
 
@@ -61,16 +60,16 @@ def open_photo(
         config: with `camera`.
         size: of the sensor; None: that of the image.
         seed: of the shake.
-        depth: of the image, [H, W] m, in memory; it replaces `config.depth`.
 
     Raises:
         InputError: the source is no image, or a file does not fit it.
         FileFormatError: a file is damaged.
         ConfigError: an option does not go with the others.
     """
-    _refuse_options_of_videos(config)
-    path, files = _path(config, seed)
+    path = _path(config, seed)
     levels, facts = _levels(source, config)
+    if config.camera not in PRESETS:
+        facts["camera_files"] = {"path": config.camera}
     fps = FPS if config.fps is None else Fraction(config.fps)
     seconds = path.seconds if config.duration is None else config.duration
     intervals = max(1, math.ceil(Fraction(round(seconds * MICROSECONDS), MICROSECONDS) * fps))
@@ -79,18 +78,6 @@ def open_photo(
             f"{seconds:g} s at {float(fps):g} fps are {intervals:,} frames; at most "
             f"{MOST_FRAMES:,} are made: give a lower fps or a shorter duration"
         )
-    given = config.depth if depth is None else depth
-    metres = None if given is None else _depth(given, config, levels)
-    if isinstance(given, str | Path):
-        files["depth"] = str(given)
-    elif given is not None:
-        facts["depth"] = "array"
-    focal_px = _focal_px(config, path, levels.shape[1])
-    if isinstance(path, PoseFile) and path.moves and metres is None:
-        raise InputError(
-            f"the camera of {config.camera} changes its position, which needs the depth of the "
-            "image; give depth=FILE, or poses that only turn"
-        )
     return PhotoFrames(
         levels,
         path,
@@ -98,46 +85,38 @@ def open_photo(
         fps,
         intervals,
         size,
-        metres,
-        focal_px,
-        {**facts, **({"camera_files": files} if files else {})},
+        facts,
     )
 
 
-def _refuse_options_of_videos(config: CaptureConfig) -> None:
-    default = CaptureConfig()
-    for name in OF_VIDEOS:
-        if getattr(config, name) != getattr(default, name):
-            hint = "; `duration` says how long it lasts" if name in ("start", "stop") else ""
-            raise ConfigError(
-                f"{name} is for videos, and `camera` makes one of an image{hint}; leave {name} out"
-            )
-
-
-def check_no_camera(config: CaptureConfig) -> None:
-    """Refuse options of a camera path where there is none.
+def check_camera_options(config: CaptureConfig) -> None:
+    """Refuse options of videos beside `camera`, and those of a camera path without it.
 
     Raises:
         ConfigError: there is such an option.
     """
-    for name in OF_CAMERA:
-        if getattr(config, name) is not None:
+    default = CaptureConfig()
+    for name in OF_CAMERA if config.camera is None else OF_VIDEOS:
+        if getattr(config, name) == getattr(default, name):
+            continue
+        if config.camera is None:
             hint = "; `stop` ends a video" if name == "duration" else ""
-            raise ConfigError(
-                f"{name} is for a camera that moves over a still image (`camera`){hint}; leave it "
-                "out"
-            )
+            reason = f"is for a camera that moves over a still image (`camera`){hint}"
+        else:
+            hint = "; `duration` says how long it lasts" if name in ("start", "stop") else ""
+            reason = f"is for videos, and `camera` makes one of an image{hint}"
+        raise ConfigError(f"{name} {reason}; leave {name} out")
 
 
-def _path(config: CaptureConfig, seed: int) -> tuple[CameraPath, dict[str, str]]:
-    """The camera's path, and the file that it is from."""
+def _path(config: CaptureConfig, seed: int) -> CameraPath:
+    """The camera's path: a preset, or that of a file."""
     camera, amplitude = str(config.camera), config.camera_amplitude
     if camera == "saccade":
-        return Saccades(amplitude), {}
+        return Saccades(amplitude)
     if camera == "shake":
-        return Shake(amplitude, seed), {}
+        return Shake(amplitude, seed)
     if camera == "pan":
-        return Pan(amplitude, config.duration or Pan.seconds), {}
+        return Pan(amplitude, config.duration or Pan.seconds)
     file = usable_path(camera).expanduser()
     if not file.exists():
         raise InputError(
@@ -149,7 +128,7 @@ def _path(config: CaptureConfig, seed: int) -> tuple[CameraPath, dict[str, str]]
             "camera_amplitude is for saccade, shake and pan; a file states its own sizes, so leave "
             "it out"
         )
-    return read_trajectory(file), {"path": camera}
+    return read_trajectory(file)
 
 
 def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], dict[str, Any]]:
@@ -191,44 +170,3 @@ def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], di
     elif coding == GAMMA and pixels.dtype.kind == "f":
         refuse_unit_range(float(pixels.max()), where)
     return np.asarray(Frame(pixels, 0).luma, dtype=np.float32), facts
-
-
-def _depth(given: Any, config: CaptureConfig, levels: NDArray[np.float32]) -> NDArray[np.float32]:
-    """[H, W] m."""
-    if isinstance(given, str | Path):
-        path = usable_path(usable_path(given).expanduser())
-        if path.suffix.lower() not in FRAME_EXTENSIONS or not path.is_file():
-            raise InputError(
-                f"depth is {shown(str(given))}; give one file that exists, of one of "
-                f"{', '.join(FRAME_EXTENSIONS)}"
-            )
-        stored, where = read_file(path, "depth")["depth"], str(path)
-    else:
-        stored, where = np.asarray(given), "depth"
-    height, width = levels.shape
-    return metric_depth(stored, config.depth_scale, (width, height), where)
-
-
-def _focal_px(config: CaptureConfig, path: CameraPath, width: int) -> float | None:
-    if not isinstance(path, PoseFile):
-        if config.camera_fov is not None:
-            raise ConfigError("camera_fov is for poses (t tx ty tz qx qy qz qw); leave it out")
-        return None
-    if config.camera_fov is None:
-        raise InputError(
-            f"{config.camera} holds poses, whose effect depends on the field of view of the image; "
-            "give `camera_fov`: the angle that it spans horizontally, degrees"
-        )
-    return width / 2 / math.tan(math.radians(config.camera_fov) / 2)
-
-
-def field_of(arrays: Mapping[str, Any] | None) -> Any:
-    """The depth among fields in memory.
-
-    Raises:
-        ConfigError: there are others.
-    """
-    others = [name for name, one in (arrays or {}).items() if one is not None and name != "depth"]
-    if others:
-        raise ConfigError(f"{others[0]} is for videos, and camera makes one of an image")
-    return (arrays or {}).get("depth")

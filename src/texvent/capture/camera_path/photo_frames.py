@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.camera_path.motion import CameraPath, CameraPose
-from texvent.capture.camera_path.view import Planes, View, depth_range, fitted_view, split_planes
+from texvent.capture.camera_path.motion import CameraPath, CameraPose2D
+from texvent.capture.camera_path.view import View, fitted_view
 from texvent.sensor import SensorSize
 from texvent.transfer import WHITE, encode_srgb
 from texvent.video import (
@@ -47,32 +47,23 @@ class PhotoFrames(NotebookFrames):
     """Frame intervals; there is one frame more."""
     sensor: SensorSize | None = None
     """None: the image's own size, pixel by pixel."""
-    depth: NDArray[np.float32] | None = None
-    """[H, W] m, inf where there is no surface; None: the image is flat."""
-    focal_px: float | None = None
-    """Focal length in px of the image; only poses need it."""
     facts: Mapping[str, Any] = field(default_factory=dict)
     """Where the image comes from."""
     view: View = field(init=False)
     """Where the sensor's pixels lie in the image."""
     _block: int = field(init=False)
-    _planes: Planes = field(init=False)
+    _image: NDArray[np.float32] = field(init=False)
 
     def __post_init__(self) -> None:
         image = SensorSize(self.levels.shape[1], self.levels.shape[0])
-        reference, nearness = _nearness(self.depth)
         times = np.linspace(self.start_us, self._time(self.intervals), INSTANTS)
         places = [self.path(float(t_us)) for t_us in times]
-        start = View(image, self.sensor or image, 1.0, self.focal_px, reference)
-        view = fitted_view(start, places, nearness, is_pixelwise=self.sensor is None)
+        start = View(image, self.sensor or image)
+        view = fitted_view(start, places, is_pixelwise=self.sensor is None)
         wanted = max(1, round(view.scale / PX_ALONG))
         levels, view, block = _averaged(self.levels, view, wanted)
-        object.__setattr__(self, "view", view)
-        object.__setattr__(self, "_block", block)
-        planes = Planes(view, levels)
-        if self.depth is not None:
-            planes = split_planes(view, levels, _picked(self.depth, block, view.image), places)
-        object.__setattr__(self, "_planes", planes)
+        for name, value in (("view", view), ("_block", block), ("_image", levels)):
+            object.__setattr__(self, name, value)
 
     def __repr__(self) -> str:
         return describe_stream(self)
@@ -103,13 +94,13 @@ class PhotoFrames(NotebookFrames):
         for index in range(self.frame_count):
             t_us = self._time(index)
             place = self.path(t_us)
-            levels, seen = self._planes.render(place)
-            motion = self._motion(index, place, seen)
+            levels = self.view.render(self._image, place)
+            motion = self._motion(index, place)
             yield Frame(levels, t_us, motion=motion, transfer=transfer_of(self))
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W] float32 luma on the 0..255 scale."""
-        levels, _ = self._planes.render(self.path(t_us))
+        levels = self.view.render(self._image, self.path(t_us))
         return Frame(levels, t_us, is_source=False, transfer=transfer_of(self))
 
     def gamma_coded(self) -> PhotoFrames:
@@ -121,24 +112,14 @@ class PhotoFrames(NotebookFrames):
     def _time(self, index: int) -> int:
         return frame_time_us(index, self.fps, self.start_us)
 
-    def _motion(self, index: int, place: CameraPose, seen: NDArray[np.uint8]) -> Motion:
+    def _motion(self, index: int, place: CameraPose2D) -> Motion:
         forward, backward = (
-            self._planes.vectors(place, self.path(self._time(other)), seen)
+            self.view.vectors(place, self.path(self._time(other)))
             if 0 <= other < self.frame_count
             else None
             for other in (index + 1, index - 1)
         )
-        depth = None if self.depth is None else self._planes.depth(place, seen)
-        return Motion(forward, backward, depth)
-
-
-def _nearness(depth: NDArray[np.float32] | None) -> tuple[float, tuple[float, float]]:
-    """Median depth, m, and by it the nearness of the nearest and the farthest surface."""
-    if depth is None or not np.isfinite(depth).any():
-        return 1.0, (1.0, 1.0)
-    reference = float(np.median(depth[np.isfinite(depth)]))
-    near, far = depth_range(depth)
-    return reference, (reference / near, reference / far if np.isfinite(depth).all() else 0.0)
+        return Motion(forward, backward)
 
 
 def _averaged(
@@ -151,16 +132,6 @@ def _averaged(
     top, left = (view.image.height - height * block) // 2, (view.image.width - width * block) // 2
     inside = levels[top : top + height * block, left : left + width * block]
     blocks = inside.reshape(height, block, width, block).mean(axis=(1, 3), dtype=np.float64)
-    focal = None if view.focal_px is None else view.focal_px / block
     size = SensorSize(width, height)
-    view = replace(view, image=size, scale=view.scale / block, focal_px=focal)
+    view = replace(view, image=size, scale=view.scale / block)
     return blocks.astype(np.float32), view, block
-
-
-def _picked(depth: NDArray[np.float32], block: int, size: SensorSize) -> NDArray[np.float32]:
-    """Depth in the middle of blocks: a mean over an edge would be the depth of nothing."""
-    top, left = (
-        (depth.shape[0] - size.height * block) // 2,
-        (depth.shape[1] - size.width * block) // 2,
-    )
-    return depth[top + block // 2 :: block, left + block // 2 :: block][: size.height, : size.width]

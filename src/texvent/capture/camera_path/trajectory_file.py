@@ -1,18 +1,17 @@
-"""Camera paths in text files: positions in pixels, or poses in space as TUM writes them."""
+"""Camera paths in text files: positions in pixels over time."""
 
 from __future__ import annotations
 
 import math
-from abc import ABC
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.capture.camera_path.motion import CameraPose2D, Pose, rotation_matrix
+from texvent.capture.camera_path.motion import CameraPose2D
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.io.text_files import parse_table
 from texvent.runtime.file_names import usable_path
@@ -20,34 +19,42 @@ from texvent.video import LATEST_US, MICROSECONDS
 
 Float64Array = NDArray[np.float64]
 
-POSE_COLUMNS = 8
-"""t tx ty tz qx qy qz qw."""
-PLACE_COLUMNS = (3, 4, 5)
-"""t x y, then perhaps roll and zoom."""
-COLUMNS = (
-    "t [s], x, y [px] and perhaps roll [degrees] and zoom; or t [s], tx, ty, tz [m], qx, qy, qz, qw"
-)
+COLUMNS = "t [s], x, y [px] and perhaps roll [degrees] and zoom"
 MAX_ROWS = 1_000_000
 MOST = 1e6
-"""Larger numbers are no px, degrees or metres of a camera path."""
-UNIT_TOLERANCE = 0.1
-"""Quaternions may differ this much from length 1: they are rounded in files."""
+"""Larger numbers are no px or degrees of a camera path."""
 
 
 @dataclass(frozen=True, eq=False)
-class SmoothRows:
-    """Numbers between rows: cubic pieces whose slopes at a row come from its neighbours.
+class PathFile:
+    """A path through the rows of a file, in px of the sensor.
 
-    Before the first row and after the last, that row is held.
+    Between rows it is cubic, with slopes at a row from its neighbours; before the first row and
+    after the last, that row is held.
     """
 
     times_us: NDArray[np.int64]
     """[n], increasing, n >= 2."""
     values: Float64Array
-    """[n, k]"""
+    """[n, 4] x, y, px; roll, radians; natural logarithm of the zoom."""
 
-    def __call__(self, t_us: float) -> Float64Array:
-        """The numbers at `t_us`, [k].
+    @property
+    def start_us(self) -> int:
+        """Time of the first row, µs."""
+        return int(self.times_us[0])
+
+    @property
+    def seconds(self) -> float:
+        """From the first row to the last, s."""
+        return float(self.times_us[-1] - self.times_us[0]) / MICROSECONDS
+
+    @property
+    def facts(self) -> Mapping[str, Any]:
+        """The kind of file."""
+        return {"camera": "positions"}
+
+    def __call__(self, t_us: float) -> CameraPose2D:
+        """The pose at `t_us`.
 
         Source: cubic Hermite splines, slopes by differences of second order.
         """
@@ -63,82 +70,28 @@ class SmoothRows:
         start, stop = self.values[row], self.values[row + 1]
         bend = 2 * (start - stop) + span * (slopes[here] + slopes[here + 1])
         rise = 3 * (stop - start) - span * (2 * slopes[here] + slopes[here + 1])
-        return np.asarray(start + u * (span * slopes[here] + u * (rise + u * bend)))
-
-
-@dataclass(frozen=True, eq=False)
-class _PathFile(ABC):
-    """A camera path of a file."""
-
-    rows: SmoothRows
-    kind: ClassVar[str]
-
-    @property
-    def start_us(self) -> int:
-        """Time of the first row, µs."""
-        return int(self.rows.times_us[0])
-
-    @property
-    def seconds(self) -> float:
-        """From the first row to the last, s."""
-        return float(self.rows.times_us[-1] - self.rows.times_us[0]) / MICROSECONDS
-
-    @property
-    def facts(self) -> Mapping[str, Any]:
-        """The kind of file."""
-        return {"camera": self.kind}
-
-
-class PlaceFile(_PathFile):
-    """A path in pixels of the sensor: x, y, px; roll, radians; natural logarithm of the zoom."""
-
-    kind: ClassVar[str] = "positions"
-
-    def __call__(self, t_us: float) -> CameraPose2D:
-        """Between two rows."""
-        x, y, roll, log_zoom = map(float, self.rows(t_us))
+        found = start + u * (span * slopes[here] + u * (rise + u * bend))
+        x, y, roll, log_zoom = map(float, found)
         return CameraPose2D(x, y, roll, math.exp(log_zoom))
 
 
-class PoseFile(_PathFile):
-    """A path in space: position, m, and unit quaternion x, y, z, w of camera-to-world.
-
-    Poses count from the first one: there the image was taken.
-    """
-
-    kind: ClassVar[str] = "poses"
-
-    @property
-    def moves(self) -> bool:
-        """Whether the camera changes its position, not only its direction."""
-        positions = self.rows.values[:, :3]
-        return bool((positions != positions[0]).any())
-
-    def __call__(self, t_us: float) -> Pose:
-        """Between two rows; the quaternion is brought to length 1 again."""
-        first, now = self.rows.values[0], self.rows(t_us)
-        to_first = rotation_matrix(first[3:]).T
-        return Pose(to_first @ rotation_matrix(now[3:]), to_first @ (now[:3] - first[:3]))
-
-
-def read_trajectory(path: Path) -> PlaceFile | PoseFile:
+def read_trajectory(path: Path) -> PathFile:
     """A path from a text file, one instant per line.
 
     Args:
         path: columns are separated by spaces, tabs or commas; lines that begin with # and a first
-            line of names do not count. 3 to 5 columns are t x y [roll [zoom]] in s, px of the
-            sensor, degrees and a factor; 8 are poses of the TUM layout, camera-to-world, camera
-            axes x right, y down, z forward.
+            line of names do not count. The columns are t x y [roll [zoom]] in s, px of the
+            sensor, degrees and a factor.
 
     Raises:
         InputError: there is no such file, or it has fewer than two rows.
         FileFormatError: a row has other columns, something that is no number, a time that does not
-            increase, a zoom that is not above 0, or a quaternion whose length is not 1.
+            increase, or a zoom that is not above 0.
     """
     table = _read_table(path)
     if len(table) < 2:
         raise InputError(f"{path} has {len(table)} row(s); a camera path needs at least two")
-    if table.shape[1] not in (*PLACE_COLUMNS, POSE_COLUMNS):
+    if not 3 <= table.shape[1] <= 5:
         raise FileFormatError(f"{path} has rows of {table.shape[1]} columns; allowed: {COLUMNS}")
     times, values = table[:, 0] * MICROSECONDS, table[:, 1:]
     _refuse_rows(
@@ -150,15 +103,13 @@ def read_trajectory(path: Path) -> PlaceFile | PoseFile:
     times_us = np.rint(times).astype(np.int64)
     later = np.diff(times_us, prepend=times_us[0] - 1) <= 0
     _refuse_rows(path, later, "a time that is not at least 1 µs after the one before")
-    if values.shape[1] == POSE_COLUMNS - 1:
-        return PoseFile(SmoothRows(times_us, _unit_quaternions(path, values)))
     whole = np.zeros((len(table), 4))
     whole[:, 3] = 1.0
     whole[:, : values.shape[1]] = values
     whole[:, 2] = np.radians(whole[:, 2])
     _refuse_rows(path, whole[:, 3] <= 0, "a zoom that is not above 0")
     whole[:, 3] = np.log(whole[:, 3])
-    return PlaceFile(SmoothRows(times_us, whole))
+    return PathFile(times_us, whole)
 
 
 def _read_table(path: Path) -> Float64Array:
@@ -191,14 +142,3 @@ def _is_number(word: str) -> bool:
 def _refuse_rows(path: Path, is_wrong: Any, what: str) -> None:
     if is_wrong.any():
         raise FileFormatError(f"{path}, row {int(np.argmax(is_wrong)) + 1}, has {what}")
-
-
-def _unit_quaternions(path: Path, values: Float64Array) -> Float64Array:
-    """The rows with quaternions of length 1, signs chosen so that neighbours are near."""
-    lengths = np.linalg.norm(values[:, 3:], axis=1)
-    is_wrong = ~(np.abs(lengths - 1) <= UNIT_TOLERANCE)
-    _refuse_rows(path, is_wrong, "a quaternion qx qy qz qw whose length is not 1")
-    unit = values[:, 3:] / lengths[:, None]
-    turns = np.where((unit[1:] * unit[:-1]).sum(axis=1) < 0, -1.0, 1.0)
-    unit[1:] *= np.cumprod(turns)[:, None]
-    return np.concatenate([values[:, :3], unit], axis=1)

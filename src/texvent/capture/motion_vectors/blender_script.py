@@ -12,8 +12,7 @@ pixel's centre: those of an ordinary render are averages over the pixel (Vector)
 place in it (Depth, Object Index). Objects without an index get one, counted from 1.
 
 Options after `--` (or after the names): --start, --end (frames), --fps (of the film that is made:
-the scene moves as fast as before, in more or fewer frames), --samples, --width, --height;
---trajectory FILE (the camera's poses, TUM text), --shake DEGREES (a hand-held camera), --seed.
+the scene moves as fast as before, in more or fewer frames), --samples, --width, --height.
 
 This file needs nothing but Blender (2.93 or newer) and its Python.
 """
@@ -22,14 +21,10 @@ from __future__ import annotations
 
 import argparse
 import importlib
-import math
 import os
-import random
 import sys
 from typing import Any
 
-SHAKE_HZ, SHAKE_WAVES, SHAKE_KEYS = (2.0, 12.0), 6, 4
-"""Frequencies of a hand, how many of them, and keys per frame."""
 DATA_PASSES = ("use_pass_vector", "use_pass_z", "use_pass_object_index")
 
 
@@ -44,10 +39,6 @@ def main(words: list[str]) -> None:
     _check(scene)
     _set_up(scene, options)
     number_objects(scene)
-    if options.trajectory:
-        follow(scene, read_trajectory(options.trajectory))
-    if options.shake:
-        shake(scene, options.shake, options.seed)
     numbers, fps = _frames(scene, options)
     _write_times(options.out, len(numbers), fps)
     for index, number in enumerate(numbers):
@@ -70,12 +61,8 @@ def _read(words: list[str], is_inside: bool) -> Any:
     parser.add_argument("--end", type=int, help="last frame, counted as in the .blend")
     parser.add_argument("--fps", type=int, help="frames per second of the film that is made")
     parser.add_argument("--samples", type=int, help="samples of a pixel's colour")
-    parser.add_argument("--threads", type=int, help="CPU threads; without it, all")
     parser.add_argument("--width", type=int)
     parser.add_argument("--height", type=int)
-    parser.add_argument("--trajectory", help="camera poses: t x y z qx qy qz qw, s and m")
-    parser.add_argument("--shake", type=float, default=0.0, help="degrees by which it trembles")
-    parser.add_argument("--seed", type=int, default=0, help="of the shake")
     parser.add_argument("--colour-only", action="store_true", help="no passes: a reference film")
     return parser.parse_args(words)
 
@@ -98,8 +85,6 @@ def _set_up(scene: Any, options: Any) -> None:
     render.resolution_y = options.height or render.resolution_y
     scene.cycles.use_denoising = scene.cycles.use_adaptive_sampling = False
     scene.cycles.use_animated_seed = False  # noise that changes with every frame makes events
-    if options.threads:
-        render.threads_mode, render.threads = "FIXED", options.threads
     options.filter = (scene.cycles.pixel_filter_type, scene.cycles.filter_width)
     options.samples = options.samples or scene.cycles.samples
 
@@ -111,68 +96,6 @@ def number_objects(scene: Any) -> None:
     for one in scene.objects:
         if one.pass_index == 0:
             one.pass_index = next(free)
-
-
-def read_trajectory(path: str) -> list[list[float]]:
-    """Poses of a TUM file: time from the first, s; position, m; quaternion x, y, z, w.
-
-    The camera looks along its z axis, x to the right and y down, as everywhere but in Blender.
-    """
-    rows = []
-    with open(path, encoding="utf-8") as file:
-        for line in file:
-            if line.strip() and not line.startswith("#"):
-                rows.append([float(word) for word in line.replace(",", " ").split()])
-    if not rows or any(len(row) != 8 for row in rows):
-        sys.exit(f"{path} must have lines of eight numbers: t x y z qx qy qz qw")
-    return [[row[0] - rows[0][0], *row[1:]] for row in rows]
-
-
-def follow(scene: Any, poses: list[list[float]]) -> None:
-    """Move the camera along poses in the world's coordinates, instead of its own animation."""
-    quaternion: Any = importlib.import_module("mathutils").Quaternion
-    camera = scene.camera
-    camera.animation_data_clear()
-    camera.parent = None
-    while camera.constraints:
-        camera.constraints.remove(camera.constraints[0])
-    camera.rotation_mode = "QUATERNION"
-    turn, last = quaternion((0.0, 1.0, 0.0, 0.0)), None  # Blender's camera looks along -z, y up
-    for seconds, x, y, z, qx, qy, qz, qw in poses:
-        frame = scene.frame_start + seconds * scene.render.fps / scene.render.fps_base
-        rotation = quaternion((qw, qx, qy, qz)).normalized() @ turn
-        if last is not None and rotation.dot(last) < 0:
-            rotation.negate()  # the same rotation, without a turn between the two keys
-        last = rotation.copy()
-        camera.location, camera.rotation_quaternion = (x, y, z), rotation
-        camera.keyframe_insert("location", frame=frame)
-        camera.keyframe_insert("rotation_quaternion", frame=frame)
-
-
-def shake(scene: Any, degrees: float, seed: int) -> None:
-    """Let the camera tremble by so many degrees (standard deviation), as if held by hand."""
-    chance, camera = random.Random(seed), scene.camera
-    waves = [
-        [(chance.uniform(*SHAKE_HZ), chance.uniform(0, 2 * math.pi)) for _ in range(SHAKE_WAVES)]
-        for _ in range(3)
-    ]
-    size = math.radians(degrees) * math.sqrt(2 / SHAKE_WAVES)
-    rate = scene.render.fps / scene.render.fps_base
-    first, last = scene.frame_start - 2, scene.frame_end + 2
-    for step in range((last - first) * SHAKE_KEYS + 1):
-        frame = first + step / SHAKE_KEYS
-        angles = [
-            size
-            * sum(math.sin(2 * math.pi * hertz * frame / rate + phase) for hertz, phase in axis)
-            for axis in waves
-        ]
-        if camera.rotation_mode == "QUATERNION":
-            euler = importlib.import_module("mathutils").Euler(angles)
-            camera.delta_rotation_quaternion = euler.to_quaternion()
-            camera.keyframe_insert("delta_rotation_quaternion", frame=frame)
-        else:
-            camera.delta_rotation_euler = angles
-            camera.keyframe_insert("delta_rotation_euler", frame=frame)
 
 
 def _frames(scene: Any, options: Any) -> tuple[list[int], float]:

@@ -49,8 +49,6 @@ class Neighbours:
     """"here", and "forward" and "backward" where there is such a frame: [H, W], 0..255."""
     stored: Mapping[Direction, NDArray[np.generic]]
     """The field that belongs to this frame if it is meant in that direction."""
-    seconds: Mapping[str, float]
-    """Time to the next and from the previous frame."""
 
 
 @dataclass(frozen=True)
@@ -130,7 +128,7 @@ def _best(
 
 
 def _alternatives(given: Convention) -> Iterator[Convention]:
-    """The given meaning and others: direction, sign, y, order, unit or scale differ."""
+    """The given meaning and others: direction, sign, y, unit or scale differ."""
     directions: tuple[Direction, ...] = ("forward", "backward")
     for direction, sign, is_y_up in itertools.product(directions, (1, -1), (False, True)):
         turned = replace(
@@ -146,7 +144,6 @@ def _alternatives(given: Convention) -> Iterator[Convention]:
             )
         for unit in UNITS:
             yield replace(turned, unit=unit)
-        yield replace(turned, is_y_first=not given.is_y_first)
         for factor in (0.5, 2.0):
             yield replace(turned, scale=given.scale * factor)
 
@@ -176,8 +173,7 @@ class _Samples:
         height, width = self.frame.luma["here"].shape
         factor = width // stored.shape[1]
         here = stored[self.rows // factor, self.columns // factor]
-        seconds = self.frame.seconds[direction]
-        return scaled(here, convention, direction, (width, height), factor, seconds)
+        return scaled(here, convention, direction, (width, height), factor)
 
     def difference(self, direction: str, along: FloatArray | None) -> FloatArray:
         """How much the neighbour differs there from this frame, [n], grey levels.

@@ -27,9 +27,8 @@ class Convention:
     backward_sign: int = 1
     """1 where a backward vector is the previous place minus this one, -1 for the opposite."""
     unit: str = "px"
-    """A word of `UNITS`."""
+    """px: a pixel of the stored field; ndc: half the image's width or height (it spans -1..1)."""
     is_y_up: bool = False
-    is_y_first: bool = False
     scale: float = 1.0
     """Multiplies both components, after everything else."""
     offset: float = 0.0
@@ -40,16 +39,7 @@ class Convention:
         return self.forward_sign if direction == "forward" else self.backward_sign
 
 
-UNITS: Mapping[str, tuple[str, bool]] = {
-    "px": ("px", False),
-    "ndc": ("ndc", False),
-    "fraction": ("fraction", False),
-    "px/s": ("px", True),
-    "ndc/s": ("ndc", True),
-    "fraction/s": ("fraction", True),
-}
-"""Word → what 1 means, and whether it is per second. px: a pixel of the stored field; ndc: half the
-image's width or height (it spans -1..1); fraction: its whole width or height."""
+UNITS = ("px", "ndc")
 
 CONVENTIONS: Mapping[str, Convention] = {
     "standard": Convention(),
@@ -81,8 +71,6 @@ _OVERRIDES: Mapping[str, Mapping[str, Any]] = {
     **{unit: {"unit": unit} for unit in UNITS},
     "y-down": {"is_y_up": False},
     "y-up": {"is_y_up": True},
-    "xy": {"is_y_first": False},
-    "yx": {"is_y_first": True},
 }
 """Word → fields that it sets."""
 _SCALE = re.compile(r"scale=([0-9.eE+-]+)")
@@ -133,8 +121,6 @@ def changes(given: Convention, other: Convention, direction: Direction) -> tuple
         words.append(other.unit)
     if other.is_y_up != given.is_y_up:
         words.append("y-up" if other.is_y_up else "y-down")
-    if other.is_y_first != given.is_y_first:
-        words.append("yx" if other.is_y_first else "xy")
     if other.scale != given.scale:
         words.append(f"scale={other.scale:g}")
     return tuple(words)
@@ -163,16 +149,14 @@ def to_pixels(
     convention: Convention,
     direction: Direction,
     size: tuple[int, int],
-    seconds: float,
 ) -> NDArray[np.float32]:
     """Vectors as `Motion` has them.
 
     Args:
-        stored: [h, w, 2 or more], the first two as the convention orders them.
+        stored: [h, w, 2 or more], the first two are x and y.
         convention: what they mean.
         direction: which motion they describe.
         size: width and height of the frame, px; whole multiples of w and h.
-        seconds: from this frame to the other one, or back; for units per second.
 
     Returns:
         [H, W, 2] float32, px of the frame, x right, y down, to the other frame's place. A coarser
@@ -185,7 +169,7 @@ def to_pixels(
     factor = size[0] // width if width else 0
     if factor < 1 or (width * factor, height * factor) != tuple(size):
         raise ValueError(f"{width}x{height} for frames of {size[0]}x{size[1]}")
-    return repeat_pixels(scaled(stored, convention, direction, size, factor, seconds), factor)
+    return repeat_pixels(scaled(stored, convention, direction, size, factor), factor)
 
 
 def scaled(
@@ -194,20 +178,17 @@ def scaled(
     direction: Direction,
     size: tuple[int, int],
     factor: int,
-    seconds: float,
 ) -> NDArray[np.float32]:
     """Vectors [..., 2 or more] in px of the frame, [..., 2]; arguments as `to_pixels`.
 
     `factor` is how many pixels of the frame one of the field covers in each direction.
     """
-    unit, is_per_second = UNITS[convention.unit]
-    full = {"px": (factor, factor), "ndc": (size[0] / 2, size[1] / 2), "fraction": size}[unit]
-    common = convention.sign(direction) * convention.scale * (seconds if is_per_second else 1.0)
+    full = (size[0] / 2, size[1] / 2) if convention.unit == "ndc" else (factor, factor)
+    common = convention.sign(direction) * convention.scale
     y_sign = -1.0 if convention.is_y_up else 1.0
-    first, second = (1, 0) if convention.is_y_first else (0, 1)
     result = np.empty((*stored.shape[:-1], 2), np.float32)
-    result[..., 0] = (stored[..., first] - convention.offset) * (full[0] * common)
-    result[..., 1] = (stored[..., second] - convention.offset) * (full[1] * common * y_sign)
+    result[..., 0] = (stored[..., 0] - convention.offset) * (full[0] * common)
+    result[..., 1] = (stored[..., 1] - convention.offset) * (full[1] * common * y_sign)
     return result
 
 

@@ -10,7 +10,7 @@ import glob
 import itertools
 import re
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -112,53 +112,43 @@ def open_fields(given: Any, role: Role) -> FieldStack:
     """
     if not isinstance(given, str | Path):
         return _stack_of_arrays(given, role)
-    stack = _open_path(given, role)
-    # One file may hold all kinds of fields of a frame, which are asked for one by one.
-    return replace(stack, read=functools.lru_cache(maxsize=CACHED_FRAMES)(stack.read))
-
-
-def _open_path(given: str | Path, role: Role) -> FieldStack:
-    path = usable_path(usable_path(given).expanduser())
-    if path.is_dir():
-        files = _files_of_folder(path)
-    elif path.is_file():
-        files = [path]
-    else:
-        files = sorted(map(Path, glob.glob(str(path))), key=natural_key)
-        if not files:
-            raise InputError(
-                f"--{role.replace('_', '-')}: no file or folder {path}; check its name"
-            )
+    files = _find_files(given, role)
     if len(files) == 1:
         return _stack_of_file(files[0], role)
-    first = read_file(files[0], role)
-    return FieldStack(
-        str(given),
-        len(files),
-        lambda index: read_file(files[index], role),
-        frozenset(first),
-        written_by(files[0]),
-        _gap(files),
-    )
+    # One file may hold all kinds of fields of a frame, which are asked for one by one.
+    read = functools.lru_cache(CACHED_FRAMES)(lambda index: read_file(files[index], role))
+    found = frozenset(read_file(files[0], role))
+    return FieldStack(str(given), len(files), read, found, written_by(files[0]), _gap(files))
 
 
-def _files_of_folder(folder: Path) -> list[Path]:
-    """The files of one format in a folder, in natural order."""
-    files = [
-        one
-        for one in folder.iterdir()
-        if one.suffix.lower() in FRAME_EXTENSIONS and not one.name.startswith(".") and one.is_file()
-    ]
-    extensions = sorted({one.suffix.lower() for one in files})
+def _find_files(given: str | Path, role: Role) -> list[Path]:
+    """The file itself, those that a pattern matches, or those of a folder; in natural order."""
+    path = usable_path(usable_path(given).expanduser())
+    if path.is_dir():
+        files = [
+            one
+            for one in path.iterdir()
+            if one.suffix.lower() in FRAME_EXTENSIONS and one.name[0] != "." and one.is_file()
+        ]
+        if not files:
+            raise InputError(
+                f"{path} holds no file of motion vectors, depth or ids; looked for "
+                f"{', '.join(FRAME_EXTENSIONS)}"
+            )
+    else:
+        files = [path] if path.is_file() else [*map(Path, glob.glob(str(path)))]
     if not files:
-        raise InputError(
-            f"{folder} holds no file of motion vectors, depth or ids; looked for "
-            f"{', '.join(FRAME_EXTENSIONS)}"
-        )
+        raise InputError(f"--{role.replace('_', '-')}: no file or folder {path}; check its name")
+    extensions = sorted({one.suffix.lower() for one in files})
     if len(extensions) > 1:
         raise InputError(
-            f"{folder} holds {' and '.join(extensions)} files; name those that are meant, such as "
-            f"'{folder}/*{extensions[0]}'"
+            f"{path} holds {' and '.join(extensions)} files; name those that are meant, such as "
+            f"'{path}/*{extensions[0]}'"
+        )
+    if extensions[0] not in FRAME_EXTENSIONS:
+        raise InputError(
+            f"{files[0]} is no file of motion vectors, depth or ids; known: "
+            f"{', '.join(FRAME_EXTENSIONS)}, or a folder of them"
         )
     return sorted(files, key=natural_key)
 
@@ -179,27 +169,19 @@ def _gap(files: Sequence[Path]) -> str | None:
 
 def _stack_of_file(path: Path, role: Role) -> FieldStack:
     """All frames in one file."""
-    extension = path.suffix.lower()
-    if extension == ".npy":
-        stored = StoredArray(path)
-        count = _count({ROLE_KIND[role]: stored.shape}, str(path))
-        return FieldStack(
-            str(path),
-            count,
-            lambda index: {ROLE_KIND[role]: stored.rows(index, index + 1)[0]},
-            frozenset([ROLE_KIND[role]]),
-        )
-    if extension == ".npz":
-        whole = _of_role(_read_npz(path, role), role, path)
-        count = _count({kind: one.shape for kind, one in whole.items()}, str(path))
-        return FieldStack(
-            str(path),
-            count,
-            lambda index: {kind: array[index] for kind, array in whole.items()},
-            frozenset(whole),
-        )
-    _check_extension(path)
-    raise InputError(f"{path} is the field of one frame; give a folder of them, or a pattern")
+    if path.suffix.lower() not in (".npy", ".npz"):
+        raise InputError(f"{path} is the field of one frame; give a folder of them, or a pattern")
+    whole = _of_role(_read_arrays(path, role), role, path)
+    counts = {kind: len(array) for kind, array in whole.items()}
+    if len(set(counts.values())) > 1:
+        words = ", ".join(f"{kind} {count}" for kind, count in counts.items())
+        raise InputError(f"{path} holds fields of different numbers of frames ({words})")
+    return FieldStack(
+        str(path),
+        next(iter(counts.values())),
+        lambda index: {kind: array[index : index + 1][0] for kind, array in whole.items()},
+        frozenset(whole),
+    )
 
 
 def _stack_of_arrays(given: Any, role: Role) -> FieldStack:
@@ -215,16 +197,6 @@ def _stack_of_arrays(given: Any, role: Role) -> FieldStack:
     )
 
 
-def _count(shapes: Mapping[str, tuple[int, ...]], name: str) -> int:
-    """The number of frames that all arrays of a file have."""
-    if not all(shapes.values()):
-        raise InputError(f"{name} holds a single number; fields are arrays [N, H, W, ...]")
-    if len({shape[0] for shape in shapes.values()}) > 1:
-        counts = ", ".join(f"{kind} {shape[0]}" for kind, shape in shapes.items())
-        raise InputError(f"{name} holds fields of different numbers of frames ({counts})")
-    return next(iter(shapes.values()))[0]
-
-
 def read_file(path: Path, role: Role) -> Fields:
     """The fields of one frame in a file of its own.
 
@@ -233,44 +205,39 @@ def read_file(path: Path, role: Role) -> Fields:
         FileFormatError: it is damaged.
     """
     extension = path.suffix.lower()
-    fields: Fields
     if extension == EXR:
-        fields = _read_exr(path)
-    elif extension == PNG:
-        fields = _read_png(path, role)
-    elif extension == ".npy":
-        stored = StoredArray(path)
-        _count({role: stored.shape}, str(path))
-        fields = {ROLE_KIND[role]: stored.rows(0, len(stored))}
-    else:
-        _check_extension(path)
-        fields = _read_npz(path, role)
-    return _of_role(fields, role, path)
+        return _of_role(_read_exr(path), role, path)
+    if extension == PNG:
+        return _of_role(_read_png(path, role), role, path)
+    arrays = _of_role(_read_arrays(path, role), role, path)
+    return {kind: array[: len(array)] for kind, array in arrays.items()}
 
 
-def _check_extension(path: Path) -> None:
-    if path.suffix.lower() not in FRAME_EXTENSIONS:
-        raise InputError(
-            f"{path} is no file of motion vectors, depth or ids; known: "
-            f"{', '.join(FRAME_EXTENSIONS)}, or a folder of them"
-        )
-
-
-def _of_role(fields: Fields, role: Role, path: Path) -> Fields:
+def _of_role(fields: Mapping[str, Any], role: Role, path: Path) -> dict[str, Any]:
     """All fields for motion, one kind for the other options."""
-    if role == "motion":
-        found = dict(fields)
-        has_motion = {"vectors", "forward", "backward"} & found.keys()
-    elif role == "motion_back":
-        has_motion = {"vectors", "backward"} & fields.keys()
-        found = {"backward": fields[next(iter(has_motion))]} if has_motion else {}
-    else:
-        found = {role: fields[role]} if role in fields else {}
-        has_motion = set(found)
-    if not has_motion:
-        others = ", ".join(fields) or "nothing else"
-        raise InputError(f"{path} has no {role.replace('_', ' ')}; it holds {others}")
-    return found
+    vectors = {"vectors", "forward", "backward"} & fields.keys()
+    if role == "motion" and vectors:
+        return dict(fields)
+    back = [name for name in ("backward", "vectors") if name in vectors]
+    if role == "motion_back" and back:
+        return {"backward": fields[back[0]]}
+    if role in fields:
+        return {role: fields[role]}
+    others = ", ".join(fields) or "nothing else"
+    raise InputError(f"{path} has no {role.replace('_', ' ')}; it holds {others}")
+
+
+def _read_arrays(path: Path, role: Role) -> dict[str, StoredArray | NDArray[Any]]:
+    """The arrays of a .npy file or a NumPy archive by kind; a single one is of the role's kind."""
+    arrays: dict[str, StoredArray | NDArray[Any]]
+    arrays = (
+        {ROLE_KIND[role]: StoredArray(path)}
+        if path.suffix.lower() == ".npy"
+        else dict(_read_npz(path, role))
+    )
+    if not all(array.ndim for array in arrays.values()):
+        raise InputError(f"{path} holds a single number; fields are arrays [N, H, W, ...]")
+    return arrays
 
 
 def _read_npz(path: Path, role: Role) -> dict[str, NDArray[Any]]:

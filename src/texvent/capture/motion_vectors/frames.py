@@ -40,7 +40,7 @@ from texvent.capture.motion_vectors.fields import (
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, warn
 from texvent.pairs.instants import matching_luma
-from texvent.video import MICROSECONDS, Frame, FrameStream, Motion
+from texvent.video import Frame, FrameStream, Motion
 
 CHECKED_FRAMES = 4
 """Frames whose vectors are compared with the images around them."""
@@ -147,7 +147,6 @@ class MotionFrames(FrameSource):
         found: list[tuple[float, Neighbours]] = []
         for index in range(len(frames)):
             luma = {"here": levels[index]}
-            seconds: dict[str, float] = {}
             stored: dict[Direction, NDArray[Any]] = {}
             places: tuple[tuple[Direction, int], ...] = (
                 ("forward", index + 1),
@@ -158,13 +157,12 @@ class MotionFrames(FrameSource):
                 if 0 <= place < len(frames) and at is not None:
                     luma[direction] = levels[place]
                     stored[direction] = self._stacks[field.role].field(field.kind, at)
-                    seconds[direction] = _seconds(frames[index], frames[place])
             if stored:
                 values = next(iter(stored.values()))
                 self._check_field(values, field, index)
                 some = values[::SPARSE, ::SPARSE, :2] - self._convention.offset
                 size = float(np.nan_to_num(np.abs(some)).mean())
-                found.append((size, Neighbours(luma, stored, seconds)))
+                found.append((size, Neighbours(luma, stored)))
         found.sort(key=lambda one: -one[0])
         return [one for _, one in found[:CHECKED_FRAMES]]
 
@@ -188,7 +186,7 @@ class MotionFrames(FrameSource):
             stored = self._stacks[field.role].field(field.kind, at)
             self._check_field(stored, field, index)
             vectors[field.direction] = to_pixels(
-                stored, self._convention, field.direction, frame.size, _seconds(frame, other)
+                stored, self._convention, field.direction, frame.size
             )
         return Motion(
             vectors.get("forward"),
@@ -311,22 +309,8 @@ def _with_next(frames: FrameStream) -> Iterator[tuple[Frame, Frame | None]]:
         yield current, None
 
 
-def _seconds(frame: Frame, other: Frame) -> float:
-    return abs(other.t_us - frame.t_us) / MICROSECONDS
-
-
 OWN_FOLDER = "motion"
 """Folder of passes beside the folder of frames, as the script for Blender makes it."""
-
-TRUTH_MARK = "truth.json"
-"""In every folder that `--truth` makes."""
-TRUTH_PARTS = {
-    "motion": "flow/forward_npz",
-    "motion_back": "flow/backward_npz",
-    "depth": "depth",
-    "instances": "instance",
-}
-"""Option → part of such a folder."""
 
 
 def attach_motion(
@@ -356,29 +340,11 @@ def attach_motion(
         return stream
     if stream.is_live:
         raise InputError("motion vectors need frames that can be read twice, not a live stream")
-    sources = _of_truth(sources)
     stacks = {role: open_fields(one, role) for role, one in sources.items()}
     motion = MotionFrames(stream, stacks, config)
     if config.check_motion:
         motion.check()
     return motion
-
-
-def _of_truth(sources: Mapping[str, Any]) -> dict[str, Any]:
-    """The sources, where `motion` is a folder of `--truth`, by the parts that it holds."""
-    folder = sources.get("motion")
-    try:
-        is_truth = isinstance(folder, str | Path) and (Path(folder) / TRUTH_MARK).is_file()
-    except (OSError, ValueError):  # no path
-        is_truth = False
-    if folder is None or not is_truth:
-        return dict(sources)
-    held = {role: Path(folder) / part for role, part in TRUTH_PARTS.items()}
-    if not held["motion"].is_dir():
-        raise InputError(f"{folder} holds truth, but no flow; make it with --truth flow,flow-back")
-    return {role: part for role, part in held.items() if part.is_dir()} | {
-        role: one for role, one in sources.items() if role != "motion"
-    }
 
 
 def find_motion_sidecar(source: Any) -> Path | None:

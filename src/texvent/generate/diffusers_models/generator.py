@@ -25,7 +25,6 @@ from texvent.generate.diffusers_models.guardrail import (
     guardrail_version,
     needs_guardrail,
 )
-from texvent.generate.diffusers_models.latents import Latents, decode_latents, read_latents
 from texvent.generate.diffusers_models.pipeline_call import (
     call_pipeline,
     check_options,
@@ -33,8 +32,6 @@ from texvent.generate.diffusers_models.pipeline_call import (
 )
 from texvent.generate.diffusers_models.pipeline_loading import (
     LoadRequest,
-    Pipeline,
-    find_kept,
     find_pipeline_class,
     load_pipeline,
     place,
@@ -42,7 +39,6 @@ from texvent.generate.diffusers_models.pipeline_loading import (
 )
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.known_models import VideoModel
-from texvent.generate.video_models.loading import quiet_libraries
 from texvent.generate.video_models.lora import Lora, check_loras, parse_lora
 from texvent.generate.video_models.model_files import (
     find_downloaded,
@@ -59,16 +55,12 @@ from texvent.runtime.progress import NoProgress, Progress
 from texvent.video import PixelArray
 
 EXTRA = "generate"
-PIXEL_OPTIONS = (
-    *("frames", "width", "height", "steps", "guidance"),
-    *("negative_prompt", "dtype", "quantize"),
-)
+PIXEL_OPTIONS = ("frames", "width", "height", "steps", "guidance", "negative_prompt")
 """Options that decide the pixels, beside model, prompt, seed and files."""
 PIXEL_FACTS = ("call", "sigmas", "scheduler")
 """Fields of a model's row that decide the pixels too."""
 PACKAGES = ("diffusers", "transformers", "torch")
 """Packages that decide the pixels beside the weights; their versions go into the metadata."""
-SECOND_TRANSFORMER = "transformer_2"
 
 
 class DiffusersGenerator:
@@ -89,7 +81,9 @@ class DiffusersGenerator:
         self.model = model
         self.seed = seed
         self._loras = tuple(map(parse_lora, config.lora))
-        self._run: _ModelRun | None = None
+        self._request: LoadRequest | None = None
+        self._has_guardrail = False
+        self._origin: dict[str, Any] = {}
 
     def generate(self, prompt: str, *, progress: Progress | None = None) -> StoredVideo:
         """The video for `prompt`, made now unless it was made before.
@@ -114,20 +108,6 @@ class DiffusersGenerator:
             progress=progress,
         )
 
-    def generate_latents(self, prompt: str, *, progress: Progress | None = None) -> Latents:
-        """Denoised latents for `prompt`, with the scale and shift of their decoder.
-
-        Raises:
-            InputError: the model's decoder is not known, or the model has a guardrail that must
-                see finished frames; and what `generate` raises.
-        """
-        self._check(prompt)
-        return self._loaded(progress or NoProgress()).latents(prompt, self.seed)
-
-    def decode(self, latents: Latents) -> Iterator[PixelArray]:
-        """Frames of latents, [H, W, 3] float32 in 0..1."""
-        return decode_latents(self._loaded(NoProgress()).pipeline, latents)
-
     def plan(self, prompt: str) -> str | None:
         """What making the video would take, or None if it was made before. Touches no network.
 
@@ -142,7 +122,7 @@ class DiffusersGenerator:
         if folder is None:
             self._check_before_loading()
         else:  # all files are here: options that do not fit them are refused too
-            self._loaded(NoProgress())
+            self._prepare(NoProgress())
         here = f"its files are in {folder}" if folder is not None else "it has to be fetched first"
         wanted = {"frames": config.frames, "steps": config.steps}
         amounts = ", ".join(f"{value} {name}" for name, value in wanted.items() if value)
@@ -187,17 +167,61 @@ class DiffusersGenerator:
             name = model.image_pipeline or name
         if name is None:
             return
-        with quiet_libraries():
-            pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
+        pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
         if pipeline_class is not None:  # else the installed one is too old, which loading says
             check_options(pipeline_class, config)
 
-    def _loaded(self, progress: Progress) -> _ModelRun:
-        if self._run is None:
-            self._check_before_loading()
-            self._run = _ModelRun(self.model, self.config, self._loras, self.fps, progress)
-        self._run.progress = progress
-        return self._run
+    def _prepare(self, progress: Progress) -> LoadRequest:
+        """Find the model's files and check that the options fit them; no network is loaded."""
+        if self._request is not None:
+            return self._request
+        self._check_before_loading()
+        model, config = self.model, self.config
+        files = find_files(model, progress.announce)
+        device, free = resolve_device()
+        request = LoadRequest(
+            folder=files.folder,
+            content=" ".join([fingerprint(files.folder), *map(_lora_content, self._loras)]),
+            class_name=(model.image_pipeline if config.image else None) or model.pipeline,
+            placement=place(model, config, device, free),
+            decoder_in_float32=model.needs_float32_vae,
+            loras=self._loras,
+            scheduler=tuple(model.scheduler.items()),
+        )
+        pipeline_class = find_pipeline_class(request)
+        check_loras(self._loras, pipeline_class)
+        check_options(pipeline_class, config)
+        facts = {
+            "source": model.source,
+            "commit": files.commit,
+            "pipeline": pipeline_class.__name__,
+            "dtype": request.placement.dtype,
+            "licence": model.licence_and_terms,
+            **{name: metadata.version(name) for name in PACKAGES},
+        }
+        self._has_guardrail = needs_guardrail(read_pipeline_index(files.folder))
+        if self._has_guardrail:
+            facts["guardrail"] = guardrail_version()
+        self._origin = {name: fact for name, fact in facts.items() if fact is not None}
+        self._request = request
+        return request
+
+    def _frames(self, prompt: str, seed: int, progress: Progress) -> Iterator[PixelArray]:
+        """Frames [H, W, 3] float32 in 0..1."""
+        pipeline = load_pipeline(self._prepare(progress), progress.announce)
+        if self._has_guardrail:
+            check_prompt(getattr(pipeline, PART, None), prompt)
+        frames = call_pipeline(
+            pipeline,
+            prompt,
+            self.config,
+            model=self.model,
+            fps=self.fps,
+            # Of the CPU: the same noise on every device.
+            generator=require("torch", extra=EXTRA).Generator("cpu").manual_seed(seed),
+            progress=progress,
+        )
+        return iter(frames)
 
     def _find_or_make(self, prompt: str, seed: int, progress: Progress) -> StoredVideo:
         cache = VideoCache(is_kept=self.config.reuse_video)
@@ -206,15 +230,14 @@ class DiffusersGenerator:
         if found is not None:
             progress.announce(f"this video was generated before: {found.path}")
             return found.with_metadata(**self._request_facts())
-        run = self._loaded(progress)
-        frames = run.frames(prompt, seed)
+        frames = self._frames(prompt, seed, progress)
         facts = {
             "generator": self.model.name,
             "version": __version__,
             "prompt": prompt,
             "seed": seed,
             **self._request_facts(),
-            **run.provenance(),
+            **self._origin,
         }
         video = cache.store(key, frames, self.fps, facts)
         asked = self.config.frames
@@ -235,7 +258,7 @@ class DiffusersGenerator:
         if config.image is not None:
             facts["image"] = _sha256(config.image)
         if self._loras:
-            facts["lora"] = [[_lora_content(one), one.weight, one.noise] for one in self._loras]
+            facts["lora"] = [[_lora_content(one), one.weight] for one in self._loras]
         if model.folder is None:
             facts["source"] = model.source
         else:
@@ -251,105 +274,6 @@ class DiffusersGenerator:
             if path is not None and path.is_file()
         ]
         return {"options": plain(self.config), **({"files": files} if files else {})}
-
-
-class _ModelRun:
-    """A model with its files found and checked; its pipeline is loaded for the first prompt.
-
-    Args:
-        model: origin of the weights.
-        config: options.
-        loras: parsed from the options.
-        fps: frame rate, for models that take it as an input.
-        progress: receives downloads and denoising steps; may be replaced between prompts.
-
-    Raises:
-        InputError, FileFormatError, MissingDependencyError: see `model_files.find_files`.
-        ConfigError: the pipeline takes no LoRA, or not this one.
-    """
-
-    def __init__(
-        self,
-        model: VideoModel,
-        config: DiffusersConfig,
-        loras: tuple[Lora, ...],
-        fps: Fraction,
-        progress: Progress,
-    ) -> None:
-        self._model, self._config, self._fps, self.progress = model, config, fps, progress
-        self._files = find_files(model, progress.announce)
-        self._index = read_pipeline_index(self._files.folder)
-        self.has_guardrail = needs_guardrail(self._index)
-        device, free = resolve_device(config.generator_device)
-        self._request = LoadRequest(
-            folder=self._files.folder,
-            content=" ".join([fingerprint(self._files.folder), *map(_lora_content, loras)]),
-            class_name=(model.image_pipeline if config.image else None) or model.pipeline,
-            placement=place(model, config, device, free),
-            decoder_in_float32=model.needs_float32_vae,
-            loras=loras,
-            scheduler=tuple(model.scheduler.items()),
-        )
-        second = self._index.get(SECOND_TRANSFORMER) or [None]
-        self._pipeline_class = find_pipeline_class(self._request)
-        check_loras(loras, self._pipeline_class, has_two=second[0] is not None)
-
-    @functools.cached_property
-    def pipeline(self) -> Pipeline:
-        """The loaded pipeline."""
-        if find_kept(self._request) is None:
-            check_options(self._pipeline_class, self._config)  # before minutes of loading
-            placement = self._request.placement
-            self.progress.announce(f"loading {self._model.source} ({placement.describe()})")
-        return load_pipeline(self._request)
-
-    def frames(self, prompt: str, seed: int) -> Iterator[PixelArray]:
-        """Frames [H, W, 3] float32 in 0..1."""
-        if self.has_guardrail:
-            check_prompt(getattr(self.pipeline, PART, None), prompt)
-        return iter(self._call(prompt, seed, "np"))
-
-    def latents(self, prompt: str, seed: int) -> Latents:
-        """Denoised latents.
-
-        Raises:
-            InputError: the model has a guardrail, or its decoder is not known.
-        """
-        if self.has_guardrail:
-            raise InputError(
-                f"{self._model.name} gives no latents: its guardrail must see the frames"
-            )
-        output = self._call(prompt, seed, "latent")
-        return read_latents(self.pipeline, output, self._config.frames, self._fps)
-
-    def provenance(self) -> dict[str, Any]:
-        """Origin of the frames, beside prompt, seed and options."""
-        facts: dict[str, Any] = {
-            "source": self._model.source,
-            "commit": self._files.commit,
-            "pipeline": self._pipeline_class.__name__,
-            "dtype": self._request.placement.dtype,
-            "quantize": self._request.placement.quantize,
-            "licence": self._model.licence_and_terms,
-            **{name: metadata.version(name) for name in PACKAGES},
-        }
-        if self.has_guardrail:
-            facts["guardrail"] = guardrail_version()
-        return {name: value for name, value in facts.items() if value is not None}
-
-    def _call(self, prompt: str, seed: int, kind: str) -> Any:
-        """Frames ("np") or latents ("latent")."""
-        return call_pipeline(
-            self.pipeline,
-            prompt,
-            self._config,
-            model=self._model,
-            fps=self._fps,
-            # Of the CPU: the same noise on every device.
-            generator=require("torch", extra=EXTRA).Generator("cpu").manual_seed(seed),
-            output_type=kind,
-            progress=self.progress,
-        )
 
 
 def _sha256(path: Path) -> str:

@@ -45,7 +45,6 @@ def call_pipeline(
     model: VideoModel,
     fps: Fraction,
     generator: Any,
-    output_type: str,
     progress: Progress,
 ) -> Any:
     """Run a pipeline once.
@@ -57,11 +56,10 @@ def call_pipeline(
         model: its row, with further arguments of the call.
         fps: passed where the model takes the rate as an input (it changes the pixels).
         generator: torch's source of noise.
-        output_type: "np" for frames [F, H, W, 3] float32 in 0..1, "latent" for latents.
         progress: receives denoising steps, where the pipeline reports them.
 
     Returns:
-        The frames of the batch of one, or the latent tensor with its batch axis.
+        Frames, [F, H, W, 3] float32 in 0..1.
 
     Raises:
         ConfigError: the pipeline does not take an option, or refuses its value.
@@ -84,10 +82,10 @@ def call_pipeline(
         arguments["image"] = _fitted_image(config.image, config, accepted)
     if ON_STEP in accepted:
         arguments[ON_STEP] = _reporter(progress)
-    arguments |= {"output_type": output_type, "generator": generator}
+    arguments |= {"output_type": "np", "generator": generator}
     with _guided(pipe, config.guidance):
         output = _run(pipe, arguments)
-    return output[0] if output_type != "latent" and output.ndim > FRAME_DIMENSIONS else output
+    return output[0] if output.ndim > FRAME_DIMENSIONS else output
 
 
 def check_options(pipeline_class: type, config: DiffusersConfig) -> Mapping[str, inspect.Parameter]:
@@ -185,7 +183,7 @@ def _run(pipe: Any, arguments: Mapping[str, Any]) -> Any:
     except torch.OutOfMemoryError as error:
         raise TexventError(
             f"{type(pipe).__name__} does not fit into the GPU's memory; try offload='model' or "
-            "offload='sequential', quantize='8bit', a smaller `width` and `height`, or fewer "
+            "offload='sequential', a smaller `width` and `height`, or fewer "
             "--frames"
         ) from error
     finally:

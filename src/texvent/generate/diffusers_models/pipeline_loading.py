@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import inspect
+from collections.abc import Callable
 from dataclasses import dataclass
-from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, TypeAlias
 
@@ -19,7 +19,7 @@ from texvent.generate.diffusers_models.guardrail import (
 )
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.known_models import VideoModel
-from texvent.generate.video_models.loading import loading, quiet_libraries
+from texvent.generate.video_models.loading import loading, without_bars
 from texvent.generate.video_models.lora import Lora, load_loras
 from texvent.generate.video_models.model_files import read_pipeline_index
 
@@ -27,14 +27,11 @@ EXTRA = "generate"
 Pipeline: TypeAlias = Any
 """diffusers.DiffusionPipeline; diffusers is imported only when a pipeline is loaded."""
 DECODER = "vae"
-QUANTIZED_PARTS = ("transformer", "transformer_2")
 GB = 1e9
 SEQUENTIAL_BELOW_GB = 9.0
 """Free GPU memory below which even one whole part of a common model does not fit."""
 ROOMY_GB = 75.0
 """Free GPU memory above which a model of unknown needs is put on the device as a whole."""
-QUANTIZED_SHARE = {"none": 1.0, "8bit": 0.6, "4bit": 0.45}
-"""Rough share of the memory that remains; decoder and text encoder are not quantised."""
 
 
 @dataclass(frozen=True)
@@ -47,15 +44,11 @@ class Placement:
     """"none", "model" or "sequential"."""
     tiles_decoder: bool
     """Decode in tiles: less memory, faint differences where tiles meet."""
-    quantize: str = "none"
-    """Bits of the video transformer's weights: "none" (all), "8bit" or "4bit"."""
 
     def describe(self) -> str:
         """Device, number format and memory savings, for messages."""
-        facts = [self.device, self.dtype]
-        facts += [] if self.quantize == "none" else [f"weights in {self.quantize}"]
-        facts += [] if self.offload == "none" else [f"offload {self.offload}"]
-        return ", ".join(facts)
+        saved = "" if self.offload == "none" else f", offload {self.offload}"
+        return f"{self.device}, {self.dtype}{saved}"
 
 
 _KEPT: dict[LoadRequest, Pipeline] = {}
@@ -78,31 +71,31 @@ class LoadRequest:
     """Settings of the noise schedule that replace the saved ones."""
 
 
-def load_pipeline(request: LoadRequest) -> Pipeline:
+def load_pipeline(request: LoadRequest, announce: Callable[[str], None] | None = None) -> Pipeline:
     """The pipeline, in evaluation mode, placed as asked. The last one is kept for the next prompt.
+
+    Args:
+        request: model, files and placement.
+        announce: receives a line before minutes of loading.
 
     Raises:
         FileFormatError: a weight file does not fit its network.
         InputError: diffusers has no such class, or a file is missing.
         MissingDependencyError: a package is not installed.
     """
-    kept = find_kept(request)
-    if kept is None:
+    if request not in _KEPT:
         forget_pipeline()  # before the next is loaded: memory holds one
-        kept = _KEPT[request] = _load(request)
-    return kept
+        if announce is not None:
+            announce(f"loading {request.folder} ({request.placement.describe()})")
+        _KEPT[request] = _load(request)
+    return _KEPT[request]
 
 
-def find_kept(request: LoadRequest) -> Pipeline | None:
-    """The pipeline for that request if it is loaded already, else None."""
-    return _KEPT.get(request)
-
-
-def resolve_device(name: str, option: str = "generator_device") -> tuple[str, int | None]:
+def resolve_device(name: str = "auto", option: str = "device") -> tuple[str, int | None]:
     """Device, and its free memory in bytes (None for a CPU).
 
     Args:
-        name: "auto", or a torch device such as "cuda:1".
+        name: "auto" (a GPU that torch finds, else the CPU), or a torch device such as "cuda:1".
         option: option that named it, for messages.
 
     Raises:
@@ -132,50 +125,26 @@ def place(
 
     Args:
         model: the model and its memory needs.
-        config: options; "auto" leaves a choice open.
+        config: options; "auto" leaves the choice open.
         device: resolved device, such as "cpu" or "cuda:0".
         free_bytes: free memory of the GPU, or None on a CPU.
 
     Raises:
-        ConfigError: an option needs a GPU and there is none.
+        ConfigError: `offload` needs a GPU and there is none.
     """
     if free_bytes is None:
-        for name, value in (("offload", config.offload), ("quantize", config.quantize)):
-            if value not in ("auto", "none"):
-                raise ConfigError(
-                    f"{name} is {value!r}, which needs a GPU, but the video is made on {device}; "
-                    f"leave --{name} out"
-                )
-        format_on_cpu = "float32" if config.dtype == "auto" else config.dtype
-        return Placement(device, format_on_cpu, "none", tiles_decoder=False)
-    quantize = _choose_quantization(model, config, free_bytes / GB)
+        if config.offload not in ("auto", "none"):
+            raise ConfigError(
+                f"offload is {config.offload!r}, which needs a GPU, but the video is made on "
+                f"{device}; leave --offload out"
+            )
+        return Placement(device, "float32", "none", tiles_decoder=False)
     offload: str = config.offload
     if offload == "auto":
-        offload = _choose_offload(model, free_bytes / GB, QUANTIZED_SHARE[quantize])
-    dtype = model.dtype if config.dtype == "auto" else config.dtype
-    return Placement(device, dtype, offload, tiles_decoder=offload != "none", quantize=quantize)
-
-
-def _choose_quantization(model: VideoModel, config: DiffusersConfig, free_gb: float) -> str:
-    """As many bits as keep whole parts on the GPU; layer by layer is slower by an order."""
-    if config.quantize != "auto":
-        return config.quantize
-    if config.offload != "auto" or find_spec("bitsandbytes") is None:
-        return "none"
-    fitting = (
-        bits
-        for bits, share in QUANTIZED_SHARE.items()
-        if _choose_offload(model, free_gb, share) != "sequential"
-    )
-    return next(fitting, "none")
-
-
-def _choose_offload(model: VideoModel, free_gb: float, share: float) -> str:
-    if free_gb >= (model.gpu_gb or ROOMY_GB) * share:
-        return "none"
-    if free_gb >= (model.offload_gb or SEQUENTIAL_BELOW_GB) * share:
-        return "model"
-    return "sequential"
+        free_gb = free_bytes / GB
+        offload = "model" if free_gb >= (model.offload_gb or SEQUENTIAL_BELOW_GB) else "sequential"
+        offload = "none" if free_gb >= (model.gpu_gb or ROOMY_GB) else offload
+    return Placement(device, model.dtype, offload, tiles_decoder=offload != "none")
 
 
 def forget_pipeline() -> None:
@@ -191,8 +160,7 @@ def find_pipeline_class(request: LoadRequest) -> Any:
         MissingDependencyError: diffusers is not installed.
     """
     name = request.class_name or str(read_pipeline_index(request.folder)["_class_name"])
-    with quiet_libraries():
-        pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
+    pipeline_class = getattr(require("diffusers", extra=EXTRA), name, None)
     if pipeline_class is None:
         raise InputError(
             f"{request.folder} needs the diffusers class {name}, which the installed diffusers "
@@ -205,8 +173,6 @@ def _load(request: LoadRequest) -> Pipeline:
     # By the class itself: DiffusionPipeline.from_pretrained ignores optional parts given to it.
     pipeline_class = find_pipeline_class(request)
     parts = _load_guardrail_part(pipeline_class, request)
-    if request.placement.quantize != "none":
-        parts["quantization_config"] = _quantization(request)
     pipe = _from_pretrained(pipeline_class, request, parts)
     if PART in parts:
         check_wiring(pipe)
@@ -214,7 +180,7 @@ def _load(request: LoadRequest) -> Pipeline:
     if request.scheduler:
         saved = pipe.scheduler
         pipe.scheduler = type(saved).from_config(saved.config, **dict(request.scheduler))
-    with quiet_libraries():
+    with without_bars():
         place_pipeline(pipe, request.placement)
     for part in pipe.components.values():
         # A text encoder in training mode drops units at random.
@@ -241,32 +207,6 @@ def _from_pretrained(pipeline_class: Any, request: LoadRequest, parts: dict[str,
         return pipeline_class.from_pretrained(
             str(request.folder), dtype=dtype, local_files_only=True, use_safetensors=True, **parts
         )
-
-
-def _quantization(request: LoadRequest) -> Any:
-    index = read_pipeline_index(request.folder)
-    parts = [part for part in QUANTIZED_PARTS if (index.get(part) or [None])[0] is not None]
-    if not parts:
-        raise ConfigError(
-            f"quantize is {request.placement.quantize!r}, but {request.folder} has no video "
-            "transformer, the only part that is quantised; give quantize='none'"
-        )
-    diffusers = require("diffusers", extra=EXTRA)
-    require("bitsandbytes", extra="quantize")
-    torch = require("torch", extra=EXTRA)
-    if request.placement.quantize == "8bit":
-        backend = "bitsandbytes_8bit"
-        options: dict[str, Any] = {"load_in_8bit": True}
-    else:
-        backend = "bitsandbytes_4bit"
-        options = {
-            "load_in_4bit": True,
-            "bnb_4bit_quant_type": "nf4",
-            "bnb_4bit_compute_dtype": getattr(torch, request.placement.dtype),
-        }
-    return diffusers.PipelineQuantizationConfig(
-        quant_backend=backend, quant_kwargs=options, components_to_quantize=parts
-    )
 
 
 def place_pipeline(pipe: Pipeline, placement: Placement) -> None:

@@ -199,10 +199,7 @@ def to_16_bits(pixels: PixelArray, transfer: Transfer = Transfer.GAMMA) -> Pixel
     if pixels.dtype == np.uint16:
         return np.ascontiguousarray(pixels)
     if not np.isfinite(pixels).all():
-        raise InputError(
-            "the generator made a frame with NaN or infinite values; try dtype='float32' or "
-            "another seed"
-        )
+        raise InputError("the generator made a frame with NaN or infinite values; try another seed")
     if transfer is Transfer.LINEAR:
         return np.ascontiguousarray(encode_half(pixels))
     scaled = np.clip(pixels.astype(np.float32), 0.0, 1.0) * np.float32(FULL_SCALE)

@@ -3,31 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
+import numpy as np
+from numpy.typing import NDArray
+
 from texvent.config import InterpolateConfig
-from texvent.errors import InputError
-from texvent.interpolate.networks import (
-    WHITE,
-    NetworkInterpolator,
-    Tensor,
-    import_torch,
-    pad_to_multiple,
-    warp,
-)
+from texvent.errors import FileFormatError, InputError
 from texvent.interpolate.rife.weights import (
+    Tensor,
     describe_rife_weights,
     find_rife_weights,
+    import_torch,
     read_rife_weights,
 )
+from texvent.pairs.instants import check_between, matching_levels, position
 from texvent.pairs.tensors import rgb_and_luma
-from texvent.video import FrameStream
+from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream
 
 if TYPE_CHECKING:
     from texvent.interpolate.rife.network import Motion
 
+WHITE = 255.0
 
-class RifeInterpolator(NetworkInterpolator):
+
+class RifeInterpolator:
     """Moves both frames along the flow that a trained network estimates, and mixes them.
 
     The network only sees the frames; their float32 luma is moved, so intermediate frames have no
@@ -45,18 +46,18 @@ class RifeInterpolator(NetworkInterpolator):
         """An interpolator with its weights loaded.
 
         Args:
-            config: weights and device.
+            config: the weights.
             stream: not used; every interpolator is built alike.
 
         Raises:
             MissingDependencyError: torch or safetensors is not installed.
             InputError: there are no weights.
             FileFormatError: the weights are damaged or of another network.
-            ConfigError: "cuda" without a GPU.
         """
         del stream
-        import_torch()
-        super().__init__(find_rife_weights(config.interpolator_weights), config)
+        torch = import_torch()
+        self._device = "cuda" if torch.cuda.is_available() else "cpu"
+        self._path = find_rife_weights(config.interpolator_weights)
         self._network = read_rife_weights(self._path).to(self._device)
 
     @staticmethod
@@ -68,6 +69,51 @@ class RifeInterpolator(NetworkInterpolator):
         """
         import_torch()
         return describe_rife_weights(find_rife_weights(config.interpolator_weights))
+
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+        """Frames with every point moved along its path from `first` to `second`.
+
+        Args:
+            first: the earlier source frame.
+            second: the later source frame.
+            times_us: times of the intermediate frames, µs.
+
+        Yields:
+            One frame per time, [H, W] float32 luma, 0..255 scale.
+
+        Raises:
+            InputError: the frames differ in size, a time is not between theirs, or they do not
+                fit into the device's memory.
+            FileFormatError: the weights give numbers that are NaN or infinite.
+        """
+        check_between(first, second, times_us)
+        lumas = tuple(_luma_tensor(frame, self._device) for frame in (first, second))
+        positions = [position(first, second, t_us) for t_us in times_us]
+        drawn = self._draw(image_tensors(first, second), lumas, positions)
+        for t_us, luma in zip(times_us, drawn, strict=True):
+            if not bool(luma.isfinite().all()):
+                raise FileFormatError(f"{self._path}: the network's output is NaN or infinite")
+            yield Frame(luma.cpu().numpy(), t_us, is_source=False, transfer=first.transfer)
+
+    def _draw(
+        self, images: Sequence[Tensor], lumas: Sequence[Tensor], positions: Sequence[float]
+    ) -> Iterator[Tensor]:
+        """Luma at every position, [H, W] float32 on the device.
+
+        Args:
+            images: both frames as the network sees them, [1, 3, H, W] each, 0..1.
+            lumas: both frames as they are moved, [1, 1, H, W] each, on the device.
+            positions: τ, 0..1, both excluded.
+        """
+        torch = import_torch()
+        pair = None
+        for at in positions:
+            # Not around the yield: the caller must not inherit the mode.
+            with torch.inference_mode(), _explain_memory(self._device):
+                if pair is None:
+                    pair = self._prepare(images)
+                luma = self._luma_at(pair, lumas, at)
+            yield luma
 
     def between_tensors(
         self, first: Tensor, second: Tensor, positions: Sequence[float]
@@ -113,9 +159,69 @@ class RifeInterpolator(NetworkInterpolator):
         return Motion(motion.flow[..., :height, :width], motion.mask[..., :height, :width])
 
     def _luma_at(self, pair: Motion, lumas: Sequence[Tensor], at: float) -> Tensor:
-        from texvent.interpolate.rife.network import move_motion  # needs torch
+        from texvent.interpolate.rife.network import move_motion, warp  # needs torch
 
         motion = move_motion(pair, at)
         weight = import_torch().sigmoid(motion.mask)
         first, second = warp(lumas[0], motion.flow[:, :2]), warp(lumas[1], motion.flow[:, 2:])
         return (second + (first - second) * weight)[0, 0]
+
+
+def image_tensors(first: Frame, second: Frame) -> tuple[Tensor, Tensor]:
+    """Both frames of a pair as a network expects them.
+
+    Grey frames are repeated in all three channels. Levels above white are compressed
+    (`pairs.instants.matching_levels`) and both frames are scaled together, so that they stay in
+    the range the network knows.
+
+    Returns:
+        Two tensors [1, 3, H, W] float32, 0..1, on the CPU.
+    """
+    torch = import_torch()
+    levels = [_levels(first), _levels(second)]
+    scale = np.float32(1.0 / max(WHITE, *(float(one.max()) for one in levels)))
+    earlier, later = (
+        torch.from_numpy(np.ascontiguousarray(one * scale)).expand(1, 3, -1, -1) for one in levels
+    )
+    return earlier, later
+
+
+def _levels(frame: Frame) -> NDArray[np.float32]:
+    """[1 or 3, H, W] float32, 0..255 scale, as `pairs.instants.matching_levels` has them."""
+    pixels = np.asarray(frame.pixels, dtype=np.float32)
+    if frame.pixels.dtype == np.uint16:
+        pixels = pixels / np.float32(UINT16_PER_LEVEL)
+    pixels = matching_levels(pixels, frame.transfer)
+    return pixels[None] if pixels.ndim == 2 else np.moveaxis(pixels, 2, 0)
+
+
+def _luma_tensor(frame: Frame, device: str) -> Tensor:
+    """Luma of a frame, [1, 1, H, W] float32, 0..255 scale, on the device."""
+    luma = np.array(frame.luma, dtype=np.float32)
+    return import_torch().from_numpy(luma)[None, None].to(device)
+
+
+def pad_to_multiple(image: Tensor, multiple: int) -> Tensor:
+    """The image with its right and lower edges repeated up to a multiple of a number of px."""
+    height, width = image.shape[-2:]
+    below, right = -height % multiple, -width % multiple
+    pad = import_torch().nn.functional.pad
+    return pad(image, (0, right, 0, below), mode="replicate")
+
+
+@contextmanager
+def _explain_memory(device: str) -> Iterator[None]:
+    """Turn torch's failure of memory into one line.
+
+    Raises:
+        InputError: the images do not fit into the device's memory.
+    """
+    try:
+        yield
+    except RuntimeError as error:
+        if "memory" in str(error):
+            raise InputError(
+                f"a pair of frames does not fit into the memory of device {device}; choose a "
+                "smaller `sensor`, or hide the GPU with CUDA_VISIBLE_DEVICES="
+            ) from error
+        raise

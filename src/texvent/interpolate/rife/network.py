@@ -14,7 +14,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from texvent.interpolate.networks import Tensor, import_torch, warp
+from texvent.interpolate.rife.weights import Tensor, import_torch
 
 torch: Any = import_torch()
 nn: Any = torch.nn
@@ -239,6 +239,31 @@ def _resize(x: Tensor, factor: float) -> Tensor:
         return x
     return nn.functional.interpolate(
         x, scale_factor=float(factor), mode="bilinear", align_corners=False
+    )
+
+
+def warp(image: Tensor, flow: Tensor) -> Tensor:
+    """The image that `flow` looks up: bilinear, edges repeated.
+
+    Args:
+        image: [N, C, H, W] float32.
+        flow: from each pixel to where it is looked up, [N, 2, H, W] as (x, y), px.
+
+    Returns:
+        [N, C, H, W].
+    """
+    height, width = image.shape[-2:]
+    columns = torch.arange(width, device=flow.device, dtype=torch.float32)
+    rows = torch.arange(height, device=flow.device, dtype=torch.float32)
+    # grid_sample wants -1..1 from the first pixel's centre to the last one's.
+    x = (flow[:, 0] + columns) * (2.0 / max(width - 1, 1)) - 1.0
+    y = (flow[:, 1] + rows[:, None]) * (2.0 / max(height - 1, 1)) - 1.0
+    return torch.nn.functional.grid_sample(
+        image,
+        torch.stack((x, y), dim=-1),
+        mode="bilinear",
+        padding_mode="border",
+        align_corners=True,
     )
 
 

@@ -4,24 +4,42 @@ from __future__ import annotations
 
 import functools
 from pathlib import Path
-from typing import TYPE_CHECKING
+from types import ModuleType
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError
-from texvent.interpolate.networks import EXTRA, import_torch, load_strictly
 from texvent.io.atomic import atomic_file
-from texvent.networks.weight_files import describe_file, named_tensors, read_mapping
+from texvent.networks.weight_files import (
+    check_finite,
+    describe_file,
+    named_tensors,
+    read_mapping,
+)
 from texvent.runtime.cache_folder import cache_folder
 
 if TYPE_CHECKING:
     from texvent.interpolate.rife.network import RifeNetwork
 
+EXTRA = "rife"
+"""The texvent extra that installs torch and safetensors."""
+Tensor: TypeAlias = Any
+"""torch.Tensor."""
 DEFAULT_FILE = "rife.safetensors"
 """Name, in the weights folder, of the file that `texvent weights pull rife` writes."""
 WHERE_FROM = (
     "fetch version 4.0 with: texvent weights pull rife; or pass the flownet.pkl of "
     "Practical-RIFE 4.0, 4.6, 4.25 or 4.26 with interpolator_weights=PATH"
 )
+
+
+def import_torch() -> ModuleType:
+    """The module torch.
+
+    Raises:
+        MissingDependencyError: it is not installed.
+    """
+    return require("torch", extra=EXTRA)
 
 
 def find_rife_weights(path: Path | None) -> Path:
@@ -65,7 +83,15 @@ def read_rife_weights(path: Path) -> RifeNetwork:
     layout, widths = closest_layout(inner)
     with torch.device("meta"):
         network = RifeNetwork(layout, widths)
-    load_strictly(network, inner, path, f"closest version: {layout.name}; {WHERE_FROM}")
+    try:
+        network.load_state_dict(inner, strict=True, assign=True)
+    except RuntimeError as error:
+        problem = str(error).splitlines()[1].strip().rstrip(". ")
+        raise FileFormatError(
+            f"{path} holds another network: {problem[:300]}; closest version: {layout.name}; "
+            f"{WHERE_FROM}"
+        ) from error
+    check_finite(inner, path)
     return network
 
 

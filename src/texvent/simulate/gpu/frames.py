@@ -139,7 +139,7 @@ class GpuPairs:
         return self._simulator.step(frames, [*times_us, t_us], flags)
 
     def _count_intermediate(self, first: Tensor, second: Tensor) -> int:
-        """Eq. 4's K; see `interpolate.count.count_intermediate`."""
+        """Eq. 4's K; see `interpolate.count_policy`."""
         balance = self._simulator.balance
         change = (first.double() + balance).log() - (second.double() + balance).log()
         steps = float(change.abs().max()) / self._simulator.contrast_threshold

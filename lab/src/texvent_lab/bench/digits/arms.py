@@ -31,7 +31,7 @@ WAYS: tuple[Way, ...] = ("exact", "flow")
 BETWEEN = 16
 """True frames between two of the display."""
 WAY_OPTIONS: Mapping[Way, Mapping[str, Any]] = {
-    "exact": {"interpolate": "exact", "count": "fixed", "fixed_count": BETWEEN},
+    "exact": {"interpolate": "exact", "fixed_count": BETWEEN},
     "flow": {"interpolate": "flow"},
     "frames": {"interpolate": "none"},
 }

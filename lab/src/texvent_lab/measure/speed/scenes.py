@@ -20,8 +20,8 @@ from numpy.typing import NDArray
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig, InterpolateConfig
-from texvent.interpolate.densify import densify
 from texvent.interpolate.flow import FlowInterpolator
+from texvent.interpolate.pairing import densify
 from texvent.sensor import SensorSize
 from texvent.video import Frame, Video, frame_time_us
 from texvent_lab.measure.speed.timing import Quartiles, rounded
@@ -125,7 +125,7 @@ def dense_video(source: Video, count: int) -> Video:
     """
     step_us = source.times_us[1] - source.times_us[0]
     between = round(step_us * DENSE_FPS / 1e6) - 1
-    config = InterpolateConfig(count="fixed", fixed_count=max(0, between), detect_cuts=False)
+    config = InterpolateConfig(fixed_count=max(0, between), detect_cuts=False)
     interpolator = FlowInterpolator(config, source)
     dense = densify(source, interpolator, config, balance=30.0, contrast_threshold=0.2)
     frames = list(itertools.islice(dense, count))

@@ -7,11 +7,15 @@ ordinary 8-bit mp4, which is kept byte by byte.
 
 from __future__ import annotations
 
+import contextlib
 import csv
 import functools
 import os
 import shutil
+import signal
+import subprocess
 import tempfile
+from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -20,7 +24,6 @@ from typing import Any, ClassVar, Literal
 from texvent._version import __version__
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
-from texvent.generate.opensora.external_program import run_program
 from texvent.generate.video_config import GeneratedVideoConfig
 from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo, open_stored
@@ -45,6 +48,9 @@ WEIGHTS = tuple(
 """What its configs load, from its own folder."""
 LAUNCHERS = (Path(".venv/bin/torchrun"), Path("venv/bin/torchrun"))
 SEED_MODULUS = 2**31 - 2
+GRACE_S = 10.0
+"""Time to end by itself after SIGTERM."""
+LAST_LINES, LONGEST_LINE = 4, 300
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -234,3 +240,51 @@ def _launcher() -> Path | None:
 def _root() -> Path | None:
     named = os.environ.get(ROOT_VARIABLE)
     return Path(named).expanduser() if named else None
+
+
+def run_program(command: Sequence[str], *, cwd: Path | None, log: Path) -> None:
+    """Run a program to its end; Ctrl-C or any other exception ends it and its children.
+
+    Args:
+        command: program and arguments; no shell is involved.
+        cwd: folder to run in.
+        log: file for everything it prints.
+
+    Raises:
+        TexventError: it cannot be started, or ends with an error; its last lines are quoted.
+    """
+    with log.open("wb") as output:
+        try:
+            process = subprocess.Popen(
+                command,
+                cwd=cwd,
+                stdin=subprocess.DEVNULL,
+                stdout=output,
+                stderr=subprocess.STDOUT,
+                # A group of its own, so that a terminal's Ctrl-C reaches it only through us.
+                start_new_session=True,
+            )
+        except OSError as error:
+            raise TexventError(f"{command[0]} cannot be started: {error.strerror}") from error
+        try:
+            code = process.wait()
+        except BaseException:
+            _end_group(process)
+            raise
+    if code != 0:
+        lines = [line.strip() for line in log.read_text("utf-8", "replace").splitlines()]
+        last = " | ".join([line[:LONGEST_LINE] for line in lines if line][-LAST_LINES:])
+        raise TexventError(
+            f"{Path(command[0]).name} ended with code {code}; its last output: {last or '(none)'}"
+        )
+
+
+def _end_group(process: subprocess.Popen[bytes]) -> None:
+    """SIGTERM to the whole process group, then SIGKILL."""
+    with contextlib.suppress(ProcessLookupError):
+        os.killpg(process.pid, signal.SIGTERM)
+        try:
+            process.wait(GRACE_S)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)
+            process.wait()

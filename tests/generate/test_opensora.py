@@ -10,11 +10,9 @@ import time
 
 import pytest
 
-import texvent
 from texvent.cli.app import main
 from texvent.errors import TexventError
-from texvent.generate.opensora.external_program import run_program
-from texvent.generate.opensora.generator import WEIGHTS, OpenSoraConfig, OpenSoraGenerator
+from texvent.generate.opensora import WEIGHTS, OpenSoraConfig, OpenSoraGenerator, run_program
 
 PROMPT = 'a red car, "fast", drives left'
 TORCHRUN = """
@@ -110,15 +108,6 @@ def test_a_prompt_becomes_the_frames_of_its_mp4_and_is_kept(root):
     again = build().generate(PROMPT, progress=told)
     assert again.path == video.path
     assert "generated before" in told.lines[-1]
-
-
-def test_prompt_to_events_through_the_api(root):
-    events = texvent.generate(
-        PROMPT, generator="opensora", frames=9, sensor="48x32", noise="none", interpolate="blend"
-    )
-    assert events.size == (48, 32)
-    assert len(events) > 0
-    assert events.metadata["source"]["generator"] == "opensora"
 
 
 def test_a_dry_run_says_what_would_be_done_and_does_not_do_it(root, capsys, monkeypatch):

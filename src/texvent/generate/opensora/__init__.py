@@ -1,1 +1,0 @@
-"""Open-Sora in the user's own installation."""

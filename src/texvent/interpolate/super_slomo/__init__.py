@@ -1,1 +1,0 @@
-"""Super SloMo: intermediate frames by a published network."""
