@@ -41,6 +41,12 @@ def is_aedat4(path: Path) -> bool:
     return begins_with(path, MAGIC)
 
 
+def count_frames(path: Path) -> int:
+    """Number of frames of an AEDAT4 file; only the heads of its packets are read."""
+    container = open_container(path)
+    return sum(map(container.count_packets, container.streams_of(FRAMES)))
+
+
 class Aedat4Frames(FrameSource):
     """The frames of an AEDAT4 file; every iteration opens the file anew.
 

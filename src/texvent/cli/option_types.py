@@ -73,7 +73,7 @@ def declared_options(config: Any) -> Iterator[Option]:
         is_list = typing.get_origin(hint) is tuple
         is_operand = name in getattr(config, "positional", ())
         short = getattr(config, "short_flags", {}).get(name)
-        flags = (short, flag_of(name)) if short else (flag_of(name),)
+        flags = (*(short or "").split(), flag_of(name))
         yield Option(
             name=name,
             flags=(name.upper(),) if is_operand else flags,

@@ -11,7 +11,7 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.input_checks import refuse_missing, refuse_other_kind
-from texvent.io.protocol import EventCodec, EventReader, EventWriter, RecognisingCodec
+from texvent.io.protocol import EventCodec, EventReader, EventWriter, RecognisingCodec, SideData
 from texvent.io.reading import read_options
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.file_names import usable_path
@@ -105,6 +105,17 @@ def is_event_path(path: Path) -> bool:
         return False
     is_npy = path.suffix.lower() == ".npy"  # most arrays are frames
     return not is_npy or (isinstance(codec, RecognisingCodec) and codec.recognises(path))
+
+
+def side_data(path: str | Path, format: str | None = None) -> SideData:
+    """Triggers and IMU samples beside the events of a file.
+
+    Raises:
+        ConfigError, InputError: as `codec_that_reads`.
+    """
+    codec = codec_that_reads(path, format)
+    read = getattr(codec, "side_data", None)
+    return {} if read is None else dict(read(Path(path)))
 
 
 def has_checksums(path: str | Path, format: str | None = None) -> bool:

@@ -13,15 +13,13 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from texvent.cli.event_files.event_file_options import parse_time_range
+from texvent.cli.event_files.event_file_options import ReadingOptions, parse_time_range
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.io.files import load
-from texvent.io.input_checks import refuse_missing
 from texvent.metrics.compare import (
     GOOD,
     compare,
@@ -35,7 +33,6 @@ from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric
 from texvent.metrics.uncertainty import LEAST_WINDOWS, WindowScores, check_window, score_windows
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.sensor import parse_sensor
 from texvent.video import MICROSECONDS
 
 DESCRIPTION = """Compare event files of one sensor: one or several to judge, then the true one. Each
@@ -44,7 +41,7 @@ is closer. docs/metrics.md gives definitions and the self-test."""
 
 
 @dataclass(frozen=True, kw_only=True)
-class CompareOptions:
+class CompareOptions(ReadingOptions):
     """Which files, and by which metrics."""
 
     positional: ClassVar[tuple[str, ...]] = ("files",)
@@ -181,10 +178,7 @@ def _streams(options: CompareOptions) -> list[EventStream]:
         InputError: none has an event there: two empty streams would be alike.
     """
     span_us = None if options.time is None else parse_time_range(options.time)
-    size = parse_sensor(options.sensor) if options.sensor else None
-    for path in options.files:
-        refuse_missing(path)
-    whole = [load(path, size=size) for path in options.files]
+    whole = [options.open_file(path, None).collect() for path in options.files]
     cut = whole if span_us is None else [one.cut(*span_us) for one in whole]
     if span_us is not None and not any(map(len, cut)):
         clocks = [

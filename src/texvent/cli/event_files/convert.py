@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+import csv
 import os
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar, cast
 
 from texvent._registry import FILTERS
-from texvent.cli.event_files.event_file_options import keep_time_range
+from texvent.capture.open import open_frames
+from texvent.cli.event_files.event_file_options import ReadingOptions, keep_time_range
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.errors import ConfigError, shown, warn
+from texvent.config import CaptureConfig
+from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.event_packets import EventPackets
-from texvent.io.files import open_events, open_writer
+from texvent.io.atomic import atomic_file, check_outputs
+from texvent.io.files import open_writer, side_data
+from texvent.io.hdf5.event_utils import EventUtilsCodec, save_with_frames
 from texvent.io.pixel_mask import read_pixel_mask
+from texvent.io.protocol import Columns
 from texvent.options.parts import make_part
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import parse_sensor
@@ -25,7 +31,9 @@ from texvent.transform.edits import Axes, Region, crop, flip, merge, resize, rot
 from texvent.transform.filters.apply import filter_events
 from texvent.transform.filters.noise_filters import MaskFilter
 from texvent.transform.packets import note_edit
+from texvent.transform.split import read_intervals, write_split
 from texvent.transform.undistort import read_calibration, undistort
+from texvent.view.drawing.event_image import frame_image
 
 DESCRIPTION = """Convert an event file, or a part of it, to another format. Memory stays flat.
 
@@ -37,17 +45,24 @@ DESCRIPTION = """Convert an event file, or a part of it, to another format. Memo
 Edits happen in this order: merge, mask, filter, undistort, crop,
 resize, downsample, rotate, flip, from-zero, time."""
 
+SIDE_FILES = ("triggers", "imu")
+"""Options that write what a recording holds beside its events."""
+
 
 @dataclass(frozen=True, kw_only=True)
-class ConvertOptions:
+class ConvertOptions(ReadingOptions):
     """Input, edits and output."""
 
     positional: ClassVar[tuple[str, ...]] = ("path", "to")
-    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "crop": "--roi", "quiet": "-q"}
-    outputs: ClassVar[tuple[str, ...]] = ("to", "out")
+    short_flags: ClassVar[Mapping[str, str]] = {
+        **ReadingOptions.short_flags,
+        **{"out": "-o", "crop": "--roi", "quiet": "-q"},
+    }
+    outputs: ClassVar[tuple[str, ...]] = ("to", "out", *SIDE_FILES)
+    input_texts: ClassVar[tuple[str, ...]] = ("frames",)
     main_options: ClassVar[tuple[str, ...]] = (
         *("format", "sensor", "merge", "mask", "filter", "crop", "resize", "from_zero", "time"),
-        "overwrite",
+        *("split", "repair", "overwrite"),
     )
 
     path: Path = REQUIRED
@@ -60,8 +75,6 @@ class ConvertOptions:
     """Format to write, where the extension does not say which (`docs/files.md` lists them)."""
     from_format: str | None = None
     """Format to read, where neither extension nor content says."""
-    sensor: str | None = None
-    """Sensor size of the input, for formats that do not store it: WIDTHxHEIGHT or a name."""
     merge: tuple[Path, ...] = ()
     """More files of the same sensor, whose events are added in time order."""
     mask: Path | None = None
@@ -70,7 +83,8 @@ class ConvertOptions:
     """Filters, in order: background-activity, refractory, hot-pixels, rate-limit; options follow a
     colon, as in refractory:period_us=500 (docs/toolbox.md)."""
     undistort: Path | None = None
-    """Calibration, a text of nine numbers fx fy cx cy k1 k2 p1 p2 k3: take out the lens."""
+    """Take out the lens: a text of nine numbers fx fy cx cy k1 k2 p1 p2 k3, Kalibr's yaml
+    (chain.yaml:cam1), or DSEC's rectify_map.h5."""
     crop: str | None = None
     """Keep a region of the sensor: X,Y,WIDTH,HEIGHT in pixels."""
     resize: str | None = None
@@ -85,6 +99,15 @@ class ConvertOptions:
     """Count time from the first event: for clock times, which many formats cannot hold."""
     time: str | None = None
     """Keep START,STOP in seconds, START included; either may be left out."""
+    split: Path | None = None
+    """Write a folder of files: one per interval between the times of a text, or per row of a table
+    of label, start and stop."""
+    frames: str | None = None
+    """Put the frames of a video, folder or AEDAT4 into the same file: --format event-utils."""
+    triggers: Path | None = None
+    """Write the external triggers of the input, as CSV."""
+    imu: Path | None = None
+    """Write the IMU samples of the input, as CSV."""
     overwrite: bool = False
     """Replace the file if it exists already."""
     quiet: bool = False
@@ -112,23 +135,68 @@ def run(arguments: Sequence[str]) -> int:
     out = options.target
     # Nothing is written until all options are accepted.
     events = edit(_open_inputs(options), options)
-    count = 0
-    writer = open_writer(
-        out,
-        size=events.size,
-        metadata=events.metadata,
-        format=options.format,
-        overwrite=options.overwrite,
-    )
-    with writer:
-        for packet in events:
-            writer.append(packet)
-            count += len(packet)
+    side = _side_data(options)
+    check_outputs([out, *side], overwrite=options.overwrite or options.split is not None)
+    count = _write(events, out, options)
+    for path, blocks in side.items():
+        _write_table(path, blocks, overwrite=options.overwrite)
     if not count:
         warn(f"{out} holds no event: there is none in the input, or in the part asked for")
     if not options.quiet:
         write_out(f"{out}: {count:,} events, {events.size}\n")
     return 0
+
+
+def _write(events: EventPackets, out: Path, options: ConvertOptions) -> int:
+    """Write the events as one file, with frames, or as a folder of files; returns their number."""
+    format, overwrite = options.format, options.overwrite
+    if options.split is not None:
+        return write_split(
+            events, read_intervals(options.split), out, format=format or "npz", overwrite=overwrite
+        )
+    if options.frames is not None:
+        if format != EventUtilsCodec.name:
+            raise ConfigError(f"frames are written with --format {EventUtilsCodec.name} only")
+        frames = open_frames(options.frames, CaptureConfig())
+        images = ((frame.t_us, frame_image(frame)) for frame in frames)
+        save_with_frames(out, events, images, overwrite=overwrite)
+        return sum(map(len, events))
+    writer = open_writer(
+        out, size=events.size, metadata=events.metadata, format=format, overwrite=overwrite
+    )
+    count = 0
+    with writer:
+        for packet in events:
+            writer.append(packet)
+            count += len(packet)
+    return count
+
+
+def _side_data(options: ConvertOptions) -> dict[Path, Iterator[Columns]]:
+    """Path → columns of what is asked for beside the events.
+
+    Raises:
+        InputError: the input holds none.
+    """
+    asked = {name: path for name in SIDE_FILES if (path := getattr(options, name)) is not None}
+    held = side_data(options.path, options.from_format) if asked else {}
+    for name in asked:
+        if name not in held:
+            raise InputError(f"{options.path} holds no {name}; leave out --{name}")
+    return {path: held[name]() for name, path in asked.items()}
+
+
+def _write_table(path: Path, blocks: Iterator[Columns], *, overwrite: bool) -> None:
+    with (
+        atomic_file(path, overwrite=overwrite) as part,
+        part.open("w", encoding="utf-8", newline="") as file,
+    ):
+        table, is_begun = csv.writer(file), False
+        for block in blocks:
+            if not is_begun:
+                table.writerow(["t_us" if name == "t" else name for name in block])
+            is_begun = True
+            table.writerows(zip(*(column.tolist() for column in block.values()), strict=True))
 
 
 def edit(given: EventPackets, options: ConvertOptions) -> EventPackets:
@@ -173,12 +241,11 @@ def parse_region(text: str) -> Region:
 
 
 def _open_inputs(options: ConvertOptions) -> EventPackets:
-    size = parse_sensor(options.sensor) if options.sensor else None
-    first = open_events(options.path, format=options.from_format, size=size)
+    first = options.open_file(options.path, options.from_format)
     if not options.merge:
         return first
     _refuse_same_files([options.path, *options.merge])
-    more = [open_events(path, format=options.from_format, size=size) for path in options.merge]
+    more = [options.open_file(path, options.from_format) for path in options.merge]
     return merge([first, *more])
 
 

@@ -14,6 +14,7 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.io.files import open_events
 from texvent.io.input_checks import refuse_missing
+from texvent.io.reading import TimeUnit
 from texvent.options.values import parse_fraction
 from texvent.run.regeneration import render_again
 from texvent.runtime.file_names import usable_path
@@ -27,7 +28,42 @@ NO_VIDEO = "none"
 
 
 @dataclass(frozen=True, kw_only=True)
-class EventFileOptions:
+class ReadingOptions:
+    """Facts that a file does not state, and which of its recordings is meant."""
+
+    short_flags: ClassVar[Mapping[str, str]] = {"stream": "--topic --group"}
+
+    sensor: str | None = None
+    """Sensor size, for formats that do not store it: WIDTHxHEIGHT or a name."""
+    time_unit: TimeUnit | None = None
+    """Unit of the times of text, npz, npy and HDF5, where the file does not state it."""
+    columns: str | None = None
+    """Columns of text, npz, npy and HDF5: their order (x,y,p,t) or names (t=stamp,x=col,...)."""
+    stream: str | None = None
+    """Recording of a file of several: HDF5 group, ROS topic or number of the camera."""
+    repair: bool = False
+    """Repair damage, and say how much, instead of refusing the file."""
+
+    def open_file(self, path: Path, format: str | None) -> EventPackets:
+        """Open a file.
+
+        Raises:
+            InputError: there is no such file, or it cannot be read.
+        """
+        refuse_missing(usable_path(path))
+        return open_events(
+            path,
+            format=format,
+            size=parse_sensor(self.sensor) if self.sensor else None,
+            time_unit=self.time_unit,
+            columns=self.columns,
+            stream=self.stream,
+            repair=self.repair,
+        )
+
+
+@dataclass(frozen=True, kw_only=True)
+class EventFileOptions(ReadingOptions):
     """Which event file."""
 
     positional: ClassVar[tuple[str, ...]] = ("path",)
@@ -36,18 +72,10 @@ class EventFileOptions:
     """Event file, or folder of one format."""
     format: str | None = None
     """Event format, where neither extension nor content says."""
-    sensor: str | None = None
-    """Sensor size, for formats that do not store it: WIDTHxHEIGHT or a name."""
 
     def open(self) -> EventPackets:
-        """Open the file.
-
-        Raises:
-            InputError: there is no such file, or it cannot be read.
-        """
-        refuse_missing(usable_path(self.path))
-        size = parse_sensor(self.sensor) if self.sensor else None
-        return open_events(self.path, format=self.format, size=size)
+        """Open the file; errors as of `open_file`."""
+        return self.open_file(self.path, self.format)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -68,7 +96,10 @@ class ShownEventsOptions(EventRangeOptions):
     """Which events are drawn, and the video beside them."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("video",)
-    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+    short_flags: ClassVar[Mapping[str, str]] = {
+        **ReadingOptions.short_flags,
+        **{"out": "-o", "quiet": "-q"},
+    }
 
     video: str = AUTOMATIC
     """Source video to show: a file, an image folder, none or auto. Auto renders the scene again if

@@ -9,6 +9,7 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
+from texvent.capture.aedat4_frames import count_frames, is_aedat4
 from texvent.capture.camera_path.opening import is_still
 from texvent.capture.image_folder import read_image
 from texvent.capture.open import open_frames
@@ -19,7 +20,8 @@ from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig
 from texvent.errors import visible
 from texvent.event_packets import EventPackets
-from texvent.io.files import event_extensions, find_folder_codec
+from texvent.io.files import is_event_path, side_data
+from texvent.io.reading import SeveralRecordingsError, UnknownLayoutError
 from texvent.scenes.report import REPORT_KEY, PromptReport
 from texvent.video import MICROSECONDS, FrameStream
 
@@ -50,7 +52,7 @@ def run(arguments: Sequence[str]) -> int:
         arguments, {"input": InfoOptions()}, prog="texvent info", description=DESCRIPTION
     )
     if options.format or is_event_path(options.path) or not options.path.exists():
-        facts = describe_events(options.open())
+        facts = _describe_file(options)
     elif is_still(options.path):
         facts = describe_image(options.path)
     else:
@@ -77,11 +79,21 @@ def _main_facts(facts: Mapping[str, Any]) -> dict[str, Any]:
     return main
 
 
-def is_event_path(path: Path) -> bool:
-    """True if the name, or the files of a folder, are those of an event format."""
-    if path.is_dir():
-        return find_folder_codec(path) is not None
-    return path.suffix.lower() in event_extensions()
+def _describe_file(options: InfoOptions) -> dict[str, Any]:
+    """Facts of an event file; of one with several recordings, or unknown names, what it holds."""
+    try:
+        facts = describe_events(options.open())
+    except SeveralRecordingsError as error:
+        return {"recordings": list(error.streams), "note": "--stream NAME chooses one of them"}
+    except UnknownLayoutError as error:
+        if not options.json:
+            write_out("".join(f"{one}\n" for one in error.holds))
+        raise
+    for name, read in side_data(options.path, options.format).items():
+        facts[name] = sum(len(block["t"]) for block in read())
+    if is_aedat4(options.path):
+        facts["frames"] = count_frames(options.path)
+    return facts
 
 
 def describe_events(packets: EventPackets) -> dict[str, Any]:
