@@ -129,7 +129,6 @@ class CaptureConfig:
     """How frames are read from a video, a folder, an array or a camera."""
 
     idle_with: ClassVar[IdleOptions] = {
-        "timestamps_unit": ("timestamps", (None,)),
         "camera_amplitude": ("camera", (None,)),
         "camera_fov": ("camera", (None,)),
         "duration": ("camera", (None,)),
@@ -140,8 +139,9 @@ class CaptureConfig:
     timestamps; for a video it overrides the file's own times (for slow-motion footage)."""
     timestamps: Path | None = None
     """Text file with one frame time per line (a file name may follow, as in images.txt)."""
-    timestamps_unit: Literal["s", "ms", "us", "ns"] = "s"
-    """Unit of the times in that file."""
+    timestamps_unit: Literal["s", "ms", "us", "ns"] | None = None
+    """Unit of the times in that file; without it s, and more than a minute between frames is
+    refused with the likely unit."""
     start: float = 0.0
     """Skip this many seconds of input."""
     stop: float | None = None

@@ -29,6 +29,7 @@ class ClipWriter:
         given: str = "rgb24",
         times_ms: Sequence[int] | None = None,
         rate: int = 25,
+        ticks: int = 1000,
         rotation: int = 0,
         container: dict[str, str] | None = None,
         options: dict[str, str] | None = None,
@@ -38,13 +39,13 @@ class ClipWriter:
             stream = clip.add_stream(codec, rate=rate, options=options or {})
             stream.height, stream.width = frames[0].shape[:2]
             stream.pix_fmt = stored
-            stream.codec_context.time_base = Fraction(1, 1000)
+            stream.codec_context.time_base = Fraction(1, ticks)
             if rotation:
                 stream.set_display_rotation(rotation)
             for index, pixels in enumerate(frames):
                 frame = av.VideoFrame.from_ndarray(pixels, format=given)
-                frame.pts = times_ms[index] if times_ms else 1000 // rate * index
-                frame.time_base = Fraction(1, 1000)
+                frame.pts = times_ms[index] if times_ms else ticks // rate * index
+                frame.time_base = Fraction(1, ticks)
                 clip.mux(stream.encode(frame))
             clip.mux(stream.encode(None))
         return path

@@ -115,7 +115,7 @@ def test_a_recording_of_events_alone_is_refused(tmp_path):
 @pytest.mark.parametrize(
     ("numbers", "pixels", "problem"),
     [
-        ({5: 2}, 48, "OpenCV type 2"),
+        ({5: 5}, 48, "OpenCV type 5"),
         ({6: 5}, 20, "is 5x4, the sensor 6x4"),
         ({}, 23, "23 bytes of pixels for 6x4x1"),
         ({7: -4}, 24, "24 bytes of pixels for 6x-4"),
@@ -157,3 +157,11 @@ def test_frames_that_dv_processing_writes_are_read(tmp_path):
     frames = list(open_frames(path, CaptureConfig()))
     assert [frame.t_us for frame in frames] == [1_005_000, 1_045_000, 1_085_000]
     np.testing.assert_array_equal([frame.pixels for frame in frames], images)
+
+
+def test_frames_of_sixteen_bits_are_kept(tmp_path):
+    values = np.arange(24, dtype="<u2") * 2700
+    numbers = {5: 2, 6: SIZE.width, 7: SIZE.height}
+    frames = [make_frame(values.tobytes(), {0: time, **numbers}) for time in (10, 20)]
+    read = list(open_frames(write_file(tmp_path / "r.aedat4", frames), CaptureConfig()))
+    np.testing.assert_array_equal(read[1].pixels, values.reshape(SIZE.shape))

@@ -3,9 +3,11 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from texvent.capture.array_frames import ArrayFrames
+from texvent.capture.frame_times import FrameTimes
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import InputError
+from texvent.errors import InputError, TexventWarning
 
 AT_100 = CaptureConfig(fps=Fraction(100))
 
@@ -130,3 +132,19 @@ def test_half_floats_and_booleans_are_widened():
     mask = list(open_frames(np.eye(4, dtype=bool)[None].repeat(2, 0), AT_100))
     assert mask[0].pixels.dtype == np.uint8
     assert mask[0].pixels.max() == 255
+
+
+@pytest.mark.parametrize(("highest", "bits"), [(1023, 10), (1024, 12), (4095, 12)])
+def test_few_bits_in_sixteen_are_said_with_the_option(highest, bits):
+    frames = np.full((2, 4, 4), highest, np.uint16)
+    with pytest.warns(TexventWarning, match=f"probably have {bits} bits; .*={(1 << bits) - 1},"):
+        ArrayFrames(frames, FrameTimes(fps=Fraction(25)))
+    ArrayFrames(frames, FrameTimes(fps=Fraction(25)), white_level=4095)  # no warning
+    for other in (frames + (4096 - highest), np.full((2, 4, 4), 255, np.uint16)):
+        ArrayFrames(other.astype(np.uint16), FrameTimes(fps=Fraction(25)))
+
+
+def test_frames_from_minus_one_to_one_are_told_from_zero_to_one():
+    frames = np.linspace(-0.9, 0.7, 32, dtype=np.float32).reshape(2, 4, 4)
+    with pytest.raises(InputError, match=r"from -0\.9 to 0\.7, .* Give \(frames \+ 1\) \* 127\.5"):
+        ArrayFrames(frames, FrameTimes(fps=Fraction(25)))

@@ -43,3 +43,22 @@ def test_wrong_files_are_refused(tmp_path, lines, error, message):
     path.write_text(lines)
     with pytest.raises(error, match=message):
         read_timestamps(path, "ns" if lines == "1\n2\n" else "s")
+
+
+def test_names_may_come_before_the_times(tmp_path):
+    path = tmp_path / "info.txt"
+    path.write_text("/data/clip/a.png 0\n/data/clip/b c.png 33333\n")
+    found = read_timestamps(path, "us")
+    assert found.names == ("/data/clip/a.png", "/data/clip/b c.png")
+    assert list(found.times.listed_us) == [0, 33_333]
+
+
+@pytest.mark.parametrize(("step", "unit"), [("500", "ms"), ("33333", "us"), ("33333333", "ns")])
+def test_times_that_are_hardly_seconds_name_the_likely_unit(tmp_path, step, unit):
+    path = tmp_path / "t.txt"
+    path.write_text(f"57922807588\n{57922807588 + int(step)}\n")
+    with pytest.raises(InputError, match=f"probably {unit}; give `timestamps_unit`"):
+        read_timestamps(path, None)
+    assert len(read_timestamps(path, unit).times.listed_us) == 2
+    path.write_text("0\n60\n")
+    assert list(read_timestamps(path, None).times.listed_us) == [0, 60_000_000]

@@ -69,6 +69,58 @@ def test_rotation_is_applied_as_opencv_does(clips):
         assert np.abs(ours.pixels.astype(int) - theirs).max() <= 2
 
 
+IDENTITY = (1, 0, 0, 1)
+
+
+def with_display_matrix(path, matrix):
+    """The mp4 file with the matrix of its track replaced."""
+
+    def stored(a, b, c, d):
+        matrix = np.array([a, b, 0, c, d, 0, 0, 0, 1 << 14]) << 16
+        return matrix.astype(">i4").tobytes()
+
+    content = path.read_bytes()
+    track = content.index(b"tkhd")
+    before = stored(*IDENTITY)
+    place = content.index(before, track)
+    return content[:place] + stored(*matrix) + content[place + len(before) :]
+
+
+@pytest.mark.parametrize(
+    "matrix",
+    [(a, 0, 0, d) for a in (1, -1) for d in (1, -1)]
+    + [(0, b, c, 0) for b in (1, -1) for c in (1, -1)],
+)
+def test_every_display_matrix_is_applied(clips, tmp_path, matrix):
+    path = clips.write("asym.mp4", colours(), options={"qp": "0"})
+    plain = next(iter(VideoFile(path))).pixels
+    turned = tmp_path / "turned.mp4"
+    turned.write_bytes(with_display_matrix(path, matrix))
+    pixels = next(iter(VideoFile(turned))).pixels
+    a, b, c, d = matrix
+    height, width = plain.shape[:2]
+    # Places around the middle: x' = a x + c y, y' = b x + d y.
+    y, x = np.mgrid[:height, :width]
+    u, v = 2 * x - (width - 1), 2 * y - (height - 1)
+    column = (a * u + c * v + pixels.shape[1] - 1) // 2
+    row = (b * u + d * v + pixels.shape[0] - 1) // 2
+    assert np.array_equal(pixels[row, column], plain)
+
+
+def test_a_stream_without_a_container_has_its_own_rate(clips):
+    path = clips.write("raw.h264", colours(4, 8), rate=50, ticks=50)
+    assert [frame.t_us for frame in VideoFile(path)] == [0, 20_000, 40_000, 60_000]
+
+
+def test_reordered_frames_of_an_avi_follow_one_another(clips):
+    frames = colours(9, 10)
+    path = clips.write("b.avi", frames, ticks=25, options={"bf": "2"})
+    read = list(VideoFile(path))
+    assert [frame.t_us for frame in read] == [40_000 * i for i in range(9)]
+    means = [float(frame.pixels.mean()) for frame in read]
+    assert means == sorted(means)
+
+
 def test_sixteen_bit_grey_is_kept_bit_for_bit(clips):
     grey = [GREY.astype(np.uint16) * 257 + i for i in range(3)]
     path = clips.write("g.mkv", grey, codec="ffv1", stored="gray16le", given="gray16le")

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
-from texvent.capture.intensity_scale import refuse_unit_range, usable_pixels
+from texvent.capture.intensity_scale import refuse_unit_range, usable_pixels, warn_of_few_bits
 from texvent.errors import InputError, shown
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.runtime.read_once import ReadOnce
@@ -53,6 +53,8 @@ class ArrayFrames(FrameSource):
         metadata = {"source": "array", "kind": "array", "pixel_type": str(first.dtype)}
         size = checked_size(first.shape[1], first.shape[0])
         self._facts = SourceFacts(size, times.fps, count, metadata, is_live)
+        if white_level is None:
+            warn_of_few_bits(first, "the array")
         if white_level is None and not is_live:
             _refuse_unit_floats(self._frames)
 
@@ -126,12 +128,13 @@ def _refuse_if_empty(is_empty: bool) -> None:
 
 def _refuse_unit_floats(frames: Iterable[Any]) -> None:
     """Look for the first value above 1; usually the first frame has it."""
-    highest = 0.0
+    highest = lowest = 0.0
     for image in frames:
         pixels = np.asarray(image)
         if pixels.dtype.kind != "f":
             return
         highest = max(highest, float(pixels.max()))
+        lowest = min(lowest, float(pixels.min()))
         if not highest <= 1.0:
             return
-    refuse_unit_range(highest, "the array")
+    refuse_unit_range(highest, "the array", lowest=lowest)

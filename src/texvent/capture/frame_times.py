@@ -14,10 +14,12 @@ import numpy as np
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
 from texvent.options.values import parse_fraction
 from texvent.runtime.file_names import usable_path
-from texvent.video import frame_time_us
+from texvent.video import MICROSECONDS, frame_time_us
 
 PER_SECOND = {"s": 1, "ms": 1_000, "us": 1_000_000, "ns": 1_000_000_000}
 """How many of a unit are a second."""
+LONGEST_STEP_S = 60
+"""Longer times between frames are hardly meant where no unit is given."""
 
 
 @dataclass(frozen=True)
@@ -107,14 +109,14 @@ def check_increasing(times_us: Sequence[int], origin: str, hint: str = "") -> No
             )
 
 
-def read_timestamps(path: Path, unit: str) -> Timestamps:
-    """Read a text file with a time per line, which a file name may follow.
+def read_timestamps(path: Path, unit: str | None) -> Timestamps:
+    """Read a text file with a time per line, and a file name after or before it or none.
 
     Blank lines and lines that start with `#` do not count.
 
     Args:
         path: the file; columns are separated by spaces, tabs or commas.
-        unit: unit of the times: s, ms, us or ns.
+        unit: unit of the times: s, ms, us or ns; None: s, if that can be.
 
     Returns:
         Times rounded to whole µs from the exact decimal number, and the names if all lines have
@@ -122,8 +124,9 @@ def read_timestamps(path: Path, unit: str) -> Timestamps:
         the frames.
 
     Raises:
-        InputError: the file does not exist, or its times do not strictly increase.
-        FileFormatError: a line does not begin with a number, or only some lines have a name.
+        InputError: the file does not exist, its times do not strictly increase, or they cannot be
+            meant in seconds.
+        FileFormatError: a line has no number, or only some lines have a name.
 
     Source: `images.txt` of the Event-Camera Dataset (Mueggler et al. 2017).
     """
@@ -133,7 +136,10 @@ def read_timestamps(path: Path, unit: str) -> Timestamps:
         words = line.replace(",", " ").split(maxsplit=1)
         if not words or words[0].startswith("#"):
             continue
-        times_us.append(_microseconds(words[0], unit, f"{path}, line {number}"))
+        # DVS-Voltmeter's info.txt has the name first.
+        if len(words) > 1 and not _is_number(words[0]):
+            words = line.replace(",", " ").rsplit(maxsplit=1)[::-1]
+        times_us.append(_microseconds(words[0], unit or "s", f"{path}, line {number}"))
         names.extend(word.strip() for word in words[1:])
     if not times_us:
         raise FileFormatError(f"{path} has no times; it needs one per frame")
@@ -141,15 +147,37 @@ def read_timestamps(path: Path, unit: str) -> Timestamps:
         raise FileFormatError(
             f"{path}: {len(names)} of {len(times_us)} lines name a file; name all of them or none"
         )
-    hint = f" (times are read as {unit}; another unit: `timestamps_unit`)"
+    if unit is None:
+        _refuse_doubtful_seconds(path, times_us)
+    hint = f" (times are read as {unit or 's'}; another unit: `timestamps_unit`)"
     check_increasing(times_us, str(path), hint)
     times = FrameTimes(listed_us=times_us, origin=path.name)
     return Timestamps(times, tuple(names) if names else None)
 
 
+def _refuse_doubtful_seconds(path: Path, times_us: Sequence[int]) -> None:
+    """Refuse times that are hardly seconds, and name the unit that they probably have."""
+    step = (times_us[-1] - times_us[0]) / max(1, len(times_us) - 1) / MICROSECONDS
+    if abs(step) <= LONGEST_STEP_S:
+        return
+    finer = [unit for unit, per_second in PER_SECOND.items() if abs(step) / per_second <= 1]
+    likely = f"they are probably {finer[0]}; " if finer else ""
+    raise InputError(
+        f"{path}: its times read as s are {abs(step):,.0f} s apart; {likely}give `timestamps_unit`"
+    )
+
+
+def _is_number(text: str) -> bool:
+    try:
+        parse_fraction(text)
+    except (ValueError, ZeroDivisionError):
+        return False
+    return True
+
+
 def _lines(path: Path) -> list[str]:
     try:
-        return list(StringIO(usable_path(path).read_text(encoding="utf-8")))
+        return list(StringIO(usable_path(path).read_text(encoding="utf-8-sig")))
     except FileNotFoundError:
         raise InputError(f"timestamp file {path} does not exist; check `timestamps`") from None
     except (OSError, UnicodeDecodeError) as error:

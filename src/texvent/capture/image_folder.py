@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes, Timestamps, read_timestamps
-from texvent.capture.intensity_scale import usable_pixels
+from texvent.capture.intensity_scale import usable_pixels, warn_of_few_bits
 from texvent.capture.linear_light import CODING, FULL_SCALE, LINEAR
 from texvent.capture.motion_vectors.exr_image import EXR, exr_frame
 from texvent.errors import FileFormatError, InputError, shown
@@ -18,7 +18,7 @@ from texvent.runtime.file_names import IMAGE_EXTENSIONS, natural_key, usable_pat
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
-TIMESTAMP_NAMES = ("timestamps.txt", "images.txt")
+TIMESTAMP_NAMES = ("timestamps.txt", "images.txt", "info.txt")
 """Names under which a timestamp file is found in the folder or beside it."""
 INNER_FOLDERS = ("images", "frames", "imgs")
 """Where a recording's folder keeps its images."""
@@ -33,7 +33,8 @@ class ImageFolder(FrameSource):
         folder: holds the images, or a sub-folder `images`, `frames` or `imgs` that does.
         times: frame times; without them, a timestamp file in or beside the folder is used.
         timestamps: the timestamp file, where it is not `timestamps.txt` or `images.txt`.
-        unit: unit of the times in that file: s, ms, us or ns.
+        unit: unit of the times in that file: s, ms, us or ns; None: s, if that can be.
+        white_level: the value that means white, where the type does not say it.
 
     Raises:
         InputError: no image, no times, or as many times as images are not given.
@@ -46,7 +47,8 @@ class ImageFolder(FrameSource):
         times: FrameTimes | None = None,
         *,
         timestamps: Path | None = None,
-        unit: str = "s",
+        unit: str | None = None,
+        white_level: float | None = None,
     ) -> None:
         images_folder = find_images_folder(folder)
         file = timestamps or (None if times else find_timestamps(images_folder))
@@ -58,6 +60,8 @@ class ImageFolder(FrameSource):
         self._times = times or (listing.times if listing else None) or _refuse_without_times(folder)
         self._times.check_count(len(self._paths))
         first = read_image(self._paths[0])
+        if white_level is None:
+            warn_of_few_bits(first, str(folder))
         metadata = {
             "source": str(folder),
             "kind": "image folder",

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import InputError
+from texvent.errors import InputError, warn
 from texvent.video import UINT16_PER_LEVEL, PixelArray
 
 FULL_SCALE = 255.0
@@ -66,12 +66,35 @@ def usable_pixels(pixels: NDArray[Any], where: str) -> PixelArray:
     )
 
 
-def refuse_unit_range(highest: float, where: str) -> None:
+def warn_of_few_bits(pixels: PixelArray, where: str) -> None:
+    """Warn of 16-bit pixels that probably have 10 or 12: they would be nearly black.
+
+    Warns:
+        TexventWarning: no value is above 4095, and one is above 255.
+    """
+    if pixels.dtype != np.uint16:
+        return
+    highest = int(pixels.max(initial=0))
+    bits = next((bits for bits in (10, 12) if 255 < highest < 1 << bits), None)
+    if bits is not None:
+        white = (1 << bits) - 1
+        warn(
+            f"{where} holds 16-bit frames up to {highest}, so they probably have {bits} bits; give "
+            f"white_level={white}, or white_level=65535 if they really are that dark"
+        )
+
+
+def refuse_unit_range(highest: float, where: str, *, lowest: float = 0.0) -> None:
     """Refuse float pixels that never exceed 1: they are most likely 0..1, which would be black.
 
     Raises:
         InputError: the highest value lies in (0, 1].
     """
+    if lowest < 0.0 < highest <= 1.0:
+        raise InputError(
+            f"{where} holds floats from {lowest:g} to {highest:g}, so they are probably -1..1; "
+            "texvent's intensities are 0..255. Give (frames + 1) * 127.5"
+        )
     if 0.0 < highest <= 1.0:
         raise InputError(
             f"{where} holds floats that never exceed {highest:g}, so they are probably 0..1, while "

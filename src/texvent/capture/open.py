@@ -152,7 +152,11 @@ def _open_live(address: _Address) -> FrameStream:
 def _open_images(address: _Address) -> FrameStream:
     config = address.config
     return ImageFolder(
-        address.path, address.given, timestamps=config.timestamps, unit=config.timestamps_unit
+        address.path,
+        address.given,
+        timestamps=config.timestamps,
+        unit=config.timestamps_unit,
+        white_level=config.white_level,
     )
 
 

@@ -15,10 +15,12 @@ import av
 import numpy as np
 from av.container import InputContainer
 from av.error import FFmpegError
+from av.sidedata.sidedata import Type as SideDataType
 from av.video.format import VideoFormat
 from av.video.frame import VideoFrame
 from av.video.reformatter import ColorRange
 from av.video.stream import VideoStream
+from numpy.typing import NDArray
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
@@ -61,7 +63,7 @@ class VideoFile(FrameSource):
                     f"{path} is a preview that texvent drew of events, not what a camera saw; give "
                     "the video that the events were made of"
                 )
-            self._rate = stream.average_rate or stream.guessed_rate
+            self._rate = _own_rate(container, stream)
             count = stream.frames or _count_by_duration(stream, container)
             first = next(self._decode(container, stream), None)
             if first is None:
@@ -74,7 +76,7 @@ class VideoFile(FrameSource):
                 "kind": "video file",
                 "codec": stream.codec_context.name,
                 "pixel_format": first.format.name,
-                "rotation": int(first.rotation),
+                "display_matrix": list(display_matrix(first)),
                 "duplicate_times_dropped": 0,
                 **coding_facts(first, comment),
             }
@@ -86,6 +88,7 @@ class VideoFile(FrameSource):
         """Frames in time order; see the class for what can go wrong."""
         clock = PresentationClock(self._path, self._times, self._rate)
         with _opened(self._path) as (container, stream):
+            clock.is_counting = container.format.name == AVI and stream.codec_context.has_b_frames
             frames = self._decode(container, stream)
             while True:
                 try:
@@ -143,6 +146,8 @@ class PresentationClock:
     """Time of the last frame, on the clock that the caller sees."""
     end_us: int = 0
     """End of the last frame, on the file's own clock."""
+    is_counting: bool = False
+    """Whether frames have the times of the nominal rate, whatever the file says."""
     first_pts_us: Fraction = Fraction(0)
     """Presentation time of the first frame, before it is shifted to 0."""
 
@@ -171,7 +176,7 @@ class PresentationClock:
         return t_us
 
     def _own_time_us(self, frame: VideoFrame) -> int:
-        if frame.pts is None or frame.time_base is None:
+        if frame.pts is None or frame.time_base is None or self.is_counting:
             return self._nominal_time_us()
         pts_us = frame.pts * frame.time_base * MICROSECONDS
         if self.count == 0:
@@ -186,7 +191,10 @@ class PresentationClock:
             raise FileFormatError(
                 f"{self.path} states neither frame times nor a frame rate; give one with `fps`"
             )
-        return frame_time_us(self.count, self.rate) if self.rate else 0
+        if not self.rate:
+            return 0
+        self.end_us = frame_time_us(self.count + 1, self.rate)
+        return frame_time_us(self.count, self.rate)
 
 
 @contextlib.contextmanager
@@ -252,7 +260,10 @@ def _count_by_duration(stream: VideoStream, container: InputContainer) -> int | 
     return round(Fraction(end_us, MICROSECONDS) * rate) if end_us and rate else None
 
 
-QUARTER_TURN = 90
+RAW = ("h264", "hevc", "m4v", "mpegvideo", "vvc", "obu")
+"""Containers that hold nothing but the stream."""
+AVI = "avi"
+"""Container without times: its frames follow one another, and B-frames mix up the order in it."""
 UNSPECIFIED = 2
 """libav's number of an unknown transfer characteristic."""
 
@@ -270,9 +281,36 @@ def decoded_pixels(frame: VideoFrame) -> PixelArray:
         libav's 16-bit RGB of deep YUV has its white at 65283, 0.4 % below full scale.
     """
     image = frame.reformat(format=pixel_format(frame.format), dst_color_range=ColorRange.JPEG)
-    pixels = image.to_ndarray()
-    turns = round(frame.rotation / QUARTER_TURN) % 4
-    return np.ascontiguousarray(np.rot90(pixels, turns)) if turns else pixels
+    return _upright(image.to_ndarray(), display_matrix(frame))
+
+
+def display_matrix(frame: VideoFrame) -> tuple[int, int, int, int]:
+    """Signs of a, b, c, d of a frame's display matrix: x' = a x + c y, y' = b x + d y.
+
+    Angles between quarter turns, which no camera writes, count as the nearest.
+    """
+    stored = next((one for one in frame.side_data if one.type is SideDataType.DISPLAYMATRIX), None)
+    if stored is None:
+        return 1, 0, 0, 1
+    a, b, _, c, d = np.frombuffer(bytes(stored), "<i4", 5).tolist()
+    is_turned = abs(b) > abs(a)
+    kept = (0, b, c, 0) if is_turned else (a, 0, 0, d)
+    return tuple(np.sign(kept).tolist())
+
+
+def _upright(pixels: NDArray[Any], matrix: tuple[int, int, int, int]) -> PixelArray:
+    """Pixels turned and mirrored by the signs of a display matrix."""
+    a, b, c, d = matrix
+    if b:
+        pixels = np.swapaxes(pixels, 0, 1)
+    pixels = pixels[:: -1 if -1 in (b, d) else 1, :: -1 if -1 in (a, c) else 1]
+    return np.ascontiguousarray(pixels)
+
+
+def _own_rate(container: InputContainer, stream: VideoStream) -> Fraction | None:
+    """Frame rate of the stream; libav invents one for streams without a container."""
+    rate = stream.average_rate or stream.guessed_rate
+    return (stream.codec_context.framerate or rate) if container.format.name in RAW else rate
 
 
 def coding_facts(frame: VideoFrame, comment: str = "") -> dict[str, str]:

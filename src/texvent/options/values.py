@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import dataclasses
+import numbers
 import re
 import types
 import typing
@@ -118,7 +119,9 @@ def parse_fraction(value: Any) -> Fraction:
     """A rate from 24, 29.97, "29.97" or "30000/1001", exactly as written in decimal."""
     if isinstance(value, bool):
         raise TypeError
-    text = str(value) if isinstance(value, float) else value
+    if isinstance(value, numbers.Integral):
+        value = int(value)  # NumPy's have an end
+    text = str(float(value)) if isinstance(value, float) else value
     if isinstance(text, str) and (len(text) > MAX_DIGITS or re.search(_HUGE, text)):
         raise ValueError(text[:MAX_DIGITS])
     return Fraction(text)

@@ -61,8 +61,8 @@ class ConvertOptions(ReadingOptions):
     outputs: ClassVar[tuple[str, ...]] = ("to", "out", *SIDE_FILES)
     input_texts: ClassVar[tuple[str, ...]] = ("frames",)
     main_options: ClassVar[tuple[str, ...]] = (
-        *("format", "sensor", "merge", "mask", "filter", "crop", "resize", "from_zero", "time"),
-        *("split", "repair", "overwrite"),
+        *("format", "sensor", "merge", "mask", "filter", "crop", "from_zero", "time", "split"),
+        "overwrite",
     )
 
     path: Path = REQUIRED
