@@ -7,8 +7,10 @@ is dropped. Of a file that ends in damage, all before it is read.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +19,7 @@ from texvent.errors import FileFormatError
 from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
 
+_Columns: TypeAlias = dict[str, NDArray[Any]]
 HELD_EVENTS = 2**20
 """Events that are held back to be sorted."""
 RESET_US = 1_000_000
@@ -56,30 +59,37 @@ def repair_blocks(
         size: sensor size, pixels.
         counts: receives how much was repaired.
     """
-    held: dict[str, NDArray[np.generic]] | None = None
+    held: _Columns = {}
+    tail: _Columns = {}
     latest_us = released_us = -(2**62)
     added_us = 0
-    for block in _until_damage(blocks, counts):
-        columns = _on_sensor(block, size, counts)
-        if len(columns["t"]) == 0:
+    for block in itertools.chain(_until_damage(blocks, counts), [None]):
+        coming = tail if block is None else _joined(tail, _on_sensor(block, size, counts))
+        count = len(coming.get("t", ()))
+        # A reset shows in the events after it, so the last ones wait for the next block.
+        ready = count if block is None else max(0, count - RESET_EVENTS)
+        if ready:
+            times, resets = _join_resets(coming["t"], latest_us, added_us)
+            counts.clock_resets += sum(at < ready for at in resets)
+            added_us = int(times[ready - 1]) - int(coming["t"][ready - 1])
+            times = times[:ready]
+            steps = np.maximum.accumulate(np.concatenate([[latest_us], times]))
+            counts.out_of_order += int((times < steps[:-1]).sum())
+            latest_us = int(steps[-1])
+            now = {name: column[:ready] for name, column in coming.items()}
+            held = _joined(held, {**now, "t": times})
+        tail = {name: column[ready:] for name, column in coming.items()}
+        if not held or (not ready and block is not None):
             continue
-        times, added_us = _join_resets(columns["t"], latest_us, added_us, counts)
-        steps = np.maximum.accumulate(np.concatenate([[latest_us], times]))
-        counts.out_of_order += int((times < steps[:-1]).sum())
-        latest_us = int(steps[-1])
-        columns["t"] = times
-        held = columns if held is None else _joined(held, columns)
         order = np.argsort(held["t"], kind="stable")
         held = {name: column[order] for name, column in held.items()}
         late = int(np.searchsorted(held["t"], released_us))
         counts.dropped_late += late
-        ready = max(late, len(order) - HELD_EVENTS)
+        ready = len(order) if block is None else max(late, len(order) - HELD_EVENTS)
         if ready > late:
             yield {name: column[late:ready] for name, column in held.items()}
             released_us = int(held["t"][ready - 1])
         held = {name: column[ready:] for name, column in held.items()}
-    if held is not None and len(held["t"]):
-        yield held
 
 
 def _until_damage(blocks: Iterator[Columns], counts: RepairCounts) -> Iterator[Columns]:
@@ -89,9 +99,7 @@ def _until_damage(blocks: Iterator[Columns], counts: RepairCounts) -> Iterator[C
         counts.cut_off = str(error)
 
 
-def _on_sensor(
-    block: Columns, size: SensorSize, counts: RepairCounts
-) -> dict[str, NDArray[np.generic]]:
+def _on_sensor(block: Columns, size: SensorSize, counts: RepairCounts) -> _Columns:
     x, y = (np.asarray(block[name]).astype(np.int64, copy=False) for name in "xy")
     inside = (x >= 0) & (x < size.width) & (y >= 0) & (y < size.height)
     counts.outside_sensor += int(inside.size - np.count_nonzero(inside))
@@ -99,24 +107,23 @@ def _on_sensor(
 
 
 def _join_resets(
-    stored: NDArray[np.generic], latest_us: int, added_us: int, counts: RepairCounts
-) -> tuple[NDArray[np.int64], int]:
-    """Times that continue after each reset of the clock, and what is added from here on, µs."""
+    stored: NDArray[np.generic], latest_us: int, added_us: int
+) -> tuple[NDArray[np.int64], list[int]]:
+    """Times that continue after each reset of the clock, and the numbers of the first after one."""
     times = stored.astype(np.int64) + added_us
-    before = latest_us
-    start = 0
+    resets: list[int] = []
+    start, before = 0, latest_us
     while True:
         previous = np.concatenate([[before], times[start:-1]])
         falls = np.flatnonzero(times[start:] < previous - RESET_US)
-        resets = (at for at in falls.tolist() if _stays_below(times[start + at :], previous[at]))
-        reset = next(resets, -1)
-        if reset < 0:
-            return times, added_us
-        shift = int(previous[reset]) - int(times[start + reset])
-        times[start + reset :] += shift
-        added_us += shift
-        counts.clock_resets += 1
-        before, start = int(previous[reset]), start + reset
+        found = (at for at in falls.tolist() if _stays_below(times[start + at :], previous[at]))
+        reset = next(found, None)
+        if reset is None:
+            return times, resets
+        before = int(previous[reset])
+        start += reset
+        times[start:] += before - int(times[start])
+        resets.append(start)
 
 
 def _stays_below(times: NDArray[np.int64], limit_us: int) -> bool:
@@ -124,9 +131,9 @@ def _stays_below(times: NDArray[np.int64], limit_us: int) -> bool:
     return len(following) == RESET_EVENTS and bool((following < limit_us).all())
 
 
-def _joined(
-    first: dict[str, NDArray[np.generic]], second: dict[str, NDArray[np.generic]]
-) -> dict[str, NDArray[np.generic]]:
+def _joined(first: _Columns, second: _Columns) -> _Columns:
+    if not first:
+        return second
     return {name: np.concatenate([first[name], second[name]]) for name in first}
 
 

@@ -1,0 +1,149 @@
+"""Arrays of other programs and data sets, found by their names: HDF5, npz, npy."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, FileFormatError, InputError, TexventWarning
+from texvent.events import EventStream
+from texvent.io.files import load, open_events
+from texvent.io.reading import SeveralRecordingsError, UnknownLayoutError
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(9, 7)
+X, Y, T, P = np.array([3, 4, 8]), np.array([5, 6, 0]), np.array([70, 80, 3_000_081]), [1, 0, 1]
+EVENTS = EventStream.from_columns(X, Y, T, P, size=SIZE)
+RECORDS = np.array(
+    list(zip(T, X, Y, P, strict=True)), [("ts", "i8"), ("x", "u2"), ("y", "u2"), ("p", "?")]
+)
+FOUR = np.stack([X, Y, T / 1e6, np.array(P) * 2 - 1], axis=1)
+
+
+def write_h5(path: Path, arrays: dict[str, Any], **attributes: Any) -> Path:
+    with h5py.File(path, "w") as file:
+        for name, values in arrays.items():
+            file[name] = values
+        for name, value in attributes.items():
+            file.attrs[name] = value
+    return path
+
+
+@pytest.mark.parametrize(
+    "arrays",
+    [
+        {"events/xs": X, "events/ys": Y, "events/ts": T / 1e6, "events/ps": np.array(P, bool)},
+        {"x": X, "y": Y, "t": T, "p": P},
+        {"davis/left/events": FOUR, "davis/left/image_raw": np.zeros((2, 7, 9))},
+        {"events": FOUR[:, [2, 0, 1, 3]]},
+        {"data/event_records": RECORDS},
+        {"events/x": X, "events/y": Y, "events/t": T - 70, "events/p": P, "t_offset": 70},
+        {"events/x": X, "events/y": Y, "events/timestamp_ns": T * 1000 + 999, "events/polarity": P},
+        {"cd/x": X[:, None], "cd/y": Y[:, None], "cd/t [ms]": T / 1e3, "cd/p": P},
+    ],
+)
+def test_hdf5_of_data_sets_and_tools_is_read(tmp_path: Path, arrays: dict[str, Any]) -> None:
+    path = write_h5(tmp_path / "e.h5", arrays)
+    assert load(path, size=SIZE).equals(EVENTS)
+    first = open_events(path, size=SIZE).between(75, 100).collect()
+    assert first.t.tolist() == [80]
+
+
+def test_sizes_of_event_utils_and_m3ed_are_read(tmp_path: Path) -> None:
+    arrays = {"events/x": X, "events/y": Y, "events/t": T, "events/p": P}
+    assert load(write_h5(tmp_path / "a.h5", arrays, sensor_resolution=[7, 9])).equals(EVENTS)
+    arrays["events/calib/resolution"] = [9, 7]
+    assert load(write_h5(tmp_path / "b.h5", arrays)).equals(EVENTS)
+
+
+def test_one_of_several_groups_is_chosen(tmp_path: Path) -> None:
+    left = {
+        f"prophesee/left/{name}": values for name, values in zip("xytp", (X, Y, T, P), strict=True)
+    }
+    right = {name.replace("left", "right"): values[:2] for name, values in left.items()}
+    path = write_h5(tmp_path / "e.h5", left | right)
+    with pytest.raises(
+        SeveralRecordingsError, match="2 recordings: prophesee/left, prophesee/right"
+    ):
+        load(path, size=SIZE)
+    for stream, count in (("prophesee/left", 3), ("right", 2), ("0", 3)):
+        assert len(load(path, size=SIZE, stream=stream)) == count
+
+
+def test_an_unknown_file_says_what_it_holds_and_takes_names(tmp_path: Path) -> None:
+    arrays = {"a/u": X, "a/v": Y, "a/when": T, "a/sign": P, "b": np.zeros(5)}
+    path = write_h5(tmp_path / "e.h5", arrays)
+    with pytest.raises(UnknownLayoutError, match=r"it has: a/sign int64 \[3\], a/u int64 \[3\]"):
+        load(path, size=SIZE)
+    names = "t=a/when,x=a/u,y=a/v,p=a/sign"
+    assert load(path, size=SIZE, columns=names).equals(EVENTS)
+    assert load(path, size=SIZE, columns=names.replace("a/", ""), stream="a").equals(EVENTS)
+    with pytest.raises(InputError, match="has no 'c' for column p"):
+        load(path, size=SIZE, columns=names.replace("a/sign", "c"))
+
+
+@pytest.mark.parametrize("name", ["e.npz", "e.npy"])
+def test_arrays_of_numpy_are_read(tmp_path: Path, name: str) -> None:
+    path = tmp_path / name
+    for array in (RECORDS, FOUR, FOUR[:, [2, 0, 1, 3]]):
+        np.savez(path, anything=array) if name == "e.npz" else np.save(path, array)
+        assert load(path, size=SIZE).equals(EVENTS)
+
+
+def test_pairs_of_coordinates_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "e.npz"
+    np.savez(path, xy=np.stack([X, Y], axis=1), t=T / 1e6, p=P, meta=np.zeros(2))
+    assert load(path, size=SIZE).equals(EVENTS)
+
+
+def test_coordinates_in_steps_of_a_pixel_are_divided_with_a_warning(tmp_path: Path) -> None:
+    path = tmp_path / "e.npz"
+    np.savez(path, x=X * 32 + 31, y=Y * 32, timestamp=T, polarity=P)
+    with pytest.warns(TexventWarning, match="read as 1/32 of a pixel, as BS-ERGB"):
+        assert load(path, size=SIZE).equals(EVENTS)
+    np.savez(path, x=X * 40, y=Y, timestamp=T, polarity=P)
+    with pytest.raises(FileFormatError, match="x runs from"):
+        load(path, size=SIZE)
+
+
+def test_a_stated_unit_is_believed_and_a_guessed_one_is_checked(tmp_path: Path) -> None:
+    t = np.arange(2000) * 1_000_000
+    zeros = np.zeros(2000, int)
+    path = tmp_path / "e.npz"
+    np.savez(path, x=zeros, y=zeros, t=t, p=zeros)
+    with pytest.raises(
+        FileFormatError, match=r"1 per second; they are probably ns: give time_unit"
+    ):
+        load(path, size=SIZE)
+    assert load(path, size=SIZE, time_unit="ns").t[-1] == 1_999_000
+    np.savez(path, x=zeros, y=zeros, t=t, p=zeros, timestamp_scale_ms=1e-6)
+    assert load(path, size=SIZE).t[-1] == 1_999_000
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"time_unit": "min"}, "time_unit is 'min'; allowed: s, ms, us, ns"),
+        ({"columns": "t,x,y"}, "give t, x, y and p once each"),
+        ({"columns": "t=a,x,y,p"}, "give t, x, y and p once each"),
+        ({"columns": "t,x,y,p", "format": "evt3"}, "is evt3, which states its columns; leave"),
+    ],
+)
+def test_wrong_options_are_one_line(tmp_path: Path, options: dict[str, str], message: str) -> None:
+    path = tmp_path / "e.raw"
+    path.write_bytes(b"% evt 3.0\n% geometry 9x7\n% end\n")
+    with pytest.raises(ConfigError, match=message):
+        load(path, **options)
+
+
+def test_content_decides_whatever_the_name(tmp_path: Path) -> None:
+    for name, format in (("a.aedat", "aedat4"), ("b", "hdf5"), ("c.dat", "npz"), ("d.xyz", "evt3")):
+        path = EVENTS.save(tmp_path / f"real.{format}", format=format).rename(tmp_path / name)
+        assert load(path).equals(EVENTS)
+    text = tmp_path / "e.log"
+    text.write_text("0.00007 3 5 1\n")
+    assert len(load(text, size=SIZE)) == 1
