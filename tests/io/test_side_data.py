@@ -87,3 +87,25 @@ def test_triggers_and_imu_of_dv_processing_are_read(tmp_path: Path) -> None:
         **{"acceleration_x_g": [1.5], "acceleration_y_g": [0.0], "acceleration_z_g": [-1.0]},
         **{"rotation_x_deg_s": [0.0], "rotation_y_deg_s": [2.5], "rotation_z_deg_s": [-2.0]},
     }
+
+
+def test_signals_and_imu_samples_of_older_files_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "e.aedat"
+    records = [(259 << 22 | 345 << 12, 5), (1 << 10 | 1 << 22, 6), (1 << 31 | 1 << 10, 7)]
+    chip = b"#!AER-DAT2.0\r\n# AEChip: davis.Davis346B\r\n"
+    path.write_bytes(chip + b"".join(struct.pack(">II", *one) for one in records))
+    side = codec_that_reads(path).side_data(path)
+    assert [one["t"].tolist() for one in side["triggers"]()] == [[6]]
+    header = b"#!AER-DAT3.1\r\n#Source 1: DAVIS346\r\n#!END-HEADER\r\n"
+    special = struct.pack("<2h6i", 0, 1, 8, 4, 1, 2, 2, 2)
+    special += struct.pack("<4I", 2 << 1 | 1, 9, 1 << 1 | 1, 10)
+    imu = struct.pack("<2h6i", 3, 1, 36, 4, 0, 1, 1, 1)
+    imu += struct.pack("<2I7f", 1, 11, 0.5, 0, -1, 0, 2.5, 0, 30)
+    path.write_bytes(header + special + imu)
+    side = codec_that_reads(path).side_data(path)
+    (signals,), (samples,) = side["triggers"](), side["imu"]()
+    assert (signals["t"].tolist(), signals["type"].tolist()) == ([2**31 + 9], [2])
+    assert samples["t"].tolist() == [11]
+    assert samples["acceleration_x_g"].tolist() == [0.5]
+    assert samples["rotation_y_deg_s"].tolist() == [2.5]
+    assert samples["temperature_c"].tolist() == [30]

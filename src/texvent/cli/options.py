@@ -45,9 +45,9 @@ def parse_given(
         groups: title → config instance whose values are the defaults that `--help` shows. Class
             attributes name its fields: those in `positional` are given without a flag, those in
             `short_flags` also have a short one or other names, those in `outputs` are written
-            ("out" if there is no such attribute), and those in `input_texts` are texts that may be the path of an
-            input, as a `Path` always is. `main_options` of the first group names the options that
-            `--help` alone shows.
+            ("out" if there is no such attribute), and those in `input_texts` are texts that may be
+            the path of an input, as a `Path` always is. `main_options` of the first group names the
+            options that `--help` alone shows.
         prog: how the command is called.
         description: first lines of its help.
         presets: rows of help, as `help_page` takes them.

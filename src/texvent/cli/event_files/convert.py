@@ -34,6 +34,7 @@ from texvent.transform.packets import note_edit
 from texvent.transform.split import read_intervals, write_split
 from texvent.transform.undistort import read_calibration, undistort
 from texvent.view.drawing.event_image import frame_image
+from texvent.view.video.writer import write_images
 
 DESCRIPTION = """Convert an event file, or a part of it, to another format. Memory stays flat.
 
@@ -58,8 +59,8 @@ class ConvertOptions(ReadingOptions):
         **ReadingOptions.short_flags,
         **{"out": "-o", "crop": "--roi", "quiet": "-q"},
     }
-    outputs: ClassVar[tuple[str, ...]] = ("to", "out", *SIDE_FILES)
-    input_texts: ClassVar[tuple[str, ...]] = ("frames",)
+    outputs: ClassVar[tuple[str, ...]] = ("to", "out", "frames", *SIDE_FILES)
+    input_texts: ClassVar[tuple[str, ...]] = ("video",)
     main_options: ClassVar[tuple[str, ...]] = (
         *("format", "sensor", "merge", "mask", "filter", "crop", "from_zero", "time", "split"),
         "overwrite",
@@ -102,8 +103,10 @@ class ConvertOptions(ReadingOptions):
     split: Path | None = None
     """Write a folder of files: one per interval between the times of a text, or per row of a table
     of label, start and stop."""
-    frames: str | None = None
+    video: str | None = None
     """Put the frames of a video, folder or AEDAT4 into the same file: --format event-utils."""
+    frames: Path | None = None
+    """Write the frames of the input, as a folder of images with timestamps.txt."""
     triggers: Path | None = None
     """Write the external triggers of the input, as CSV."""
     imu: Path | None = None
@@ -136,10 +139,13 @@ def run(arguments: Sequence[str]) -> int:
     # Nothing is written until all options are accepted.
     events = edit(_open_inputs(options), options)
     side = _side_data(options)
+    frames = None if options.frames is None else open_frames(options.path, CaptureConfig())
     check_outputs([out, *side], overwrite=options.overwrite or options.split is not None)
     count = _write(events, out, options)
     for path, blocks in side.items():
         _write_table(path, blocks, overwrite=options.overwrite)
+    if frames is not None and options.frames is not None:
+        write_images(frames, options.frames, overwrite=options.overwrite)
     if not count:
         warn(f"{out} holds no event: there is none in the input, or in the part asked for")
     if not options.quiet:
@@ -154,10 +160,10 @@ def _write(events: EventPackets, out: Path, options: ConvertOptions) -> int:
         return write_split(
             events, read_intervals(options.split), out, format=format or "npz", overwrite=overwrite
         )
-    if options.frames is not None:
+    if options.video is not None:
         if format != EventUtilsCodec.name:
-            raise ConfigError(f"frames are written with --format {EventUtilsCodec.name} only")
-        frames = open_frames(options.frames, CaptureConfig())
+            raise ConfigError(f"video is for --format {EventUtilsCodec.name}; leave it out")
+        frames = open_frames(options.video, CaptureConfig(), size=events.size)
         images = ((frame.t_us, frame_image(frame)) for frame in frames)
         save_with_frames(out, events, images, overwrite=overwrite)
         return sum(map(len, events))

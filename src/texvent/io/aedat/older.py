@@ -24,8 +24,11 @@ AEDAT3.1, packets of events, little-endian; DVS128Gesture's:
 
 The time counter turns after 2^31 µs; `time turns` of the packet counts this, so long recordings are
 whole. The sensor's size follows from the camera named in `#Source 1: DVS128` (or from
-`#Size: WIDTHxHEIGHT`), or is asked for. Packets of other types (frames, IMU samples, triggers) and
+`#Size: WIDTHxHEIGHT`), or is asked for. Special events and IMU samples are side data; frames and
 events marked invalid are skipped.
+
+    special  u32: 7..1 type · 0 valid · u32 time
+    IMU      u32: 0 valid · u32 time · f32 acceleration x, y, z, g · f32 rotation, °/s · f32 °C
 
 Sources: iniVation, AEDAT 2.0 and 3.1 file formats; jAER, DVS128.Extractor (flips x and the
 polarity); the readers named above (formats are facts).
@@ -49,7 +52,7 @@ from texvent.errors import FileFormatError, InputError
 from texvent.io.block_codec import BlockReader, FileContents, read_records
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import MAX_HEADER_BYTES, metadata_from_json
-from texvent.io.protocol import Columns
+from texvent.io.protocol import Columns, SideData
 from texvent.io.reading import ReadOptions
 from texvent.sensor import SENSORS, SensorSize
 
@@ -199,6 +202,10 @@ class Aedat2Codec(BlockReader):
         blocks = partial(_read_addresses, path, header.length, layout)
         return FileContents(layout.size, header.metadata(path), blocks)
 
+    def side_data(self, path: Path) -> SideData:
+        """External signals of a DAVIS."""
+        return {"triggers": partial(_read_signals, path)}
+
 
 class Dvs128Codec(Aedat2Codec):
     """AEDAT2 of a DVS128, as tonic reads it."""
@@ -255,6 +262,15 @@ def _find_layout(path: Path, header: AedatHeader, size: SensorSize | None) -> Ad
     return layout
 
 
+def _read_signals(path: Path) -> Iterator[Columns]:
+    header = read_aedat_header(path, AEDAT2_MAGIC, AEDAT2_END)
+    for block in read_records(path, header.length, RECORD.itemsize):
+        records = np.frombuffer(block, dtype=RECORD)
+        address = records["address"].astype(np.int64)
+        is_signal = (address & (SPECIAL | APS) == SPECIAL) & (address >> 16 != 0)
+        yield {"t": records["t"][is_signal].astype(np.int64)}
+
+
 def _read_addresses(path: Path, start: int, layout: AddressLayout) -> Iterator[Columns]:
     for block in read_records(path, start, RECORD.itemsize):
         records = np.frombuffer(block, dtype=RECORD)
@@ -266,7 +282,15 @@ def _read_addresses(path: Path, start: int, layout: AddressLayout) -> Iterator[C
 
 
 EVENT = np.dtype([("place", "<u4"), ("t", "<u4")])
-POLARITY_TYPE = 1
+SPECIAL_TYPE, POLARITY_TYPE, IMU_TYPE = 0, 1, 3
+FIRST_SIGNAL, LAST_SIGNAL = 2, 4
+"""Types of special events that are an external signal: rising, falling edge, pulse."""
+PACKETS = {
+    SPECIAL_TYPE: EVENT,
+    POLARITY_TYPE: EVENT,
+    IMU_TYPE: np.dtype([("place", "<u4"), ("t", "<u4"), ("values", "<f4", 7)]),
+}
+"""Type of a packet → its events; `place` holds the mark of validity."""
 TIME_BITS = 31
 TIME_MASK = (1 << TIME_BITS) - 1
 MAX_EVENTS = 1 << 24
@@ -292,7 +316,15 @@ class Aedat3Codec(BlockReader):
         if header.lines[-1] != AEDAT3_END:
             raise FileFormatError(f"{path}: its header does not end with {AEDAT3_END}")
         size, metadata = _stored_size(path, header), header.metadata(path)
-        return FileContents(size, metadata, partial(_read_packets, path, header.length))
+        return FileContents(size, metadata, partial(_read_events, path, header.length))
+
+    def side_data(self, path: Path) -> SideData:
+        """External signals and IMU samples."""
+        start = read_aedat_header(path, AEDAT3_MAGIC, AEDAT3_END).length
+        return {
+            "triggers": partial(_read_special, path, start),
+            "imu": partial(_read_imu, path, start),
+        }
 
 
 def _stored_size(path: Path, header: AedatHeader) -> tuple[int, int] | None:
@@ -309,30 +341,61 @@ def _stored_size(path: Path, header: AedatHeader) -> tuple[int, int] | None:
     return size.width, size.height
 
 
-def _read_packets(path: Path, start: int) -> Iterator[Columns]:
+def _read_packets(path: Path, start: int, kind: int) -> Iterator[tuple[NDArray[np.void], int]]:
+    """The events of each packet of a type, and how often its clock has turned."""
+    dtype = PACKETS[kind]
     with path.open("rb") as file:
         left = os.fstat(file.fileno()).st_size - start
         file.seek(start)
         while left > 0:
             head = _read_head(file, path, left)
-            kind, _, event_bytes, time_offset, turns, _, count, _ = head
+            found, _, event_bytes, time_offset, turns, _, count, _ = head
             left -= _HEAD.size + event_bytes * count
-            if kind != POLARITY_TYPE:
+            if found != kind:
                 file.seek(event_bytes * count, os.SEEK_CUR)
                 continue
-            if (event_bytes, time_offset) != (EVENT.itemsize, 4) or turns < 0:
+            if (event_bytes, time_offset) != (dtype.itemsize, 4) or turns < 0:
                 raise FileFormatError(
-                    f"{path} holds a packet of events of {event_bytes} bytes, not 8; it is damaged"
+                    f"{path} holds a packet of events of {event_bytes} bytes, not "
+                    f"{dtype.itemsize}; it is damaged"
                 )
-            events = np.frombuffer(file.read(event_bytes * count), dtype=EVENT)
-            events = events[(events["place"] & 1) == 1]
-            place = events["place"]
-            yield {
-                "x": (place >> 17).astype(np.uint16),
-                "y": (place >> 2 & 0x7FFF).astype(np.uint16),
-                "t": (events["t"].astype(np.int64) & TIME_MASK) + (turns << TIME_BITS),
-                "p": (place >> 1 & 1).astype(np.uint8),
-            }
+            events = np.frombuffer(file.read(event_bytes * count), dtype=dtype)
+            yield events[(events["place"] & 1) == 1], turns
+
+
+def _times(events: NDArray[np.void], turns: int) -> NDArray[np.int64]:
+    return (events["t"].astype(np.int64) & TIME_MASK) + (turns << TIME_BITS)
+
+
+def _read_events(path: Path, start: int) -> Iterator[Columns]:
+    for events, turns in _read_packets(path, start, POLARITY_TYPE):
+        place = events["place"]
+        yield {
+            "x": (place >> 17).astype(np.uint16),
+            "y": (place >> 2 & 0x7FFF).astype(np.uint16),
+            "t": _times(events, turns),
+            "p": (place >> 1 & 1).astype(np.uint8),
+        }
+
+
+def _read_special(path: Path, start: int) -> Iterator[Columns]:
+    for events, turns in _read_packets(path, start, SPECIAL_TYPE):
+        kinds = events["place"] >> 1 & 127
+        is_signal = (kinds >= FIRST_SIGNAL) & (kinds <= LAST_SIGNAL)
+        yield {"t": _times(events[is_signal], turns), "type": kinds[is_signal]}
+
+
+def _read_imu(path: Path, start: int) -> Iterator[Columns]:
+    for samples, turns in _read_packets(path, start, IMU_TYPE):
+        yield {
+            "t": _times(samples, turns),
+            "temperature_c": samples["values"][:, 6],
+            **{f"acceleration_{axis}_g": samples["values"][:, at] for at, axis in enumerate("xyz")},
+            **{
+                f"rotation_{axis}_deg_s": samples["values"][:, 3 + at]
+                for at, axis in enumerate("xyz")
+            },
+        }
 
 
 def _read_head(file: BinaryIO, path: Path, left: int) -> tuple[int, ...]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from contextlib import ExitStack, contextmanager
 from fractions import Fraction
 from pathlib import Path
@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 from texvent.errors import InputError
 from texvent.io.atomic import atomic_folder, check_output, check_output_folder
 from texvent.sensor import SensorSize
-from texvent.video import MICROSECONDS, PREVIEW_MARK
+from texvent.video import MICROSECONDS, PREVIEW_MARK, Frame
 from texvent.view.atomic_output import AtomicOutput
 from texvent.view.drawing.canvas import png_bytes
-from texvent.view.drawing.event_image import count_ceiling
+from texvent.view.drawing.event_image import count_ceiling, frame_image
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.drawing.panels import TARGET_WIDTH, PanelLayout
 from texvent.view.video.encoder import VIDEO_EXTENSIONS, VideoEncoder
@@ -86,6 +86,20 @@ def open_image_sink(
         (part / FACTS).write_text(json.dumps(dict(facts), indent=1) + "\n", encoding="utf-8")
 
 
+def write_images(frames: Iterable[Frame], folder: Path, *, overwrite: bool) -> None:
+    """A folder of images with their times in `timestamps.txt`, in 8 bits.
+
+    Raises:
+        OutputError: it exists already, or cannot be written.
+    """
+    with atomic_folder(folder, overwrite=overwrite, is_own=_is_own) as part:
+        sink = _FolderSink(part)
+        for frame in frames:
+            image = frame.pixels if frame.pixels.dtype == np.uint8 else frame_image(frame)
+            sink.write(frame.t_us, image)
+        (part / TIMES).write_text("".join(sink.times), encoding="utf-8")
+
+
 class _VideoSink:
     def __init__(self, video: VideoEncoder, rows: int, columns: int) -> None:
         self._video = video
@@ -104,8 +118,12 @@ class _FolderSink:
         self.times: list[str] = []
 
     def add(self, t_us: int, image: NDArray[np.floating]) -> None:
+        self.write(t_us, _levels(image))
+
+    def write(self, t_us: int, levels: NDArray[Any]) -> None:
+        """Write an image of 8 bits, [H, W] or [H, W, 3] RGB."""
         name = f"frame_{len(self.times):010d}.png"
-        (self._folder / name).write_bytes(png_bytes(_levels(image)))
+        (self._folder / name).write_bytes(png_bytes(levels))
         sign, (seconds, rest) = "-" if t_us < 0 else "", divmod(abs(t_us), MICROSECONDS)
         self.times.append(f"{sign}{seconds}.{rest:06d} {name}\n")
 
