@@ -289,7 +289,8 @@ def display_matrix(frame: VideoFrame) -> tuple[int, int, int, int]:
 
     Angles between quarter turns, which no camera writes, count as the nearest.
     """
-    stored = next((one for one in frame.side_data if one.type is SideDataType.DISPLAYMATRIX), None)
+    side_data: Any = frame.side_data  # keys are of a type that its stub does not know
+    stored = side_data.get(SideDataType.DISPLAYMATRIX)
     if stored is None:
         return 1, 0, 0, 1
     a, b, _, c, d = np.frombuffer(bytes(stored), "<i4", 5).tolist()

@@ -10,7 +10,7 @@ import itertools
 from abc import ABC, abstractmethod
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
@@ -299,6 +299,11 @@ class TimedRows:
 
 
 OpenRows: TypeAlias = Callable[[], AbstractContextManager[TimedRows]]
+
+
+def already_open(rows: TimedRows) -> OpenRows:
+    """Rows that need no opening, as of arrays that open their file at each read."""
+    return lambda: nullcontext(rows)
 
 
 def read_rows(open_rows: OpenRows) -> Iterator[Columns]:

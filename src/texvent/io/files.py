@@ -82,7 +82,7 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventReader
         return (unmarked or own)[0]
     refuse_other_kind(path)
     if is_text(path):
-        return CODECS.load("ecd")()
+        return _codecs_for(path, "ecd")[0]
     return _codecs_for(path, None)[0]
 
 

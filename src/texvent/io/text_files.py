@@ -152,8 +152,8 @@ class Dialect:
         """
         for word, digit in BOOLEANS if self.has_words else ():
             block = block.replace(word, digit)
-        options = {"delimiter": self.delimiter, "comments": COMMENTS, "rows": self.rows}
-        table = parse_table(block, path, **options)
+        parse = partial(parse_table, block, path, rows=self.rows, delimiter=self.delimiter)
+        table = parse(comments=COMMENTS)
         if table.size == 0:
             return dict.fromkeys("xytp", np.empty(0, dtype=np.int64))
         if table.shape[1] != self.width:
@@ -169,7 +169,7 @@ class Dialect:
             return {**whole, "t": rounded(values["t"] * scale).astype(np.int64)}
         place = self.places["t"]  # slow
         exact = {place: partial(_exact_us, unit=self.unit)}
-        times = parse_table(block, path, dtype=np.int64, usecols=place, converters=exact, **options)
+        times = parse(comments=COMMENTS, dtype=np.int64, usecols=place, converters=exact)
         return {**whole, "t": times[:, 0]}
 
 

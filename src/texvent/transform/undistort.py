@@ -59,7 +59,7 @@ class Calibration:
         if self.size is not None and self.size != size:
             raise InputError(f"the calibration is of a {self.size} sensor, the events are {size}")
         places = self._search(size) if self.places is None else self.places
-        is_found = np.isfinite(places).all(axis=-1) & (np.abs(places) < 2**31).all(axis=-1)
+        is_found = np.asarray((np.abs(places) < 2**31).all(axis=-1))
         return np.where(is_found[..., None], np.rint(np.nan_to_num(places)), -1.0).astype(np.int64)
 
     def _search(self, size: SensorSize) -> Places:

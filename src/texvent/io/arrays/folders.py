@@ -22,7 +22,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from contextlib import nullcontext
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -31,7 +30,7 @@ from typing import Any, ClassVar
 from texvent.errors import FileFormatError, shown
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.arrays.npz import read_arrays
-from texvent.io.block_codec import BlockReader, FileContents, read_rows, seek_rows
+from texvent.io.block_codec import BlockReader, FileContents, already_open, read_rows, seek_rows
 from texvent.io.metadata import metadata_from_json, parse_sidecar
 from texvent.io.protocol import Columns
 from texvent.io.reading import ReadOptions
@@ -60,7 +59,7 @@ class EvrealFolderCodec(BlockReader):
         table = replace(find_tables(path, arrays, options)[0], unit="s")
         table.check(path, arrays)
         size, metadata = _read_facts(path)
-        rows = partial(nullcontext, table.rows(path, arrays, options, block=PACKET_EVENTS))
+        rows = already_open(table.rows(path, arrays, options, block=PACKET_EVENTS))
         return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
 
 

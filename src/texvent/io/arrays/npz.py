@@ -15,7 +15,7 @@ from __future__ import annotations
 import tokenize
 import zipfile
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -32,6 +32,7 @@ from texvent.io.block_codec import (
     BlockReader,
     FileContents,
     TimedRows,
+    already_open,
     read_rows,
     seek_rows,
 )
@@ -237,5 +238,5 @@ class NpyCodec(BlockReader):
         table = find_tables(path, arrays, options)[0]
         table.check(path, arrays)
         rows = table.rows(path, arrays, options, block=BLOCK_EVENTS)
-        opened = partial(nullcontext, rows)
+        opened = already_open(rows)
         return FileContents(None, {}, partial(read_rows, opened), seek_rows(path, opened))
