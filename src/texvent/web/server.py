@@ -26,7 +26,6 @@ from texvent.sensor import SENSORS
 from texvent.web.job import Job
 
 HOST = "127.0.0.1"
-FIRST_PORT, PORTS_TRIED = 7860, 100
 CALL_BYTES = 2**16
 """Largest request that is no upload."""
 SUFFIXES = frozenset((".mp4", ".avi", ".mov", ".mkv", ".webm", ".gif", ".npy", ".aedat4"))
@@ -65,7 +64,7 @@ class PageServer:
         """Listen at once.
 
         Args:
-            port: TCP port; 0 takes the first free one from 7860 on.
+            port: TCP port; 0: any free one.
             upload_bytes: largest video that is taken.
         """
         self.upload_bytes = upload_bytes
@@ -74,10 +73,11 @@ class PageServer:
         self._jobs = 0
         self._lock = threading.Lock()
         try:
-            self._server = _listen(port)
-        except InputError:
+            self._server = _Server((HOST, port), _Handler)
+        except OSError as error:
             self.close()
-            raise
+            reason = f"{error.strerror}; choose another port, or none"
+            raise InputError(f"cannot listen on port {port}: {reason}") from error
         self._server.page = self  # type: ignore[attr-defined]
         self.address = f"http://{HOST}:{self._server.server_port}/"
         threading.Thread(target=self._server.serve_forever, daemon=True).start()
@@ -120,19 +120,6 @@ class _Server(ThreadingHTTPServer):
         """Nothing of a broken connection: the terminal belongs to the command."""
         if not isinstance(sys.exception(), OSError):
             super().handle_error(request, client_address)
-
-
-def _listen(port: int) -> ThreadingHTTPServer:
-    reason: OSError | None = None
-    for one in [port] if port else range(FIRST_PORT, FIRST_PORT + PORTS_TRIED):
-        try:
-            return _Server((HOST, one), _Handler)
-        except OSError as error:
-            reason = error
-    raise InputError(
-        f"cannot listen on port {port or FIRST_PORT}: "
-        f"{reason.strerror if reason else 'none is free'}; choose another --port"
-    )
 
 
 class _Handler(BaseHTTPRequestHandler):

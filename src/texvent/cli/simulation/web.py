@@ -27,7 +27,7 @@ class AppOptions:
     short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}
 
     port: int = 0
-    """TCP port; 0 takes the first free one from 7860 on."""
+    """TCP port; 0: any free one."""
     max_upload_mb: float = 200.0
     """Largest video that may be uploaded, MB."""
     browser: bool = True
