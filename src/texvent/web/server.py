@@ -46,11 +46,11 @@ VIEWER_POLICY = (
 )
 NOTHING_POLICY = "default-src 'none'"
 RESULTS = {
-    "events": ("application/octet-stream", NOTHING_POLICY),
-    "video": ("video/mp4", NOTHING_POLICY),
-    "page": ("text/html; charset=utf-8", VIEWER_POLICY),
+    "events": ("events.h5", "application/octet-stream", NOTHING_POLICY),
+    "video": ("events.events.mp4", "video/mp4", NOTHING_POLICY),
+    "page": ("events.events.html", "text/html; charset=utf-8", VIEWER_POLICY),
 }
-"""Files that a run writes, in order: their kinds, and what a browser may do with them."""
+"""Files that a run writes, their kinds, and what a browser may do with them."""
 
 
 class PageServer:
@@ -82,19 +82,20 @@ class PageServer:
         self.address = f"http://{HOST}:{self._server.server_port}/"
         threading.Thread(target=self._server.serve_forever, daemon=True).start()
 
-    def begin(self, options: dict[str, Any], *, prompt: str = "", video: Path | None = None) -> Job:
-        """Start a job, which takes the place of the one before and waits for its end."""
+    def begin(self, options: list[str], *, prompt: str = "", video: Path | None = None) -> Job:
+        """Start a job, which takes the place of the one before."""
         with self._lock:
-            before, self._jobs = self.job, self._jobs + 1
-            if before is not None:
-                before.stop()
-                shutil.rmtree(before.folder, ignore_errors=True)
+            self._jobs += 1
+            if self.job is not None:
+                self.job.stop()
+                shutil.rmtree(self.job.folder, ignore_errors=True)
             folder = self.folder / f"job-{self._jobs}"
             folder.mkdir()
-            if video is not None:
+            if video is None:
+                self.job = Job(folder, "generate", options, prompt)
+            else:
                 video = video.rename(folder / f"upload{video.suffix}")
-            self.job = Job(folder, options, prompt=prompt, video=video)
-            self.job.start(after=before)
+                self.job = Job(folder, "simulate", options, str(video))
             return self.job
 
     def close(self) -> None:
@@ -229,11 +230,11 @@ class _Handler(BaseHTTPRequestHandler):
         return path
 
     def _result(self, job: Job, name: str) -> None:
-        path = job.file(name)
+        file, kind, policy = RESULTS[name]
+        path = job.file(file)
         if path is None:
             self._refuse(HTTPStatus.NOT_FOUND, "there is no such result")
         else:
-            kind, policy = RESULTS[name]
             self._send(path.read_bytes(), kind, policy=policy)
 
     def _refuse(self, status: int, text: str) -> None:
@@ -267,32 +268,22 @@ class _RequestError(Exception):
         self.status = status
 
 
-def _options(values: dict[str, Any]) -> dict[str, Any]:
-    """Options of a run from the fields of the page; empty fields are left to the defaults.
+def _options(values: dict[str, Any]) -> list[str]:
+    """Flags of a run from the fields of the page; empty fields are left to the defaults.
 
     Raises:
-        _RequestError: a number is none, or a name is not one that the page offers: others may be
-            paths, which the page has no business to read.
+        _RequestError: a name is not one that the page offers: others may be paths, which the page
+            has no business to read.
     """
-    options: dict[str, Any] = {}
     for name, allowed in (("generator", GENERATORS.names()), ("sensor", SENSORS)):
         text = str(values.get(name, "")).strip()
         is_size = name == "sensor" and re.fullmatch(r"\d{1,5}x\d{1,5}", text)
         if text and text not in allowed and not is_size:
             message = f"{name} is {text[:20]!r}; choose one of the page's list"
             raise _RequestError(HTTPStatus.BAD_REQUEST, message)
-    for name, convert in (
-        ("generator", str), ("simulator", str), ("preset", str), ("sensor", str),
-        ("seed", int), ("duration", float),
-    ):  # fmt: skip
-        text = str(values.get(name, "")).strip()
-        if text:
-            try:
-                options[name] = convert(text)
-            except ValueError:
-                message = f"{name} is {text[:20]!r}; it must be a number"
-                raise _RequestError(HTTPStatus.BAD_REQUEST, message) from None
-    return options
+    named = ("generator", "simulator", "preset", "sensor", "seed", "duration")
+    texts = {name: str(values.get(name, "")).strip() for name in named}
+    return [f"--{name}={text}" for name, text in texts.items() if text]
 
 
 def page_html() -> str:
