@@ -109,7 +109,7 @@ def _add(section: Any, option: Option, *, is_brief: bool = False) -> None:
     if option.is_operand:
         section.add_argument(option.flags[0], help=text)
         return
-    flags, more = option.flags, {}
+    flags, more = option.flags, dict[str, Any]()
     if option.hint is bool:
         more["action"] = "store_true"
         flags = (*flags, f"--no-{option.flags[-1][2:]}") if option.default is True else flags

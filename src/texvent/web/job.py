@@ -69,7 +69,9 @@ class Job:
         return path if self.state == "done" and path.is_file() else None
 
     def _read(self) -> None:
-        self._lines.extend(line.rstrip() for line in self._process.stderr or ())
+        if self._process.stderr is not None:
+            with self._process.stderr as lines:
+                self._lines.extend(line.rstrip() for line in lines)
 
 
 def _operand(subject: str, folder: Path) -> str:
