@@ -92,7 +92,7 @@ def help_page(
     for title, options in sections.items():
         if asked in (MAIN, ALL, title):
             purpose = (type(groups[title]).__doc__ or "").strip().partition("\n")[0]
-            heading = (title, purpose) if len(sections) > 1 else ()
+            heading = (title, textwrap.fill(purpose, width - 2)) if len(sections) > 1 else ()
             section = page.add_argument_group(*heading)
             for option in options:
                 _add(section, option)
