@@ -235,7 +235,7 @@ def _command(values: dict[str, Any]) -> tuple[str, list[str], str]:
     """Command, flags and subject of the page's fields; empty fields are left to the defaults."""
     texts = {name: str(text).strip() for name, text in values.items()}
     video = texts.get("video", "")
-    named = ("simulator", "preset", "sensor", "seed")
+    named: tuple[str, ...] = ("simulator", "preset", "sensor", "seed")
     if not video:
         named = (*named, "generator", "duration")
     flags = [f"--{name}={texts[name]}" for name in named if texts.get(name)]
