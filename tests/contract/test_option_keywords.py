@@ -1,31 +1,50 @@
 """The typed keywords of the Python API are the options of the dataclasses."""
 
-import ast
 import inspect
+import typing
+from typing import Any, Literal
 
-from tests.contract import option_keywords
+import pytest
 
+from texvent._registry import GENERATORS, SIMULATORS
 from texvent.api import generate, simulate, video
+from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
+from texvent.generate.video_config import DiffusersConfig
+from texvent.options import keywords
 from texvent.options.fields import option_names
-from texvent.options.keywords import GenerateOptions, SimulateOptions
-from texvent.settings.resolution import base_settings
+
+SIMULATOR_CONFIGS = [SIMULATORS.load(name).config_type for name in SIMULATORS.builtin]
+GENERATOR_CONFIGS = [GENERATORS.load(name).config_type for name in GENERATORS.builtin]
 
 
-def test_the_typed_keywords_are_up_to_date():
-    committed = option_keywords.FILE.read_text(encoding="utf-8")
-    assert ast.dump(ast.parse(committed)) == ast.dump(ast.parse(option_keywords.text())), (
-        "an option changed; run: python -m tests.contract.option_keywords"
+def literals(hint: Any) -> set[Any]:
+    """Values of every Literal in a type."""
+    inside = typing.get_args(hint)
+    return (
+        set(inside) if typing.get_origin(hint) is Literal else set().union(*map(literals, inside))
     )
 
 
-def test_every_option_of_a_run_is_a_typed_keyword():
-    for command, keywords in (("generate", GenerateOptions), ("simulate", SimulateOptions)):
-        groups = base_settings(command).groups().values()
-        names = {name for group in groups for name in option_names(type(group))}
-        assert names <= set(keywords.__annotations__)
+@pytest.mark.parametrize(
+    ("typed", "configs"),
+    [
+        (keywords.RunOptions, [RunConfig]),
+        (keywords.InterpolateOptions, [InterpolateConfig]),
+        (keywords.SimulatorOptions, SIMULATOR_CONFIGS),
+        (keywords.CaptureOptions, [CaptureConfig]),
+        (keywords.GeneratorOptions, [*GENERATOR_CONFIGS, DiffusersConfig]),
+    ],
+)
+def test_keywords_are_the_options_of_these_classes_with_their_choices(typed, configs):
+    names = {name for config in configs for name in option_names(config)}
+    hints = typing.get_type_hints(typed)
+    assert set(hints) - {"generator"} == names
+    for name in names:
+        of = (typing.get_type_hints(one).get(name) for one in configs)
+        assert literals(hints[name]) == set().union(*map(literals, of)), name
 
 
 def test_signatures_name_every_option():
-    pairs = ((generate, GenerateOptions), (simulate, SimulateOptions), (video, GenerateOptions))
-    for function, keywords in pairs:
-        assert set(keywords.__annotations__) < set(inspect.signature(function).parameters)
+    of_prompt, of_frames = keywords.GenerateOptions, keywords.SimulateOptions
+    for function, typed in ((generate, of_prompt), (simulate, of_frames), (video, of_prompt)):
+        assert set(typed.__annotations__) < set(inspect.signature(function).parameters)

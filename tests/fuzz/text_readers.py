@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -13,10 +12,8 @@ import yaml
 
 from texvent._registry import FILTERS
 from texvent.batch.list_files import read_list
-from texvent.batch.manifest import OPTIONS_FILE, SAMPLES_FILE, Manifest
 from texvent.capture.frame_times import read_timestamps
 from texvent.cli.event_files.event_file_options import parse_time_range
-from texvent.errors import TexventError
 from texvent.generate.scene_input import describe_scene, list_nouns, understand
 from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask, write_pixel_mask
 from texvent.options.parts import make_part
@@ -38,15 +35,6 @@ LISTS = {
     ".txt": "# prompts\na red car drives left\n\na dog runs\n",
     ".csv": 'prompt,video,name,seed\n"a car, red",,one,3\na dog,clip.mp4,two,\n',
     ".jsonl": '{"prompt": "a car", "name": "a", "seed": 7}\n"a dog"\n{"video": "clip.mp4"}\n',
-}
-DONE = {
-    "key": "0123",
-    "name": "one",
-    "seed": 3,
-    "prompt": "a car",
-    "video": None,
-    "events": 12,
-    "files": {"one.h5": [120, "00ff"]},
 }
 MASK_SIZE = SensorSize(12, 9)
 TEXTS: dict[str, tuple[str, Any]] = {
@@ -89,7 +77,6 @@ def text_readers() -> list[Reader]:
             Reader(f"list {ending}", partial(_make_text, f"list{ending}", text), _read_list, 2)
             for ending, text in LISTS.items()
         ),
-        Reader("batch manifest", _make_manifest, _read_manifest, 2),
         Reader(
             "timestamps",
             partial(_make_text, "timestamps.txt", "# s\n0.0 a.png\n0.04 b.png\n0.08 c.png\n"),
@@ -148,30 +135,6 @@ def _read_scene(path: Path) -> str:
 
 def _read_list(path: Path) -> str:
     return repr(read_list(path))[:1000]
-
-
-def _make_manifest(folder: Path) -> Path:
-    options = {"run": {"seed": 3, "simulator": "texvent"}, "formats": ["hdf5"]}
-    (folder / OPTIONS_FILE).write_text(json.dumps(options, indent=1))
-    lines = [json.dumps({**DONE, "key": key}) + "\n" for key in ("0123", "4567", "89ab")]
-    (folder / SAMPLES_FILE).write_text("".join(lines))
-    return folder
-
-
-def _read_manifest(path: Path) -> str:
-    manifest = Manifest(path)
-    try:
-        manifest.begin({"run": {"seed": 4, "simulator": "texvent"}}, overwrite=False)
-    except TexventError as error:
-        if "was made with other options" not in str(error):
-            raise
-        _check_line(str(error).replace(str(path), ""))
-    return repr(manifest.others([]))[:1000]
-
-
-def _check_line(message: str) -> None:
-    if "\n" in message or len(message) >= 300:
-        raise AssertionError(f"{len(message)} characters: {message[:60]!r}")
 
 
 def _make_mask(ending: str, folder: Path) -> Path:

@@ -12,7 +12,7 @@ from subprocess import PIPE, Popen
 import pytest
 
 from texvent.errors import OutputError
-from texvent.io.atomic import atomic_file, check_output, is_disk_full, noting_completed
+from texvent.io.atomic import atomic_file, check_output, is_disk_full
 
 WRITER = """
 import sys, time
@@ -158,23 +158,3 @@ def test_ctrl_c_leaves_nothing_at_all(
     writer.communicate(timeout=300)
     assert writer.returncode != 0
     assert folder_is_clean()
-
-
-def test_only_what_this_process_put_in_place_is_noted(tmp_path: Path) -> None:
-    (tmp_path / "b").write_text("of another run")
-    with noting_completed() as completed:
-        with atomic_file(tmp_path / "a", overwrite=False) as part:
-            part.write_text("mine")
-        with pytest.raises(OutputError), atomic_file(tmp_path / "b", overwrite=False):
-            pass
-        (tmp_path / "c").write_text("of another run")
-    assert completed == [tmp_path / "a"]
-
-
-def test_the_inner_of_two_lists_is_closed_not_the_outer(tmp_path: Path) -> None:
-    with noting_completed() as outer:
-        with noting_completed() as inner:
-            pass
-        with atomic_file(tmp_path / "a", overwrite=False) as part:
-            part.write_text("mine")
-    assert (outer, inner) == ([tmp_path / "a"], [])

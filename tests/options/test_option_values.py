@@ -47,7 +47,7 @@ def test_a_decimal_rate_means_what_is_written():
         ({"weight": "heavy"}, "must be a number"),
         ({"is_on": 1}, "must be true or false"),
         ({"mode": "three"}, "mode is 'three'; allowed: one, two"),
-        ({"rate": "1/0"}, "a number or a fraction"),
+        ({"rate": "1/0"}, "it must be a rate such as 24"),
     ],
 )
 def test_wrong_values_fail_with_what_is_allowed(options, message):

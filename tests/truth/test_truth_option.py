@@ -48,14 +48,13 @@ def test_truth_changes_no_event(capsys):
 @pytest.mark.parametrize("extension", ["h5", "npz"])
 def test_event_files_with_a_place_for_ids_hold_them(folder, capsys, extension):
     name = f"b.{extension}"
-    words = ("-o", name, "-o", "b.csv", "--truth", "events")
+    words = ("-o", name, "--truth", "events")
     assert run("generate", "a red ball bounces", *words, *QUICK) == 0
     assert "left out" not in capsys.readouterr().err
     truth, events = texvent.load_truth("b.truth"), texvent.load(name)
     assert truth.event_instance.max() == 1
     np.testing.assert_array_equal(events.instance, truth.event_instance)
     np.testing.assert_array_equal(events.class_id, truth.event_class_id)
-    assert events.with_ids(None, None).equals(texvent.load("b.csv"))
     if extension == "h5":
         with h5py.File(name) as file:
             assert file["events/instance"].dtype == file["events/class_id"].dtype == np.uint16
@@ -71,19 +70,6 @@ def test_ids_go_with_their_events_and_what_cannot_hold_them_says_so(folder, caps
     assert run("convert", "b.h5", "b.raw") == 0
     assert "no place for the instance and class of events" in capsys.readouterr().err
     assert texvent.load("b.raw").instance is None
-
-
-def test_a_video_alone_has_its_truth_too(folder, capsys):
-    video = ("generate", "a red ball bounces", "--video-only", "-o", "v.avi", *QUICK[:8])
-    assert run(*video, "--truth", "flow,events") != 0
-    assert "--video-only makes none" in capsys.readouterr().err
-    assert not list(folder.iterdir())
-    assert run(*video, "--truth", "all") == 0
-    assert capsys.readouterr().out.split() == ["v.avi", "v.truth"]
-    truth = texvent.load_truth("v.truth")
-    assert "events" not in truth.parts
-    assert truth.metadata["source"]["prompt"] == "a red ball bounces"
-    assert run(*video, "--truth", "all") != 0
 
 
 def test_a_dry_run_writes_no_truth(folder):

@@ -360,7 +360,7 @@ class Damaged(MotionFrames):
 def test_a_run_that_ends_early_keeps_its_truth_only_if_asked(tmp_path, keeps):
     run = video_to_events(Damaged(), resolve("simulate", {"interpolate": "none"}))
     files = RunFiles(
-        [tmp_path / "d.h5"], truth=("ids", "flow", "depth", "events"), keep_partial=keeps
+        tmp_path / "d.h5", truth=("ids", "flow", "depth", "events"), keep_partial=keeps
     )
     if not keeps:
         with pytest.raises(InputError, match="ends in damage"):

@@ -17,7 +17,7 @@ def test_a_prompt_gives_a_preview_and_a_viewer_and_a_mistake_one_line(browser, r
             field.send_keys(value)
         browser.find_element("id", "make").click()
         wait = WebDriverWait(browser, WAIT_S)
-        wait.until(lambda _: " events on " in status.text)
+        wait.until(lambda _: "events   " in status.get_attribute("textContent"))
         video = browser.find_element("id", "preview")
         wait.until(lambda _: browser.execute_script("return arguments[0].videoWidth", video) > 100)
         browser.switch_to.frame(browser.find_element("id", "viewer"))
@@ -28,4 +28,4 @@ def test_a_prompt_gives_a_preview_and_a_viewer_and_a_mistake_one_line(browser, r
         browser.find_element("css selector", "#prompt").clear()
         browser.find_element("id", "make").click()
         wait.until(lambda _: "failed" in status.get_attribute("class"))
-        assert "the prompt is empty" in status.text
+        assert "PROMPT must not be empty" in status.text

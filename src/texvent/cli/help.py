@@ -92,7 +92,7 @@ def help_page(
     for title, options in sections.items():
         if asked in (MAIN, ALL, title):
             purpose = (type(groups[title]).__doc__ or "").strip().partition("\n")[0]
-            heading = (title, purpose) if len(sections) > 1 else ()
+            heading = (title, textwrap.fill(purpose, width - 2)) if len(sections) > 1 else ()
             section = page.add_argument_group(*heading)
             for option in options:
                 _add(section, option)
@@ -109,7 +109,7 @@ def _add(section: Any, option: Option, *, is_brief: bool = False) -> None:
     if option.is_operand:
         section.add_argument(option.flags[0], help=text)
         return
-    flags, more = option.flags, {}
+    flags, more = option.flags, dict[str, Any]()
     if option.hint is bool:
         more["action"] = "store_true"
         flags = (*flags, f"--no-{option.flags[-1][2:]}") if option.default is True else flags

@@ -5,21 +5,10 @@ from __future__ import annotations
 import types
 import typing
 from collections.abc import Iterator
-from fractions import Fraction
-from pathlib import Path
 from typing import Any, Literal, NamedTuple
 
 from texvent.options.fields import option_help, option_names
-from texvent.options.values import parse_fraction
-
-SCALARS: dict[Any, tuple[str, Any]] = {
-    int: ("INT", int),
-    float: ("FLOAT", float),
-    str: ("TEXT", str),
-    Path: ("PATH", Path),
-    Fraction: ("RATE", parse_fraction),
-}
-"""Type → its name in help, and what reads it from a word."""
+from texvent.options.values import SCALARS
 
 
 class _Required:
@@ -55,7 +44,7 @@ class Option(NamedTuple):
         """Placeholder of its value in help."""
         if self.choices:
             return "{" + ",".join(map(str, self.choices)) + "}"
-        return SCALARS[self.hint][0]
+        return SCALARS[self.hint].placeholder
 
 
 def flag_of(name: str) -> str:

@@ -11,20 +11,14 @@ from typing import Any
 from texvent._registry import nearest
 from texvent.cli.help import asked_help, first_sentence, help_page
 from texvent.cli.notices import write_out
-from texvent.cli.option_types import REQUIRED, SCALARS, Option, declared_options, flag_of
+from texvent.cli.option_types import REQUIRED, Option, declared_options, flag_of
 from texvent.errors import ConfigError, shown
 from texvent.io.atomic import protect_inputs
 from texvent.options.fields import option_names
+from texvent.options.values import SCALARS
 
 LONGEST_HELP = 120
 """Characters of an option's help that an error repeats."""
-EXPECTED = {
-    "INT": "a whole number",
-    "FLOAT": "a number",
-    "TEXT": "text",
-    "PATH": "a path",
-    "RATE": "a rate such as 24, 29.97 or 30000/1001",
-}
 Explain = Callable[[str], str | None]
 Presets = Callable[[], Mapping[str, Sequence[str]]]
 
@@ -170,11 +164,11 @@ def _reader(option: Option) -> Callable[[str], Any]:
                 return next(one for one in option.choices if str(one) == word)
             allowed = ", ".join(map(str, option.choices))
             raise argparse.ArgumentTypeError(f"{shown(word)} is not allowed; allowed: {allowed}")
-        kind, convert = SCALARS[option.hint]
+        kind = SCALARS[option.hint]
         try:
-            return convert(word)
+            return kind.read(word)
         except (ValueError, ArithmeticError):
-            message = f"{shown(word)} is not {EXPECTED[kind]}{more}"
+            message = f"{shown(word)} is not {kind.words}{more}"
             raise argparse.ArgumentTypeError(message) from None
 
     return read

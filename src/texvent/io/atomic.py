@@ -34,31 +34,12 @@ DEAD_SECONDS = 7 * 86_400
 READ_FROM_FOLDERS = IMAGE_EXTENSIONS | VIDEO_EXTENSIONS | {".npy"}
 """Files of these kinds, put into an input folder, would be read as its frames by the next run."""
 
-_completed: list[list[Path]] = []
-"""Lists that note completed outputs."""
 _swept: set[str] = set()
 """Folders that this process has swept."""
 _own: set[Path] = set()
 """Parts of this process."""
 _inputs: ContextVar[tuple[tuple[str, Path], ...]] = ContextVar("inputs", default=())
 """Names of protected inputs as the user wrote them, and resolved."""
-
-
-@contextmanager
-def noting_completed() -> Iterator[list[Path]]:
-    """The files and folders that this process completes inside the block, in order."""
-    completed: list[Path] = []
-    _completed.append(completed)
-    try:
-        yield completed
-    finally:
-        # By identity: two empty lists are equal.
-        _completed[:] = [one for one in _completed if one is not completed]
-
-
-def _note(target: Path) -> None:
-    for completed in _completed:
-        completed.append(target)
 
 
 @contextmanager
@@ -177,7 +158,6 @@ def atomic_file(path: str | Path, *, overwrite: bool) -> Iterator[Path]:
         # Another program may have made the file meanwhile.
         check_output(path, overwrite=overwrite)
         os.replace(part, target)
-        _note(target)
     _flush_to_disk(target.parent)
 
 
@@ -248,7 +228,6 @@ def atomic_folder(
             _replace_folder(target, part)
         else:
             os.replace(part, target)
-        _note(target)
     _flush_to_disk(target.parent)
 
 

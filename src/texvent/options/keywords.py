@@ -1,7 +1,7 @@
 """Options of the Python API, for editors and type checkers.
 
-Written by `python -m tests.contract.option_keywords` from the option dataclasses, which say what
-each option means; so does `--help all`. None means "not given".
+The option dataclasses say what each option means, and so does `--help all`; a test compares both.
+None means "not given".
 """
 
 from __future__ import annotations

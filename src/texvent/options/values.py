@@ -7,10 +7,10 @@ import numbers
 import re
 import types
 import typing
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal, NamedTuple, TypeVar
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
@@ -84,11 +84,11 @@ def convert(value: Any, hint: Any, where: str) -> Any:
             return None
         return convert(value, next(one for one in arguments if one is not type(None)), where)
     try:
-        return _SCALARS[hint](value)
+        return SCALARS[hint].convert(value)
     except KeyError:
         return value
     except (TypeError, ValueError, ArithmeticError):
-        raise ConfigError(f"{where} is {shown(value)}; it must be {_SCALAR_NAMES[hint]}") from None
+        raise ConfigError(f"{where} is {shown(value)}; it must be {SCALARS[hint].words}") from None
 
 
 def _bool(value: Any) -> bool:
@@ -127,19 +127,25 @@ def parse_fraction(value: Any) -> Fraction:
     return Fraction(text)
 
 
-_SCALARS: dict[Any, Any] = {
-    bool: _bool,
-    int: _int,
-    float: _float,
-    str: _text,
-    Path: Path,
-    Fraction: parse_fraction,
-}
-_SCALAR_NAMES = {
-    bool: "true or false",
-    int: "a whole number",
-    float: "a number",
-    str: "text",
-    Path: "a path",
-    Fraction: "a number or a fraction such as 30000/1001",
+class Scalar(NamedTuple):
+    """A type that options have."""
+
+    placeholder: str
+    """Its name in help."""
+    words: str
+    convert: Callable[[Any], Any]
+    """Takes a value of a file or of Python."""
+    read: Callable[[str], Any]
+    """Takes a word of a command line."""
+
+
+SCALARS: Mapping[Any, Scalar] = {
+    bool: Scalar("", "true or false", _bool, _bool),
+    int: Scalar("INT", "a whole number", _int, int),
+    float: Scalar("FLOAT", "a number", _float, float),
+    str: Scalar("TEXT", "text", _text, str),
+    Path: Scalar("PATH", "a path", Path, Path),
+    Fraction: Scalar(
+        "RATE", "a rate such as 24, 29.97 or 30000/1001", parse_fraction, parse_fraction
+    ),
 }

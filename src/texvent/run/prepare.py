@@ -12,7 +12,7 @@ from typing import Any
 
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError, warn
-from texvent.generate.scene_input import Subject, check_takes, prompt_of, read
+from texvent.generate.scene_input import Subject, check_takes, read
 from texvent.pipeline import Simulation, text_to_events, text_to_video, video_to_events
 from texvent.run.rate_search import reach_target_rate
 from texvent.runtime.memory import usable_bytes
@@ -95,7 +95,6 @@ def prepare_prompt(
     check_run(settings)
     _check_prompt(prompt)
     simulation = text_to_events(prompt, settings, progress=progress)
-    simulation = replace(simulation, prompt=prompt_of(prompt))
     return reach_target_rate(simulation, progress=progress)
 
 

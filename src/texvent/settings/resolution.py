@@ -154,11 +154,12 @@ def _default_settings(
         parts.append(generator_class)
     # Some models and generators prefer an interpolator.
     wishes = [getattr(part, "default_interpolate", None) for part in parts]
-    chosen = next((one for one in (*wishes, interpolate) if one is not None), None)
+    usual = InterpolateConfig.interpolate
+    chosen = next((one for one in (*wishes, interpolate) if one is not None), usual)
     return Settings(
         run=run,
         source=source,
-        interpolate=InterpolateConfig(**({} if chosen is None else {"interpolate": chosen})),
+        interpolate=InterpolateConfig(interpolate=chosen),
         simulate=simulator_class.presets[preset_name],
         generator=generator_name,
     )

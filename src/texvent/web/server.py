@@ -2,12 +2,12 @@
 
 Every address is one of a few names, so no request reaches another file. Requests that name another
 host (DNS rebinding) or come from another page are refused, and so are bodies above a bound.
+Prompts, scenes and videos may name files of this machine, as on the command line.
 """
 
 from __future__ import annotations
 
 import json
-import re
 import shutil
 import sys
 import tempfile
@@ -17,7 +17,6 @@ from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib import resources
 from pathlib import Path
 from typing import Any, Self
-from urllib.parse import parse_qs
 
 from texvent._registry import GENERATORS, SIMULATORS
 from texvent.config import RunConfig
@@ -26,11 +25,8 @@ from texvent.sensor import SENSORS
 from texvent.web.job import Job
 
 HOST = "127.0.0.1"
-FIRST_PORT, PORTS_TRIED = 7860, 100
 CALL_BYTES = 2**16
-"""Largest request that is no upload."""
-SUFFIXES = frozenset((".mp4", ".avi", ".mov", ".mkv", ".webm", ".gif", ".npy", ".aedat4"))
-"""Kinds of uploads; the extension says how a file is read."""
+"""Largest request."""
 HEADERS = {
     "Cache-Control": "no-store",
     "Cross-Origin-Resource-Policy": "same-origin",
@@ -47,11 +43,11 @@ VIEWER_POLICY = (
 )
 NOTHING_POLICY = "default-src 'none'"
 RESULTS = {
-    "events": ("application/octet-stream", NOTHING_POLICY),
-    "video": ("video/mp4", NOTHING_POLICY),
-    "page": ("text/html; charset=utf-8", VIEWER_POLICY),
+    "events": ("events.h5", "application/octet-stream", NOTHING_POLICY),
+    "video": ("events.events.mp4", "video/mp4", NOTHING_POLICY),
+    "page": ("events.events.html", "text/html; charset=utf-8", VIEWER_POLICY),
 }
-"""Files that a run writes, in order: their kinds, and what a browser may do with them."""
+"""Files that a run writes, their kinds, and what a browser may do with them."""
 
 
 class PageServer:
@@ -61,40 +57,36 @@ class PageServer:
         InputError: the port is taken.
     """
 
-    def __init__(self, *, port: int = 0, upload_bytes: int = 200 * 2**20) -> None:
+    def __init__(self, *, port: int = 0) -> None:
         """Listen at once.
 
         Args:
-            port: TCP port; 0 takes the first free one from 7860 on.
-            upload_bytes: largest video that is taken.
+            port: TCP port; 0: any free one.
         """
-        self.upload_bytes = upload_bytes
         self.folder = Path(tempfile.mkdtemp(prefix="texvent-app-"))
         self.job: Job | None = None
         self._jobs = 0
         self._lock = threading.Lock()
         try:
-            self._server = _listen(port)
-        except InputError:
+            self._server = _Server((HOST, port), _Handler)
+        except OSError as error:
             self.close()
-            raise
+            reason = f"{error.strerror}; choose another port, or none"
+            raise InputError(f"cannot listen on port {port}: {reason}") from error
         self._server.page = self  # type: ignore[attr-defined]
         self.address = f"http://{HOST}:{self._server.server_port}/"
         threading.Thread(target=self._server.serve_forever, daemon=True).start()
 
-    def begin(self, options: dict[str, Any], *, prompt: str = "", video: Path | None = None) -> Job:
-        """Start a job, which takes the place of the one before and waits for its end."""
+    def begin(self, command: str, options: list[str], subject: str) -> Job:
+        """Start a job, which takes the place of the one before; arguments as those of `Job`."""
         with self._lock:
-            before, self._jobs = self.job, self._jobs + 1
-            if before is not None:
-                before.stop()
-                shutil.rmtree(before.folder, ignore_errors=True)
+            self._jobs += 1
+            if self.job is not None:
+                self.job.stop()
+                shutil.rmtree(self.job.folder, ignore_errors=True)
             folder = self.folder / f"job-{self._jobs}"
             folder.mkdir()
-            if video is not None:
-                video = video.rename(folder / f"upload{video.suffix}")
-            self.job = Job(folder, options, prompt=prompt, video=video)
-            self.job.start(after=before)
+            self.job = Job(folder, command, options, subject)
             return self.job
 
     def close(self) -> None:
@@ -120,19 +112,6 @@ class _Server(ThreadingHTTPServer):
         """Nothing of a broken connection: the terminal belongs to the command."""
         if not isinstance(sys.exception(), OSError):
             super().handle_error(request, client_address)
-
-
-def _listen(port: int) -> ThreadingHTTPServer:
-    reason: OSError | None = None
-    for one in [port] if port else range(FIRST_PORT, FIRST_PORT + PORTS_TRIED):
-        try:
-            return _Server((HOST, one), _Handler)
-        except OSError as error:
-            reason = error
-    raise InputError(
-        f"cannot listen on port {port or FIRST_PORT}: "
-        f"{reason.strerror if reason else 'none is free'}; choose another --port"
-    )
 
 
 class _Handler(BaseHTTPRequestHandler):
@@ -165,18 +144,13 @@ class _Handler(BaseHTTPRequestHandler):
         """Start or stop a job."""
         if self._is_refused():
             return
-        path, _, query = self.path.partition("?")
+        path = self.path.partition("?")[0]
         try:
             if path == "/stop":
                 if self.page.job is not None:
                     self.page.job.stop()
-            elif path == "/generate":
-                values = self._json()
-                self.page.begin(_options(values), prompt=str(values.get("prompt", "")))
-            elif path == "/simulate":
-                values = {name: found[0] for name, found in parse_qs(query).items()}
-                options = _options(values)
-                self.page.begin(options, video=self._upload(values.get("name", "")))
+            elif path == "/run":
+                self.page.begin(*_command(self._json()))
             else:
                 self._refuse(HTTPStatus.NOT_FOUND, "there is no such page")
                 return
@@ -203,50 +177,27 @@ class _Handler(BaseHTTPRequestHandler):
             return False
         return True
 
-    def _length(self, most: int) -> int:
+    def _json(self) -> dict[str, Any]:
         text = self.headers.get("Content-Length", "")
         if not (text.isascii() and text.isdigit()):
             raise _RequestError(HTTPStatus.LENGTH_REQUIRED, "the length is missing")
-        if len(text) > 18 or int(text) > most:
-            message = f"the request is larger than {most:,} bytes"
+        if len(text) > 18 or int(text) > CALL_BYTES:
+            message = f"the request is larger than {CALL_BYTES:,} bytes"
             raise _RequestError(HTTPStatus.REQUEST_ENTITY_TOO_LARGE, message)
-        return int(text)
-
-    def _json(self) -> dict[str, Any]:
         try:
-            values = json.loads(self.rfile.read(self._length(CALL_BYTES)))
+            values = json.loads(self.rfile.read(int(text)))
         except (ValueError, RecursionError) as error:
             raise _RequestError(HTTPStatus.BAD_REQUEST, "the request is no JSON") from error
         if not isinstance(values, dict):
             raise _RequestError(HTTPStatus.BAD_REQUEST, "the request is no JSON object")
         return values
 
-    def _upload(self, name: str) -> Path:
-        """The body as a file; of its name only the extension counts."""
-        left, suffix = self._length(self.page.upload_bytes), Path(name).suffix.lower()
-        if suffix not in SUFFIXES:
-            message = f"a video must end in one of {', '.join(sorted(SUFFIXES))}"
-            raise _RequestError(HTTPStatus.UNSUPPORTED_MEDIA_TYPE, message)
-        with tempfile.NamedTemporaryFile(suffix=suffix, dir=self.page.folder, delete=False) as file:
-            path = Path(file.name)
-            try:
-                while left:
-                    part = self.rfile.read(min(left, 2**20))
-                    if not part:
-                        raise _RequestError(HTTPStatus.BAD_REQUEST, "the upload broke off")
-                    file.write(part)
-                    left -= len(part)
-            except BaseException:
-                path.unlink()
-                raise
-        return path
-
     def _result(self, job: Job, name: str) -> None:
-        path = job.file(name)
+        file, kind, policy = RESULTS[name]
+        path = job.file(file)
         if path is None:
             self._refuse(HTTPStatus.NOT_FOUND, "there is no such result")
         else:
-            kind, policy = RESULTS[name]
             self._send(path.read_bytes(), kind, policy=policy)
 
     def _refuse(self, status: int, text: str) -> None:
@@ -280,32 +231,15 @@ class _RequestError(Exception):
         self.status = status
 
 
-def _options(values: dict[str, Any]) -> dict[str, Any]:
-    """Options of a run from the fields of the page; empty fields are left to the defaults.
-
-    Raises:
-        _RequestError: a number is none, or a name is not one that the page offers: others may be
-            paths, which the page has no business to read.
-    """
-    options: dict[str, Any] = {}
-    for name, allowed in (("generator", GENERATORS.names()), ("sensor", SENSORS)):
-        text = str(values.get(name, "")).strip()
-        is_size = name == "sensor" and re.fullmatch(r"\d{1,5}x\d{1,5}", text)
-        if text and text not in allowed and not is_size:
-            message = f"{name} is {text[:20]!r}; choose one of the page's list"
-            raise _RequestError(HTTPStatus.BAD_REQUEST, message)
-    for name, convert in (
-        ("generator", str), ("simulator", str), ("preset", str), ("sensor", str),
-        ("seed", int), ("duration", float),
-    ):  # fmt: skip
-        text = str(values.get(name, "")).strip()
-        if text:
-            try:
-                options[name] = convert(text)
-            except ValueError:
-                message = f"{name} is {text[:20]!r}; it must be a number"
-                raise _RequestError(HTTPStatus.BAD_REQUEST, message) from None
-    return options
+def _command(values: dict[str, Any]) -> tuple[str, list[str], str]:
+    """Command, flags and subject of the page's fields; empty fields are left to the defaults."""
+    texts = {name: str(text).strip() for name, text in values.items()}
+    video = texts.get("video", "")
+    named: tuple[str, ...] = ("simulator", "preset", "sensor", "seed")
+    if not video:
+        named = (*named, "generator", "duration")
+    flags = [f"--{name}={texts[name]}" for name in named if texts.get(name)]
+    return ("simulate", flags, video) if video else ("generate", flags, texts.get("prompt", ""))
 
 
 def page_html() -> str:

@@ -16,7 +16,6 @@ from texvent.config import CaptureConfig
 from texvent.run.check import VideoCheckResult, check_frames, open_source
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.video import MICROSECONDS
-from texvent.video_check.checks import Finding
 
 FOUND = 1
 """Exit code with --strict of a video in which something was found."""
@@ -84,34 +83,19 @@ def describe_check(found: VideoCheckResult) -> dict[str, Any]:
 
 
 def _print_check(found: VideoCheckResult, *, is_whole: bool) -> None:
-    """Print findings with advice, then the other checks and a summary."""
-    findings = found.report.findings
-    full = [one for one in findings if one.is_found or is_whole]
-    rest = [one for one in findings if one not in full]
-    with result_console() as console:
-        if full:
-            table = _table("check", "measured", "limit", "what it does to events", "what helps")
-            for one in full:
-                advice = one.check.effect, one.check.help
-                table.add_row(_mark(one), one.value, one.check.limit, *advice)
-            console.print(table)
-        if rest:
-            table = _table("nothing found" if full else "check", "measured", "limit")
-            for one in rest:
-                table.add_row(one.check.name, one.value, one.check.limit)
-            console.print(*([""] if full else []), table, sep="\n")
-    write_out("\n".join(["", *_summary(found), ""]))
-
-
-def _table(*titles: str) -> Table:
-    table = Table(box=None, pad_edge=False, header_style="bold", padding=(0, 2, 0, 0))
-    for title in titles:
+    """Print the checks, those that found something first and with advice, and a summary."""
+    findings = sorted(found.report.findings, key=lambda one: not one.is_found)
+    table = Table(box=None, pad_edge=False)
+    for title in ("check", "measured", "limit", "what it does to events", "what helps"):
         table.add_column(title)
-    return table
-
-
-def _mark(one: Finding) -> str:
-    return f"! {one.check.name}" if one.is_found else one.check.name
+    for one in findings:
+        has_advice = one.is_found or is_whole
+        advice = (one.check.effect, one.check.help) if has_advice else ("", "")
+        mark = "! " if one.is_found else ""
+        table.add_row(f"{mark}{one.check.name}", one.value, one.check.limit, *advice)
+    with result_console() as console:
+        console.print(table)
+    write_out("\n".join(["", *_summary(found), ""]))
 
 
 def _summary(found: VideoCheckResult) -> list[str]:

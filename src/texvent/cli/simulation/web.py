@@ -15,21 +15,19 @@ from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.web.server import PageServer
 
-DESCRIPTION = """Open the web page: type a prompt or choose a video, look at the events, download
-them in any format. Only this machine can reach the page."""
+DESCRIPTION = """Open the web page: type a prompt or the path of a video, look at the events,
+download them. Only this machine can reach the page."""
 WAIT_S = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
 class AppOptions:
-    """Where the page is served, and how large an upload may be."""
+    """Where the page is served."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}
 
     port: int = 0
-    """TCP port; 0 takes the first free one from 7860 on."""
-    max_upload_mb: float = 200.0
-    """Largest video that may be uploaded, MB."""
+    """TCP port; 0: any free one."""
     browser: bool = True
     """Open the page in the browser."""
     quiet: bool = False
@@ -37,7 +35,6 @@ class AppOptions:
 
     def __post_init__(self) -> None:
         check_range("port", self.port, 0, 65_535)
-        check_range("max_upload_mb", self.max_upload_mb, 0.001, 1e6)
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -48,8 +45,7 @@ def run(arguments: Sequence[str]) -> int:
     stop = threading.Event()
     before = signal.signal(signal.SIGTERM, lambda number, frame: stop.set())
     try:
-        upload_bytes = int(options.max_upload_mb * 2**20)
-        with PageServer(port=options.port, upload_bytes=upload_bytes) as page:
+        with PageServer(port=options.port) as page:
             if not options.quiet:
                 write_out(f"{page.address}\npress Ctrl-C to stop\n")
                 sys.stdout.flush()

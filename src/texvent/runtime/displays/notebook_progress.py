@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 import importlib
 import sys
 import time
@@ -12,7 +11,7 @@ from typing import Any, Self
 from texvent.errors import visible
 
 PATIENCE_SECONDS = 0.5
-"""Work that ends sooner shows no bar."""
+"""Work that ends sooner shows no steps."""
 REFRESH_SECONDS = 0.1
 
 
@@ -24,10 +23,10 @@ def is_notebook() -> bool:
 
 
 class NotebookProgress:
-    """Lines, and one bar for longer work, which disappears at its end.
+    """Lines, and one with the steps of longer work, which disappears at its end.
 
     Args:
-        is_forced: show the bar at once.
+        is_forced: show the steps at once.
     """
 
     def __init__(self, *, is_forced: bool = False) -> None:
@@ -48,14 +47,14 @@ class NotebookProgress:
         trace: TracebackType | None,
     ) -> None:
         if self._handle is not None:
-            self._handle.update({"text/plain": "", "text/html": ""}, raw=True)
+            self._handle.update({"text/plain": ""}, raw=True)
 
     def announce(self, line: str) -> None:
         """Show a line."""
         _display({"text/plain": visible(line)}, raw=True)
 
     def advance(self, stage: str, done: int, total: int | None) -> None:
-        """Move the bar, at most ten times per second."""
+        """Show a step, at most ten times per second."""
         now = time.monotonic()
         if stage != self._stage:
             self._stage, self._stage_begun = stage, now
@@ -64,30 +63,13 @@ class NotebookProgress:
         if now - self._begun < self._patience:
             return
         self._shown = now
-        bundle = _bar(stage, done, total, now - self._stage_begun)
+        steps = f"{done:,}" if total is None else f"{done:,}/{total:,}"
+        text = {"text/plain": f"{visible(stage)}  {steps}  {now - self._stage_begun:.0f} s"}
         if self._handle is None:
-            self._handle = _display(bundle, raw=True, display_id=True)
+            self._handle = _display(text, raw=True, display_id=True)
         else:
-            self._handle.update(bundle, raw=True)
+            self._handle.update(text, raw=True)
 
 
 def _display(bundle: dict[str, str], **options: Any) -> Any:
     return importlib.import_module("IPython.display").display(bundle, **options)
-
-
-def _bar(stage: str, done: int, total: int | None, seconds: float) -> dict[str, str]:
-    """A stage's steps and times, as text and with a bar."""
-    steps = f"{done:,}" if total is None else f"{done:,}/{total:,}"
-    clock = f"{seconds:.0f} s"
-    if total and 0 < done < total:
-        clock += f", {seconds * (total - done) / done:.0f} s left"
-    share = f'value="{done}" max="{total}"' if total else ""
-    name = html.escape(visible(stage))
-    return {
-        "text/plain": f"{visible(stage)}  {steps}  {clock}",
-        "text/html": (
-            '<div style="display:flex; flex-wrap:wrap; align-items:center; gap:8px">'
-            f'<span>{name}</span><progress {share} style="flex:0 1 300px"></progress>'
-            f"<span>{steps}</span><span>{clock}</span></div>"
-        ),
-    }
