@@ -28,6 +28,7 @@ from texvent.generate.video_config import GeneratedVideoConfig
 from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo, open_stored
 from texvent.generate.videos.video_cache import VideoCache, content_key
+from texvent.io.atomic import atomic_file
 from texvent.options.values import plain
 from texvent.runtime.progress import Progress
 from texvent.sensor import SensorSize
@@ -48,6 +49,7 @@ WEIGHTS = tuple(
 """What its configs load, from its own folder."""
 LAUNCHERS = (Path(".venv/bin/torchrun"), Path("venv/bin/torchrun"))
 SEED_MODULUS = 2**31 - 2
+MP4 = ".mp4"
 GRACE_S = 10.0
 """Time to end by itself after SIGTERM."""
 LAST_LINES, LONGEST_LINE = 4, 300
@@ -149,8 +151,7 @@ class OpenSoraGenerator:
     def plan(self, prompt: str) -> str | None:
         """What making the video would take, or None if it was made before."""
         config = self.config
-        key = self._key(prompt, self.seed)
-        if VideoCache(is_kept=config.reuse_video).find(key, Fraction(config.fps or 24)) is not None:
+        if VideoCache(is_kept=config.reuse_video).has(self._key(prompt, self.seed), MP4):
             return None
         state = self.find_missing(config) or "it is ready"
         return (
@@ -168,13 +169,7 @@ class OpenSoraGenerator:
         fps = Fraction(config.fps or 24)
         key = self._key(prompt, seed)
         cache = VideoCache(is_kept=config.reuse_video)
-        found = cache.find(key, fps)
-        if found is not None:
-            progress.announce(f"this video was generated before: {found.path}")
-            return found
-        missing = self.find_missing(config)
-        if missing is not None:
-            raise TexventError(missing)
+        path = cache.path(key, MP4)
         origin = {
             "generator": "opensora",
             "version": __version__,
@@ -182,10 +177,18 @@ class OpenSoraGenerator:
             "seed": seed,
             "options": plain(config),
         }
+        if cache.has(key, MP4):
+            progress.announce(f"this video was generated before: {path}")
+            return open_stored(path, fps, origin)
+        missing = self.find_missing(config)
+        if missing is not None:
+            raise TexventError(missing)
         with tempfile.TemporaryDirectory(prefix="texvent-opensora-") as folder:
             progress.announce(f"running Open-Sora ({config.height}px, {config.steps} steps)")
             made = self._run(prompt, seed, Path(folder))
-            return cache.adopt(key, open_stored(made, fps, origin))
+            with atomic_file(path, overwrite=True) as part:
+                part.write_bytes(made.read_bytes())
+        return open_stored(path, fps, origin)
 
     def _run(self, prompt: str, seed: int, folder: Path) -> Path:
         """Call the program; returns the mp4 it wrote."""
