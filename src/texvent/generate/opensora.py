@@ -19,7 +19,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 from texvent._version import __version__
 from texvent.config import check_range
@@ -28,6 +28,7 @@ from texvent.generate.video_config import GeneratedVideoConfig
 from texvent.generate.videos.retries import generate_checked
 from texvent.generate.videos.stored_video import StoredVideo, open_stored
 from texvent.generate.videos.video_cache import VideoCache, content_key
+from texvent.io.atomic import atomic_file
 from texvent.options.values import plain
 from texvent.runtime.progress import Progress
 from texvent.sensor import SensorSize
@@ -48,6 +49,7 @@ WEIGHTS = tuple(
 """What its configs load, from its own folder."""
 LAUNCHERS = (Path(".venv/bin/torchrun"), Path("venv/bin/torchrun"))
 SEED_MODULUS = 2**31 - 2
+MP4 = ".mp4"
 GRACE_S = 10.0
 """Time to end by itself after SIGTERM."""
 LAST_LINES, LONGEST_LINE = 4, 300
@@ -59,23 +61,23 @@ class OpenSoraConfig(GeneratedVideoConfig):
 
     fps: Fraction | None = Fraction(24)
     """Frame rate that Open-Sora takes (a whole number), and the video's."""
-    resolution: Literal["256px", "768px"] = "256px"
-    """Size class of the 16:9 image: 256px takes about a minute and 52 GB on an H100, 768px half an
-    hour and 60 GB."""
+    height: int = 256
+    """Size class of the 16:9 image, 256 or 768 px: 256 takes about a minute and 52 GB on an H100,
+    768 half an hour and 60 GB."""
     frames: int = 129
     """Frames to generate, 4k+1, at most 129."""
     steps: int = 50
     """Denoising steps."""
     guidance: float = 7.5
     """How closely the prompt is followed."""
-    offload: bool = True
-    """Keep parts that are not in use in the computer's memory."""
 
     def __post_init__(self) -> None:
         super().__post_init__()
         check_range("frames", self.frames, 5, 129)
         check_range("steps", self.steps, 1, 1000)
         check_range("guidance", self.guidance, 0.0, 1000.0)
+        if self.height not in (256, 768):
+            raise ConfigError(f"height is {self.height}; Open-Sora makes 256 and 768 px")
         if self.frames % 4 != 1:
             raise ConfigError(f"frames is {self.frames}; Open-Sora makes 4k+1, such as 97 or 129")
         if self.fps is None or Fraction(self.fps).denominator != 1:
@@ -110,7 +112,7 @@ class OpenSoraGenerator:
             )
         if not root.is_dir():
             return f"there is no folder {root}; set {ROOT_VARIABLE} to your Open-Sora checkout"
-        for path in (SCRIPT, CONFIGS / f"{config.resolution}.py"):
+        for path in (SCRIPT, CONFIGS / f"{config.height}px.py"):
             if not (root / path).is_file():
                 return f"{root} has no {path}; it must be a checkout of Open-Sora 2.0"
         if _launcher() is None:
@@ -149,17 +151,16 @@ class OpenSoraGenerator:
     def plan(self, prompt: str) -> str | None:
         """What making the video would take, or None if it was made before."""
         config = self.config
-        key = self._key(prompt, self.seed)
-        if VideoCache(is_kept=config.reuse_video).find(key, Fraction(config.fps or 24)) is not None:
+        if VideoCache(is_kept=config.reuse_video).has(self._key(prompt, self.seed), MP4):
             return None
         state = self.find_missing(config) or "it is ready"
         return (
             f"the video is not made yet: Open-Sora would make it ({config.frames} frames, "
-            f"{config.steps} steps, {config.resolution}); {state}"
+            f"{config.steps} steps, {config.height}px); {state}"
         )
 
     def _key(self, prompt: str, seed: int) -> str:
-        names = ("fps", "resolution", "frames", "steps", "guidance")
+        names = ("fps", "height", "frames", "steps", "guidance")
         facts = {name: getattr(self.config, name) for name in names}
         return content_key({**facts, "source": "open-sora 2", "prompt": prompt, "seed": seed})
 
@@ -168,13 +169,7 @@ class OpenSoraGenerator:
         fps = Fraction(config.fps or 24)
         key = self._key(prompt, seed)
         cache = VideoCache(is_kept=config.reuse_video)
-        found = cache.find(key, fps)
-        if found is not None:
-            progress.announce(f"this video was generated before: {found.path}")
-            return found
-        missing = self.find_missing(config)
-        if missing is not None:
-            raise TexventError(missing)
+        path = cache.path(key, MP4)
         origin = {
             "generator": "opensora",
             "version": __version__,
@@ -182,10 +177,18 @@ class OpenSoraGenerator:
             "seed": seed,
             "options": plain(config),
         }
+        if cache.has(key, MP4):
+            progress.announce(f"this video was generated before: {path}")
+            return open_stored(path, fps, origin)
+        missing = self.find_missing(config)
+        if missing is not None:
+            raise TexventError(missing)
         with tempfile.TemporaryDirectory(prefix="texvent-opensora-") as folder:
-            progress.announce(f"running Open-Sora ({config.resolution}, {config.steps} steps)")
+            progress.announce(f"running Open-Sora ({config.height}px, {config.steps} steps)")
             made = self._run(prompt, seed, Path(folder))
-            return cache.adopt(key, open_stored(made, fps, origin))
+            with atomic_file(path, overwrite=True) as part:
+                part.write_bytes(made.read_bytes())
+        return open_stored(path, fps, origin)
 
     def _run(self, prompt: str, seed: int, folder: Path) -> Path:
         """Call the program; returns the mp4 it wrote."""
@@ -211,7 +214,7 @@ class OpenSoraGenerator:
             "--dataset.data-path": prompts,
             "--seed": its_seed,
             "--fps_save": config.fps,
-            "--offload": config.offload,
+            "--offload": True,  # parts that are not in use wait in main memory
             "--sampling_option.seed": its_seed,
             "--sampling_option.num_frames": config.frames,
             "--sampling_option.num_steps": config.steps,
@@ -222,7 +225,7 @@ class OpenSoraGenerator:
         return [
             str(_launcher()),
             *("--nproc_per_node", "1", "--standalone"),
-            *(str(SCRIPT), str(CONFIGS / f"{config.resolution}.py")),
+            *(str(SCRIPT), str(CONFIGS / f"{config.height}px.py")),
             *words,
         ]
 

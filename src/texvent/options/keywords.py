@@ -142,16 +142,15 @@ class GeneratorOptions(TypedDict, total=False):
     fit: Literal["cover", "contain", "stretch"] | None
     reuse_video: bool | None
     on_failure: Literal["ignore", "warn", "reject", "retry"] | None
-    resolution: Literal["256px", "768px"] | None
+    height: int | None
     frames: int | None
     steps: int | None
     guidance: float | None
-    offload: bool | Literal["auto", "none", "model", "sequential"] | None
     width: int | None
-    height: int | None
     negative_prompt: str | None
     image: str | Path | None
     lora: Sequence[str] | None
+    offload: Literal["auto", "none", "model", "sequential"] | None
 
 
 class SimulateOptions(

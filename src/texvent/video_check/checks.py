@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from texvent.video import Frame
-from texvent.video_check.measurements import Measurements, VideoMeasurer, measure_video
+from texvent.video_check.measurements import Measurements, measure_video
 
 FROZEN_SHARE = 0.5
 MOTION_LEVELS = 3.0
@@ -236,8 +236,3 @@ def evaluate(measurements: Measurements) -> VideoReport:
         measurements=dict(measurements),
         remarks=tuple(check.name for check in found if not check.is_failure),
     )
-
-
-def has_all_measurements(measurements: Measurements) -> bool:
-    """Whether no measurement of a pass is missing: those in a cache may be older."""
-    return set(VideoMeasurer().measurements()) <= set(measurements)

@@ -34,6 +34,17 @@ def test_weights_of_another_network_are_refused(models, tmp_path):
         build(path).generate(PROMPT)
 
 
+@pytest.mark.parametrize("content", [b"", b"<!doctype html>", None], ids=["empty", "page", "cut"])
+def test_damaged_weights_are_one_line(content, models, tmp_path):
+    path = tmp_path / "damaged"
+    shutil.copytree(models("wan"), path)
+    file = next((path / "transformer").glob("*.safetensors"))
+    file.write_bytes(file.read_bytes()[:-9] if content is None else content)
+    with pytest.raises(FileFormatError, match="damaged cannot be loaded as WanPipeline") as caught:
+        build(path).generate(PROMPT)
+    assert "\n" not in str(caught.value)
+
+
 def test_options_are_compared_with_what_a_pipeline_takes():
     class FromImages:
         def __call__(self, image, prompt=None, num_frames=8):

@@ -1,26 +1,15 @@
 """A model folder is looked through before it is read, and what is wrong is named."""
 
 import json
-import struct
 
 import pytest
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import InputError
 from texvent.generate.video_models.model_files import (
     check_weight_files,
     fingerprint,
     read_pipeline_index,
 )
-
-
-def safetensors(payload: bytes) -> bytes:
-    header = json.dumps(
-        {
-            "__metadata__": {"format": "pt"},
-            "w": {"dtype": "U8", "shape": [len(payload)], "data_offsets": [0, len(payload)]},
-        }
-    ).encode()
-    return struct.pack("<Q", len(header)) + header + payload
 
 
 @pytest.fixture
@@ -39,7 +28,7 @@ def model(tmp_path):
     (folder / "model_index.json").write_text(json.dumps(index))
     (folder / "scheduler" / "scheduler_config.json").write_text("{}")
     (folder / "transformer" / "config.json").write_text("{}")
-    (folder / "transformer" / "weights.safetensors").write_bytes(safetensors(bytes(100)))
+    (folder / "transformer" / "weights.safetensors").touch()
     return folder
 
 
@@ -62,26 +51,8 @@ def test_a_missing_part_is_named_with_the_place_to_put_it(model):
     for file in (model / "scheduler").iterdir():
         file.unlink()
     (model / "scheduler").rmdir()
-    (model / "transformer" / "weights.safetensors").write_bytes(safetensors(b"x"))
+    (model / "transformer" / "weights.safetensors").touch()
     with pytest.raises(InputError, match=r"lacks the folder .*scheduler"):
-        check_weight_files(model)
-
-
-@pytest.mark.parametrize(
-    ("content", "why"),
-    [
-        (safetensors(bytes(100))[:-1], "its header says"),
-        (safetensors(bytes(100)) + b"\0", "its header says"),
-        (b"<!doctype html> not found", "no safetensors file"),
-        (b"", "no safetensors file"),
-        (struct.pack("<Q", 4) + b"{{{{", "header cannot be read"),
-        (b"version https://git-lfs.github.com/spec/v1\noid sha256:00\n", "git lfs pull"),
-    ],
-    ids=["cut short", "too long", "a web page", "empty", "bad header", "pointer"],
-)
-def test_damaged_weights_are_refused_by_name(model, content, why):
-    (model / "transformer" / "weights.safetensors").write_bytes(content)
-    with pytest.raises(FileFormatError, match=rf"weights.safetensors is .*{why}"):
         check_weight_files(model)
 
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError, InputError, shown, warn
+from texvent.errors import ConfigError, InputError, shown
 
 Direction = Literal["forward", "backward"]
 
@@ -208,8 +208,6 @@ def _number(text: str) -> float:
 
 NO_SURFACE_M = 1e8
 """Depth from here on means that there is no surface: Blender writes 1e10."""
-FAR_M = 500.0
-"""A median depth beyond this is hardly in metres."""
 LONGEST = 1e6
 """Largest number of a vector, in any unit."""
 MOST_COMPONENTS = 4
@@ -218,15 +216,12 @@ MOST_UNKNOWN = 0.5
 """Share of the vectors of a frame that may be NaN."""
 
 
-def check_vectors(stored: NDArray[Any], where: str) -> float:
-    """Refuse what cannot be vectors.
+def check_vectors(stored: NDArray[Any], where: str) -> None:
+    """Refuse what cannot be vectors. Single NaN are unknown vectors.
 
     Args:
         stored: of one frame.
         where: what to call it in messages.
-
-    Returns:
-        The share that is NaN, which counts as not known.
 
     Raises:
         InputError: not [h, w, 2 or more] numbers, an infinity, or most of it NaN.
@@ -242,7 +237,7 @@ def check_vectors(stored: NDArray[Any], where: str) -> float:
         )
     vectors = stored[..., :2]
     if bool(vectors.min() >= -LONGEST and vectors.max() <= LONGEST):
-        return 0.0
+        return
     absurd = int((np.abs(vectors.astype(np.float64)) > LONGEST).any(-1).sum())
     if absurd:
         raise InputError(
@@ -255,7 +250,6 @@ def check_vectors(stored: NDArray[Any], where: str) -> float:
             f"{where} is NaN in {unknown:.0%} of its pixels; at most {MOST_UNKNOWN:.0%} may be "
             "unknown, so render the vectors again or leave them out"
         )
-    return unknown
 
 
 def metric_depth(
@@ -287,18 +281,6 @@ def metric_depth(
         )
     depth[(depth == 0) | (depth >= NO_SURFACE_M)] = np.inf
     return np.asarray(depth, dtype=np.float32)
-
-
-def warn_of_unit(depth: NDArray[np.float32], where: str) -> None:
-    """Warn if depth is hardly in metres; it orders surfaces only, so events do not depend on it."""
-    near = depth[np.isfinite(depth)]
-    middle = float(np.median(near)) if near.size else 0.0
-    if middle > FAR_M:
-        warn(
-            f"{where} has a median of {middle:.0f} m, so it is probably in another unit; give "
-            "`depth_scale`: 0.001 for mm, 0.01 for Unreal's cm (events do not change: depth says "
-            "which surface is in front)"
-        )
 
 
 def instance_ids(stored: NDArray[Any], size: tuple[int, int], where: str) -> NDArray[np.int32]:

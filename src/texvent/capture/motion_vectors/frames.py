@@ -26,7 +26,6 @@ from texvent.capture.motion_vectors.conventions import (
     named_convention,
     parse_convention,
     to_pixels,
-    warn_of_unit,
     with_words,
     wrong_size,
 )
@@ -83,7 +82,6 @@ class MotionFrames(FrameSource):
         self._is_counted = stream.metadata.get("kind") != "video file"
         for role, stack in stacks.items():
             self._check_count(stack, role)
-        self._warned: set[str] = set()
         metadata = {
             **stream.metadata,
             "motion": {role: stack.name for role, stack in stacks.items()},
@@ -197,25 +195,17 @@ class MotionFrames(FrameSource):
 
     def _check_field(self, stored: NDArray[Any], field: _Field, index: int) -> None:
         where = f"{self._stacks[field.role].name}, frame {index}: the {field.direction} field"
-        unknown = check_vectors(stored, where)
+        check_vectors(stored, where)
         width, height = self._stream.size
         factor = width // stored.shape[1]
         if factor < 1 or (stored.shape[1] * factor, stored.shape[0] * factor) != (width, height):
             raise InputError(wrong_size(where, stored.shape, self._stream.size))
-        stack = self._stacks[field.role]
-        if unknown and stack.name not in self._warned:
-            self._warned.add(stack.name)
-            warn(f"{where} is NaN in {unknown:.2%} of its pixels; they count as not known")
 
     def _depth(self, index: int, frame: Frame) -> NDArray[np.float32] | None:
         stored, where = self._plane("depth", index)
         if stored is None:
             return None
-        depth = metric_depth(stored, self._config.depth_scale, frame.size, where)
-        if index == 0 and "depth" not in self._warned:
-            self._warned.add("depth")
-            warn_of_unit(depth, where)
-        return depth
+        return metric_depth(stored, self._config.depth_scale, frame.size, where)
 
     def _instance(self, index: int, frame: Frame) -> NDArray[np.int32] | None:
         stored, where = self._plane("instances", index)

@@ -14,7 +14,7 @@ from typing import Any
 from texvent._require import require
 from texvent.errors import ConfigError, InputError, shown
 from texvent.generate.video_models.loading import loading
-from texvent.generate.video_models.model_files import HUB, REPOSITORY, check_safetensors
+from texvent.generate.video_models.model_files import HUB, REPOSITORY
 from texvent.networks.weight_files import SAFETENSORS
 
 EXTRA = "generate"
@@ -36,21 +36,17 @@ class Lora:
         return None if self.source.startswith(HUB) else Path(self.source).expanduser()
 
     def check_file(self) -> None:
-        """Refuse a local file that is missing or damaged.
+        """Refuse a local file that is missing.
 
         Raises:
             InputError: there is no such file.
-            FileFormatError: it is damaged.
         """
         path = self.file
-        if path is None:
-            return
-        if not path.is_file() or path.suffix != SAFETENSORS:
+        if path is not None and not (path.is_file() and path.suffix == SAFETENSORS):
             raise InputError(
                 f"there is no LoRA {shown(str(path))}; give lora=FILE{SAFETENSORS}[:WEIGHT] or "
                 f"{HUB}organisation/name[/FILE{SAFETENSORS}]"
             )
-        check_safetensors(path)
 
 
 def parse_lora(text: str) -> Lora:

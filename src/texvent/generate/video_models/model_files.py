@@ -1,11 +1,6 @@
 """Files of models: found in the model hub's cache or a local folder, fetched, and checked.
 
-Weights are checked before anything reads them, so that errors name the file. A safetensors file
-starts with the length of its header (8 bytes, little endian) and the header: JSON with the place
-of every tensor. The last place is the end of the file, so a truncated download shows without
-reading the weights.
-
-Source: the safetensors format description.
+Missing and pickled weights are refused before anything is loaded, so that errors name the file.
 """
 
 from __future__ import annotations
@@ -33,10 +28,6 @@ HUB = "hub:"
 """Prefix of a repository of the model hub: `hub:org/name`."""
 INDEX = "model_index.json"
 CONFIG = "config.json"
-LENGTH_BYTES = 8
-LARGEST_HEADER = 100_000_000
-POINTER = b"version https://git-lfs"
-"""First bytes of the small text file that git leaves where a large file was not fetched."""
 PICKLES = (".bin", ".pt", ".pth", ".ckpt")
 NOT_READ = "not known to texvent; read the model's page"
 
@@ -209,7 +200,7 @@ def read_pipeline_index(folder: Path) -> dict[str, Any]:
 
 
 def check_weight_files(folder: Path) -> None:
-    """Refuse a model folder with missing, truncated or pickled weights, by file name.
+    """Refuse a model folder with missing or pickled weights, by file name.
 
     Raises:
         InputError: a part lacks its weights, or has them only as a pickle.
@@ -236,8 +227,6 @@ def _check_part(folder: Path, class_name: str) -> None:
                     f"the model lacks the weights {folder / name}, which {index_path.name} "
                     "names; put the file there"
                 )
-    for path in weights:
-        check_safetensors(path)
     # Networks have a config.json; tokenizers and schedulers have configs of other names.
     if not weights and (folder / CONFIG).is_file():
         pickled = [path for path in folder.iterdir() if path.suffix in PICKLES]
@@ -266,38 +255,6 @@ def fingerprint(folder: Path) -> str:
         elif path.suffix == ".safetensors":
             digest.update(str(stat.st_mtime_ns).encode())
     return digest.hexdigest()
-
-
-def check_safetensors(path: Path) -> None:
-    """Refuse a weights file that is truncated or not the weights, without reading them.
-
-    Raises:
-        FileFormatError: see above.
-    """
-    size = path.stat().st_size
-    with path.open("rb") as file:
-        start = file.read(max(LENGTH_BYTES, len(POINTER)))
-        if start.startswith(POINTER):
-            raise FileFormatError(
-                f"{path} is a git-lfs pointer, not the weights; run: git lfs pull"
-            )
-        length = int.from_bytes(start[:LENGTH_BYTES], "little")
-        if len(start) < LENGTH_BYTES or not 2 <= length <= min(LARGEST_HEADER, size):
-            raise FileFormatError(f"{path} is damaged: it is no safetensors file; fetch it again")
-        file.seek(LENGTH_BYTES)
-        header = file.read(length)
-    try:
-        tensors = json.loads(header)
-        ends = [entry["data_offsets"][1] for name, entry in tensors.items() if name[:2] != "__"]
-        expected = LENGTH_BYTES + length + max(ends, default=0)
-    except (ValueError, KeyError, TypeError, IndexError, AttributeError) as error:
-        raise FileFormatError(
-            f"{path} is damaged: its header cannot be read; fetch it again"
-        ) from error
-    if size != expected:
-        raise FileFormatError(
-            f"{path} is damaged: it has {size} bytes, its header says {expected}; fetch it again"
-        )
 
 
 def read_json(path: Path) -> dict[str, Any]:

@@ -2,21 +2,14 @@
 
 from __future__ import annotations
 
-import dataclasses
 import hashlib
 from collections.abc import Callable
 
 from texvent.errors import TexventError
 from texvent.generate.video_config import GeneratedVideoConfig
 from texvent.generate.videos.stored_video import StoredVideo
-from texvent.generate.videos.video_cache import MEASURES
 from texvent.runtime.progress import NoProgress, Progress
-from texvent.video_check.checks import (
-    VideoReport,
-    check_video,
-    evaluate,
-    has_all_measurements,
-)
+from texvent.video_check.checks import VideoReport, check_video
 
 RETRIES = 3
 """Further seeds with --on-failure retry."""
@@ -50,20 +43,13 @@ def generate_checked(
     for attempt in range(tries):
         attempt_seed = nth_seed(seed, attempt)
         video = make(attempt_seed, progress)
-        measures = video.metadata.get(MEASURES) or {}
-        report = evaluate(measures) if has_all_measurements(measures) else check_video(video)
+        report = check_video(video)
         if report.is_fine or config.on_failure == "warn":
             if not report.is_fine:
                 progress.announce(f"warning: the generated video looks failed: {report.summary}")
-            return _with_findings(video, report)
+            return video.with_metadata(check=report.as_facts())
         progress.announce(f"seed {attempt_seed} is refused: {report.summary}")
     raise TexventError(_refusal(report, tries))
-
-
-def _with_findings(video: StoredVideo, report: VideoReport) -> StoredVideo:
-    """The video with the findings in place of the bare measures."""
-    facts = {name: fact for name, fact in video.metadata.items() if name != MEASURES}
-    return dataclasses.replace(video, metadata={**facts, "check": report.as_facts()})
 
 
 def nth_seed(seed: int, attempt: int) -> int:

@@ -14,7 +14,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 from pathlib import Path
@@ -137,7 +137,6 @@ def write_video(
     metadata: Mapping[str, Any],
     *,
     overwrite: bool,
-    on_frame: Callable[[Frame], None] | None = None,
 ) -> StoredVideo:
     """Write frames losslessly, one at a time; nothing is left behind if that fails.
 
@@ -148,7 +147,6 @@ def write_video(
         fps: frame rate.
         metadata: what made the video, stored in the file as JSON.
         overwrite: whether an existing file may be replaced.
-        on_frame: given every frame as it is stored.
 
     Raises:
         OutputError: the file exists already or cannot be written.
@@ -171,8 +169,6 @@ def write_video(
             video_frame = av.VideoFrame.from_ndarray(deep, format="rgb48le")
             video_frame.pts, video_frame.time_base = count, 1 / fps
             container.mux(stream.encode(video_frame))
-            if on_frame is not None:
-                on_frame(_frame(deep, frame_time_us(count, fps), transfer))
             count += 1
         if stream is None:
             raise InputError("the generator made no frame")

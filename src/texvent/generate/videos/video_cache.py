@@ -19,16 +19,11 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import OutputError
-from texvent.generate.videos.stored_video import EXTENSION, StoredVideo, write_video
-from texvent.io.atomic import atomic_file
+from texvent.generate.videos.stored_video import EXTENSION, StoredVideo, reopen, write_video
 from texvent.options.values import plain
 from texvent.runtime.cache_folder import CACHE_VARIABLE, cache_folder
-from texvent.sensor import SensorSize
 from texvent.video import PixelArray
-from texvent.video_check.measurements import VideoMeasurer, measure_video
 
-MEASURES = "measures"
-"""Key of the numbers of `texvent.video_check` in a video's metadata."""
 LAYOUT = 1
 """Goes into every key; raised when the same request would be stored in another way."""
 
@@ -65,14 +60,19 @@ def content_key(facts: Mapping[str, Any]) -> str:
 
 
 class VideoCache:
-    """Generated videos by content key. With `is_kept` False, videos last as long as the process.
-
-    A video is a file and a note beside it (`KEY.json`) that says its rate, size and origin. The
-    note is written last, so a video without one is unfinished and does not count.
-    """
+    """Generated videos by content key. With `is_kept` False, videos last as long as the process."""
 
     def __init__(self, *, is_kept: bool) -> None:
         self._is_kept = is_kept
+
+    def path(self, key: str, extension: str = EXTENSION) -> Path:
+        """File of the video of that key, whether it exists or not."""
+        folder = made_folder("videos") if self._is_kept else _scratch_folder()
+        return folder / f"{key}{extension}"
+
+    def has(self, key: str, extension: str = EXTENSION) -> bool:
+        """Whether a video of that key is kept."""
+        return self._is_kept and self.path(key, extension).is_file()
 
     def find(self, key: str, fps: Fraction) -> StoredVideo | None:
         """The video of that key, or None.
@@ -81,60 +81,14 @@ class VideoCache:
             key: see `content_key`.
             fps: rate it is played at.
         """
-        if not self._is_kept:
-            return None
-        note_path = made_folder("videos") / f"{key}.json"
-        try:
-            note = json.loads(note_path.read_text(encoding="utf-8"))
-            path = note_path.with_name(note["file"])
-            size = SensorSize(int(note["width"]), int(note["height"]))
-            found = StoredVideo(path, fps, size, int(note["frames"]), note["metadata"])
-        except (OSError, ValueError, KeyError, TypeError):
-            return None
-        return found if path.is_file() and path.stat().st_size == note["bytes"] else None
+        found = reopen(self.path(key)) if self.has(key) else None
+        return found and dataclasses.replace(found, fps=fps)
 
     def store(
         self, key: str, frames: Iterable[PixelArray], fps: Fraction, metadata: Mapping[str, Any]
     ) -> StoredVideo:
-        """Write a video and its note; see `stored_video.write_video`.
-
-        The measures of `texvent.video_check` are taken while the frames pass by and are noted too.
-        """
-        measurer = VideoMeasurer()
-        path = self._path(key, EXTENSION)
-        video = write_video(
-            frames, path, fps, metadata, overwrite=True, on_frame=measurer.add
-        ).with_metadata(**{MEASURES: measurer.measurements()})
-        self._note(video)
-        return video
-
-    def adopt(self, key: str, video: StoredVideo) -> StoredVideo:
-        """Copy the file of a video that another program wrote, byte by byte, and note it."""
-        path = self._path(key, video.path.suffix)
-        with atomic_file(path, overwrite=True) as part:
-            part.write_bytes(video.path.read_bytes())
-        kept = dataclasses.replace(video, path=path)
-        kept = kept.with_metadata(**{MEASURES: measure_video(kept)})
-        self._note(kept)
-        return kept
-
-    def _path(self, key: str, extension: str) -> Path:
-        folder = made_folder("videos") if self._is_kept else _scratch_folder()
-        return folder / f"{key}{extension}"
-
-    def _note(self, video: StoredVideo) -> None:
-        note = {
-            "file": video.path.name,
-            "bytes": video.path.stat().st_size,
-            "frames": video.frame_count,
-            "width": video.size.width,
-            "height": video.size.height,
-            "metadata": dict(video.metadata),
-        }
-        if self._is_kept:
-            text = json.dumps(note, ensure_ascii=False, indent=1)
-            with atomic_file(video.path.with_suffix(".json"), overwrite=True) as part:
-                part.write_text(text, encoding="utf-8")
+        """Write a video; see `stored_video.write_video`."""
+        return write_video(frames, self.path(key), fps, metadata, overwrite=True)
 
 
 @functools.cache
