@@ -202,9 +202,12 @@ class EventTable:
         known = options.time_unit or self.unit
         unit = known or guess_unit(place.of(np.asarray(in_time[:SAMPLE_ROWS])))
 
+        def in_us(stored: NDArray[Any]) -> NDArray[np.int64]:
+            times_us = to_microseconds(path, place.of(stored), unit)
+            return times_us + offset_us if offset_us else times_us
+
         def times(start: int, stop: int) -> NDArray[np.int64]:
-            stored = place.of(np.asarray(in_time[start:stop]))
-            return to_microseconds(path, stored, unit) + offset_us
+            return in_us(np.asarray(in_time[start:stop]))
 
         def read(start: int, stop: int) -> Columns:
             parts = {name: np.asarray(arrays[name][start:stop]) for name in self.arrays}
@@ -213,8 +216,7 @@ class EventTable:
                 for name in "xyp"
             }
             extra = {name: parts[array] for name, array in self.extra.items()}
-            t = to_microseconds(path, place.of(parts[place.array]), unit) + offset_us
-            return {**pixels, **extra, "t": t}
+            return {**pixels, **extra, "t": in_us(parts[place.array])}
 
         if known is None and count:
             span_us = int(times(count - 1, count)[0]) - int(times(0, 1)[0])

@@ -152,8 +152,9 @@ class Dialect:
         """
         for word, digit in BOOLEANS if self.has_words else ():
             block = block.replace(word, digit)
+        block = _without_comments(block)
         parse = partial(parse_table, block, path, rows=self.rows, delimiter=self.delimiter)
-        table = parse(comments=COMMENTS)
+        table = parse(comments=None)
         if table.size == 0:
             return dict.fromkeys("xytp", np.empty(0, dtype=np.int64))
         if table.shape[1] != self.width:
@@ -169,7 +170,7 @@ class Dialect:
             return {**whole, "t": rounded(values["t"] * scale).astype(np.int64)}
         place = self.places["t"]  # slow
         exact = {place: partial(_exact_us, unit=self.unit)}
-        times = parse(comments=COMMENTS, dtype=np.int64, usecols=place, converters=exact)
+        times = parse(comments=None, dtype=np.int64, usecols=place, converters=exact)
         return {**whole, "t": times[:, 0]}
 
 
@@ -229,6 +230,13 @@ def find_dialect(path: Path, sample: bytes, options: ReadOptions, default: str) 
 SAMPLE_ROWS = 2000
 
 
+def _without_comments(block: bytes) -> bytes:
+    """The block without its lines of comments; NumPy would look for them in every row."""
+    if not any(mark.encode() in block for mark in COMMENTS):
+        return block
+    return b"\n".join(line for line in block.split(b"\n") if not _is_comment(line))
+
+
 def _is_comment(line: bytes) -> bool:
     return not line.strip() or line.lstrip().startswith(tuple(one.encode() for one in COMMENTS))
 
@@ -265,7 +273,7 @@ def _places(
         sample = "\n".join(rows).encode("latin-1")
         for word, digit in BOOLEANS:
             sample = sample.replace(word, digit)
-        table = parse_table(sample, path, delimiter=delimiter, comments=COMMENTS)
+        table = parse_table(sample, path, delimiter=delimiter, comments=None)
         if table.size and table.shape[1] != 4:
             raise FileFormatError(
                 f"{path} has rows of {table.shape[1]} values without names; name the columns "
