@@ -86,9 +86,8 @@ def make_speed_page() -> None:
     text = [
         "# Speed: the tables",
         "Written from `docs/results/speed.json.gz`; [speed.md](../speed.md) has the summary. "
-        "`floor`: the time of the memory bandwidth. `clip`: one thread; `clips`: two threads with "
-        "a clip each. `drawn` draws every intermediate frame; `fused`, which runs use, computes "
-        "only pixels that may fire. Peers below 1 are faster than texvent.",
+        "`clip`: one thread; `clips`: two threads with a clip each. Peers below 1 are faster than "
+        "texvent.",
         as_markdown(read_document(RESULTS / "speed.json.gz")).replace("\n### ", "\n## "),
     ]
     (RESULTS / "speed.md").write_text("\n\n".join(text) + "\n", encoding="utf-8")
