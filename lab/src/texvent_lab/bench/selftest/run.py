@@ -27,7 +27,6 @@ from texvent.metrics.controls import (
 )
 from texvent.metrics.protocol import Metric, find_missing
 from texvent.metrics.summary import badness
-from texvent_lab.bench.document import MarkdownReport
 from texvent_lab.bench.jobs import Progress, no_progress
 from texvent_lab.bench.oracle.pixel import NOISY
 from texvent_lab.bench.oracle.recording import oracle_scene, record
@@ -190,19 +189,9 @@ class SelftestRow:
         return tuple(name for name in self.z if name not in self.found)
 
 
-class SelftestRows(list[SelftestRow], MarkdownReport):
-    """A row for each metric; a list in every other way."""
-
-    def markdown(self) -> str:
-        """The rows as a table, best metrics first."""
-        from texvent_lab.bench.selftest.table import selftest_table  # which reads rows
-
-        return selftest_table(self)
-
-
 def run_selftest(
     metrics: Iterable[str] | None = None, *, progress: Progress = no_progress
-) -> SelftestRows:
+) -> list[SelftestRow]:
     """Run the self-test on the oracle's `mixed` scene with noisy pixels.
 
     Args:
@@ -220,11 +209,11 @@ def run_selftest(
     progress(f"recording {SCENE} with {len(RECORDING_SEEDS)} seeds")
     recordings = record_scene()
     perturbed = {name: perturb(recordings[1], name) for name in PERTURBATIONS}
-    rows = []
+    rows: list[SelftestRow] = []
     for metric in chosen:
         progress(metric.name)
         rows.append(evaluate_metric(metric, recordings, perturbed))
-    return SelftestRows(rows)
+    return rows
 
 
 def record_scene() -> list[EventStream]:

@@ -17,10 +17,9 @@ from texvent.io.atomic import check_output
 from texvent_lab.bench.document import write_document
 
 BENCHMARKS: Mapping[str, str] = {
-    "classify": "how many streams does N-ImageNet's classifier recognise?",
     "digits": "do networks trained on simulated events read recorded ones?",
     "fidelity": "which simulator comes closest to true events of exact scenes?",
-    "page": "a result of fidelity, real or digits as a page with its charts",
+    "page": "a result of fidelity, real, digits or selftest as a page",
     "paper": "the paper's tables, ablations E1-E12, or a folder of configs",
     "real": "which simulator comes closest to a real sensor?",
     "reconstruction": "whose events give a network the best images?",
