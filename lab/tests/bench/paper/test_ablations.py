@@ -4,9 +4,9 @@ from pathlib import Path
 import pytest
 
 from texvent.simulate.texvent.simulator import TexventSimulator
-from texvent_lab.bench.fidelity.run import FidelityPlan, run_fidelity
+from texvent_lab.bench.fidelity.entries import read_ablations
 from texvent_lab.bench.fidelity.table import fidelity_tables
-from texvent_lab.bench.paper.config_entry import read_ablations
+from texvent_lab.bench.oracle.run import FidelityPlan, run_fidelity
 
 PAPER = Path(__file__).parents[4] / "configs" / "paper"
 

@@ -23,7 +23,6 @@ from texvent.metrics.controls import (
     shuffle_space,
     shuffle_time,
     stream_of,
-    with_more,
 )
 from texvent.metrics.protocol import Metric, find_missing
 from texvent.metrics.summary import badness
@@ -72,15 +71,6 @@ def shuffle_in_frames(events: EventStream, rng: Generator) -> EventStream:
 def drop(events: EventStream, rng: Generator, *, share: float) -> EventStream:
     """A random share of the events lost."""
     return events[rng.random(len(events)) >= share]
-
-
-def add_background(
-    events: EventStream, rng: Generator, *, rate_hz: float, span_us: tuple[int, int]
-) -> EventStream:
-    """Background activity: a Poisson process of that rate at every pixel, `[start, stop)`."""
-    pixels = events.size.width * events.size.height
-    mean = rate_hz * pixels * (span_us[1] - span_us[0]) / 1_000_000
-    return with_more(events, draw_columns(rng, int(rng.poisson(mean)), events.size, span_us))
 
 
 def scatter(events: EventStream, rng: Generator, *, share: float) -> EventStream:

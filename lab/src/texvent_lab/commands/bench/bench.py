@@ -60,18 +60,14 @@ class ResultOptions:
     quiet: bool = False
     """No progress; only the result."""
 
-    def check(self, *more: Path | None) -> None:
-        """Refuse files that exist already, before anything is computed.
-
-        Args:
-            more: files that the command writes in addition to `out`.
+    def check(self) -> None:
+        """Refuse a file that exists already, before anything is computed.
 
         Raises:
-            OutputError: a file cannot be written.
+            OutputError: it cannot be written.
         """
-        for path in (self.out, *more):
-            if path is not None:
-                check_output(path, overwrite=self.overwrite)
+        if self.out is not None:
+            check_output(self.out, overwrite=self.overwrite)
 
     def progress(self, line: str) -> None:
         """Show a step on the terminal, unless `quiet`."""
