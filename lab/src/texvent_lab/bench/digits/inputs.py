@@ -75,8 +75,8 @@ class InputSet:
         """The recordings of a file that `write` wrote."""
         with np.load(path) as file:
             images = {name: file[name] for name in REPRESENTATIONS}
-            facts = {"threshold": float(file["threshold"]), "is_matched": bool(file["is_matched"])}
-            return cls(images, file["counts"], file["labels"], **facts)
+            threshold, is_matched = float(file["threshold"]), bool(file["is_matched"])
+            return cls(images, file["counts"], file["labels"], threshold, is_matched)
 
 
 def join_inputs(parts: Sequence[InputSet]) -> InputSet:

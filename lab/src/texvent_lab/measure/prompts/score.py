@@ -18,8 +18,9 @@ import csv
 import math
 import statistics
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from texvent.errors import InputError, shown
 from texvent.io.atomic import atomic_file
@@ -35,7 +36,8 @@ Z95 = 1.959964
 """Standard normal quantile of .975."""
 
 
-class Share(NamedTuple):
+@dataclass(frozen=True)
+class Share:
     """How many of how many.
 
     Example:

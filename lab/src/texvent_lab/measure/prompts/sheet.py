@@ -91,7 +91,9 @@ def read_prompts(path: Path) -> list[Prompt]:
 def make_strip(prompt: Prompt, folder: Path) -> tuple[Image, dict[str, Any]]:
     """Draw a prompt; returns the strip, and its report as plain values."""
     style = f" [{prompt.style}]" if prompt.style else ""
-    caption, stills, report = [f"{prompt.id}{style}: {prompt.prompt}"], [], None
+    caption = [f"{prompt.id}{style}: {prompt.prompt}"]
+    stills: list[Image] = []
+    report = None
     try:
         stills, report = render_stills(prompt.prompt)
         error = None

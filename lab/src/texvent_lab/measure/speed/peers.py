@@ -187,7 +187,7 @@ def measure_duel(
     add(our_row, own, OWN_THRESHOLD, target)
     peer_rows = []
     for peer in peers:
-        row = {"name": peer.name, "version": peer.version, "installed": True}
+        row: dict[str, Any] = {"name": peer.name, "version": peer.version, "installed": True}
         peer_rows.append(row)
         try:
             simulate = peer.prepare()

@@ -21,7 +21,7 @@ from texvent.pipeline import video_to_events
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
-from texvent_lab.measure.speed.scenes import EXCERPT, embedded_heavy_clip
+from texvent_lab.measure.speed.scenes import EXCERPT, Bytes, embedded_heavy_clip
 from texvent_lab.measure.speed.timing import quartiles, rounded
 
 WARM_UP_PAIRS = 2
@@ -92,11 +92,11 @@ def measure_run(clip: Path, name: str, *, interpolate: str, pairs: int) -> dict[
     }
 
 
-def write_video(path: Path, frames: Sequence[Any]) -> Path:
-    """An H.264 file of grey frames [H, W] uint8, for the decoder to work on."""
+def write_video(path: Path, frames: Bytes) -> Path:
+    """An H.264 file of grey frames [N, H, W], for the decoder to work on."""
     with av.open(str(path), "w") as container:
         stream: Any = container.add_stream("libx264", rate=HD_FPS)
-        stream.height, stream.width = frames[0].shape
+        stream.height, stream.width = frames.shape[1:]
         stream.pix_fmt = "yuv420p"
         stream.options = {"crf": "20", "preset": "ultrafast"}
         for pixels in frames:
