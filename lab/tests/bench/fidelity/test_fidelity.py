@@ -7,7 +7,6 @@ import math
 import numpy as np
 import pytest
 
-from texvent.errors import ConfigError
 from texvent.metrics.compare import compare
 from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
@@ -105,43 +104,20 @@ def test_floor_and_null_bound_the_scores(report):
     # Ideal pixels have no noise: a second recording is the same recording.
     assert reference.floor["stpp"] == [1.0]
     assert reference.null["stpp"][0] < 0.7
-    with pytest.raises(StopIteration):
-        report.reference("translate", "noisy")
-
-
-def test_a_simulator_that_cannot_run_is_named_with_the_reason(report):
-    ((truth, _, _),) = record_truths(
-        FidelityPlan(scenes=("static",), targets=("ideal",), score_seeds=(7,)), "static"
-    )
-    skipped = score_entry(truth, Entry(simulator="v2ce", interpolate="none"), QUICK.metrics)
-    assert skipped[0] == "v2ce, none"
-    assert "weights" in skipped[1]
 
 
 def test_a_scene_without_true_events_has_undefined_ratios_not_numbers():
-    plan = FidelityPlan(
-        scenes=("static",), targets=("ideal",), score_seeds=(7,), metrics=("nearest", "stpp")
-    )
+    metrics = ("nearest", "stpp")
+    plan = FidelityPlan(scenes=("static",), targets=("ideal",), score_seeds=(7,), metrics=metrics)
     ((truth, reference, _),) = record_truths(plan, "static")
-    score = score_entry(truth, Entry(simulator="esim", interpolate="none"), plan.metrics)
+    score = score_entry(truth, Entry(simulator="esim", interpolate="none"), metrics)
     assert math.isnan(score.default_ratio)
     assert math.isnan(score.values["nearest"][0])
     assert not score.is_matched
     assert reference.events == [0]
-
-
-@pytest.mark.parametrize(
-    ("changes", "message"),
-    [
-        ({"scenes": ("mixd",)}, "did you mean 'mixed'"),
-        ({"metrics": ("spp",)}, "did you mean 'stpp'"),
-        ({"targets": ("loud",)}, "targets are noisy, ideal"),
-        ({"score_seeds": ()}, "seeds at least one"),
-    ],
-)
-def test_a_plan_that_names_something_unknown_is_refused(changes, message):
-    with pytest.raises(ConfigError, match=message):
-        FidelityPlan(**changes)
+    name, reason = score_entry(truth, Entry(simulator="v2ce", interpolate="none"), metrics)
+    assert name == "v2ce, none"
+    assert "weights" in reason
 
 
 def test_without_true_events_the_threshold_is_kept_and_nothing_is_searched():
@@ -192,10 +168,6 @@ def test_tables_say_how_far_an_entry_is_behind_the_best_that_gets_the_same_frame
     assert "| +0.002 [" in cells["steady"]
     assert cells["half"].endswith("|  |")
     assert cells["lost"].endswith("| undefined | undefined |")
-    assert "95 % interval over 6 textures" in table
-
-
-def test_the_document_says_how_far_each_entry_is_behind():
     document = six_textures(**TRACKS).document()
     behind = {score["entry"]: score["behind_best"] for score in document["scores"]}
     assert behind["steady"] is behind["half"] is behind["true frames"] is None

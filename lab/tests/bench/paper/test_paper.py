@@ -2,6 +2,7 @@
 
 import dataclasses
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -12,6 +13,8 @@ from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.metrics.event_frames import EventFrameLpips
 from texvent.sensor import SensorSize
+from texvent.simulate.texvent.simulator import TexventSimulator
+from texvent_lab.bench.fidelity.entries import read_ablations
 from texvent_lab.bench.paper import run as paper
 from texvent_lab.bench.paper.published_tables import TABLES
 from texvent_lab.bench.paper.run import (
@@ -24,6 +27,49 @@ from texvent_lab.bench.paper.run import (
 from texvent_lab.bench.real.recording import RecordingPart, open_scene
 
 from ..synthetic_report import synthetic_report
+
+PAPER = Path(__file__).parents[4] / "configs" / "paper"
+
+
+def test_the_paper_has_twelve_ablations_in_their_order():
+    names = [entry.name for entry in read_ablations(PAPER)]
+    assert names == [*(f"E{i}" for i in range(1, 13)), "Texvent"]
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("Texvent", {}),
+        ("E1", {"balance": 0.001}),
+        ("E2", {"balance": 15.0}),
+        ("E3", {"balance": 60.0}),
+        ("E4", {"cache": "none"}),
+        ("E5", {"cache": "global"}),
+        ("E9", {"noise": "none"}),
+        ("E10", {"noise": "gaussian"}),
+        ("E11", {"noise": "random"}),
+        ("E12", {"timestamp_rule": "random"}),
+    ],
+)
+def test_each_ablation_changes_what_the_paper_says(name, changes):
+    entry = next(entry for entry in read_ablations(PAPER) if entry.name == name)
+    assert entry.settings(5).simulate == dataclasses.replace(
+        TexventSimulator.presets["paper"], **changes
+    )
+    assert entry.settings(5).run.seed == 5
+
+
+def test_interpolation_is_removed_fixed_and_replaced():
+    entries = {entry.name: entry.settings(0).interpolate for entry in read_ablations(PAPER)}
+    assert entries["E6"].interpolate == "none"
+    assert (entries["E7"].count, entries["E7"].fixed_count) == ("fixed", 10)
+    assert entries["E8"].interpolate not in ("none", entries["Texvent"].interpolate)
+
+
+def test_the_threshold_is_fitted_only_if_asked_for():
+    kept, fitted = (read_ablations(PAPER, is_rate_matched=flag)[0] for flag in (False, True))
+    assert kept.default_threshold is None
+    assert fitted.default_threshold == 0.2
 
 
 def silent(line):
