@@ -112,5 +112,7 @@ def _facts(document: Mapping[str, Any]) -> str:
             value = ", ".join(f"{key} {one}" for key, one in value.items())
         elif isinstance(value, list):
             value = ", ".join(map(str, value))
+        elif isinstance(value, float):
+            value = f"{value:.6g}"
         lines.append(f"- {name}: {value}")
     return "\n".join(lines)

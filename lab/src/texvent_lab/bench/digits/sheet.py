@@ -138,12 +138,6 @@ class DigitSheet:
         order = np.argsort(t, kind="stable")
         return EventStream(x[order], y[order], t[order], p[order], self.size)
 
-    def inside(self, events: EventStream) -> EventStream:
-        """The events of a sheet that lie on a digit's part of the sensor."""
-        x, y = events.x % PITCH, events.y % PITCH
-        last = MARGIN + TILE
-        return events[(x >= MARGIN) & (x < last) & (y >= MARGIN) & (y < last)]
-
     @property
     def _columns(self) -> int:
         return math.ceil(math.sqrt(len(self.digits.images)))
