@@ -16,17 +16,16 @@ from texvent.cli.app import main
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from texvent_lab.registries import TASKS  # noqa: E402
-from texvent_lab.train.depth.config import DepthConfig  # noqa: E402
-from texvent_lab.train.depth.task import (  # noqa: E402
+from texvent_lab.train.depth import (  # noqa: E402
+    DepthConfig,
     encode_depth,
     make_e2depth,
     settings_of,
 )
-from texvent_lab.train.flow.e_raft import make_e_raft  # noqa: E402
 from texvent_lab.train.run import read_training, train_from_file  # noqa: E402
 from texvent_lab.train.schedule import Hardware  # noqa: E402
 
-from .sequences.windowed_specification import write_specification  # noqa: E402
+from .windowed_specification import write_specification  # noqa: E402
 
 pytestmark = pytest.mark.torch
 TASK_NAMES = ("depth", "flow")
@@ -130,20 +129,6 @@ def test_a_checkpoint_as_the_program_of_e2depth_leaves_it_is_scored(
     words = [str(write_training(tmp_path)), str(tmp_path / "E2DEPTH_si_grad_loss_mixed.pth.tar")]
     assert main(["evaluate", "depth", *words, "--device", "cpu"]) == 0
     assert "abs_rel at events" in capsys.readouterr().out
-
-
-def test_e_raft_is_scored_from_its_published_layout_and_not_trained(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = str(write_training(tmp_path, network='name = "e-raft", bins = 15'))
-    state = {f"module.{name}": one for name, one in make_e_raft(15, seed=1).tensors.items()}
-    state["module.cnet.norm1.num_batches_tracked"] = torch.tensor(7)
-    torch.save({"model": state}, tmp_path / "dsec.tar")
-    assert main(["evaluate", "flow", path, str(tmp_path / "dsec.tar"), "--device", "cpu"]) == 0
-    assert "EPE at events" in capsys.readouterr().out
-    assert main(["train", "flow", path, "-o", str(tmp_path / "run"), "-q"]) == 2
-    assert "e-raft is not trained here" in capsys.readouterr().err
-    assert not (tmp_path / "run").exists()
 
 
 @pytest.mark.parametrize("task", TASK_NAMES)

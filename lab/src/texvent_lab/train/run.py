@@ -19,8 +19,8 @@ from texvent.runtime.progress import NO_PROGRESS, Progress
 from texvent.settings.config_files import read_document
 from texvent_lab.reconstruct.checkpoint import LEFT_BY_TRAINING
 from texvent_lab.train.loop import TrainingState, train
-from texvent_lab.train.schedule import EXTRA, Hardware
-from texvent_lab.train.task import PredictingTask, TaskConfig
+from texvent_lab.train.schedule import EXTRA, Hardware, TrainingConfig
+from texvent_lab.train.task import PredictingTask
 
 Config = TypeVar("Config")
 
@@ -73,7 +73,7 @@ WHERE_FROM = "texvent train writes it as weights.pt"
 
 
 def train_from_file(
-    kind: type[TaskConfig],
+    kind: type[TrainingConfig],
     specification: Path,
     folder: Path,
     hardware: Hardware,
@@ -125,7 +125,7 @@ class Evaluation:
 
 
 def evaluate_from_file(
-    kind: type[TaskConfig], specification: Path, weights: Path, hardware: Hardware
+    kind: type[TrainingConfig], specification: Path, weights: Path, hardware: Hardware
 ) -> Evaluation:
     """Score trained weights; the training samples are not opened.
 

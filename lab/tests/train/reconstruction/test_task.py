@@ -16,7 +16,7 @@ from texvent.metrics.lpips import ALEX, weights_file_name, write_lpips_weights
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.registries import RECONSTRUCTORS
 
-from ..sequences.windowed_specification import TEXT, write_specification
+from ..windowed_specification import TEXT, write_specification
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 

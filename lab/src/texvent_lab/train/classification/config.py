@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Literal
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
 from texvent.sensor import as_size
-from texvent_lab.train.schedule import Schedule
+from texvent_lab.train.schedule import TrainingConfig
 
 if TYPE_CHECKING:
     from texvent_lab.train.task import Task
@@ -136,11 +136,9 @@ class Augmentation:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ClassificationConfig:
+class ClassificationConfig(TrainingConfig):
     """A classifier of recordings."""
 
-    seed: int = 0
-    """Of the initial weights, the order of samples and their augmentation."""
     start_from: Path | None = None
     """Weights that training begins with, of the same network; its last layer begins anew where
     they are of other classes. None: random ones."""
@@ -149,17 +147,16 @@ class ClassificationConfig:
     """More samples to train on, of the same classes."""
     network: ClassNetwork = field(default_factory=ClassNetwork)
     augmentation: Augmentation = field(default_factory=Augmentation)
-    schedule: Schedule = field(default_factory=Schedule)
 
     def __post_init__(self) -> None:
-        check_range("seed", self.seed, 0, 2**63 - 1)
+        super().__post_init__()
         if self.extra != Source() and not self.extra.is_given:
             raise ConfigError(
                 f"[extra] has no samples; give one of {SOURCE_KINDS} in it, or leave it out"
             )
 
     def make_task(self) -> Task:
-        """The task; this imports torch."""
+        """See `TrainingConfig`."""
         from texvent_lab.train.classification.task import ClassificationTask
 
         return ClassificationTask(self)

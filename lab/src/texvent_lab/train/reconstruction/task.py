@@ -31,9 +31,9 @@ from texvent_lab.train.reconstruction.losses import (
     draw_pauses,
 )
 from texvent_lab.train.schedule import EXTRA
-from texvent_lab.train.sequences.clips import WindowedClips
-from texvent_lab.train.sequences.truth import FLOW, crop_randomly, flip_randomly
+from texvent_lab.train.sequences import WindowedClips
 from texvent_lab.train.task import Batches, Score
+from texvent_lab.train.truth import FLOW, crop_randomly, flip_randomly
 
 
 def new_network(published: PublishedNetwork, seed: int) -> RecurrentNetwork:
