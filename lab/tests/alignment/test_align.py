@@ -33,7 +33,6 @@ from texvent_lab.alignment.recordings import (  # noqa: E402
 from texvent_lab.nt_imagenet.files import read_captioned  # noqa: E402
 
 from ..nt_imagenet.tiny_data import WNIDS, stream_id, write_n_imagenet  # noqa: E402
-from ..reconstruct.network_files import save_published  # noqa: E402
 
 CAPTIONS = ["a red car drives left", "a dog runs", "a ball bounces", "a blue bus drives right"]
 
@@ -76,7 +75,7 @@ def recordings(events: list[EventStream], texts: list[str]) -> list[Recording]:
 def test_the_score_is_that_of_the_similarities_of_transformers(clip: Path, data: Path) -> None:
     samples = list_samples(data / "events")["texvent"]
     draw = DrawnEvents(images=2, events_per_image=15)
-    (row,) = align({"ours": samples}, {"drawn": draw}, ClipModel(clip))
+    report = align({"ours": samples}, draw, ClipModel(clip))["ours"]
     whole = transformers.CLIPModel.from_pretrained(clip).eval()
     tokenizer = transformers.AutoTokenizer.from_pretrained(clip)
     processor = transformers.CLIPImageProcessorPil(
@@ -92,12 +91,10 @@ def test_the_score_is_that_of_the_similarities_of_transformers(clip: Path, data:
             out = whole(**words, pixel_values=pixels)
         mean = out.image_embeds.mean(0)
         similarity[place] = (mean / mean.norm()) @ out.text_embeds.T
-    assert row.report.measured.mean_similarity == pytest.approx(
-        np.diag(similarity).mean(), abs=0.005
-    )
-    assert row.report.chance.mean_similarity == pytest.approx(similarity.mean(), abs=0.005)
+    assert report.measured.mean_similarity == pytest.approx(np.diag(similarity).mean(), abs=0.005)
+    assert report.chance.mean_similarity == pytest.approx(similarity.mean(), abs=0.005)
     assert max(counts) == 2
-    assert (row.report.recordings, row.report.texts) == (3, 3)
+    assert (report.recordings, report.texts) == (3, 3)
 
 
 def test_recordings_of_one_text_are_right_with_the_same_text(clip: Path) -> None:
@@ -106,11 +103,11 @@ def test_recordings_of_one_text_are_right_with_the_same_text(clip: Path) -> None
     x, y, t = rng.integers(0, 32, 200), rng.integers(0, 32, 200), np.arange(200)
     events = EventStream(x, y, t, rng.integers(0, 2, 200), size)
     same = recordings([events] * 4, ["a cat", "a cat", "a dog", "a dog"])
-    (row,) = align({"same": same}, {"drawn": DrawnEvents()}, model)
+    report = align({"same": same}, DrawnEvents(), model)["same"]
     # One image is nearer to one of two texts, whatever the model: half of them are right.
-    assert row.report.texts == 2
-    assert row.report.measured.recall[1] == 0.5
-    assert row.report.chance.recall[1] == 0.5
+    assert report.texts == 2
+    assert report.measured.recall[1] == 0.5
+    assert report.chance.recall[1] == 0.5
 
 
 def train(folder: Path, samples: list[Recording]) -> Path:
@@ -136,13 +133,13 @@ def train(folder: Path, samples: list[Recording]) -> Path:
 def test_a_model_that_knows_the_pairs_finds_them_and_no_others(data: Path, tmp_path: Path) -> None:
     samples = list_samples(data / "events")["texvent"]
     samples += list_streams(data / "N", read_captioned(data / "nt" / "captions.jsonl")[3:])
-    model, views = ClipModel(train(tmp_path / "clip", samples)), {"drawn": DrawnEvents(images=1)}
+    model, draw = ClipModel(train(tmp_path / "clip", samples)), DrawnEvents(images=1)
     others = [replace(one, text=samples[number - 1].text) for number, one in enumerate(samples)]
-    right, wrong = align({"right": samples, "wrong": others}, views, model)
-    assert right.report.measured.recall[1] == 1.0
-    assert right.report.measured.mean_similarity > right.report.shuffled.mean_similarity + 0.1
-    assert wrong.report.measured.recall[1] == 0.0
-    assert wrong.report.chance.recall[1] == 0.25
+    right, wrong = align({"right": samples, "wrong": others}, draw, model).values()
+    assert right.measured.recall[1] == 1.0
+    assert right.measured.mean_similarity > right.shuffled.mean_similarity + 0.1
+    assert wrong.measured.recall[1] == 0.0
+    assert wrong.chance.recall[1] == 0.25
 
 
 def run(clip: Path, out: Path, *words: str) -> Any:
@@ -167,17 +164,3 @@ def test_ours_and_recorded_streams_rank_the_captions_that_both_have(
     assert ours["texts_cut"] == 0
     limited = run(clip, tmp_path / "two.json", *real, "--limit", "2")
     assert limited["rows"][0]["recordings"] == 2
-
-
-def test_reconstructed_images_are_scored_beside_drawn_events(
-    clip: Path, data: Path, tmp_path: Path
-) -> None:
-    weights = tmp_path / "firenet.pth"
-    save_published(torch, "firenet", weights)
-    network = ["--reconstruct", "--network", "firenet", "--weights", str(weights)]
-    found = run(clip, tmp_path / "a.json", str(data / "events"), *network, "--device", "cpu")
-    assert [row["view"] for row in found["rows"]] == ["drawn events", "firenet images"]
-    drawn, made = (row["measured"]["mean_similarity"] for row in found["rows"])
-    assert drawn != made
-    assert found["network"] == "firenet"
-    assert len(found["weights_sha256"]) == 64

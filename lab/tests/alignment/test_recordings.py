@@ -16,7 +16,6 @@ from texvent.sensor import SensorSize
 from texvent_lab.alignment.recordings import (
     DrawnEvents,
     Recording,
-    event_slices,
     keep_common,
     list_samples,
     list_streams,
@@ -129,11 +128,3 @@ def test_events_are_drawn_on_white_also_where_there_are_none() -> None:
     assert (image[0] == 255).all()
     (blank,) = DrawnEvents()(EventStream.empty(size))
     assert (blank == 255).all()
-
-
-@pytest.mark.parametrize(("count", "slices"), [(0, 5), (7, 5), (700, 10)])
-def test_slices_for_networks_follow_one_another(count: int, slices: int) -> None:
-    events = stream(count, SensorSize(20, 10))  # at most 70 events in a slice
-    parts = event_slices(events)
-    assert len(parts) == slices
-    assert np.concatenate([part.t for part in parts]).tolist() == events.t.tolist()

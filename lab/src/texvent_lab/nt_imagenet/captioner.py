@@ -22,7 +22,6 @@ INSTRUCTION = "Caption the image in detail."
 PLAIN_CHAT = "USER: <image>\n{} ASSISTANT:"
 """Prompt of LLaVA 1.5, for models without a chat template."""
 Dtype: TypeAlias = Literal["auto", "float16", "bfloat16", "float32"]
-IMAGE_EXTENSIONS = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
 
 
 class Captioner:
@@ -32,7 +31,6 @@ class Captioner:
         model: folder of a model saved by transformers, or `hub:org/name`.
         device: "auto", or a torch device.
         dtype: numbers that it computes with; "auto" is bfloat16 on a GPU, else float32.
-        option: what the caller calls the device, for messages.
 
     Raises:
         InputError: there is no such model.
@@ -40,15 +38,8 @@ class Captioner:
         MissingDependencyError: transformers is not installed.
     """
 
-    def __init__(
-        self,
-        model: str,
-        *,
-        device: str = "auto",
-        dtype: Dtype = "auto",
-        option: str = "generator_device",
-    ) -> None:
-        self._device, free = resolve_device(device, option)
+    def __init__(self, model: str, *, device: str = "auto", dtype: Dtype = "auto") -> None:
+        self._device, free = resolve_device(device, "device")
         folder = find_saved_model(model, "image-and-text model", example="llava-hf/llava-1.5-7b-hf")
         if dtype == "auto":
             dtype = "bfloat16" if free else "float32"
@@ -93,22 +84,6 @@ class Captioner:
             [{"role": "user", "content": content}], add_generation_prompt=True
         )
         return asked
-
-
-def find_images(path: Path) -> list[Path]:
-    """The image, or all images right in the folder, in order of name.
-
-    Raises:
-        InputError: there is none.
-    """
-    if path.is_file():
-        return [path]
-    found = sorted(
-        one for one in path.glob("*") if one.suffix.lower() in IMAGE_EXTENSIONS and one.is_file()
-    )
-    if not found:
-        raise InputError(f"there is no image at {path} ({', '.join(IMAGE_EXTENSIONS)})")
-    return found
 
 
 def _load(folder: Path, dtype: str) -> tuple[Any, Any]:

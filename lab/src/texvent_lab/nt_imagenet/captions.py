@@ -12,15 +12,8 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from texvent.batch.list_files import read_list
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line
-from texvent.extending import require
-from texvent.generate.diffusers_models.pipeline_loading import resolve_device
-from texvent.generate.video_models.loading import loading
-from texvent.generate.video_models.model_files import find_saved_model
 from texvent.io.atomic import atomic_file
 
 FEWEST_WORDS, MOST_WORDS = 39, 124
@@ -42,8 +35,6 @@ class CaptionCheck:
     """Whether it excuses itself instead of describing."""
     names_class: bool | None
     """Whether it says a name of its class; None where the names are not known."""
-    names_kind: bool | None
-    """Whether it says at least the last word of one, such as "shark" of "white shark"."""
     is_duplicate: bool
     """Whether an earlier caption is the same but for case and punctuation."""
 
@@ -77,12 +68,10 @@ def check_captions(
     for id, caption in captions.items():
         known = names.get(wnids[id], ())
         text = normalised(caption)
-        kinds = [normalised(name).split()[-1] for name in known if normalised(name)]
         checks[id] = CaptionCheck(
             words=len(caption.split()),
             is_refusal=bool(_REFUSAL.search(_plain(caption))),
             names_class=any(_says(text, normalised(name)) for name in known) if known else None,
-            names_kind=any(_says(text, kind) for kind in kinds) if known else None,
             is_duplicate=id in later,
         )
     return checks
@@ -217,66 +206,3 @@ class CaptionStore:
 
 def _line(table: Mapping[str, Any]) -> str:
     return json.dumps(table, ensure_ascii=False) + "\n"
-
-
-EXTRA = "generate"
-EXAMPLE = "sentence-transformers/all-MiniLM-L6-v2"
-LEAST_COSINE = 0.95
-BATCH = 64
-
-
-def find_similar(
-    captions: Mapping[str, str], model: str, *, device: str = "auto"
-) -> list[tuple[str, str, float]]:
-    """Pairs of captions whose vectors have a cosine of at least 0.95: id, id, cosine.
-
-    Args:
-        captions: id → caption.
-        model: folder of a sentence model saved by transformers, or `hub:org/name`; a caption's
-            vector is the mean of the last layer over its tokens.
-        device: "auto", or a torch device.
-
-    Raises:
-        InputError: there is no such model.
-        FileFormatError: it cannot be loaded.
-        MissingDependencyError: torch or transformers is not installed.
-    """
-    return similar_pairs(list(captions), embed_sentences(list(captions.values()), model, device))
-
-
-def similar_pairs(ids: Sequence[str], vectors: NDArray[np.float32]) -> list[tuple[str, str, float]]:
-    """Pairs of vectors of unit length with a cosine of at least 0.95, the most similar first."""
-    pairs = []
-    for first, vector in enumerate(vectors):
-        cosines = vectors[first + 1 :] @ vector
-        for place in np.flatnonzero(cosines >= LEAST_COSINE):
-            pairs.append((ids[first], ids[first + 1 + int(place)], float(cosines[place])))
-    return sorted(pairs, key=lambda pair: -pair[2])
-
-
-def embed_sentences(texts: Sequence[str], model: str, device: str) -> NDArray[np.float32]:
-    """Vectors of unit length, [n, d]; errors as `find_similar`."""
-    torch, transformers = require("torch", extra=EXTRA), require("transformers", extra=EXTRA)
-    place, _ = resolve_device(device, "device")
-    folder = find_saved_model(model, "sentence model", example=EXAMPLE)
-    with loading(folder, "a sentence model"):
-        tokenizer = transformers.AutoTokenizer.from_pretrained(str(folder), local_files_only=True)
-        network = transformers.AutoModel.from_pretrained(
-            str(folder), local_files_only=True, use_safetensors=True
-        )
-    network = network.eval().to(place)
-    longest = int(network.config.max_position_embeddings)
-    parts = []
-    with torch.inference_mode():
-        for first in range(0, len(texts), BATCH):
-            words = tokenizer(
-                list(texts[first : first + BATCH]),
-                padding=True,
-                truncation=True,
-                max_length=longest,
-                return_tensors="pt",
-            ).to(place)
-            mask = words["attention_mask"].unsqueeze(-1).float()
-            total = (network(**words).last_hidden_state.float() * mask).sum(1)
-            parts.append(torch.nn.functional.normalize(total, dim=-1).cpu().numpy())
-    return np.concatenate(parts)

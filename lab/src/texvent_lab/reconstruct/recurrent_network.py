@@ -8,7 +8,7 @@ from typing import Any
 
 from texvent.extending import require
 from texvent.networks.layer_shapes import Shape
-from texvent.networks.weight_files import Tensor, shapes_of
+from texvent.networks.weight_files import Tensor, describe_mismatch, shapes_of
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import Network
 
@@ -41,9 +41,20 @@ class RecurrentNetwork(Network):
     def from_tensors(
         cls, tensors: Mapping[str, Tensor], settings: Mapping[str, Any]
     ) -> RecurrentNetwork:
-        """A network over checked tensors, which are not copied; it has seen nothing."""
-        with _torch.device("meta"):
-            network = cls.like(shapes_of(tensors), settings)
+        """A network over tensors, which are not copied; it has seen nothing.
+
+        Raises:
+            ValueError: a tensor is missing, unknown or of another shape; the message names it.
+        """
+        found = shapes_of(tensors)
+        try:
+            with _torch.device("meta"):
+                network = cls.like(found, settings)
+        except ValueError as error:  # the first kernel has not four sides
+            raise ValueError("has a first layer of another kind") from error
+        problem = describe_mismatch(found, shapes_of(network.tensors))
+        if problem is not None:
+            raise ValueError(problem)
         network.load_state_dict(dict(tensors), assign=True)
         network.eval()
         return network
@@ -90,8 +101,6 @@ class PublishedNetwork:
     """Whether the non-zero voxels are brought to mean 0 and deviation 1."""
     is_stretched: bool = False
     """Whether the image is stretched so that its 1st and 99th percentile become 0 and 1."""
-    sha256: tuple[str, ...] = ()
-    """Of the published files, where known."""
 
     @property
     def file_name(self) -> str:

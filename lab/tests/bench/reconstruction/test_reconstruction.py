@@ -166,5 +166,4 @@ def test_tables_and_document_state_every_figure():
     assert document["network"] == {
         "name": "stand-in",
         "sha256": "0" * 64,
-        "is_published": False,
     }

@@ -20,7 +20,6 @@ from ..windowed_specification import TEXT, write_specification
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from texvent_lab.reconstruct.checkpoint import Checkpoint  # noqa: E402
 from texvent_lab.reconstruct.networks import FIRENET  # noqa: E402
 from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor  # noqa: E402
 from texvent_lab.train.reconstruction.config import (  # noqa: E402
@@ -198,7 +197,7 @@ def test_scores_are_those_of_the_reconstructor(folder: Path, tmp_path: Path) -> 
 def test_some_windows_are_scored_and_all_are_seen(folder: Path) -> None:
     every, third = (ReconstructionTask(config_of(folder, score_every=number)) for number in (1, 3))
     clips, network = every._validation, every.make_network()
-    reconstructor = Reconstructor(FIRENET, Checkpoint(network.tensors, {}, ""))
+    reconstructor = Reconstructor(FIRENET, network)
     values = []
     for number in range(len(clips)):
         reconstructor.reset()

@@ -116,8 +116,6 @@ class ReconstructionReport(MarkdownReport):
     network: str
     sha256: str
     """Of the network's weights file."""
-    is_published: bool
-    """True if that is known to be the published file."""
     plan: ReconstructionPlan
     rows: Sequence[ReconstructionRow]
     absent: dict[str, str] = field(default_factory=dict)
@@ -224,7 +222,6 @@ def run_reconstruction(
     return ReconstructionReport(
         network=reconstructor.name,
         sha256=reconstructor.sha256,
-        is_published=reconstructor.is_published,
         plan=scorer.plan,
         rows=rows,
         absent=dict(scorer.measures.absent),

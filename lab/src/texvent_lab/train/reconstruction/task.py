@@ -19,7 +19,6 @@ from texvent.metrics.lpips import find_lpips_weights, read_lpips_weights
 from texvent.networks.weight_files import STATE, Tensor
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.networks.layers import make_seeded
-from texvent_lab.reconstruct.checkpoint import Checkpoint
 from texvent_lab.reconstruct.reconstructor import Intensity, Reconstructor
 from texvent_lab.reconstruct.recurrent_network import PublishedNetwork, RecurrentNetwork
 from texvent_lab.registries import RECONSTRUCTORS
@@ -116,8 +115,8 @@ class ReconstructionTask:
         """Means over windows of whole clips, by the path that `texvent reconstruct` takes."""
         del workers
         torch, measures = require("torch", extra=EXTRA), load_measures().chosen
-        checkpoint = Checkpoint(self._tensors(network), {}, sha256="")
-        reconstructor = Reconstructor(self._published, checkpoint, device=str(device))
+        same = self._published.network.from_tensors(self._tensors(network), {})
+        reconstructor = Reconstructor(self._published, same, device=str(device))
         values: dict[str, list[float]] = {one.name: [] for one in measures}
         with torch.autocast(device.type, enabled=False):
             for number in range(len(self._validation)):
