@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.metrics.protocol import UNDEFINED, Metric
-from texvent.metrics.rvt_backbone import WHERE_FROM, Features, RvtBackbone, read_rvt_weights
 from texvent.metrics.windows import flat_index, occupied_windows, rate_of_window
 from texvent.represent.array_ops import columns_of
 from texvent.represent.histogram import BINS, CUTOFF, stacked_histogram, time_bins
 
+Features: TypeAlias = NDArray[np.float32]
+"""[C, H, W]."""
 Backbone: TypeAlias = Callable[[Features], Sequence[Features]]
 """Stacked histogram [20, H, W] → feature maps [C, H', W'], one per stage."""
 
@@ -142,14 +143,17 @@ class EventQualityScore(Metric):
     range = (-1.0, 1.0)
     blind_to = "small time errors; added noise can improve it: see its controls"
 
-    backbone: RvtBackbone | None = None
+    backbone: Backbone | None = None
     """RVT's backbone with published weights; see `load_eqs`."""
 
     def missing(self) -> str | None:
         """As `Metric.missing`."""
         if self.backbone is not None:
             return None
-        return f"it needs RVT's weights, pass --rvt-weights FILE; {WHERE_FROM}"
+        return (
+            "it needs RVT's weights, pass --rvt-weights FILE; the project uzh-rpg/RVT on GitHub "
+            "links to rvt-t.ckpt, rvt-s.ckpt and rvt-b.ckpt"
+        )
 
     def _score(self, predicted: EventStream, reference: EventStream) -> float:
         if self.backbone is None:
@@ -165,4 +169,6 @@ def load_eqs(path: Path) -> EventQualityScore:
         FileFormatError: it does not hold RVT's backbone.
         MissingDependencyError: torch is not installed.
     """
-    return EventQualityScore(backbone=RvtBackbone(read_rvt_weights(path)))
+    from texvent.metrics.rvt_backbone import read_rvt  # needs torch
+
+    return EventQualityScore(backbone=read_rvt(path))

@@ -21,8 +21,7 @@ from texvent.errors import FileFormatError, InputError, one_line
 from texvent.io.arrays.npz import read_arrays
 from texvent.io.atomic import atomic_file
 from texvent.metrics.protocol import UNDEFINED
-from texvent.networks.layer_shapes import Shapes
-from texvent.networks.weight_files import DAMAGE, Tensor
+from texvent.networks.weight_files import DAMAGE, Shape, Tensor
 from texvent.runtime.cache_folder import cache_folder
 
 Float32Array = NDArray[np.float32]
@@ -65,9 +64,9 @@ class LpipsLayout:
     """Key of the convolutions in the published file."""
     convolutions: tuple[Convolution, ...]
 
-    def array_shapes(self) -> Shapes:
+    def array_shapes(self) -> dict[str, Shape]:
         """Name → shape of every array: kernels are [rows, columns, channels in, channels out]."""
-        shapes: Shapes = {}
+        shapes: dict[str, Shape] = {}
         channels_in = COLOURS
         for number, layer in enumerate(self.convolutions):
             shapes[f"kernel{number}"] = (layer.kernel, layer.kernel, channels_in, layer.channels)

@@ -7,10 +7,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from texvent.errors import FileFormatError, InputError
+from texvent.extending import require
 from texvent.networks.weight_files import (
     StandIn,
-    check_finite,
+    load_strictly,
     read_mapping,
+    shapes_of,
     state_tensors,
 )
 from texvent.runtime.cache_folder import cache_folder
@@ -62,11 +64,16 @@ def read_network(published: PublishedNetwork, path: Path) -> RecurrentNetwork:
     where = published.where_from
     content = read_mapping(path, where, extra=EXTRA, stand_ins=LEFT_BY_TRAINING)
     tensors = state_tensors(content, path, where, extra=EXTRA)
-    check_finite(tensors, path)
+    shapes = shapes_of(tensors)
     try:
-        return published.network.from_tensors(tensors, network_settings(content))
-    except ValueError as error:
-        raise FileFormatError(f"{path} is not {published.name}'s: it {error}; {where}") from error
+        with require("torch", extra=EXTRA).device("meta"):
+            network = published.network.like(shapes, network_settings(content))
+    except ValueError as error:  # the first kernel has not four sides
+        raise FileFormatError(
+            f"{path} is not {published.name}'s: its first layer is of another kind; {where}"
+        ) from error
+    load_strictly(network, tensors, path, where)
+    return network.eval()
 
 
 def network_settings(content: Mapping[str, Any]) -> Mapping[str, Any]:

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from texvent.extending import require
-from texvent.networks.layer_shapes import Shape
-from texvent.networks.weight_files import Tensor, describe_mismatch, shapes_of
+from texvent.networks.weight_files import Shape, Tensor, shapes_of
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import Network
 
@@ -44,20 +43,12 @@ class RecurrentNetwork(Network):
         """A network over tensors, which are not copied; it has seen nothing.
 
         Raises:
-            ValueError: a tensor is missing, unknown or of another shape; the message names it.
+            RuntimeError: a tensor is missing, unknown or of another shape.
         """
-        found = shapes_of(tensors)
-        try:
-            with _torch.device("meta"):
-                network = cls.like(found, settings)
-        except ValueError as error:  # the first kernel has not four sides
-            raise ValueError("has a first layer of another kind") from error
-        problem = describe_mismatch(found, shapes_of(network.tensors))
-        if problem is not None:
-            raise ValueError(problem)
+        with _torch.device("meta"):
+            network = cls.like(shapes_of(tensors), settings)
         network.load_state_dict(dict(tensors), assign=True)
-        network.eval()
-        return network
+        return network.eval()
 
     def reset(self) -> None:
         """Forget everything seen."""

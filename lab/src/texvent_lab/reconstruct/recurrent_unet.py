@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from texvent.extending import require
-from texvent.networks.layer_shapes import Shape
-from texvent.networks.weight_files import Tensor
+from texvent.networks.weight_files import Shape, Tensor
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import (
     ConvLayer,
