@@ -8,9 +8,9 @@ from hypothesis.extra import numpy as arrays
 
 from texvent.metrics.uncertainty import (
     LEAST_WINDOWS,
+    Verdict,
     average_blocks,
     bootstrap_interval,
-    describe_difference,
     independent_block_size,
     paired_differences,
 )
@@ -92,10 +92,14 @@ def difference(first, second, **options):
     return paired_differences({"it": column}, **{"is_in_sequence": False, **options})["it"]
 
 
+def sentence(first, second, found, better="lower", unit=""):
+    return Verdict("it", first, second, found, better, unit).sentence
+
+
 def test_identical_candidates_do_not_differ():
     found = difference([0.5, 0.6, 0.7, 0.5, 0.4, 0.6], [0.5, 0.6, 0.7, 0.5, 0.4, 0.6])
     assert (found.mean, found.interval) == (0.0, (0.0, 0.0))
-    assert describe_difference("A", "B", found) == (
+    assert sentence("A", "B", found) == (
         "A and B do not differ significantly (difference 0.000, 95 % interval 0.000 to 0.000, "
         "6 windows)"
     )
@@ -105,9 +109,9 @@ def test_a_constant_advantage_over_eight_windows_is_significant():
     found = difference([0.75] * 8, [0.5] * 8)
     assert (found.mean, found.interval) == (0.25, (0.25, 0.25))
     text = "is closer than {} by 0.250 ms (95 % interval 0.250 to 0.250, 8 windows)"
-    higher = describe_difference("A", "B", found, better="higher", unit="ms")
+    higher = sentence("A", "B", found, better="higher", unit="ms")
     assert higher == f"A {text.format('B')}"
-    assert describe_difference("A", "B", found, unit="ms") == f"B {text.format('A')}"
+    assert sentence("A", "B", found, unit="ms") == f"B {text.format('A')}"
 
 
 @given(PAIRS)
@@ -117,7 +121,7 @@ def test_the_order_of_candidates_only_flips_signs(pair):
     assert other.interval == pytest.approx(found.reversed().interval)
     assert found.is_significant == other.is_significant
     if found.is_significant:
-        assert describe_difference("A", "B", found) == describe_difference("B", "A", other)
+        assert sentence("A", "B", found) == sentence("B", "A", other)
 
 
 def test_more_comparisons_widen_the_interval_and_equals_rarely_differ():
@@ -140,7 +144,7 @@ def test_windows_that_drift_count_by_blocks_of_which_too_few_are_left():
     assert difference(drift, 0 * drift).is_significant
     found = difference(drift, 0 * drift, is_in_sequence=True)
     assert (found.windows, found.block, found.is_significant) == (4, 4, False)
-    assert "too few independent windows to compare (n = 4;" in describe_difference("A", "B", found)
+    assert "too few independent windows to compare (n = 4;" in sentence("A", "B", found)
 
 
 def test_undefined_windows_are_left_out():

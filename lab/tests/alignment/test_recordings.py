@@ -70,15 +70,6 @@ def test_samples_come_by_variant_with_their_prompts_and_events(folder: Path) -> 
     assert len(list_samples(folder, split="test")["esim"]) == 2
 
 
-def test_ids_name_clips_and_leave_others_out(folder: Path) -> None:
-    first = list_samples(folder)["paper"][0]
-    named = list_samples(folder, ids={first.id: "image 1"})
-    assert {name: [one.id for one in found] for name, found in named.items()} == {
-        "paper": ["image 1"],
-        "esim": ["image 1", "image 1"],
-    }
-
-
 def test_recorded_streams_are_read_at_their_size(tmp_path: Path) -> None:
     write_n_imagenet(tmp_path, {WNIDS[0]: {1: 3_000}})
     caption = Captioned(id=stream_id(1), caption="a tench", label=WNIDS[0], seed=1)

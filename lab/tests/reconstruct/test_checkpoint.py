@@ -67,12 +67,6 @@ def test_what_training_left_beside_the_weights_does_no_harm(tmp_path):
     assert settings_of(path) == {"final_activation": "sigmoid"}
 
 
-def test_arguments_of_the_network_itself_are_found_too(tmp_path):
-    config = config_parser({"arch": {"type": "FireNet", "args": {"num_bins": 5}}})
-    path = save_published(torch, "firenet+", tmp_path / "model.pth", config=config)
-    assert settings_of(path) == {"num_bins": 5}
-
-
 def test_no_code_of_a_file_runs(tmp_path):
     class Trap:
         def __reduce__(self):

@@ -87,19 +87,8 @@ def test_depth_has_the_published_layout(tmp_path: Path, capsys: pytest.CaptureFi
     train_from_file(TASKS.load("depth"), path, tmp_path / "run", CPU)
     content = torch.load(tmp_path / "run" / "weights.pt", weights_only=True)
     assert content["arch"] == "E2VIDRecurrent"
-    assert content["config"]["model"] == {
-        "num_bins": 5,
-        "skip_type": "sum",
-        "recurrent_block_type": "convlstm",
-        "num_encoders": 3,
-        "base_num_channels": 2,
-        "num_residual_blocks": 2,
-        "use_upsample_conv": True,
-        "norm": "none",
-    }
-    names = set(content["state_dict"])
-    assert {name.split(".")[0] for name in names} == {"unetrecurrent"}
-    assert "unetrecurrent.encoders.2.recurrent_block.Gates.weight" in names
+    assert content["config"]["model"] == settings_of(2)
+    assert "unetrecurrent.encoders.2.recurrent_block.Gates.weight" in content["state_dict"]
     wider = write_training(tmp_path, network="width = 4")
     assert main(["evaluate", "depth", str(wider), str(tmp_path / "run" / "weights.pt")]) == 2
     error = capsys.readouterr().err

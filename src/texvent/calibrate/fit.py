@@ -53,8 +53,6 @@ class Fit(NamedTuple):
     """Measured constants with their intervals."""
     kept: tuple[UnidentifiedOption, ...]
     """Constants that the recording cannot identify."""
-    compared: tuple[EventStream, EventStream]
-    """Recorded and simulated events of the held-out part."""
 
 
 def fit_sensor(
@@ -112,7 +110,6 @@ def fit_sensor(
         },
         found=(*fitted.found, *of_noise.found),
         kept=(*fitted.kept, *of_noise.kept),
-        compared=(truth[held_out], events["fitted", held_out]),
     )
 
 

@@ -112,5 +112,9 @@ def mean_squared_error(a: Float64Array, b: Float64Array) -> float:
 
 def peak_signal_to_noise(a: Float64Array, b: Float64Array) -> float:
     """`−10 log10(MSE)` in dB for images from 0 to 1; infinite for equal ones."""
-    mse = mean_squared_error(a, b)
+    return decibels(mean_squared_error(a, b))
+
+
+def decibels(mse: float) -> float:
+    """`−10 log10(MSE)`, dB; infinite for 0."""
     return math.inf if mse == 0 else -10.0 * math.log10(mse)

@@ -11,7 +11,7 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.windows import flat_index, occupied_windows, rate_of_window
@@ -24,6 +24,10 @@ Backbone: TypeAlias = Callable[[Features], Sequence[Features]]
 """Stacked histogram [20, H, W] → feature maps [C, H', W'], one per stage."""
 
 PATCH = 3
+WHERE_FROM = (
+    "the published files are rvt-t.ckpt, rvt-s.ckpt and rvt-b.ckpt, to which the project "
+    "uzh-rpg/RVT on GitHub links"
+)
 
 
 def keep_input(histogram: Features) -> Sequence[Features]:
@@ -150,10 +154,7 @@ class EventQualityScore(Metric):
         """As `Metric.missing`."""
         if self.backbone is not None:
             return None
-        return (
-            "it needs RVT's weights, pass --rvt-weights FILE; the project uzh-rpg/RVT on GitHub "
-            "links to rvt-t.ckpt, rvt-s.ckpt and rvt-b.ckpt"
-        )
+        return f"it needs RVT's weights, pass --rvt-weights FILE; {WHERE_FROM}"
 
     def _score(self, predicted: EventStream, reference: EventStream) -> float:
         if self.backbone is None:
@@ -169,6 +170,8 @@ def load_eqs(path: Path) -> EventQualityScore:
         FileFormatError: it does not hold RVT's backbone.
         MissingDependencyError: torch is not installed.
     """
+    if not path.is_file():
+        raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
     from texvent.metrics.rvt_backbone import read_rvt  # needs torch
 
     return EventQualityScore(backbone=read_rvt(path))

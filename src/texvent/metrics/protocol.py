@@ -65,13 +65,6 @@ class Metric(ABC):
         """The value for two streams of the same size."""
 
 
-def find_missing(metric: Metric) -> str | None:
-    """`metric.missing()`; None for a metric of a plug-in that has no such method."""
-    missing = getattr(metric, "missing", None)
-    reason: str | None = missing() if missing is not None else None
-    return reason
-
-
 def check_pair(predicted: EventStream, reference: EventStream) -> None:
     """Refuse streams that no paired metric can compare.
 

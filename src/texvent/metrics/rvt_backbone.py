@@ -10,13 +10,13 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, TypeAlias
+from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent._require import require
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError
+from texvent.metrics.latent_similarity import WHERE_FROM, Features
 from texvent.networks.weight_files import Tensor, load_strictly, named_tensors, read_mapping
 
 EXTRA = "torch"
@@ -24,8 +24,6 @@ EXTRA = "torch"
 torch: Any = require("torch", extra=EXTRA)
 nn: Any = torch.nn
 _Module: Any = nn.Module
-
-Features: TypeAlias = NDArray[np.float32]
 
 INPUT_CHANNELS = 20
 """Of the stacked histogram: 2 polarities of 10 bins."""
@@ -44,10 +42,6 @@ width / 64) pixels of a feature map, as RVT's configuration chooses them."""
 PREFIX = "mdl.backbone."
 """Before the backbone's names in a checkpoint of the whole detector."""
 FIRST_TENSOR = "stages.0.downsample_cf2cl.conv.weight"
-WHERE_FROM = (
-    "the published files are rvt-t.ckpt, rvt-s.ckpt and rvt-b.ckpt, to which the project "
-    "uzh-rpg/RVT on GitHub links"
-)
 
 
 def read_rvt(path: Path) -> RvtBackbone:
@@ -58,11 +52,8 @@ def read_rvt(path: Path) -> RvtBackbone:
             recognised from its tensors.
 
     Raises:
-        InputError: there is no such file.
         FileFormatError: the file is damaged, or a tensor is missing, unknown or of another shape.
     """
-    if not path.is_file():
-        raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
     state = read_mapping(path, WHERE_FROM, extra=EXTRA).get("state_dict")
     if not isinstance(state, Mapping):
         raise FileFormatError(f"{path} holds no state_dict; it is not RVT's: {WHERE_FROM}")

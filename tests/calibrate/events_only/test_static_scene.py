@@ -68,13 +68,6 @@ def test_what_a_scene_at_rest_does_not_tell_stays(scene):
     assert scene.config.refractory_period_us == pytest.approx(800, rel=0.1)
 
 
-def test_the_spread_of_the_leak_is_that_of_the_regular_intervals():
-    truth = dataclasses.replace(TRUTH, leak_rate_hz=4.0, leak_rate_decades=0.12, noise_scale=0.02)
-    found = {one.name: one.value for one in measure_static_scene(record(truth), START).found}
-    assert found["leak_rate_decades"] == pytest.approx(0.12, rel=0.1)
-    assert found["leak_rate_hz"] == pytest.approx(4.0, rel=0.1)
-
-
 def test_a_third_of_a_second_keeps_what_it_cannot_tell():
     quiet = dataclasses.replace(START, noise_curve="128:0.02", noise_scale=1.0, leak_rate_hz=0.0)
     scene = measure_static_scene(record(quiet, seconds=0.3), START)

@@ -13,7 +13,7 @@ from texvent.errors import InputError, TexventError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.metrics.compare import load_metric
 from texvent.metrics.image_measures import load_measures
-from texvent.metrics.protocol import Metric, find_missing
+from texvent.metrics.protocol import Metric
 from texvent.sensor import SENSORS
 from texvent.video import Video
 from texvent_lab.bench.classification import (
@@ -184,7 +184,7 @@ def event_frame_figures(
         jobs: processes to use.
         progress: told of every step.
     """
-    missing = {name: find_missing(load_metric(name)) for name in EVENT_FRAMES.values()}
+    missing = {name: load_metric(name).missing() for name in EVENT_FRAMES.values()}
     metrics = ["stpp", *(name for name, reason in missing.items() if reason is None)]
     report = _run(scenes, metrics, is_rate_matched=is_rate_matched, jobs=jobs, progress=progress)
     figures = {

@@ -25,7 +25,7 @@ from texvent.metrics.controls import (
     stream_of,
     with_more,
 )
-from texvent.metrics.protocol import Metric, find_missing
+from texvent.metrics.protocol import Metric
 from texvent.metrics.summary import badness
 from texvent_lab.bench.document import MarkdownReport
 from texvent_lab.bench.jobs import Progress, no_progress
@@ -214,7 +214,7 @@ def run_selftest(
     """
     chosen = default_metrics() if metrics is None else [load_metric(name) for name in metrics]
     for metric in chosen:
-        missing = find_missing(metric)
+        missing = metric.missing()
         if missing is not None:
             raise ConfigError(f"metric {metric.name} cannot be computed: {missing}")
     progress(f"recording {SCENE} with {len(RECORDING_SEEDS)} seeds")

@@ -1,4 +1,4 @@
-"""Velocities that a moving pattern of points has, found from its events alone."""
+"""Velocities of a moving pattern of points, found from its events alone; sharpness along them."""
 
 import numpy as np
 import pytest
@@ -8,6 +8,7 @@ from texvent.metrics.event_sharpness import (
     estimate_patch_flow,
     estimate_velocities,
     estimate_velocity,
+    flow_warp_sharpness,
 )
 from texvent.sensor import SensorSize
 
@@ -59,3 +60,33 @@ def test_patches_that_move_apart_have_their_own_flow():
     flow = estimate_patch_flow(both, patch_px=60)
     assert flow.shape == (1, 2, 2)
     assert flow[0, :, 0] == pytest.approx([-200, 200], abs=20)
+
+
+def moving_dots(speed_px_s, seconds=0.12):
+    """Ten dots that fire 2000 times a second while they move right."""
+    t = np.arange(0, seconds * 1e6, 500).astype(np.int64)
+    columns = []
+    for dot in range(10):
+        x = 2 + 3 * dot + np.rint(speed_px_s * t / 1e6).astype(int)
+        columns.append(np.stack([x, np.full(t.size, 3 * dot), t, np.ones(t.size, int)]))
+    x, y, t, p = np.concatenate(columns, axis=1)
+    order = np.argsort(t, kind="stable")
+    return EventStream(x[order], y[order], t[order], p[order], SensorSize(64, 32))
+
+
+def test_warping_along_the_true_flow_sharpens_and_along_another_blurs():
+    events = moving_dots(200.0)
+    true = flow_warp_sharpness(events, (200.0, 0.0))
+    assert true > 5
+    assert flow_warp_sharpness(events, (-200.0, 0.0)) < true / 3
+    assert flow_warp_sharpness(events, (0.0, 0.0)) == pytest.approx(1.0)
+
+
+def test_sharpness_of_dots_moving_whole_pixels_is_as_computed_by_hand():
+    # One window: a dot fires once on each of 5 px, so warped it fires 5 times on one pixel.
+    t = np.arange(5) * 10_000
+    events = EventStream(np.arange(5), [0] * 5, t, [1] * 5, SensorSize(8, 4))
+    value = flow_warp_sharpness(events, (100.0, 0.0), least_events=5)
+    cells = (8 + 2 * 7) * (4 + 2 * 1)
+    mean = 5 / cells
+    assert value == pytest.approx((25 / cells - mean**2) / (5 / cells - mean**2))
