@@ -97,7 +97,7 @@ def _at_rest(config: PhysicalConfig, seed: int) -> Iterator[tuple[str, float, Es
             # How many pixels are hot is a matter of chance; those of this specimen are counted.
             continue
         elif one.name == "hot_pixel_rate_hz" and config.hot_pixel_fraction == 0:
-            raise RuntimeError(f"{scene.is_hot.sum()} pixels pass for hot, none is")
+            raise RuntimeError("pixels pass for hot, none is")
         elif getattr(config, one.name) > 0:
             yield "static", float(getattr(config, one.name)), one
 

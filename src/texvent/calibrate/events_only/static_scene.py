@@ -15,7 +15,12 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.calibrate.bootstrap import bootstrap
-from texvent.calibrate.estimates import Estimate, UnidentifiedOption, with_estimates
+from texvent.calibrate.estimates import (
+    Estimate,
+    Measurement,
+    UnidentifiedOption,
+    with_estimates,
+)
 from texvent.calibrate.events_only.leak import leak_rate
 from texvent.calibrate.events_only.pixel_trains import (
     BoolArray,
@@ -55,19 +60,6 @@ FLAT_LEVEL = 128
 """Level at which the curve of one point is written; it holds at every level."""
 
 
-class StaticScene(NamedTuple):
-    """Measurement of a scene at rest."""
-
-    config: PhysicalConfig
-    found: tuple[Estimate, ...]
-    kept: tuple[UnidentifiedOption, ...]
-    remarks: tuple[str, ...]
-    is_hot: BoolArray
-    """[H, W]."""
-    rests: BoolArray
-    """[H, W] which pixels were measured."""
-
-
 class _Counts(NamedTuple):
     """Sufficient counts of a recording; small, whatever its length."""
 
@@ -92,7 +84,7 @@ class _Values(NamedTuple):
     hot_rate_hz: float
 
 
-def measure_static_scene(events: EventStream, start: PhysicalConfig) -> StaticScene:
+def measure_static_scene(events: EventStream, start: PhysicalConfig) -> Measurement:
     """Measure noise, hot pixels, leak and refractory period in a recording at rest.
 
     Args:
@@ -137,13 +129,11 @@ def measure_static_scene(events: EventStream, start: PhysicalConfig) -> StaticSc
         found.append(dead)
     reason = "a scene at rest cannot identify it"
     kept += [UnidentifiedOption(name, getattr(start, name), reason) for name in NOT_TOLD]
-    return StaticScene(
-        _with(start, found, values.noise_hz),
-        tuple(found),
-        tuple(kept),
-        tuple(_remarks(events, rests)),
-        hot.reshape(rests.shape),
-        rests,
+    return Measurement(
+        config=_with(start, found, values.noise_hz),
+        found=tuple(found),
+        kept=tuple(kept),
+        remarks=tuple(_remarks(events, rests)),
     )
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import ClassVar, Literal
 
 from texvent._registry import suggest
-from texvent.calibrate.estimates import describe_estimates, describe_scene, write_preset
+from texvent.calibrate.estimates import describe_scene, write_preset
 from texvent.calibrate.events_only.flicker import measure_flicker
 from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.calibrate.fit import describe_fit, fit_sensor
@@ -191,8 +191,7 @@ def _fit(
         report=progress.announce,
     )
     source = " and ".join(dict.fromkeys((str(options.frames), str(options.events))))
-    lines = describe_fit(fit, source)
-    return fit.config, [*lines, *describe_estimates(fit.found, fit.kept)]
+    return fit.config, describe_fit(fit, source)
 
 
 def _measure(
@@ -202,13 +201,10 @@ def _measure(
     source = str(options.events)
     if options.flicker_hz is None:
         static = measure_static_scene(events, start)
-        lines = describe_scene(
-            static.found, static.kept, static.remarks, f"{source}, a scene at rest"
-        )
-        return static.config, lines
+        return static.config, describe_scene(static, f"{source}, a scene at rest")
     flicker = measure_flicker(events, start, hz=options.flicker_hz, ratio=options.flicker_ratio)
     what = f"{source}, a field that flickers at {flicker.cycles.hz:.5g} Hz"
-    lines = describe_scene(flicker.found, flicker.kept, flicker.remarks, what)
+    lines = describe_scene(flicker, what)
     config = flicker.config
     if options.threshold_map is not None:
         if not flicker.found:
