@@ -8,7 +8,6 @@ import pytest
 
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.metrics import lpips
 from texvent.metrics.event_frames import EventFrameLpips
 from texvent.metrics.lpips import (
     ALEX,
@@ -27,10 +26,9 @@ WEIGHTS = narrow_weights()
 
 
 @pytest.fixture(autouse=True)
-def _known_layouts(monkeypatch, request):
+def _torch(request):
     if request.node.get_closest_marker("torch"):
         pytest.importorskip("torch")
-    monkeypatch.setattr(lpips, "LAYOUTS", (NARROW, ALEX))
 
 
 def distance(a, b, weights=WEIGHTS):
@@ -66,10 +64,11 @@ def test_what_is_no_pair_of_images_is_refused(a, b, complaint):
 
 
 def test_the_published_file_and_the_converted_one_hold_the_same_arrays(tmp_path):
-    read = read_lpips_weights(write_published(WEIGHTS, tmp_path / "alexnet.ckpt"))
+    read = read_lpips_weights(write_published(WEIGHTS, tmp_path / "alexnet.ckpt"), NARROW)
     write_lpips_weights(read, tmp_path / "lpips.npz")
-    again = read_lpips_weights(tmp_path / "lpips.npz")
-    assert read.layout == again.layout == NARROW
+    again = read_lpips_weights(tmp_path / "lpips.npz", NARROW)
+    with pytest.raises(FileFormatError, match="does not hold the arrays of LPIPS's network"):
+        read_lpips_weights(tmp_path / "lpips.npz")
     for name, array in WEIGHTS.arrays.items():
         np.testing.assert_array_equal(again.arrays[name], array)
 
@@ -101,12 +100,13 @@ def test_a_truncated_file_is_refused_by_name(tmp_path, suffix):
 
 @pytest.mark.torch
 def test_event_frames_are_compared_as_grey_images(tmp_path):
-    write_lpips_weights(WEIGHTS, tmp_path / "narrow.npz")
-    metric = EventFrameLpips(weights=tmp_path / "narrow.npz")
+    weights = narrow_weights(layout=ALEX)
+    write_lpips_weights(weights, tmp_path / "alex.npz")
+    metric = EventFrameLpips(weights=tmp_path / "alex.npz")
     size = SensorSize(40, 33)
     a, b = random_events(1, 600, size, 40_000), random_events(2, 600, size, 40_000)
     frames = [event_frame(one, "polarity").astype(np.float64) for one in (a, b)]
-    assert metric(a, b) == pytest.approx(distance(*frames))
+    assert metric(a, b) == pytest.approx(distance(*frames, weights))
     assert metric(a, a) == 0.0
     assert metric.missing() is None
     # A second frame that is empty in both counts 0.

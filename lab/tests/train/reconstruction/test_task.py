@@ -12,7 +12,7 @@ from tests.metrics.lpips.lpips_files import narrow_weights
 
 from texvent.cli.app import main
 from texvent.metrics.image_measures import mean_squared_error, structural_similarity
-from texvent.metrics.lpips import ALEX, weights_file_name, write_lpips_weights
+from texvent.metrics.lpips import ALEX, FILE_NAME, write_lpips_weights
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.registries import RECONSTRUCTORS
 
@@ -216,7 +216,7 @@ def test_lpips_is_trained_with_where_its_weights_are(
     words = ["train", "reconstruction", str(path), "-o", str(tmp_path / "run"), "-q"]
     assert main(words) == 2
     assert "LPIPS's weights are not here" in capsys.readouterr().err
-    write_lpips_weights(narrow_weights(layout=ALEX), pulled / weights_file_name("alex"))
+    write_lpips_weights(narrow_weights(layout=ALEX), pulled / FILE_NAME)
     try:
         state = train_from_file(ReconstructionConfig, path, tmp_path / "run", CPU)
     finally:

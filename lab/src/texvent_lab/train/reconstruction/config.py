@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Literal
 
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
-from texvent.metrics.lpips import LpipsNet
 from texvent_lab.train.schedule import Schedule, TrainingConfig
 from texvent_lab.train.sequences import SequenceData
 
@@ -31,9 +30,8 @@ class ReconstructionLoss:
     """How far images are from the true ones, and from themselves a window before: a sum."""
 
     lpips: float = 1.0
-    """Weight of LPIPS; 0: none, and its weights file is not needed."""
-    lpips_net: LpipsNet = "alex"
-    """Network of LPIPS; the published networks were trained with vgg."""
+    """Weight of LPIPS (AlexNet; the published networks were trained with VGG); 0: none, and its
+    weights file is not needed."""
     l1: float = 0.0
     """Weight of the mean absolute difference."""
     ssim: float = 0.0
@@ -46,7 +44,6 @@ class ReconstructionLoss:
     """How fast a pixel counts less where the true images differ, per squared intensity."""
 
     def __post_init__(self) -> None:
-        check_choices(self)
         for name in ("lpips", "l1", "ssim", "consistency"):
             check_range(name, getattr(self, name), 0.0, 1e6)
         if not (self.lpips or self.l1 or self.ssim):

@@ -69,7 +69,7 @@ class ReconstructionTask:
         options = self._config.loss
         weights = None
         if options.lpips:
-            weights = read_lpips_weights(find_lpips_weights(options.lpips_net))
+            weights = read_lpips_weights(find_lpips_weights())
         return SequenceLoss(options, weights)
 
     def make_network(self) -> Any:
