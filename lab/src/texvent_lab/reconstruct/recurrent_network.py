@@ -65,8 +65,6 @@ class RecurrentNetwork(Network):
         """
         raise NotImplementedError
 
-    # A window is compiled, not the whole sequence, which would take as many times longer.
-    @_torch.compiler.disable(recursive=False)  # type: ignore[untyped-decorator]
     def forward(self, voxels: Tensor) -> Tensor:
         """Images [n, windows, 1, H, W] of voxel grids [n, windows, bins, H, W].
 

@@ -78,8 +78,6 @@ class Hardware:
     """auto is the GPU if torch finds one."""
     precision: Literal["float32", "bfloat16"] = "float32"
     """Number type of the network's computation; bfloat16 is for GPUs (mixed precision)."""
-    compile: bool = False
-    """Compile the network with torch.compile: slower to start, faster on long trainings."""
     workers: int = 0
     """Processes that make batches; 0: this one."""
 

@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from tests.dataset.loading.written_set import write_shard
 
-import texvent.dataset
 from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -24,18 +23,6 @@ from texvent_lab.train.classification.task import ClassificationTask  # noqa: E4
 from texvent_lab.train.run import read_training  # noqa: E402
 
 pytestmark = pytest.mark.torch
-
-SPECIFICATION = """\
-name = "tiny"
-filters = {min_events = 1}
-splits = {train = 0.5, test = 0.5}
-options = {duration = 0.1, sensor = "32x24"}
-[[sources]]
-template = "a {colour} {thing} drives left"
-words.colour = ["red", "green", "blue", "white"]
-words.thing = ["car", "bus"]
-label = "{thing}"
-"""
 
 
 def write_recordings(folder: Path, *, per_class: int = 4, format: str = "npz") -> Path:
@@ -78,22 +65,6 @@ def error_of(path: Path, capsys: pytest.CaptureFixture[str], *words: str) -> str
 
 
 RECORDED = 'recordings = "rec", validation_split = "val"'
-
-
-def test_training_on_a_specification_equals_training_on_its_stored_samples(tmp_path: Path) -> None:
-    (tmp_path / "tiny.toml").write_text(SPECIFICATION)
-    texvent.dataset.make(tmp_path / "tiny.toml", tmp_path / "tiny")
-    stored = write(tmp_path / "stored.toml", 'folder = "tiny"')
-    simulated = write(tmp_path / "simulated.toml", 'specification = "tiny.toml"')
-    assert train(stored) == train(simulated) == 0
-    one, two = weights(stored), weights(simulated)
-    assert all(torch.equal(one[name], two[name]) for name in one)
-    histories = [
-        json.loads((tmp_path / name / "history.json").read_text())["epochs"]
-        for name in ("stored", "simulated")
-    ]
-    for rows in zip(*histories, strict=True):
-        assert rows[0]["training loss"] == rows[1]["training loss"]
 
 
 @pytest.mark.parametrize(("format", "sensor"), [("npz", ""), ("bin", ', sensor = "16x12"')])
@@ -212,13 +183,13 @@ def test_a_damaged_file_is_named_in_one_line(tmp_path, capsys) -> None:
 @pytest.mark.parametrize(
     ("data", "message"),
     [
-        ("", "there are no samples to train on; give one of folder, specification and recordings"),
+        ("", "there are no samples to train on; give folder or recordings in"),
         (f'{RECORDED}, folder = "made"', "folder and recordings are given; give one of"),
         ('recordings = "rec", validation_split = "none"', "holds no event files in folders of"),
         ('recordings = "rec", validation_split = "one"', "has 1 classes, and a network tells at"),
-        (f'{RECORDED}, variant = "esim"', "variant belongs to folder or specification, not to rec"),
-        ('folder = "made", flip_polarity = true', "flip_polarity belongs to recordings, not to f"),
-        (f"{RECORDED}}}\nextra = {{per_class = 3", "[extra] has no samples; give one of folder"),
+        (f'{RECORDED}, variant = "esim"', "variant belongs to folder, not to recordings"),
+        ('folder = "made", flip_polarity = true', "flip_polarity belong to recordings, not to f"),
+        (f"{RECORDED}}}\nextra = {{per_class = 3", "[extra] has no samples; give folder or"),
         (
             'recordings = "rec", validation_split = "few", classes = 2',
             "holds no sample of ['ape', ",
