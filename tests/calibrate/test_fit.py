@@ -34,6 +34,7 @@ def test_the_fit_is_better_where_it_was_not_fitted(fit):
     assert fit.span.stop_us <= fit.held_out.start_us
     assert fitted[1].total < 0.3 * start[1].total
     assert fitted[0].total < 0.3 * start[0].total
+    assert fitted[0] != fitted[1]
 
 
 def test_every_fitted_option_has_an_interval_that_holds_it(fit):

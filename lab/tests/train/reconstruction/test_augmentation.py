@@ -15,6 +15,7 @@ def test_pauses_are_as_frequent_and_as_long_as_stated():
     # A share of 0.05 / (0.05 + 0.1), and 1 / (1 − 0.9) windows each.
     assert drawn.mean() == pytest.approx(1 / 3, abs=0.01)
     assert drawn.sum() / len(begins) == pytest.approx(10, rel=0.05)
+    assert draw_pauses(3, begin=1.0, stay=0.0, chance=chance).tolist() == [False, True, False]
 
 
 def test_noise_is_normal_and_spares_the_first_window():
