@@ -16,12 +16,11 @@ from texvent_lab.nt_imagenet.captions import (
     read_captions,
 )
 
-SHARK = ("great white shark", "white shark")
 FACTS = {"model": "a", "longest": 200}
 
 
-def check(caption: str, names: tuple[str, ...] = SHARK) -> CaptionCheck:
-    return check_captions({"a": caption}, {"a": "n1"}, {"n1": names})["a"]
+def check(caption: str) -> CaptionCheck:
+    return check_captions({"a": caption})["a"]
 
 
 def test_captions_are_read_from_tables_and_lines(tmp_path: Path) -> None:
@@ -59,20 +58,6 @@ def test_a_store_goes_on_after_its_last_whole_line(tmp_path: Path) -> None:
     assert list(store.read()) == ["a", "d", "b"]
 
 
-@pytest.mark.parametrize(
-    ("caption", "names_class"),
-    [
-        ("A Great White Shark swims.", True),
-        ("Two white sharks circle.", True),
-        ("A great-white shark's fin", True),
-        ("A shark in the sea", False),
-        ("White sharkskin", False),
-    ],
-)
-def test_classes_are_named_as_words_of_their_own(caption: str, names_class: bool) -> None:
-    assert check(caption).names_class == names_class
-
-
 @pytest.mark.parametrize(("words", "is_fine"), [(38, False), (39, True), (124, True), (125, False)])
 def test_lengths_are_those_of_the_paper(words: int, is_fine: bool) -> None:
     found = check(" ".join(["word"] * words))
@@ -96,6 +81,6 @@ def test_refusals_are_told_from_descriptions(caption: str, is_refusal: bool) -> 
 def test_duplicates_differ_in_case_and_punctuation_alone() -> None:
     captions = {"a": "A dog, running.", "b": "a dog running", "c": "a dog runs"}
     assert find_duplicates(captions) == [("a", "b")]
-    checks = check_captions(captions, dict.fromkeys(captions, "n1"), {})
+    checks = check_captions(captions)
     assert [id for id, one in checks.items() if one.is_duplicate] == ["b"]
     assert normalised("ﬁsh — Ünder  water!") == "fish ünder water"

@@ -75,7 +75,6 @@ def test_the_report_counts_problems_and_leaves_nothing_out(built: Path) -> None:
     assert found["streams"]["incomplete_classes"] == {WNIDS[0]: 3, WNIDS[1]: 2}
     captions = found["captions"]
     assert list(captions["missing"]) == [stream_id(5)]
-    assert captions["names_class"] == 0.25
     assert len(captions["problems"]["length"]) == 4
     assert captions["duplicates"] == [[stream_id(1), stream_id(4)]]
     assert found["left_out"] == []

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -19,10 +18,9 @@ from tests.generate import tiny_pipelines  # noqa: E402
 
 from texvent.cli.app import main  # noqa: E402
 from texvent_lab.nt_imagenet.captioner import Captioner  # noqa: E402
-from texvent_lab.nt_imagenet.captions import FILE  # noqa: E402
 from texvent_lab.nt_imagenet.files import read_captioned  # noqa: E402
 
-from .tiny_data import WNIDS, contents, stream_id, write_imagenet, write_n_imagenet  # noqa: E402
+from .tiny_data import WNIDS, stream_id, write_imagenet, write_n_imagenet  # noqa: E402
 
 CHAT = (
     "{% for m in messages %}USER: {% for c in m['content'] %}"
@@ -48,37 +46,16 @@ def nt(data: Path, out: Path, *more: str) -> int:
 
 
 def test_captions_are_those_of_the_model_one_per_image(data: Path, tmp_path: Path) -> None:
-    assert nt(data, tmp_path / "nt", "--dtype", "float32") == 0
+    assert nt(data, tmp_path / "nt") == 0
     captioned = read_captioned(tmp_path / "nt" / "captions.jsonl")
-    captioner = Captioner(str(data / "llava"), device="cpu", dtype="float32")
+    captioner = Captioner(str(data / "llava"), device="cpu")
     for one in captioned:
         image = data / "ImageNet" / "val" / WNIDS[0] / f"{one.id}.JPEG"
         assert one.caption == " ".join(captioner.caption(image, longest=8).split())
     assert len({one.caption for one in captioned}) == 3
     made_by = json.loads((tmp_path / "nt" / "report.json").read_text())["made_by"]
     assert made_by["instruction"] == "Caption the image in detail."
-    assert made_by["dtype"] == "float32"
     assert not any(path.suffix in (".JPEG", ".npz") for path in (tmp_path / "nt").iterdir())
-
-
-def test_a_run_that_was_killed_goes_on_and_ends_with_the_same_files(
-    data: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    nt(data, tmp_path / "whole")
-    caption = Captioner.caption
-
-    def die_at_two(self: Captioner, image: Path, **options: Any) -> str:
-        if image.stem == stream_id(2):
-            raise KeyboardInterrupt
-        return caption(self, image, **options)
-
-    with monkeypatch.context() as patch:
-        patch.setattr(Captioner, "caption", die_at_two)
-        assert nt(data, tmp_path / "killed") != 0
-    lines = (tmp_path / "killed" / FILE).read_text().splitlines()
-    assert len(lines) == 2, "the facts, and the caption of the first image"
-    assert nt(data, tmp_path / "killed") == 0
-    assert contents(tmp_path / "killed") == contents(tmp_path / "whole")
 
 
 def test_a_damaged_or_missing_image_costs_its_caption_alone(
@@ -96,14 +73,6 @@ def test_a_damaged_or_missing_image_costs_its_caption_alone(
     assert "has none of the images" in capsys.readouterr().err
 
 
-def test_a_caption_follows_the_image_and_the_instruction(data: Path) -> None:
-    captioner, folder = Captioner(str(data / "llava"), device="cpu"), data / "ImageNet" / "val"
-    first, second = (folder / WNIDS[0] / f"{stream_id(number)}.JPEG" for number in (1, 2))
-    captions = [
-        captioner.caption(first, longest=12),
-        captioner.caption(second, longest=12),
-        captioner.caption(first, longest=12, instruction="Name the colours."),
-    ]
-    assert all(captions)
-    assert len(set(captions)) == 3
-    assert captioner._ask("What is it?") == "USER: <image>\nWhat is it? ASSISTANT:"
+def test_a_chat_template_puts_the_image_before_the_instruction(data: Path) -> None:
+    captioner = Captioner(str(data / "llava"), device="cpu")
+    assert captioner._prompt() == "USER: <image>\nCaption the image in detail. ASSISTANT:"

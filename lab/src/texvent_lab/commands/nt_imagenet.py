@@ -16,7 +16,7 @@ from texvent.errors import ConfigError, InputError, TexventError, shown
 from texvent.extending import suggest
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent_lab.nt_imagenet import files
-from texvent_lab.nt_imagenet.captioner import INSTRUCTION, Captioner, Dtype
+from texvent_lab.nt_imagenet.captioner import INSTRUCTION, Captioner
 from texvent_lab.nt_imagenet.captions import (
     CHECKS,
     FILE,
@@ -24,12 +24,10 @@ from texvent_lab.nt_imagenet.captions import (
     check_captions,
     read_captions,
 )
-from texvent_lab.nt_imagenet.files import Captioned, find_class_names, find_image
+from texvent_lab.nt_imagenet.files import Captioned, find_image
 from texvent_lab.nt_imagenet.report import Report
 from texvent_lab.nt_imagenet.selection import (
     CLASSES,
-    FEWEST_EVENTS,
-    MOST_EVENTS,
     PER_CLASS,
     Selection,
     choose_classes,
@@ -54,10 +52,6 @@ class NtImagenetOptions:
 
     input_texts: ClassVar[tuple[str, ...]] = ("model",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
-    main_options: ClassVar[tuple[str, ...]] = (
-        "n_imagenet", "imagenet", "out", "model", "captions", "classes", "class_names", "leave_out",
-        "generator",
-    )  # fmt: skip
 
     n_imagenet: Path = REQUIRED
     """Folder of N-ImageNet (with extracted_val), or of its classes."""
@@ -74,36 +68,21 @@ class NtImagenetOptions:
     """Text file with one WordNet id per line; without it, the first --class-count classes."""
     class_count: int = CLASSES
     """Classes, in order of their ids; the paper does not say which."""
-    class_names: Path | None = None
-    """Names of classes, for the check of captions: lines such as n01440764 tench, Tinca tinca;
-    default: LOC_synset_mapping.txt or synset_words.txt in ImageNet's folder."""
     per_class: int = PER_CLASS
     """Streams of each class."""
-    min_events: int = FEWEST_EVENTS
-    """Fewest events of a stream."""
-    max_events: int = MOST_EVENTS
-    """Most events of a stream."""
     leave_out: str | None = None
-    """Leave out captions with these problems, separated by commas: length, refusal, class,
-    duplicate; without it they are only reported."""
-    instruction: str = INSTRUCTION
-    """What the model is asked."""
+    """Leave out captions with these problems, separated by commas: length, refusal, duplicate;
+    without it they are only reported."""
     longest: int = 200
     """Most tokens of a caption."""
     device: str = "auto"
     """Where models run: auto, cpu, cuda, cuda:1."""
-    dtype: Dtype = "auto"
-    """Numbers that the model computes with; auto: bfloat16 on a GPU, else float32."""
-    generator: str | None = None
-    """Generator that the specification names; default: the embedded one."""
     quiet: bool = False
     """No progress."""
 
     def __post_init__(self) -> None:
         check_range("class_count", self.class_count, 1)
         check_range("per_class", self.per_class, 1)
-        check_range("min_events", self.min_events, 0)
-        check_range("max_events", self.max_events, self.min_events)
         check_range("longest", self.longest, 1, 4096)
         for name in self.leaving_out:
             if name not in CHECKS:
@@ -143,7 +122,6 @@ def run(arguments: Sequence[str]) -> int:
         description=DESCRIPTION,
     )
     options.check_sources()
-    names = find_class_names(options.imagenet, options.class_names)
     classes = choose_classes(options.n_imagenet, options.class_count, options.classes)
     files.prepare_folder(options.out)
     with ConsoleProgress(is_quiet=options.quiet) as progress:
@@ -151,12 +129,10 @@ def run(arguments: Sequence[str]) -> int:
             options.n_imagenet,
             classes,
             per_class=options.per_class,
-            fewest=options.min_events,
-            most=options.max_events,
             progress=lambda done, total: progress.advance("reading streams", done, total),
         )
         captions, failures, made_by = _captions(options, selection, progress)
-    report = _report(options, selection, captions, failures, made_by, names)
+    report = _report(options, selection, captions, failures, made_by)
     _write(options, report, validation_folder(options.n_imagenet))
     if failures:
         raise TexventError(
@@ -187,23 +163,18 @@ def _make_captions(
     model, folder = str(options.model), options.imagenet or Path()
     wnids = {stream.id: stream.wnid for stream in selection.streams}
     place = {id: number for number, id in enumerate(wnids)}
-    facts = {
-        "model": model,
-        "instruction": options.instruction,
-        "longest": options.longest,
-        "dtype": options.dtype,
-    }
+    facts = {"model": model, "instruction": INSTRUCTION, "longest": options.longest}
 
     @functools.cache
     def captioner() -> Captioner:
-        return Captioner(model, device=options.device, dtype=options.dtype)
+        return Captioner(model, device=options.device)
 
     def make(id: str) -> str:
         progress.advance("captions", place[id], len(place))
         image = find_image(folder, wnids[id], id)
         if image is None:
             raise InputError(f"{folder} has no image {id}")
-        return captioner().caption(image, instruction=options.instruction, longest=options.longest)
+        return captioner().caption(image, longest=options.longest)
 
     if not any(find_image(folder, wnid, id) for id, wnid in wnids.items()):
         raise InputError(
@@ -220,10 +191,8 @@ def _report(
     captions: Mapping[str, str],
     failures: Mapping[str, str],
     made_by: Mapping[str, Any],
-    names: Mapping[str, tuple[str, ...]],
 ) -> Report:
-    wnids = {stream.id: stream.wnid for stream in selection.streams}
-    checks = check_captions(captions, wnids, names)
+    checks = check_captions(captions)
     left_out = [
         id for id, check in checks.items() if set(check.problems) & set(options.leaving_out)
     ]
@@ -250,7 +219,7 @@ def _write(options: NtImagenetOptions, report: Report, root: Path) -> None:
     files.write_streams(out, streams, root)
     files.write_captions(out, captioned)
     files.write_report(out, report.facts)
-    is_new = files.write_specification(out, generator=options.generator)
+    is_new = files.write_specification(out)
     write_out(report.text)
     write_out(f"{out}: {len(captioned):,} captions in {files.CAPTIONS}\n")
     if not is_new:

@@ -18,7 +18,7 @@ from texvent.io.atomic import atomic_file
 
 FEWEST_WORDS, MOST_WORDS = 39, 124
 """Paper, Table 10: text length 39 to 124. The unit is not said; words are likely."""
-CHECKS = ("length", "refusal", "class", "duplicate")
+CHECKS = ("length", "refusal", "duplicate")
 _REFUSAL = re.compile(
     r"\b(i am sorry|i'm sorry|sorry,|i apologi[sz]e|i cannot|i can't|i am unable|i'm unable|"
     r"i am not able|as an ai|as a language model|unable to (see|view|process|describe|provide)|"
@@ -33,8 +33,6 @@ class CaptionCheck:
     words: int
     is_refusal: bool
     """Whether it excuses itself instead of describing."""
-    names_class: bool | None
-    """Whether it says a name of its class; None where the names are not known."""
     is_duplicate: bool
     """Whether an earlier caption is the same but for case and punctuation."""
 
@@ -44,37 +42,22 @@ class CaptionCheck:
         found = {
             "length": not FEWEST_WORDS <= self.words <= MOST_WORDS,
             "refusal": self.is_refusal,
-            "class": self.names_class is False,
             "duplicate": self.is_duplicate,
         }
         return tuple(name for name in CHECKS if found[name])
 
 
-def check_captions(
-    captions: Mapping[str, str],
-    wnids: Mapping[str, str],
-    names: Mapping[str, Sequence[str]],
-) -> dict[str, CaptionCheck]:
-    """Check all captions.
-
-    Args:
-        captions: id → caption.
-        wnids: id → class.
-        names: class → its names; may lack some.
-    """
-    groups = find_duplicates(captions)
-    later = {id for group in groups for id in group[1:]}
-    checks = {}
-    for id, caption in captions.items():
-        known = names.get(wnids[id], ())
-        text = normalised(caption)
-        checks[id] = CaptionCheck(
+def check_captions(captions: Mapping[str, str]) -> dict[str, CaptionCheck]:
+    """Check all captions, id → caption."""
+    later = {id for group in find_duplicates(captions) for id in group[1:]}
+    return {
+        id: CaptionCheck(
             words=len(caption.split()),
             is_refusal=bool(_REFUSAL.search(_plain(caption))),
-            names_class=any(_says(text, normalised(name)) for name in known) if known else None,
             is_duplicate=id in later,
         )
-    return checks
+        for id, caption in captions.items()
+    }
 
 
 def find_duplicates(captions: Mapping[str, str]) -> list[tuple[str, ...]]:
@@ -97,11 +80,6 @@ def normalised(text: str) -> str:
 
 def _plain(text: str) -> str:
     return unicodedata.normalize("NFKC", text).casefold().replace("’", "'")
-
-
-def _says(text: str, name: str) -> bool:
-    """True if the name, or its regular plural, stands in the text as words of its own."""
-    return bool(name) and re.search(rf"\b{re.escape(name)}(?:s|es)?\b", text) is not None
 
 
 FILE = "made_captions.jsonl"

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent.batch.identity import derived_seed
-from texvent.errors import FileFormatError, InputError, OutputError, one_line, shown
+from texvent.errors import FileFormatError, OutputError, one_line
 from texvent.io.atomic import atomic_file
 from texvent_lab.nt_imagenet.captions import FILE
 from texvent_lab.nt_imagenet.selection import Stream
@@ -23,7 +23,6 @@ from texvent_lab.nt_imagenet.selection import Stream
 FOLDERS = ("", "val", "ILSVRC2012_img_val", "Data/CLS-LOC/val", "ILSVRC/Data/CLS-LOC/val")
 """Where copies of ImageNet keep the validation images, all in one folder or by class."""
 EXTENSIONS = (".JPEG", ".jpeg", ".jpg", ".png")
-NAME_FILES = ("LOC_synset_mapping.txt", "synset_words.txt")
 
 
 def find_image(folder: Path, wnid: str, id: str) -> Path | None:
@@ -35,45 +34,6 @@ def find_image(folder: Path, wnid: str, id: str) -> Path | None:
                 if path.is_file():
                     return path
     return None
-
-
-def find_class_names(
-    folder: Path | None, file: Path | None = None
-) -> Mapping[str, tuple[str, ...]]:
-    """WordNet id → its names; empty where there is no list of them.
-
-    Args:
-        folder: ImageNet's, which may hold `LOC_synset_mapping.txt` or `synset_words.txt`.
-        file: such a list elsewhere: on each line an id, then names with commas between.
-
-    Raises:
-        InputError: the file cannot be read.
-        FileFormatError: a line is not of this form.
-    """
-    if file is None:
-        found = (
-            [folder / name for name in NAME_FILES if (folder / name).is_file()] if folder else []
-        )
-        if not found:
-            return {}
-        file = found[0]
-    try:
-        lines = StringIO(file.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"cannot read {file}: {error}") from error
-    names: dict[str, tuple[str, ...]] = {}
-    for number, line in enumerate(lines, start=1):
-        wnid, _, rest = line.strip().partition(" ")
-        synonyms = tuple(name.strip() for name in rest.split(",") if name.strip())
-        if not wnid:
-            continue
-        if not synonyms:
-            raise FileFormatError(
-                f"{file} line {number} is {shown(line.strip())}; it must be an id and names, such "
-                "as n01440764 tench, Tinca tinca"
-            )
-        names[wnid] = synonyms
-    return names
 
 
 CAPTIONS, STREAMS = "captions.jsonl", "streams.csv"
@@ -157,7 +117,7 @@ def write_report(folder: Path, facts: Mapping[str, Any]) -> None:
     _write(folder / REPORT, json.dumps(facts, indent=1, ensure_ascii=False) + "\n")
 
 
-def write_specification(folder: Path, *, generator: str | None) -> bool:
+def write_specification(folder: Path) -> bool:
     """Write a specification to make events of the captions, unless there is one already.
 
     Returns:
@@ -166,8 +126,7 @@ def write_specification(folder: Path, *, generator: str | None) -> bool:
     path = folder / SPECIFICATION
     if path.exists():
         return False
-    line = f'generator = "{generator}"' if generator else '# generator = "wan-1.3b"'
-    _write(path, _SPECIFICATION.format(captions=CAPTIONS, generator=line))
+    _write(path, _SPECIFICATION.format(captions=CAPTIONS))
     return True
 
 
@@ -190,7 +149,7 @@ file = "{captions}"
 sensor = "640x480"      # that of N-ImageNet's recordings
 # Without a generator the embedded one draws what it knows of a caption, which is little: name a
 # learned one (texvent generators).
-{generator}
+# generator = "wan-1.3b"
 
 [variants.texvent]
 """

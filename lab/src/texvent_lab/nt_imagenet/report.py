@@ -65,13 +65,10 @@ class Report:
 
     def _caption_facts(self) -> dict[str, Any]:
         checks = self.checks
-        named = [one.names_class for one in checks.values() if one.names_class is not None]
         return {
             "count": len(checks),
             "missing": dict(self.failures),
             "words": _spread([one.words for one in checks.values()]),
-            "class_names_known": len(named),
-            "names_class": sum(named) / len(named) if named else None,
             "problems": {
                 name: [id for id, one in checks.items() if name in one.problems] for name in CHECKS
             },
