@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-import sys
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
@@ -19,7 +17,6 @@ from texvent_lab.registries import TASKS  # noqa: E402
 from texvent_lab.train.depth import (  # noqa: E402
     DepthConfig,
     encode_depth,
-    make_e2depth,
     settings_of,
 )
 from texvent_lab.train.run import read_training, train_from_file  # noqa: E402
@@ -94,30 +91,6 @@ def test_depth_has_the_published_layout(tmp_path: Path, capsys: pytest.CaptureFi
     error = capsys.readouterr().err
     assert "network.width must be that of the file" in error
     assert len(error.strip().splitlines()) == 1
-
-
-def test_a_checkpoint_as_the_program_of_e2depth_leaves_it_is_scored(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    # Its training stores an object of its own beside the weights.
-    module = ModuleType("logger.logger")
-    module.Logger = type("Logger", (), {"__module__": "logger.logger"})
-    monkeypatch.setitem(sys.modules, "logger", ModuleType("logger"))
-    monkeypatch.setitem(sys.modules, "logger.logger", module)
-    content = {
-        "arch": "E2VIDRecurrent",
-        "epoch": 300,
-        "logger": module.Logger(),
-        "state_dict": make_e2depth(2, seed=1).tensors,
-        "optimizer": {"state": {}},
-        "monitor_best": 0.01,
-        "config": {"model": settings_of(2)},
-    }
-    torch.save(content, tmp_path / "E2DEPTH_si_grad_loss_mixed.pth.tar")
-    monkeypatch.undo()
-    words = [str(write_training(tmp_path)), str(tmp_path / "E2DEPTH_si_grad_loss_mixed.pth.tar")]
-    assert main(["evaluate", "depth", *words, "--device", "cpu"]) == 0
-    assert "abs_rel at events" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize("task", TASK_NAMES)

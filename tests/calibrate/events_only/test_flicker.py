@@ -126,10 +126,3 @@ def test_cycles_and_bursts_of_a_pixel_by_hand():
     assert on.follows.tolist() == [False, True] * (len(on.pixel) // 2)
     assert np.diff(on.since_us)[::2] == pytest.approx(2000, abs=1)
     assert not off.follows.any()
-
-
-def test_a_region_of_a_few_pixels_gives_the_thresholds_of_the_circuit():
-    events = simulate_flicker(TRUTH, SensorSize(3, 2), 5.0, ratio=6.0, number=40)
-    found = {one.name: one for one in measure_flicker(events, START, hz=5.0, ratio=6.0).found}
-    assert found["cutoff_hz"].value == pytest.approx(120, rel=0.1)
-    assert found["contrast_threshold"].value == pytest.approx(0.26, rel=0.25)

@@ -102,11 +102,3 @@ def test_hot_pixels_stand_out_of_the_spread_of_the_others():
     assert find_hot_pixels(counts, everywhere).sum() <= 1
     counts[[5, 70]] = 400
     assert np.flatnonzero(find_hot_pixels(counts, everywhere)).tolist() == [5, 70]
-
-
-def test_a_region_of_a_few_pixels_is_measured_too():
-    few = SensorSize(3, 2)
-    scene = measure_static_scene(record(TRUTH, seconds=30.0, size=few), START)
-    noise = next(one for one in scene.found if one.name == "noise_rate_hz")
-    # Six pixels differ by 0.2 decades: this specimen's mean, not that of all sensors, is found.
-    assert 1.0 < noise.low < noise.value < noise.high < 9.0

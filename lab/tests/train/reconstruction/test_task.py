@@ -11,7 +11,7 @@ import pytest
 from tests.metrics.lpips.lpips_files import narrow_weights
 
 from texvent.cli.app import main
-from texvent.metrics.image_measures import mean_squared_error, structural_similarity
+from texvent.metrics.image_measures import mean_squared_error
 from texvent.metrics.lpips import ALEX, FILE_NAME, write_lpips_weights
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.registries import RECONSTRUCTORS
@@ -28,7 +28,6 @@ from texvent_lab.train.reconstruction.config import (  # noqa: E402
 )
 from texvent_lab.train.reconstruction.task import ReconstructionTask  # noqa: E402
 from texvent_lab.train.run import (  # noqa: E402
-    evaluate_from_file,
     read_training,
     train_from_file,
 )
@@ -118,23 +117,6 @@ def test_in_a_pause_nothing_happens_and_nothing_is_lost(folder: Path) -> None:
     assert not np.array_equal(example["images"][0], example["images"][2])
 
 
-def test_training_lowers_the_loss_on_a_fixed_set(folder: Path, tmp_path: Path) -> None:
-    # Everything moves, and strong edges everywhere let sixteen steps teach something (from each of
-    # four seeds the loss falls below 0.62 of what it was).
-    moving = TEXT.replace(
-        "a {colour} ball flies {way}", "a {colour} checkerboard, the camera pans {way}"
-    )
-    (folder / "moving.toml").write_text(moving)
-    text = TRAINING.replace("epochs = 2", "epochs = 8").replace("tiny.toml", "moving.toml") + (
-        "[augmentation]\nflip = false\nnoise = 0\nhot_pixels = 0\npause_begin = 0\n"
-    )
-    path = write(folder, text, "fixed.toml")
-    state = train_from_file(ReconstructionConfig, path, tmp_path / "run", CPU)
-    losses = [row["training loss"] for row in state.rows]
-    assert losses[-1] < 0.8 * losses[0]
-    assert state.rows[-1]["mse"] < state.rows[0]["mse"]
-
-
 def test_mixed_precision_trains_weights_of_full_precision(folder: Path, tmp_path: Path) -> None:
     mixed = replace(CPU, precision="bfloat16")
     state = train_from_file(ReconstructionConfig, folder / "training.toml", tmp_path / "run", mixed)
@@ -166,25 +148,6 @@ def test_a_published_file_is_read_as_that_network_and_gives_its_images(
     content = torch.load(tmp_path / "weights.pt", weights_only=True)
     task.read(again, content, tmp_path / "weights.pt")
     assert all(torch.equal(one, again.tensors[key]) for key, one in network.tensors.items())
-
-
-def test_scores_are_those_of_the_reconstructor(folder: Path, tmp_path: Path) -> None:
-    path = folder / "training.toml"
-    state = train_from_file(ReconstructionConfig, path, tmp_path / "run", CPU)
-    found = evaluate_from_file(
-        ReconstructionConfig, path, tmp_path / "run" / "weights.pt", CPU
-    ).scores
-    assert found["ssim"] == state.rows[state.best_epoch - 1]["ssim"]
-    clips = ReconstructionTask(config_of(folder))._validation
-    reconstructor = load_reconstructor("firenet", tmp_path / "run" / "weights.pt", device="cpu")
-    values = []
-    for number in range(len(clips)):
-        reconstructor.reset()
-        windows = clips.read(number)
-        for events, frame in zip(windows.events, windows.targets["frame"], strict=True):
-            image = reconstructor.reconstruct(events).astype(np.float64)
-            values.append(structural_similarity(image, frame.astype(np.float64) / 255))
-    assert found["ssim"] == pytest.approx(np.mean(values), rel=1e-9)
 
 
 def test_some_windows_are_scored_and_all_are_seen(folder: Path) -> None:
@@ -239,4 +202,4 @@ def test_videos_train_without_flow(tmp_path: Path) -> None:
     task = ReconstructionTask(read_training(path, ReconstructionConfig()))
     batch = next(task.batches(workers=0).epoch(0))
     assert "flow" not in batch
-    assert float(task.loss(task.make_network(), batch, DEVICE)) > 0
+    assert task.loss(task.make_network(), batch, DEVICE).item() > 0
