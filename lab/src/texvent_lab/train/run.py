@@ -138,7 +138,11 @@ def evaluate_from_file(
     Raises:
         InputError, ConfigError, FileFormatError: the file, the samples or the weights do not fit.
     """
-    config = read_training(specification, kind())
+    return evaluate(read_training(specification, kind()), weights, hardware)
+
+
+def evaluate(config: TrainingConfig, weights: Path, hardware: Hardware) -> Evaluation:
+    """Score trained weights on the validation samples of a training; see `evaluate_from_file`."""
     if not weights.is_file():
         raise InputError(f"there is no weights file {weights}; texvent train writes weights.pt")
     task, device = config.make_task(), hardware.find_device()

@@ -13,17 +13,17 @@ from texvent.events import EventStream
 from texvent.extending import METRICS
 from texvent.metrics.compare import load_metric
 from texvent.sensor import SensorSize
-from texvent_lab.bench.document import write_document
+from texvent_lab.bench.document import read_document, read_records, write_document
 from texvent_lab.bench.selftest import run as selftest
 from texvent_lab.bench.selftest.run import (
     DETECTED,
     PERTURBATIONS,
+    SelftestRow,
     evaluate_metric,
     perturb,
     run_selftest,
 )
 from texvent_lab.bench.selftest.table import (
-    read_selftest,
     selftest_chart,
     selftest_document,
     selftest_table,
@@ -128,12 +128,13 @@ def test_a_run_gives_rows_that_survive_their_document(tmp_path, recordings, monk
     # A marginal finds little, and the test says so rather than passing everything.
     assert len(rows[1].found) < 10
     write_document(tmp_path / "rows.json", selftest_document(rows), overwrite=False)
-    again = read_selftest(tmp_path / "rows.json")
+    again = read_records(SelftestRow, read_document(tmp_path / "rows.json")["rows"])
     assert again == rows
     assert "| stpp | 0.868" in selftest_table(again)
 
 
-PUBLISHED = {row.metric: row for row in read_selftest(ROOT / "docs/results/selftest.json.gz")}
+STORED = read_document(ROOT / "docs/results/selftest.json.gz")["rows"]
+PUBLISHED = {row.metric: row for row in read_records(SelftestRow, STORED)}
 
 
 def test_every_metric_has_a_published_row_but_the_one_whose_weights_cannot_be_had():

@@ -1,14 +1,15 @@
-"""What the benchmark runs: every simulator by every way of filling the time between frames."""
+"""Rows of the benchmarks: simulators by interpolators, or config files."""
 
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeAlias
 
-from texvent.errors import ConfigError, shown
+from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.extending import SIMULATORS, suggest
 from texvent.run.prepare import prepare_video
@@ -68,13 +69,6 @@ class Entry:
     @property
     def _is_calibrated(self) -> bool:
         return (self.simulator, self.preset) == CALIBRATED
-
-    @classmethod
-    def parse(cls, name: str) -> Entry:
-        """The entry that tables call so."""
-        model, _, interpolate = name.rpartition(", ")
-        simulator, _, preset = model.partition(" ")
-        return cls(simulator=simulator, preset=preset or None, interpolate=interpolate)
 
     def settings(self, seed: int) -> Settings:
         """Resolved options of a run.
@@ -175,3 +169,61 @@ def _check_presets(chosen: list[tuple[str, str | None]]) -> None:
             raise ConfigError(
                 f"simulator {simulator!r} has no preset {shown(preset)}; {suggest(preset, allowed)}"
             )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ConfigEntry(Entry):
+    """A row whose options stand in a config file."""
+
+    path: Path
+    """TOML or YAML file."""
+
+    @classmethod
+    def read(cls, path: Path, *, is_rate_matched: bool = False) -> ConfigEntry:
+        """The row of a config file.
+
+        Raises:
+            InputError: the file cannot be read.
+            ConfigError: it is wrong.
+        """
+        settings = resolve("simulate", {}, config=path)
+        return cls(
+            simulator=settings.run.simulator,
+            interpolate=settings.interpolate.interpolate,
+            path=path,
+            is_rate_matched=is_rate_matched,
+        )
+
+    @property
+    def name(self) -> str:
+        """The file's name without its extension."""
+        return self.path.stem
+
+    def settings(self, seed: int) -> Settings:
+        """Resolved options of a run.
+
+        Raises:
+            ConfigError: the file holds an unknown option, or a value out of range.
+        """
+        return resolve("simulate", {"seed": seed}, config=self.path)
+
+
+def read_ablations(folder: Path, *, is_rate_matched: bool = False) -> list[ConfigEntry]:
+    """One row per config file of a folder, E2 before E10.
+
+    Raises:
+        InputError: there is no such folder, or no config file in it.
+        ConfigError: a file is wrong.
+    """
+    paths = sorted(folder.glob("*.toml"), key=_by_number)
+    if not paths:
+        raise InputError(
+            f"no config file in {folder}; give the folder configs/paper of the source "
+            "distribution, or one with TOML files of your own"
+        )
+    return [ConfigEntry.read(path, is_rate_matched=is_rate_matched) for path in paths]
+
+
+def _by_number(path: Path) -> tuple[str, int, str]:
+    match = re.fullmatch(r"(\D*)(\d+)(.*)", path.stem)
+    return (match[1], int(match[2]), match[3]) if match else (path.stem, -1, "")

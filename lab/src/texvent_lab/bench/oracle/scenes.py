@@ -124,11 +124,6 @@ def check_scene(name: str) -> None:
         raise ConfigError(f"unknown scene {shown(name)}; {suggest(name, scene_names())}")
 
 
-def known_flow(name: str) -> tuple[float, float] | None:
-    """Velocity (vx, vy) of everything in a scene, px/s, where the whole scene moves as one."""
-    return FLOWS.get(name)
-
-
 def panning_texture(
     noise: ValueNoise, size: SensorSize, seconds: float, velocity: tuple[float, float]
 ) -> Float64Array:

@@ -11,9 +11,9 @@ from __future__ import annotations
 import dataclasses
 import itertools
 import time
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any, TypeAlias
+from typing import Any
 
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
@@ -25,15 +25,11 @@ from texvent.represent.slices import slice_between
 from texvent.run.rate_search import match_rate
 from texvent.simulate.model_options import contrast_threshold_of
 from texvent.video import MICROSECONDS
-from texvent_lab.bench.document import MarkdownReport
 from texvent_lab.bench.fidelity.entries import Entry
 from texvent_lab.bench.jobs import Progress, no_progress
 from texvent_lab.bench.real.recording import FrameRecording
 from texvent_lab.bench.reconstruction.scores import ImageScores, ScoreCollector, score_images
-from texvent_lab.reconstruct.reconstructor import Intensity, Reconstructor
-
-ImageCallback: TypeAlias = Callable[[str, str, int, Intensity], None]
-"""Called with every image: recording, source of the events, time in µs, image."""
+from texvent_lab.reconstruct.reconstructor import Reconstructor
 
 RECORDED = "recorded"
 """What the sensor's own events are called."""
@@ -41,10 +37,6 @@ DEFAULT_SKIP = 10
 """Images that do not count where no part of the recording is named: a network needs time."""
 MATCH_SECONDS = 1.0
 """How much of a recording is simulated to fit the number of events."""
-
-
-def _ignore_image(recording: str, source: str, t_us: int, image: Intensity) -> None:
-    del recording, source, t_us, image
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -110,7 +102,7 @@ class ReconstructionRow:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReconstructionReport(MarkdownReport):
+class ReconstructionReport:
     """Everything a run found."""
 
     network: str
@@ -122,12 +114,6 @@ class ReconstructionReport(MarkdownReport):
     """Measure → why it is left out."""
     skipped: dict[str, str] = field(default_factory=dict)
     """Entry → why it did not run."""
-
-    def markdown(self) -> str:
-        """All tables of the run."""
-        from texvent_lab.bench.reconstruction.table import reconstruction_tables  # reads reports
-
-        return reconstruction_tables(self)
 
     def sources(self) -> list[str]:
         """Sources of events, the recorded ones first."""
@@ -146,7 +132,6 @@ class ReconstructionScorer:
     """The network; it is reset before each recording."""
     measures: Measures
     plan: ReconstructionPlan
-    on_image: ImageCallback = _ignore_image
 
     def score(
         self, recording: FrameRecording, packets: Iterable[EventStream], *, source: str = RECORDED
@@ -163,15 +148,20 @@ class ReconstructionScorer:
         """
         start = time.perf_counter()
         times_us = self.plan.frame_times_us(recording)
-        counted = _Counter()
-        slices = counted.pass_on(slice_between(packets, times_us, size=recording.frames.size))
-        images = self._reported(self.reconstructor.reconstruct_all(slices), recording, source)
+        counts: list[int] = []
+
+        def counted() -> Iterator[tuple[int, EventStream]]:
+            for t_us, events in slice_between(packets, times_us, size=recording.frames.size):
+                counts.append(len(events))
+                yield t_us, events
+
+        images = self.reconstructor.reconstruct_all(counted())
         scores = score_images(images, recording.frames, self.new_collector(recording))
         return ReconstructionRow(
             recording=recording.name,
             source=source,
             scores=scores,
-            events=counted.events,
+            events=sum(counts),
             seconds=time.perf_counter() - start,
         )
 
@@ -179,13 +169,6 @@ class ReconstructionScorer:
         """A collector for the part of a recording that counts."""
         span_us, skip = self.plan.scored_part(recording)
         return ScoreCollector(self.measures, span_us=span_us, skip=skip)
-
-    def _reported(
-        self, images: Iterable[tuple[int, Intensity]], recording: FrameRecording, source: str
-    ) -> Iterator[tuple[int, Intensity]]:
-        for t_us, image in images:
-            self.on_image(recording.name, source, t_us, image)
-            yield t_us, image
 
 
 def run_reconstruction(
@@ -286,17 +269,3 @@ def _threshold_of(simulation: Simulation) -> float | None:
         return contrast_threshold_of(simulation.settings.simulate)
     except ConfigError:
         return None
-
-
-@dataclass
-class _Counter:
-    """Counts the events of slices that pass by."""
-
-    events: int = 0
-
-    def pass_on(
-        self, slices: Iterable[tuple[int, EventStream]]
-    ) -> Iterator[tuple[int, EventStream]]:
-        for t_us, events in slices:
-            self.events += len(events)
-            yield t_us, events

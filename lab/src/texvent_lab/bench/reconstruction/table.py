@@ -13,7 +13,7 @@ from texvent_lab.bench.reconstruction.noise_robustness import NoiseScore
 from texvent_lab.bench.reconstruction.run import RECORDED, ReconstructionReport, ReconstructionRow
 from texvent_lab.bench.reconstruction.scores import ImageScores, pool_scores
 
-SCHEMA = "texvent-reconstruction-1"
+SCHEMA = "texvent-reconstruction-2"
 """Name of the document's layout; docs/reconstruction.md describes it."""
 COLUMNS = {"mse": "MSE ↓", "psnr": "PSNR, dB ↑", "ssim": "SSIM ↑", "lpips": "LPIPS ↓"}
 DIGITS = {"mse": 4, "psnr": 2, "ssim": 3, "lpips": 3}
@@ -90,8 +90,7 @@ def reconstruction_document(
         "noise": [
             {
                 "recording": one.recording,
-                "kind": one.level.kind,
-                "amount": one.level.amount,
+                "share": one.share,
                 "against_clean": _score_values(one.against_clean),
                 "against_frames": _score_values(one.against_frames),
             }
@@ -159,9 +158,7 @@ def _noise_table(points: Sequence[NoiseScore]) -> str:
     titles = [COLUMNS[name] for name in measures]
     lines = []
     for point in points:
-        amount = point.level.amount
-        is_share = point.level.kind == "scattered"
-        name = f"{amount:.0%} of the events scattered" if is_share else f"{amount:g} Hz per pixel"
+        name = f"{point.share:.0%} of the events scattered"
         lines.append([name, *_means(point.against_clean), *_means(point.against_frames)])
     against = [f"{title}, {what}" for what in ("to clean", "true") for title in titles]
     return markdown_table(["noise", *against], lines)

@@ -23,11 +23,9 @@ from texvent.metrics.controls import (
     shuffle_space,
     shuffle_time,
     stream_of,
-    with_more,
 )
 from texvent.metrics.protocol import Metric
 from texvent.metrics.summary import badness
-from texvent_lab.bench.document import MarkdownReport
 from texvent_lab.bench.jobs import Progress, no_progress
 from texvent_lab.bench.oracle.pixel import NOISY
 from texvent_lab.bench.oracle.recording import oracle_scene, record
@@ -73,15 +71,6 @@ def shuffle_in_frames(events: EventStream, rng: Generator) -> EventStream:
 def drop(events: EventStream, rng: Generator, *, share: float) -> EventStream:
     """A random share of the events lost."""
     return events[rng.random(len(events)) >= share]
-
-
-def add_background(
-    events: EventStream, rng: Generator, *, rate_hz: float, span_us: tuple[int, int]
-) -> EventStream:
-    """Background activity: a Poisson process of that rate at every pixel, `[start, stop)`."""
-    pixels = events.size.width * events.size.height
-    mean = rate_hz * pixels * (span_us[1] - span_us[0]) / 1_000_000
-    return with_more(events, draw_columns(rng, int(rng.poisson(mean)), events.size, span_us))
 
 
 def scatter(events: EventStream, rng: Generator, *, share: float) -> EventStream:
@@ -190,19 +179,9 @@ class SelftestRow:
         return tuple(name for name in self.z if name not in self.found)
 
 
-class SelftestRows(list[SelftestRow], MarkdownReport):
-    """A row for each metric; a list in every other way."""
-
-    def markdown(self) -> str:
-        """The rows as a table, best metrics first."""
-        from texvent_lab.bench.selftest.table import selftest_table  # which reads rows
-
-        return selftest_table(self)
-
-
 def run_selftest(
     metrics: Iterable[str] | None = None, *, progress: Progress = no_progress
-) -> SelftestRows:
+) -> list[SelftestRow]:
     """Run the self-test on the oracle's `mixed` scene with noisy pixels.
 
     Args:
@@ -220,11 +199,11 @@ def run_selftest(
     progress(f"recording {SCENE} with {len(RECORDING_SEEDS)} seeds")
     recordings = record_scene()
     perturbed = {name: perturb(recordings[1], name) for name in PERTURBATIONS}
-    rows = []
+    rows: list[SelftestRow] = []
     for metric in chosen:
         progress(metric.name)
         rows.append(evaluate_metric(metric, recordings, perturbed))
-    return SelftestRows(rows)
+    return rows
 
 
 def record_scene() -> list[EventStream]:

@@ -4,18 +4,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict, fields
-from pathlib import Path
+from dataclasses import asdict
 from typing import Any
 
-from texvent.errors import FileFormatError, shown
 from texvent.metrics.compare import plain_values
-from texvent_lab.bench.document import (
-    check_record,
-    describe_environment,
-    read_document,
-    restore_nan,
-)
+from texvent_lab.bench.document import describe_environment, markdown_table
 from texvent_lab.bench.selftest.run import (
     DETECTED,
     PERTURBATIONS,
@@ -24,10 +17,9 @@ from texvent_lab.bench.selftest.run import (
     SERIES,
     TEXTURE_SEED,
     SelftestRow,
-    SelftestRows,
     ranked_rows,
 )
-from texvent_lab.charts import Matrix, matrix_chart
+from texvent_lab.charts import matrix_chart
 
 SCHEMA = "texvent-selftest-1"
 """Name of the document's layout: one entry of `rows` per `SelftestRow`."""
@@ -45,19 +37,16 @@ LEGEND = (
 
 def selftest_table(rows: Sequence[SelftestRow]) -> str:
     """The result as a Markdown table, best metrics first."""
-    lines = [
-        f"| metric | floor | found /{len(PERTURBATIONS)} | monotone /{len(SERIES)} | missed |",
-        "|---|---|---|---|---|",
-    ]
+    lines = []
     for row in ranked_rows(rows):
         missed = row.missed
         if len(missed) > MOST_NAMES:
             missed = (*missed[: MOST_NAMES - 1], "...")
-        lines.append(
-            f"| {row.metric} | {row.floor:.4g} ± {row.floor_sd:.1g} | {len(row.found)} "
-            f"| {sum(row.monotone.values())} | {', '.join(missed) or '–'} |"
-        )
-    return "\n".join(lines) + "\n"
+        floor = f"{row.floor:.4g} ± {row.floor_sd:.1g}"
+        counts = (str(len(row.found)), str(sum(row.monotone.values())))
+        lines.append((row.metric, floor, *counts, ", ".join(missed) or "–"))
+    totals = (f"found /{len(PERTURBATIONS)}", f"monotone /{len(SERIES)}")
+    return markdown_table(("metric", "floor", *totals, "missed"), lines)
 
 
 def selftest_document(rows: Sequence[SelftestRow]) -> dict[str, Any]:
@@ -73,43 +62,20 @@ def selftest_document(rows: Sequence[SelftestRow]) -> dict[str, Any]:
     }
 
 
-def read_selftest(path: Path) -> SelftestRows:
-    """The rows of a document that `texvent bench selftest --out` wrote.
-
-    Raises:
-        InputError: there is no such file.
-        FileFormatError: it is no self-test of this layout.
-    """
-    document = read_document(path)
-    if document.get("schema") != SCHEMA:
-        raise FileFormatError(
-            f"{path} has the schema {shown(document.get('schema'))}, expected {SCHEMA!r}; "
-            "write one with texvent bench selftest --out"
-        )
-    names = {field.name for field in fields(SelftestRow)}
-    rows = restore_nan(document.get("rows"))
-    if not isinstance(rows, list):
-        raise FileFormatError(f"{path} has no list of rows")
-    for number, row in enumerate(rows):
-        check_record(SelftestRow, row, f"{path}: row {number}")
-    return SelftestRows(SelftestRow(**{name: row[name] for name in names}) for row in rows)
-
-
 def selftest_chart(rows: Sequence[SelftestRow]) -> bytes:
     """An SVG image of z-scores, the metrics that found most on top.
 
     Args:
-        rows: result of `run_selftest` or `read_selftest`.
+        rows: result of `run_selftest`.
     """
     ranked = ranked_rows(rows)
-    matrix = Matrix(
-        title="",
+    return matrix_chart(
         rows=[row.metric for row in ranked],
         columns=[*PERTURBATIONS],
         colours=[[_colour(row.z[name]) for name in PERTURBATIONS] for row in ranked],
         texts=[[_short(row.z[name]) for name in PERTURBATIONS] for row in ranked],
+        note=LEGEND,
     )
-    return matrix_chart([matrix], note=LEGEND)
 
 
 def _colour(z: float) -> tuple[float, float, float, float]:

@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import ClassVar
 
 from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
-from texvent.io.atomic import atomic_file
 from texvent.metrics.image_measures import load_measures
 from texvent.sensor import parse_sensor
 from texvent_lab.bench.fidelity.entries import choose_entries
@@ -22,7 +20,6 @@ from texvent_lab.bench.reconstruction.run import (
     ReconstructionScorer,
     run_reconstruction,
 )
-from texvent_lab.bench.reconstruction.scores import ReconstructionGrid
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent_lab.commands.bench.bench import ResultOptions
 from texvent_lab.reconstruct.reconstructor import ReconstructConfig, load_reconstructor
@@ -34,8 +31,6 @@ those that each simulator makes of the frames. All are compared with the frames 
 A recording is a pulled data set (slider_depth, davis346), a folder of the Event-Camera Dataset, an
 EVREAL folder with images, an AEDAT4 file with frames, or an event file with --frames. The
 network's weights must be yours: docs/reconstruction.md says where they come from."""
-GRID_PARTS = (0.2, 0.4, 0.6, 0.8)
-"""Where in the scored part the images of --image are taken."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -46,7 +41,7 @@ class ReconstructionOptions:
     positional: ClassVar[tuple[str, ...]] = ("recordings",)
     main_options: ClassVar[tuple[str, ...]] = (
         "network", "weights", "simulators", "interpolations", "match_rate", "time", "noise", "out",
-        "image", "overwrite",
+        "overwrite",
     )  # fmt: skip
 
     recordings: tuple[str, ...] = ("slider_depth",)
@@ -74,8 +69,6 @@ class ReconstructionOptions:
     """Also add noise to the recorded events step by step: the paper's Table 7."""
     seed: int = 0
     """Of the simulators and of the noise."""
-    image: Path | None = None
-    """PNG file with the images of the first recording, a row per source of events."""
 
     def plan(self) -> ReconstructionPlan:
         """What these options ask for.
@@ -126,30 +119,15 @@ def run(arguments: Sequence[str]) -> None:
         prog="texvent bench reconstruction",
         description=DESCRIPTION,
     )
-    output.check(options.image)
+    output.check()
     plan = options.plan()
     reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
     recordings = options.open_recordings()
     scorer = ReconstructionScorer(reconstructor=reconstructor, measures=load_measures(), plan=plan)
-    if options.image is not None:
-        grid = ReconstructionGrid(recordings[0], _instants(recordings[0], plan))
-        scorer = replace(scorer, on_image=grid)
     report = run_reconstruction(recordings, scorer, progress=output.progress)
     noise: list[NoiseScore] = []
     for recording in recordings if options.noise else ():
         output.progress(f"{recording.name}: noise")
         noise += noise_curve(recording, scorer)
     output.write(lambda: reconstruction_document(report, noise))
-    if options.image is not None:
-        with atomic_file(options.image, overwrite=output.overwrite) as part:
-            part.write_bytes(grid.png())
     write_out(reconstruction_tables(report, noise))
-
-
-def _instants(recording: FrameRecording, plan: ReconstructionPlan) -> list[int]:
-    """Times spread over the part that is scored, µs."""
-    span, skip = plan.scored_part(recording)
-    times = [frame.t_us for frame in recording.frames][1 + skip :]
-    first, last = span or (times[0], times[-1])
-    last = min(last, times[-1])
-    return [round(first + part * (last - first)) for part in GRID_PARTS]

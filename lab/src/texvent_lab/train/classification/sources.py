@@ -91,7 +91,11 @@ class RecordedSamples:
 
     def events(self, number: int) -> EventStream:
         """See `LabelledSamples`."""
-        events = load(self._files[number][1], size=self._size)
+        path = self._files[number][1]
+        try:
+            events = load(path)
+        except InputError:  # it stores no size
+            events = load(path, size=self._size)
         if not self._is_flipped:
             return events
         return EventStream(events.x, events.y, events.t, 1 - events.p, events.size)
