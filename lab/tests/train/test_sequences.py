@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from texvent.dataset.samples import record_clip, target_of
-from texvent.dataset.simulated_clips import SimulatedClips
 from texvent.errors import ConfigError, InputError
 from texvent_lab.train.sequences import SequenceData, WindowedClips
+from texvent_lab.train.simulated_clips import SimulatedClips
 
 from .windowed_specification import TEXT, write_specification
 

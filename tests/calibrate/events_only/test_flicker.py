@@ -8,13 +8,13 @@ import pytest
 
 from texvent.calibrate.events_only.flicker import NAMES, measure_flicker
 from texvent.calibrate.events_only.flicker_cycles import find_bursts, find_cycles
-from texvent.calibrate.events_only.known_scenes import simulate_flicker
 from texvent.calibrate.events_only.pixel_trains import PixelTrains
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent_lab.bench.oracle.pixel import NOISY, PixelArray
+from texvent_lab.measure.known_scenes import simulate_flicker
 
 SIZE = SensorSize(28, 20)
 START = PhysicalConfig(gamma=1.0)

@@ -5,12 +5,12 @@ import dataclasses
 import numpy as np
 import pytest
 
-from texvent.calibrate.events_only.known_scenes import simulate_static
 from texvent.calibrate.events_only.static_scene import find_hot_pixels, measure_static_scene
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent_lab.measure.known_scenes import simulate_static
 
 SIZE = SensorSize(96, 64)
 START = PhysicalConfig(gamma=1.0)

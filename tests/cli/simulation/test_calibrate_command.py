@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 
-from texvent.calibrate.events_only.known_scenes import simulate_flicker, simulate_static
 from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -10,6 +9,7 @@ from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.physical.threshold_map import read_threshold_map
 from texvent.video import Video
+from texvent_lab.measure.known_scenes import simulate_flicker, simulate_static
 
 
 @pytest.fixture(scope="module")

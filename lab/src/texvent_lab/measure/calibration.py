@@ -14,10 +14,10 @@ from typing import Any
 
 from texvent.calibrate.estimates import Estimate
 from texvent.calibrate.events_only.flicker import measure_flicker
-from texvent.calibrate.events_only.known_scenes import simulate_flicker, simulate_static
 from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent_lab.measure.known_scenes import simulate_flicker, simulate_static
 
 START = PhysicalConfig(gamma=1.0, noise_scale=1.0)
 SEEDS = (1, 2, 3)

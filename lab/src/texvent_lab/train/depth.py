@@ -10,11 +10,11 @@ from typing import Any, ClassVar
 from texvent.config import check_range
 from texvent.dataset.samples import Target
 from texvent.extending import require
-from texvent.metrics.dense_errors import FARTHEST_M, DepthError
 from texvent.networks.weight_files import Tensor
 from texvent_lab.networks import Padding
 from texvent_lab.networks.layers import make_seeded
 from texvent_lab.reconstruct.recurrent_unet import E2vid, UNetVariant
+from texvent_lab.train.dense_errors import FARTHEST_M, DepthError
 from texvent_lab.train.schedule import EXTRA, TrainingConfig
 from texvent_lab.train.sequences import SequenceData
 from texvent_lab.train.task import Score, Task

@@ -9,7 +9,6 @@ from typing import Any, ClassVar
 from texvent.config import check_range
 from texvent.dataset.samples import Target
 from texvent.extending import require
-from texvent.metrics.dense_errors import FlowError
 from texvent.networks.weight_files import Tensor
 from texvent.represent.voxel_grid import MAX_BINS
 from texvent_lab.networks import Padding
@@ -20,6 +19,7 @@ from texvent_lab.networks.layers import (
     UpsampleLayer,
     make_seeded,
 )
+from texvent_lab.train.dense_errors import FlowError
 from texvent_lab.train.schedule import EXTRA, TrainingConfig
 from texvent_lab.train.sequences import SequenceData
 from texvent_lab.train.task import Score, Task

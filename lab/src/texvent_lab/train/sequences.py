@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from texvent.config import check_range
 from texvent.dataset.samples import SlicedClip, Target, record_clip, target_of
-from texvent.dataset.simulated_clips import SimulatedClips
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
 from texvent.io.hdf5.storage import open_hdf5
 from texvent.runtime.cache_folder import cache_folder, make_folder
 from texvent.sensor import SensorSize
+from texvent_lab.train.simulated_clips import SimulatedClips
 
 
 @dataclass(frozen=True, kw_only=True)

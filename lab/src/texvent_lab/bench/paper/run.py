@@ -15,7 +15,6 @@ from texvent.data.pull import find_pulled
 from texvent.errors import ConfigError, InputError, MissingDependencyError, TexventError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.metrics.compare import load_metric
-from texvent.metrics.image_measures import load_measures
 from texvent.metrics.latent_similarity import load_eqs
 from texvent.metrics.protocol import Metric
 from texvent.sensor import SENSORS
@@ -41,6 +40,7 @@ from texvent_lab.bench.reconstruction.run import (
     run_reconstruction,
 )
 from texvent_lab.bench.reconstruction.scores import pool_scores
+from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor
 from texvent_lab.registries import RECONSTRUCTORS
 from texvent_lab.train.classification.config import (

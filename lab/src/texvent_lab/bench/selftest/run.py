@@ -25,10 +25,10 @@ from texvent.metrics.controls import (
     stream_of,
 )
 from texvent.metrics.protocol import Metric
-from texvent.metrics.summary import badness
 from texvent_lab.bench.jobs import Progress, no_progress
 from texvent_lab.bench.oracle.pixel import NOISY
 from texvent_lab.bench.oracle.recording import oracle_scene, record
+from texvent_lab.bench.summary import badness
 
 Perturbation: TypeAlias = Callable[[EventStream, Generator], EventStream]
 

@@ -14,11 +14,12 @@ from numpy.typing import NDArray
 from texvent.dataset.samples import Target
 from texvent.errors import ConfigError
 from texvent.extending import require
-from texvent.metrics.image_measures import Float64Array, load_measures
+from texvent.metrics.image_measures import Float64Array
 from texvent.metrics.lpips import find_lpips_weights, read_lpips_weights
 from texvent.networks.weight_files import STATE, Tensor
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.networks.layers import make_seeded
+from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import Intensity, Reconstructor
 from texvent_lab.reconstruct.recurrent_network import PublishedNetwork, RecurrentNetwork
 from texvent_lab.registries import RECONSTRUCTORS

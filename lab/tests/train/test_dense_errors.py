@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.typing import NDArray
 
-from texvent.metrics.dense_errors import DepthError, FlowError
+from texvent_lab.train.dense_errors import DepthError, FlowError
 
 DEPTHS = arrays(np.float64, (3, 4), elements=st.floats(0.5, 79, width=32))
 
