@@ -12,7 +12,6 @@ from types import SimpleNamespace
 import numpy as np
 import pytest
 
-from texvent.cli.app import main
 from texvent.data.catalogue import Archive, DataFile
 from texvent.errors import FileFormatError
 from texvent.metrics import lpips
@@ -130,15 +129,6 @@ def test_weights_of_another_network_are_not_kept(published, folders, options, co
     assert list((folders / "cache" / "weights").iterdir()) == []
 
 
-@pytest.mark.torch
-def test_an_archive_with_another_digest_is_refused(published):
-    pytest.importorskip("safetensors")
-    index = published()
-    index.content += b" "
-    with pytest.raises(FileFormatError, match=r"toy-1\.0.*sha256"):
-        pull_weights("toy", client=index)
-
-
 def test_weights_without_torch_are_fetched_by_the_base_install(folders, monkeypatch):
     content = pickle.dumps(published_alex())
     buffer = io.BytesIO()
@@ -173,25 +163,12 @@ def published_alex():
     return {"AlexNet_0": convolutions, **heads}
 
 
-def test_the_list_says_what_is_here(folders, capsys):
-    assert main(["weights", "list"]) == 0
-    before = capsys.readouterr().out
-    assert all(name in before for name in WEIGHTS)
-    assert "yes" not in before
-    path = folders / "cache" / "weights" / RIFE.file_name
-    path.parent.mkdir(parents=True)
-    path.write_bytes(b"stands for the weights")
-    assert main(["weights", "list"]) == 0
-    assert "yes" in capsys.readouterr().out
-
-
 @pytest.mark.parametrize("name", list(WEIGHTS))
 def test_every_entry_is_complete(name):
     entry = WEIGHTS[name]
     assert entry.name == name
     assert len(entry.source.archive.sha256) == len(entry.source.files[0].sha256) == 64
-    lpips_layouts = [layout.name for layout in lpips.LAYOUTS]
-    assert entry.layout in {"rife": RIFE_LAYOUTS, "lpips": lpips_layouts}[entry.kind]
+    assert entry.layout in {"rife": RIFE_LAYOUTS, "lpips": (None,)}[entry.kind]
     assert entry.source.caveat
 
 

@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from texvent.calibrate.estimates import describe_estimates, describe_scene, write_preset
+from texvent.calibrate.estimates import describe_scene, write_preset
 from texvent.calibrate.events_only.flicker import measure_flicker
 from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.calibrate.fit import describe_fit, fit_sensor
@@ -95,15 +95,12 @@ def main() -> None:
     config = dataclasses.replace(fit.config, initial_phase="random", threshold_map=None)
     source = "the benchmark's sensor"
     lines = [
-        *describe_scene(rest.found, rest.kept, rest.remarks, f"{source}, a field at rest"),
-        *describe_scene(
-            flicker.found, flicker.kept, flicker.remarks, f"{source}, a field that flickers"
-        ),
+        *describe_scene(rest, f"{source}, a field at rest"),
+        *describe_scene(flicker, f"{source}, a field that flickers"),
         *describe_fit(
             fit,
             "a texture of which one half moves, see lab/src/texvent_lab/measure/oracle_sensor.py",
         ),
-        *describe_estimates(fit.found, fit.kept),
     ]
     write_preset(config, lines, folder / SENSOR_FILE.name, size=SIZE, overwrite=True)
 

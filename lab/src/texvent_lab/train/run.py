@@ -19,8 +19,8 @@ from texvent.runtime.progress import NO_PROGRESS, Progress
 from texvent.settings.config_files import read_document
 from texvent_lab.reconstruct.checkpoint import LEFT_BY_TRAINING
 from texvent_lab.train.loop import TrainingState, train
-from texvent_lab.train.schedule import EXTRA, Hardware
-from texvent_lab.train.task import PredictingTask, TaskConfig
+from texvent_lab.train.schedule import EXTRA, Hardware, TrainingConfig
+from texvent_lab.train.task import PredictingTask
 
 Config = TypeVar("Config")
 
@@ -73,7 +73,7 @@ WHERE_FROM = "texvent train writes it as weights.pt"
 
 
 def train_from_file(
-    kind: type[TaskConfig],
+    kind: type[TrainingConfig],
     specification: Path,
     folder: Path,
     hardware: Hardware,
@@ -125,7 +125,7 @@ class Evaluation:
 
 
 def evaluate_from_file(
-    kind: type[TaskConfig], specification: Path, weights: Path, hardware: Hardware
+    kind: type[TrainingConfig], specification: Path, weights: Path, hardware: Hardware
 ) -> Evaluation:
     """Score trained weights; the training samples are not opened.
 
@@ -141,7 +141,7 @@ def evaluate_from_file(
     return evaluate(read_training(specification, kind()), weights, hardware)
 
 
-def evaluate(config: TaskConfig, weights: Path, hardware: Hardware) -> Evaluation:
+def evaluate(config: TrainingConfig, weights: Path, hardware: Hardware) -> Evaluation:
     """Score trained weights on the validation samples of a training; see `evaluate_from_file`."""
     if not weights.is_file():
         raise InputError(f"there is no weights file {weights}; texvent train writes weights.pt")

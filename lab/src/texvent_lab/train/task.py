@@ -1,4 +1,4 @@
-"""What a task brings to the training loop: its network, loss and scores, and its batches."""
+"""Interface of training tasks: network, loss, scores and batches."""
 
 from __future__ import annotations
 
@@ -15,29 +15,7 @@ from texvent.dataset.loading.torch_loader import collate
 from texvent.errors import TexventError
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor
-from texvent_lab.train.schedule import EXTRA, Schedule
-
-
-class TaskConfig(Protocol):
-    """What a training file may say for a task: a frozen dataclass, its tables dataclasses too."""
-
-    @property
-    def seed(self) -> int:
-        """Of the initial weights, the order of samples and their augmentation."""
-        ...
-
-    @property
-    def schedule(self) -> Schedule:
-        """How long and how it is trained."""
-        ...
-
-    def make_task(self) -> Task:
-        """The task; this imports torch, and opens the validation samples.
-
-        Raises:
-            InputError, ConfigError, FileFormatError: it cannot be trained; the message says why.
-        """
-        ...
+from texvent_lab.train.schedule import EXTRA
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,6 @@ class StandInReconstructor:
 
     name = "stand-in"
     sha256 = "0" * 64
-    is_published = False
 
     def __init__(self):
         self.reset()

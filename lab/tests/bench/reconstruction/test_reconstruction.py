@@ -5,7 +5,6 @@ import json
 import numpy as np
 import pytest
 
-from texvent.metrics.image_measures import load_measures
 from texvent_lab.bench.fidelity.entries import Entry
 from texvent_lab.bench.reconstruction.noise_robustness import noise_curve
 from texvent_lab.bench.reconstruction.run import (
@@ -19,6 +18,7 @@ from texvent_lab.bench.reconstruction.run import (
 )
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent_lab.bench.selftest.run import scatter
+from texvent_lab.reconstruct.image_measures import load_measures
 
 from .synthetic_network import FRAMES, STEP_US, StandInReconstructor, moving_bar
 
@@ -142,5 +142,4 @@ def test_tables_and_document_state_every_figure():
     assert document["network"] == {
         "name": "stand-in",
         "sha256": "0" * 64,
-        "is_published": False,
     }

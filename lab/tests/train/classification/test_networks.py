@@ -14,7 +14,6 @@ torch = pytest.importorskip("torch", reason="make test-torch runs the tests that
 
 from texvent_lab.networks.layers import make_seeded  # noqa: E402
 from texvent_lab.networks.resnet34 import BLOCKS, ResNet  # noqa: E402
-from texvent_lab.train.classification.task import SmallCnn  # noqa: E402
 
 from ..written_samples import bar  # noqa: E402
 from .torch_resnet import torch_resnet  # noqa: E402
@@ -45,17 +44,6 @@ def test_resnet34_computes_what_torchs_layers_do(is_training: bool) -> None:
             torch.testing.assert_close(tensor, noted[name], rtol=1e-4, atol=1e-6)
 
 
-def test_its_gradients_are_those_of_torchs_layers() -> None:
-    network = resnet34(2, 3, seed=1, width=4).train()
-    layers = torch_resnet(network.tensors, BLOCKS).train()
-    network(images()).square().sum().backward()
-    layers(images()).square().sum().backward()
-    for name, parameter in layers.named_parameters():
-        torch.testing.assert_close(
-            network.tensors[name].grad, parameter.grad, rtol=1e-3, atol=1e-4, msg=name
-        )
-
-
 def test_kernels_begin_as_torchvisions_and_the_replaced_layers_as_torchs() -> None:
     found = resnet34(2, 10, seed=5).tensors
     tensors = {name: one.detach() for name, one in found.items()}
@@ -70,18 +58,6 @@ def test_kernels_begin_as_torchvisions_and_the_replaced_layers_as_torchs() -> No
         assert float(tensors[name].abs().max()) == pytest.approx(1 / math.sqrt(inputs), rel=0.01)
     assert set(tensors["layer2.1.bn1.weight"].tolist()) == {1.0}
     assert set(tensors["layer2.1.bn1.running_mean"].tolist()) == {0.0}
-
-
-def test_the_seed_decides_the_weights() -> None:
-    one, two, three = (resnet34(2, 3, seed, width=2).tensors for seed in (1, 1, 2))
-    assert all(torch.equal(one[name], two[name]) for name in one)
-    assert not torch.equal(one["layer1.0.conv1.weight"], three["layer1.0.conv1.weight"])
-
-
-def test_a_wider_small_network_has_that_many_channels() -> None:
-    network = SmallCnn(2, 7, width=5)
-    assert [len(network.tensors[f"conv{stage}.weight"]) for stage in range(3)] == [5, 10, 20]
-    assert network(images()).shape == (4, 7)
 
 
 def test_resnet34_has_the_published_number_of_parameters() -> None:

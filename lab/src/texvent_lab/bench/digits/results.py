@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.metrics.summary import summarise
 from texvent_lab.bench.digits.data import CLASSES
 from texvent_lab.bench.document import markdown_table, read_records
+from texvent_lab.bench.summary import summarise
 
 SCHEMA = "texvent-digits-2"
 SIGNIFICANCE = 0.05

@@ -9,10 +9,10 @@ from typing import Any
 
 from texvent.errors import FileFormatError, shown
 from texvent.metrics.compare import load_metric, plain_values
-from texvent.metrics.summary import Summary, normalise, summarise
 from texvent_lab.bench.document import read_records
 from texvent_lab.bench.fidelity.comparison import Comparison
 from texvent_lab.bench.oracle.pixel import TARGETS
+from texvent_lab.bench.summary import Summary, normalise, summarise
 
 SCHEMA = "texvent-fidelity-2"
 """Name of the document's layout."""

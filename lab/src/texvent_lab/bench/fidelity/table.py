@@ -7,11 +7,11 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from texvent.errors import ConfigError, shown
 from texvent.extending import suggest
-from texvent.metrics.summary import normalise, summarise
 from texvent_lab.bench.document import markdown_table
 from texvent_lab.bench.fidelity.comparison import Comparison, comparison_note, difference_text
 from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent_lab.bench.oracle.pixel import TARGETS
+from texvent_lab.bench.summary import normalise, summarise
 
 BASELINE = "texvent paper, blend"
 """The paper's own method: what the others are compared with, pair by pair."""

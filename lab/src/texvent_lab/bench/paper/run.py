@@ -12,9 +12,8 @@ import numpy as np
 from texvent.errors import InputError, MissingDependencyError, TexventError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.metrics.compare import load_metric
-from texvent.metrics.image_measures import load_measures
 from texvent.metrics.latent_similarity import load_eqs
-from texvent.metrics.protocol import Metric, find_missing
+from texvent.metrics.protocol import Metric
 from texvent.sensor import SENSORS
 from texvent.video import Video
 from texvent_lab.bench.fidelity.comparison import difference_text
@@ -35,6 +34,7 @@ from texvent_lab.bench.reconstruction.run import (
     run_reconstruction,
 )
 from texvent_lab.bench.reconstruction.scores import pool_scores
+from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor
 from texvent_lab.train.classification.config import (
     ClassData,
@@ -144,7 +144,7 @@ def measure_event_frames(
     scenes: Sequence[RealScene], config: PaperConfig, progress: Progress
 ) -> Measured:
     """Table 1, event frames: MSE, SSIM and, where its weights are, LPIPS."""
-    missing = {name: find_missing(load_metric(name)) for name in EVENT_FRAMES.values()}
+    missing = {name: load_metric(name).missing() for name in EVENT_FRAMES.values()}
     metrics = ["stpp", *(name for name, reason in missing.items() if reason is None)]
     report = _run(scenes, metrics, config, progress)
     rows = {

@@ -18,7 +18,6 @@ from typing import Any
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.events import EventStream
-from texvent.metrics.image_measures import Measures
 from texvent.options.fields import option_names
 from texvent.pipeline import Simulation, video_to_events
 from texvent.represent.slices import slice_between
@@ -29,6 +28,7 @@ from texvent_lab.bench.fidelity.entries import Entry
 from texvent_lab.bench.jobs import Progress, no_progress
 from texvent_lab.bench.real.recording import FrameRecording
 from texvent_lab.bench.reconstruction.scores import ImageScores, ScoreCollector, score_images
+from texvent_lab.reconstruct.image_measures import Measures
 from texvent_lab.reconstruct.reconstructor import Reconstructor
 
 RECORDED = "recorded"
@@ -108,8 +108,6 @@ class ReconstructionReport:
     network: str
     sha256: str
     """Of the network's weights file."""
-    is_published: bool
-    """True if that is known to be the published file."""
     plan: ReconstructionPlan
     rows: Sequence[ReconstructionRow]
     absent: dict[str, str] = field(default_factory=dict)
@@ -207,7 +205,6 @@ def run_reconstruction(
     return ReconstructionReport(
         network=reconstructor.name,
         sha256=reconstructor.sha256,
-        is_published=reconstructor.is_published,
         plan=scorer.plan,
         rows=rows,
         absent=dict(scorer.measures.absent),

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
-from texvent.metrics.image_measures import Measures
 from texvent.video import Frame
+from texvent_lab.reconstruct.image_measures import Measures
 
 GreyImage: TypeAlias = NDArray[np.floating]
 """[H, W], 0..1."""

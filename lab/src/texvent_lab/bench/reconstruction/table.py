@@ -66,7 +66,6 @@ def reconstruction_document(
         "network": {
             "name": report.network,
             "sha256": report.sha256,
-            "is_published": report.is_published,
         },
         "span_us": plan.span_us,
         "skip": plan.skip,

@@ -24,11 +24,11 @@ from texvent.metrics.controls import (
     shuffle_time,
     stream_of,
 )
-from texvent.metrics.protocol import Metric, find_missing
-from texvent.metrics.summary import badness
+from texvent.metrics.protocol import Metric
 from texvent_lab.bench.jobs import Progress, no_progress
 from texvent_lab.bench.oracle.pixel import NOISY
 from texvent_lab.bench.oracle.recording import oracle_scene, record
+from texvent_lab.bench.summary import badness
 
 Perturbation: TypeAlias = Callable[[EventStream, Generator], EventStream]
 
@@ -193,7 +193,7 @@ def run_selftest(
     """
     chosen = default_metrics() if metrics is None else [load_metric(name) for name in metrics]
     for metric in chosen:
-        missing = find_missing(metric)
+        missing = metric.missing()
         if missing is not None:
             raise ConfigError(f"metric {metric.name} cannot be computed: {missing}")
     progress(f"recording {SCENE} with {len(RECORDING_SEEDS)} seeds")

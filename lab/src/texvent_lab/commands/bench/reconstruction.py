@@ -10,7 +10,6 @@ from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
-from texvent.metrics.image_measures import load_measures
 from texvent.sensor import parse_sensor
 from texvent_lab.bench.fidelity.entries import choose_entries
 from texvent_lab.bench.real.recording import FrameRecording, locate_source, open_recording
@@ -22,6 +21,7 @@ from texvent_lab.bench.reconstruction.run import (
 )
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent_lab.commands.bench.bench import ResultOptions
+from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import ReconstructConfig, load_reconstructor
 
 DESCRIPTION = """\

@@ -1,4 +1,4 @@
-"""The loss of optical flow: a case by hand, unknown pixels, a property."""
+"""EV-FlowNet and the loss of optical flow: sizes, a case by hand, unknown pixels, a property."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from texvent_lab.train.flow.task import flow_loss  # noqa: E402
+from texvent_lab.train.flow import flow_loss, make_ev_flow_net  # noqa: E402
 
 pytestmark = pytest.mark.torch
 
@@ -44,3 +44,18 @@ def test_turned_flows_are_as_far_apart(seed: int, angle: float) -> None:
     turned = torch.einsum("ij,knjhw->knihw", turn, flows)
     one, other = (float(flow_loss([pair[0]], pair[1])) for pair in (flows, turned))
     assert one == pytest.approx(other)
+
+
+def test_ev_flow_net_gives_flow_at_four_scales() -> None:
+    network = make_ev_flow_net(5, 4, seed=0)
+    flows = network(torch.rand(2, 5, 45, 60))
+    assert [tuple(flow.shape) for flow in flows] == [(2, 2, 45, 60)] * 4
+    sum(flow.sum() for flow in flows).backward()
+    assert all(one.grad is not None for one in network.parameters())
+
+
+def test_ev_flow_net_has_as_many_channels_as_published() -> None:
+    tensors = make_ev_flow_net(5, 32, 0).tensors
+    assert tensors["multires_unet.encoders.3.conv2d.weight"].shape == (512, 256, 3, 3)
+    assert tensors["multires_unet.decoders.1.conv2d.weight"].shape == (128, 514, 3, 3)
+    assert tensors["multires_unet.preds.3.conv2d.weight"].shape == (2, 32, 1, 1)

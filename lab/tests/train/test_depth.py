@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from texvent_lab.train.depth.task import (  # noqa: E402  # noqa: E402
+from texvent_lab.train.depth import (  # noqa: E402
     decode_depth,
     encode_depth,
     gradient_loss,

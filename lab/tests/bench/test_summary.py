@@ -1,6 +1,6 @@
 import math
 
-from texvent.metrics.summary import normalise, summarise
+from texvent_lab.bench.summary import normalise, summarise
 
 
 def test_summary_counts_undefined_values_instead_of_replacing_them():

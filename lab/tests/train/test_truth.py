@@ -7,12 +7,14 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from texvent.represent.voxel_grid import voxel_e2vid
-from texvent_lab.train.sequences.config import SequenceData
-from texvent_lab.train.sequences.truth import TruthExamples
+from texvent_lab.train.sequences import SequenceData
+from texvent_lab.train.truth import TruthExamples, crop_randomly, flip
 
 from .windowed_specification import write_specification
 
@@ -73,3 +75,33 @@ def test_depth_and_flow_share_their_stored_clips(data: SequenceData) -> None:
     for target in ("depth", "flow"):
         TruthExamples.open(data, "train", target, 4)
         assert len(list(data.cache.glob("*.h5"))) == 1
+
+
+@given(st.integers(1, 9), st.integers(1, 9), st.data())
+def test_a_crop_is_the_same_square_of_every_map(height: int, width: int, data) -> None:
+    side = data.draw(st.integers(1, min(height, width)))
+    seed = data.draw(st.integers(0, 100))
+    whole = {"place": np.arange(height * width).reshape(1, height, width)}
+    cut = crop_randomly(whole, side, np.random.default_rng(seed))
+    top, left = divmod(int(cut["place"][0, 0, 0]), width)
+    assert cut["place"].shape == (1, side, side)
+    square = whole["place"][..., top : top + side, left : left + side]
+    np.testing.assert_array_equal(cut["place"], square)
+
+
+def test_mirrored_flow_points_to_the_mirrored_pixel() -> None:
+    chance = np.random.default_rng(0)
+    image = chance.random((1, 4, 6)).astype(np.float32)
+    flow = np.stack([np.full((4, 6), 2.0), np.full((4, 6), -1.0)])[None].astype(np.float32)
+    for x in (False, True):
+        for y in (False, True):
+            turned = flip({"image": image, "flow": flow}, x=x, y=y)
+            assert turned["flow"].dtype == np.float32
+            for row in range(1, 4):
+                for column in range(4):
+                    # The pixel that (column, row) moves to, and the same in the mirror.
+                    target = image[0, row - 1, column + 2]
+                    r, c = (3 - row if y else row), (5 - column if x else column)
+                    dx, dy = turned["flow"][0, :, r, c].astype(int)
+                    assert turned["image"][0, r, c] == image[0, row, column]
+                    assert turned["image"][0, r + dy, c + dx] == target

@@ -1,21 +1,23 @@
-"""Windows of clips with their truth, cut for training."""
+"""Maps learned from windows of events with exact truth: examples, and the task that scores them."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from pathlib import Path
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.dataset.samples import Target
 from texvent.errors import ConfigError
+from texvent.networks.weight_files import STATE
 from texvent.represent.event_frame import count_events
 from texvent.represent.voxel_grid import voxel_e2vid
-from texvent_lab.train.sequences.clips import WindowedClips
-from texvent_lab.train.sequences.config import SequenceData
-from texvent_lab.train.task import Batches
+from texvent_lab.train.schedule import TrainingConfig
+from texvent_lab.train.sequences import SequenceData, WindowedClips
+from texvent_lab.train.task import Batches, Score
 
 TRUTHS: tuple[Target, ...] = ("flow", "depth")
 """Of every stored clip, so that depth and flow are trained on the same files."""
@@ -71,17 +73,6 @@ class TruthExamples:
         """See `MakeSample`."""
         return self.clips.identity
 
-    def batches(self, batch_size: int, *, seed: int, workers: int) -> Batches:
-        """The examples in batches; whole clips stay in their order."""
-        return Batches(
-            make=self,
-            count=len(self),
-            batch_size=batch_size,
-            seed=seed,
-            shuffle=not self.is_whole,
-            workers=workers,
-        )
-
     def __call__(self, number: int, chance: np.random.Generator) -> Mapping[str, Any]:
         """An example.
 
@@ -106,8 +97,7 @@ class TruthExamples:
         maps = {GRIDS: np.stack(grids), SEEN: np.stack(seen), self.target: truth}
         if not self.is_whole:
             maps = crop_randomly(maps, self.clips.data.crop, chance)
-            x, y = chance.random(2) < 0.5
-            maps = flip(maps, x=bool(self.flips_x and x), y=bool(self.flips_y and y))
+            maps = flip_randomly(maps, chance, x=self.flips_x, y=self.flips_y)
         return {name: np.ascontiguousarray(one) for name, one in maps.items()}
 
 
@@ -141,7 +131,77 @@ def flip(maps: Maps, *, x: bool, y: bool) -> dict[str, Any]:
     return flipped
 
 
-def flip_randomly(maps: Maps, chance: np.random.Generator) -> dict[str, Any]:
-    """Mirrored along each axis with probability 1/2."""
-    x, y = chance.random(2) < 0.5
-    return flip(maps, x=bool(x), y=bool(y))
+def flip_randomly(
+    maps: Maps, chance: np.random.Generator, *, x: bool = True, y: bool = True
+) -> dict[str, Any]:
+    """Mirrored along each axis with probability 1/2, if that axis is chosen at all."""
+    drawn_x, drawn_y = chance.random(2) < 0.5
+    return flip(maps, x=bool(x and drawn_x), y=bool(y and drawn_y))
+
+
+class TruthTask:
+    """A network that predicts a map for each window, scored at all pixels and at those with events.
+
+    Subclasses name what they predict and the network, its loss and its errors.
+    """
+
+    score: ClassVar[Score]
+    target: ClassVar[Target]
+    errors: ClassVar[type[Any]]
+    """Class with `update(predicted, true, mask)` and `compute`, of `texvent.metrics`."""
+    where_from: ClassVar[str]
+    """Source of weights that fit, for messages."""
+
+    def __init__(
+        self, config: TrainingConfig, data: SequenceData, *, bins: int, **flips: bool
+    ) -> None:
+        """Open the validation samples.
+
+        Args:
+            config: of the training.
+            data: its clips.
+            bins: of the voxel grids.
+            flips: `flips_x` and `flips_y` of the training samples.
+
+        Raises:
+            InputError, ConfigError, FileFormatError: they do not fit; the message says why.
+        """
+        self._config, self._data, self._bins, self._flips = config, data, bins, flips
+        self._validation = TruthExamples.open(
+            data, data.validation_split, self.target, bins, is_whole=True
+        )
+
+    def predict(self, network: Any, grids: Any) -> Any:
+        """Predicted maps of a clip, [windows, ...] as the truth, from [windows, bins, H, W]."""
+        raise NotImplementedError
+
+    def batches(self, *, workers: int) -> Batches:
+        """See `Task`."""
+        examples = TruthExamples.open(
+            self._data, self._data.split, self.target, self._bins, **self._flips
+        )
+        schedule, seed = self._config.schedule, self._config.seed
+        return Batches(examples, len(examples), schedule.batch_size, seed, workers=workers)
+
+    def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
+        """Errors on all windows, and the score where there are events."""
+        whole, seen = self.errors(), self.errors()
+        clips = Batches(
+            self._validation, len(self._validation), 1, 0, shuffle=False, workers=workers
+        )
+        for batch in clips.epoch(0):
+            found = self.predict(network, batch[GRIDS][0].to(device)).float().cpu().numpy()
+            true, mask = batch[self.target][0].numpy(), batch[SEEN][0].numpy()
+            for window in range(len(found)):
+                whole.update(found[window], true[window])
+                seen.update(found[window], true[window], mask[window])
+        name = self.score.name
+        return {**whole.compute(), f"{name} at events": seen.compute()[name]}
+
+    def published(self, network: Any) -> Mapping[str, Any]:
+        """See `Task`."""
+        return {STATE: {name: one.detach().cpu() for name, one in network.tensors.items()}}
+
+    def read(self, network: Any, content: Mapping[str, Any], path: Path) -> None:
+        """See `Task`."""
+        network.read(content, path, self.where_from)

@@ -4,19 +4,66 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from pathlib import Path
-from typing import Any, ClassVar, Final
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
 
+from texvent.config import check_range
+from texvent.dataset.samples import Target
 from texvent.extending import require
-from texvent.metrics.dense_errors import FARTHEST_M, DepthError
-from texvent.networks.weight_files import STATE, Tensor
+from texvent.networks.weight_files import Tensor
 from texvent_lab.networks import Padding
 from texvent_lab.networks.layers import make_seeded
 from texvent_lab.reconstruct.recurrent_unet import E2vid, UNetVariant
-from texvent_lab.train.depth.config import DepthConfig
-from texvent_lab.train.schedule import EXTRA
-from texvent_lab.train.sequences.truth import GRIDS, SEEN, TruthExamples
-from texvent_lab.train.task import Batches, Score
+from texvent_lab.train.dense_errors import FARTHEST_M, DepthError
+from texvent_lab.train.schedule import EXTRA, TrainingConfig
+from texvent_lab.train.sequences import SequenceData
+from texvent_lab.train.task import Score, Task
+from texvent_lab.train.truth import GRIDS, TruthTask
+
+
+@dataclass(frozen=True, kw_only=True)
+class DepthNetwork:
+    """The network: E2Depth."""
+
+    width: int = 32
+    """Channels of the first layer; the published network has 32."""
+
+    def __post_init__(self) -> None:
+        check_range("width", self.width, 1, 1024)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DepthLoss:
+    """What is made small; the defaults are the published ones."""
+
+    shift_weight: float = 1.0
+    """Share of a constant factor of depth that is forgiven: 1 learns depth up to a factor, 0
+    learns metres like any other error."""
+    gradient_weight: float = 0.25
+    """Of the differences between edges."""
+    sky: bool = True
+    """Whether the sky and what is beyond 80 m are learned as 80 m; else nothing is learned there,
+    just as nothing is scored there."""
+
+    def __post_init__(self) -> None:
+        check_range("shift_weight", self.shift_weight, 0.0, 1.0)
+        check_range("gradient_weight", self.gradient_weight, 0.0, 1e6)
+
+
+@dataclass(frozen=True, kw_only=True)
+class DepthConfig(TrainingConfig):
+    """A network that gives depth from events."""
+
+    flip_x: bool = True
+    """Mirror half of the training samples."""
+    data: SequenceData = field(default_factory=SequenceData)
+    network: DepthNetwork = field(default_factory=DepthNetwork)
+    loss: DepthLoss = field(default_factory=DepthLoss)
+
+    def make_task(self) -> Task:
+        """See `TrainingConfig`."""
+        return DepthTask(self)
+
 
 ARCHITECTURE = "E2VIDRecurrent"
 """What the program of E2Depth calls it."""
@@ -133,46 +180,29 @@ def _error(predicted: Tensor, target: Tensor) -> Tensor:
     return (predicted - target.where(known, predicted.detach())).where(known, predicted * 0)
 
 
-DEPTH: Final = "depth"
-WHERE_FROM = (
-    "network.width must be that of the file; uzh-rpg/rpg_e2depth on GitHub links to the published "
-    "one, E2DEPTH_si_grad_loss_mixed.pth.tar, which has 32"
-)
-
-
-class DepthTask:
+class DepthTask(TruthTask):
     """Loss of E2Depth, scored by the mean relative error of depth below 80 m."""
 
-    score: ClassVar[Score] = Score("abs_rel", is_higher_better=False)
+    score = Score("abs_rel", is_higher_better=False)
+    target: ClassVar[Target] = "depth"
+    errors = DepthError
+    where_from = (
+        "network.width must be that of the file; uzh-rpg/rpg_e2depth on GitHub links to the "
+        "published one, E2DEPTH_si_grad_loss_mixed.pth.tar, which has 32"
+    )
 
     def __init__(self, config: DepthConfig) -> None:
-        """Open the validation samples.
-
-        Raises:
-            InputError, ConfigError, FileFormatError: they do not fit; the message says why.
-        """
-        self._config = config
-        data = config.data
-        self._validation = TruthExamples.open(
-            data, data.validation_split, DEPTH, BINS, is_whole=True
-        )
+        """See `TruthTask`."""
+        self._weights, self._width = config.loss, config.network.width
+        super().__init__(config, config.data, bins=BINS, flips_x=config.flip_x)
 
     def make_network(self) -> Any:
         """See `Task`."""
-        return make_e2depth(self._config.network.width, self._config.seed)
-
-    def batches(self, *, workers: int) -> Batches:
-        """See `Task`."""
-        config = self._config
-        examples = TruthExamples.open(
-            config.data, config.data.split, DEPTH, BINS, flips_x=config.flip_x
-        )
-        return examples.batches(config.schedule.batch_size, seed=config.seed, workers=workers)
+        return make_e2depth(self._width, self._config.seed)
 
     def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
         """Mean over windows, each with all its images together, as in the program of E2Depth."""
-        weights = self._config.loss
-        depth = batch[DEPTH].to(device)
+        weights, depth = self._weights, batch[self.target].to(device)
         if not weights.sky:
             depth = depth.where(depth < FARTHEST_M, math.nan)
         target = encode_depth(depth)
@@ -183,28 +213,15 @@ class DepthTask:
             total = total + weights.gradient_weight * gradient_loss(one, true)
         return total / found.shape[1]
 
-    def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
-        """Errors on all windows, and the relative error where there are events."""
-        whole, seen = DepthError(), DepthError()
-        for batch in self._validation.batches(1, seed=0, workers=workers).epoch(0):
-            found = decode_depth(network(batch[GRIDS].to(device)).float())[0, :, 0].cpu().numpy()
-            true, mask = batch[DEPTH][0, :, 0].numpy(), batch[SEEN][0].numpy()
-            for window in range(len(found)):
-                whole.update(found[window], true[window])
-                seen.update(found[window], true[window], mask[window])
-        name = self.score.name
-        return {**whole.compute(), f"{name} at events": seen.compute()[name]}
+    def predict(self, network: Any, grids: Any) -> Any:
+        """See `TruthTask`."""
+        return decode_depth(network(grids[None]).float())[0]
 
     def published(self, network: Any) -> Mapping[str, Any]:
         """See `Task`; the program of E2Depth reads it too."""
-        tensors = {name: one.detach().cpu() for name, one in network.tensors.items()}
-        model = settings_of(self._config.network.width)
+        model = settings_of(self._width)
         return {
             "arch": ARCHITECTURE,
-            STATE: tensors,
             "config": {"arch": ARCHITECTURE, "model": model},
+            **super().published(network),
         }
-
-    def read(self, network: Any, content: Mapping[str, Any], path: Path) -> None:
-        """See `Task`."""
-        network.read(content, path, WHERE_FROM)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import pickle
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,10 +10,9 @@ import numpy as np
 import pytest
 
 from texvent.dataset.samples import record_clip, target_of
-from texvent.dataset.simulated_clips import SimulatedClips
 from texvent.errors import ConfigError, InputError
-from texvent_lab.train.sequences.clips import WindowedClips
-from texvent_lab.train.sequences.config import SequenceData
+from texvent_lab.train.sequences import SequenceData, WindowedClips
+from texvent_lab.train.simulated_clips import SimulatedClips
 
 from .windowed_specification import TEXT, write_specification
 
@@ -107,12 +105,6 @@ def test_a_changed_video_is_simulated_anew(data: SequenceData, tmp_path: Path) -
     os.utime(video, ns=(0, 0))
     WindowedClips.open(data, "train", TARGETS)
     assert len(stored(data)) == 2
-
-
-def test_they_go_to_worker_processes(data: SequenceData) -> None:
-    clips = WindowedClips.open(data, "train", TARGETS)
-    again = pickle.loads(pickle.dumps(clips))
-    assert again.read(0).events[1].equals(clips.read(0).events[1])
 
 
 def test_short_clips_large_crops_and_wrong_names_are_refused(data: SequenceData) -> None:

@@ -26,13 +26,8 @@ class DepthError:
         pixels out.
     """
 
-    def __init__(self, *, farthest_m: float = FARTHEST_M) -> None:
-        """No image yet.
-
-        Args:
-            farthest_m: see above.
-        """
-        self._farthest_m = farthest_m
+    def __init__(self) -> None:
+        """No image yet."""
         self._rows: list[dict[str, float]] = []
 
     def update(
@@ -53,14 +48,14 @@ class DepthError:
         """
         if predicted.shape != true.shape:
             raise InputError(f"depth has shape {predicted.shape} and its truth {true.shape}")
-        valid = (true > 0) & (true < self._farthest_m)
+        valid = (true > 0) & (true < FARTHEST_M)
         if mask is not None:
             valid &= mask
         found, sought = (one[valid].astype(np.float64) for one in (predicted, true))
         if not (found > 0).all():
             raise InputError("a predicted depth is not above 0 m")
         if found.size:
-            self._rows.append(_errors(np.minimum(found, self._farthest_m), sought))
+            self._rows.append(_errors(np.minimum(found, FARTHEST_M), sought))
 
     def compute(self) -> dict[str, float]:
         """The errors so far; NaN where no image has a valid pixel.

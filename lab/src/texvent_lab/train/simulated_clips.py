@@ -6,8 +6,6 @@ import dataclasses
 import json
 from pathlib import Path
 
-from texvent._registry import suggest
-from texvent._version import full_version
 from texvent.batch.identity import digest
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.generation.sample import prepare_clip, with_seed
@@ -15,6 +13,7 @@ from texvent.dataset.specification.clips import Clip, clip_settings, simulation_
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, shown
+from texvent.extending import full_version, suggest
 from texvent.pipeline import Simulation
 from texvent.settings.resolution import Settings
 
@@ -54,7 +53,6 @@ class SimulatedClips:
                 f"{specification.name} has variants {', '.join(names)}; choose one of them"
             )
         self.variant = self.recipe.variants[_chosen("variant", variant or names[0], names)]
-        self.labels = self.recipe.items.labels
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -87,11 +85,6 @@ class SimulatedClips:
         state = _state_of(clip.item.video)
         parts = [full_version(), options, item, state, clip.seed, seed_number, *facts]
         return digest([json.dumps(parts, sort_keys=True)])
-
-    def class_number(self, number: int) -> int:
-        """Place of the class of a sample in `labels`; −1 without a class."""
-        clip, _ = self._clip(number)
-        return -1 if clip.item.label is None else self.labels.index(clip.item.label)
 
     def _settings(self, clip: Clip) -> Settings:
         recipe = self.recipe

@@ -1,4 +1,4 @@
-"""Clips of a specification as windows: each is simulated once, then read from disk."""
+"""Clips of a specification as consecutive windows: each is simulated once, then read from disk."""
 
 from __future__ import annotations
 
@@ -13,15 +13,44 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.config import check_range
 from texvent.dataset.samples import SlicedClip, Target, record_clip, target_of
-from texvent.dataset.simulated_clips import SimulatedClips
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
 from texvent.io.hdf5.storage import open_hdf5
 from texvent.runtime.cache_folder import cache_folder, make_folder
 from texvent.sensor import SensorSize
-from texvent_lab.train.sequences.config import SequenceData
+from texvent_lab.train.simulated_clips import SimulatedClips
+
+
+@dataclass(frozen=True, kw_only=True)
+class SequenceData:
+    """Clips of a data set specification, simulated when they are first needed."""
+
+    specification: Path = Path()
+    """Of the data set: TOML or YAML; see docs/datasets.md. Nothing needs to be made before."""
+    variant: str | None = None
+    """None: the only one."""
+    split: str = "train"
+    """Trained on."""
+    validation_split: str = "validation"
+    """Scored after every epoch."""
+    slice_us: int = 40_000
+    """Length of a window, µs. The network sees the events of one window at a time."""
+    length: int = 20
+    """Windows of a training sequence: a random run of each clip, drawn anew in every epoch."""
+    crop: int | None = None
+    """Side of the random square that is trained on, px; None: the whole sensor."""
+    cache: Path | None = None
+    """Folder of the simulated clips, which may serve many trainings; None: `sequences` in
+    texvent's cache folder."""
+
+    def __post_init__(self) -> None:
+        check_range("slice_us", self.slice_us, 1, 10**12)
+        check_range("length", self.length, 1, 1_000_000)
+        check_range("crop", self.crop, 8, 65_536)
+
 
 COLUMNS = "xytp"
 
