@@ -111,6 +111,7 @@ def test_the_benchmark_prints_its_tables_and_keeps_every_value(
 
 def test_events_and_frames_of_a_recording_may_lie_apart(recording, weights, capsys):
     words = ("--frames", recording / "images", "--simulators", "esim", "-q")
+    words += ("--interpolations", "none")
     code, said = run(
         capsys, "bench", "reconstruction", recording / "events.txt", *words, *network(weights)
     )

@@ -115,7 +115,7 @@ class DigitSheet:
         return Frame(self._render(t_us), t_us, is_source=False)
 
     def cut(self, images: NDArray[Any]) -> NDArray[Any]:
-        """What lies on each digit's part of the sensor.
+        """Parts of images that belong to each digit.
 
         Args:
             images: [..., H, W] of the sheet.

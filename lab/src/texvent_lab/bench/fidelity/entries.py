@@ -55,13 +55,13 @@ class Entry:
 
     @property
     def name(self) -> str:
-        """How tables call it."""
+        """Name in tables."""
         preset = f" {self.preset}" if self.preset else ""
         return f"{self.simulator}{preset}, {self.interpolate}"
 
     @property
     def track(self) -> Track:
-        """Whether it is given the true intermediate frames, or the sensor."""
+        """Input of the simulator: frames or true frames, and whether it knows the sensor."""
         if self.interpolate == "exact":
             return "true frames, sensor known" if self._is_calibrated else "true frames"
         return "frames, sensor known" if self._is_calibrated else "frames"

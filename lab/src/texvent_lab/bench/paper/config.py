@@ -25,7 +25,7 @@ ABLATIONS = (4, 5)
 
 @dataclass(frozen=True, kw_only=True)
 class PaperConfig:
-    """Which table, from which inputs.
+    """Table and inputs.
 
     Raises:
         ConfigError: an unknown table or network, jobs below 1, or nothing to run.

@@ -32,16 +32,16 @@ from texvent_lab.reconstruct.image_measures import Measures
 from texvent_lab.reconstruct.reconstructor import Reconstructor
 
 RECORDED = "recorded"
-"""What the sensor's own events are called."""
+"""Name of the sensor's own events."""
 DEFAULT_SKIP = 10
 """Images that do not count where no part of the recording is named: a network needs time."""
 MATCH_SECONDS = 1.0
-"""How much of a recording is simulated to fit the number of events."""
+"""Part of a recording that is simulated to fit the number of events, s."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ReconstructionPlan:
-    """What is simulated, and what counts.
+    """Simulators, and the part of a recording that is scored.
 
     Raises:
         ConfigError: a value is out of range, or an entry does not exist.

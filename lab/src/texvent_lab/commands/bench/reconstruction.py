@@ -35,7 +35,7 @@ network's weights must be yours: docs/reconstruction.md says where they come fro
 
 @dataclass(frozen=True, kw_only=True)
 class ReconstructionOptions:
-    """What to run."""
+    """Recordings and simulators."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("recordings", "frames")
     positional: ClassVar[tuple[str, ...]] = ("recordings",)
@@ -71,7 +71,7 @@ class ReconstructionOptions:
     """Of the simulators and of the noise."""
 
     def plan(self) -> ReconstructionPlan:
-        """What these options ask for.
+        """The plan of these options.
 
         Raises:
             ConfigError: a value is out of range, or something named does not exist.
