@@ -27,10 +27,10 @@ from texvent_lab.bench.real.recording import (
     open_scene,
 )
 from texvent_lab.bench.real.run import run_real
-from texvent_lab.bench.reconstruction.noise_robustness import noise_curve
 from texvent_lab.bench.reconstruction.run import (
     ReconstructionPlan,
     ReconstructionScorer,
+    noise_curve,
     run_reconstruction,
 )
 from texvent_lab.bench.reconstruction.scores import pool_scores
@@ -246,7 +246,7 @@ def measure_noise(config: PaperConfig, network: Reconstructor, progress: Progres
     curves = []
     for recording in recordings:
         progress(f"{recording.name}: noise curve")
-        curves.append([score.against_clean for score in noise_curve(recording, scorer)])
+        curves.append(noise_curve(recording, scorer))
     pooled = dict(zip(TABLES[7].columns, map(pool_scores, zip(*curves, strict=True)), strict=True))
     rows = {
         title: {column: f"{one.mean(measure):.4f}" for column, one in pooled.items()}
