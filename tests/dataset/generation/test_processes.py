@@ -12,6 +12,7 @@ from contextlib import closing
 from pathlib import Path
 
 from tests.dataset.generation.small_sets import clips_recipe, digests, make
+from tests.soak.dataset_kills import descendants
 
 from texvent.dataset.generation.engines import ATTEMPTS, ProcessEngine, Task
 from texvent.dataset.generation.make import find_work, make_shards, remove_dead_parts
@@ -20,22 +21,6 @@ from texvent.dataset.generation.status import log_path
 
 SLOW = {"paper": {"seeds": 60}}
 """A shard takes long enough to be found at work."""
-
-
-def descendants(pid: int) -> list[int]:
-    """Process ids below a process, from /proc."""
-    children: dict[int, list[int]] = {}
-    for entry in Path("/proc").glob("[0-9]*/stat"):
-        with contextlib.suppress(OSError):
-            words = entry.read_text().rpartition(")")[2].split()
-            if words[0] != "Z":
-                children.setdefault(int(words[1]), []).append(int(entry.parent.name))
-    found, todo = [], [pid]
-    while todo:
-        below = children.get(todo.pop(), [])
-        found += below
-        todo += below
-    return found
 
 
 def test_a_shard_that_takes_its_process_down_harms_no_other(tmp_path: Path) -> None:
