@@ -47,7 +47,7 @@ def test_a_sheet_of_grades_is_summed(tmp_path, capsys, monkeypatch):
     assert sums["stand-in"] == Share(1, 4)
     assert sums["mean grade"] == 2.75
     assert run(monkeypatch, "score", tmp_path / "g.csv") == 0
-    assert "| | all | short | long |" in capsys.readouterr().out
+    assert "|  | all | short | long |" in capsys.readouterr().out
 
 
 def test_strips_are_drawn_with_the_report(tmp_path, monkeypatch, capsys):

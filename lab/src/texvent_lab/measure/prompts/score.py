@@ -24,6 +24,7 @@ from typing import Any
 
 from texvent.errors import InputError, shown
 from texvent.io.atomic import atomic_file
+from texvent_lab.bench.document import markdown_table
 
 COLUMNS = (
     "id", "nouns_asked", "nouns_shown", "motion", "silently_wrong", "fully_right",
@@ -163,14 +164,9 @@ def sum_grades(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 def as_markdown(sums: Mapping[str, Mapping[str, Any]]) -> str:
     """A table with a column for each part; shares with Wilson's interval at 95 %."""
-    lines = [
-        f"| | {' | '.join(sums)} |",
-        f"|---|{'---|' * len(sums)}",
-    ]
-    for name in next(iter(sums.values())):
-        cells = (_cell(one[name]) for one in sums.values())
-        lines.append(f"| {name} | {' | '.join(cells)} |")
-    return "\n".join(lines)
+    names = next(iter(sums.values()))
+    rows = [(name, *(_cell(one[name]) for one in sums.values())) for name in names]
+    return markdown_table(("", *sums), rows)
 
 
 def _cell(value: Any) -> str:
