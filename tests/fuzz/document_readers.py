@@ -12,7 +12,7 @@ from .reader import Reader, digest
 
 
 def document_readers() -> list[Reader]:
-    """Weights."""
+    """Both forms of weights."""
     return [
         Reader("weights .npz", _make_weights, _read_weights),
         Reader("weights pickle", _make_published, _read_weights),
