@@ -66,9 +66,7 @@ class FrameRecording:
         return None if span is None else (_us(span[0]), _us(span[1]))
 
 
-def open_recording(
-    path: Path, *, frames: str | None = None, size: tuple[int, int] | None = None
-) -> FrameRecording:
+def open_recording(path: Path, *, frames: str | None = None) -> FrameRecording:
     """A recording from the files it is usually kept in.
 
     Args:
@@ -76,9 +74,7 @@ def open_recording(
             images, a DSEC sequence, an AEDAT4 file with frames, or any event file if `frames` is
             given.
         frames: the frames, where they lie elsewhere: a video file or image folder on the clock of
-            the events.
-        size: sensor size (width, height), for event formats that do not store it; default: that of
-            the frames.
+            the events. Events without a stored size have that of the frames.
 
     Raises:
         InputError: there is no such recording, or it holds no frames.
@@ -95,7 +91,7 @@ def open_recording(
                 "--frames"
             )
     video = open_frames(frames or str(path), CaptureConfig())
-    events = open_events(_events_of(path), size=size or video.size)
+    events = open_events(_events_of(path), size=video.size)
     return FrameRecording(name=path.resolve().stem, frames=video, events=events)
 
 

@@ -10,7 +10,6 @@ from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
-from texvent.sensor import parse_sensor
 from texvent_lab.bench.fidelity.entries import choose_entries
 from texvent_lab.bench.real.recording import FrameRecording, locate_source, open_recording
 from texvent_lab.bench.reconstruction.run import (
@@ -47,8 +46,6 @@ class ReconstructionOptions:
     """Names of pulled data sets, or paths of recordings."""
     frames: str | None = None
     """Frames of a recording that is an event file alone: a video or image folder on its clock."""
-    sensor: str | None = None
-    """Sensor size, for event formats that do not store it; default: that of the frames."""
     simulators: str | None = None
     """Names of simulators, separated by commas, a preset after a colon (physical:davis346);
     default: texvent, physical, esim, v2e."""
@@ -97,9 +94,8 @@ class ReconstructionOptions:
                 f"frames belong to one recording; {len(self.recordings)} are given: run them one "
                 "by one"
             )
-        size = parse_sensor(self.sensor) if self.sensor else None
         return [
-            open_recording(locate_source(source)[0], frames=self.frames, size=size)
+            open_recording(locate_source(source)[0], frames=self.frames)
             for source in self.recordings
         ]
 
