@@ -146,7 +146,9 @@ def _still_pixels(
         times = [frame.t_us for frame in window]
         seen = [linearize(frame.luma, gamma) for frame in window]
         own = np.mean(seen, axis=0)
-        light = [cv2.blur(one, (3, 3), borderType=cv2.BORDER_REPLICATE) for one in seen]
+        # 3×3 means, edges repeated, average out the frames' noise.
+        blurred = (cv2.blur(one, (3, 3), borderType=cv2.BORDER_REPLICATE) for one in seen)
+        light = [np.asarray(one, np.float64) for one in blurred]
         static = find_static_pixels(light)
         for i in range(1, len(window) - 1):
             still = find_still_pixels(light[i], light[i - 1 : i + 2]) | static
