@@ -46,29 +46,34 @@ def page_files(
         ConfigError: the baseline is no entry.
     """
     try:
-        title, chart, tables = _content(document, baseline)
+        title, described, chart, tables = _content(document, baseline)
         facts = _facts(document)
     except (AttributeError, IndexError, KeyError, StopIteration, TypeError, ValueError) as error:
         raise FileFormatError(f"{file_name} is no result ({one_line(error)})") from error
     name = page_name(file_name)
-    parts = [f"# {title}", facts, f"![Chart of the scores]({name}.svg)", tables]
+    link = f"[{described}](../{described}) describes the measurement."
+    parts = [f"# {title}", link, facts, f"![Chart of the scores]({name}.svg)", tables]
     page = without_tags("\n\n".join(part.rstrip() for part in parts) + "\n")
     return {f"{name}.md": page.encode(), f"{name}.svg": chart}
 
 
-def _content(document: Mapping[str, Any], baseline: str) -> tuple[str, bytes, str]:
-    """Title, chart and tables."""
+def _content(document: Mapping[str, Any], baseline: str) -> tuple[str, str, bytes, str]:
+    """Title, page of the documentation, chart and tables."""
     if document.get("schema") == SELFTEST_SCHEMA:
         rows = read_records(SelftestRow, document["rows"])
-        return "Self-test of the metrics", selftest_chart(rows), selftest_table(rows)
+        title = "Self-test of the metrics"
+        return title, "metrics.md", selftest_chart(rows), selftest_table(rows)
     if document.get("schema") == digits.SCHEMA:
         found = digits.read_report(document)
         title = "Trained on simulated events, tested on recorded ones"
-        return title, digits_chart(found), digits.digits_table(found)
+        return title, "digits.md", digits_chart(found), digits.digits_table(found)
     report = read_report(document)
     check_baseline(baseline, [score.entry for score in report.scores])
-    title = f"Simulators against {'true' if report.score_seeds else 'recorded'} events"
-    return title, score_chart(report), fidelity_tables(report, baseline=baseline)
+    kind, described = (
+        ("true", "benchmark.md") if report.score_seeds else ("recorded", "real-data.md")
+    )
+    tables = fidelity_tables(report, baseline=baseline)
+    return f"Simulators against {kind} events", described, score_chart(report), tables
 
 
 def score_chart(report: FidelityReport) -> bytes:
@@ -112,5 +117,7 @@ def _facts(document: Mapping[str, Any]) -> str:
             value = ", ".join(f"{key} {one}" for key, one in value.items())
         elif isinstance(value, list):
             value = ", ".join(map(str, value))
+        elif isinstance(value, float):
+            value = f"{value:.6g}"
         lines.append(f"- {name}: {value}")
     return "\n".join(lines)

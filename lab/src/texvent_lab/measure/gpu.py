@@ -11,7 +11,6 @@ compile the kernels, are not timed. It ends within four minutes.
 from __future__ import annotations
 
 import argparse
-import platform
 import sys
 import tempfile
 import time
@@ -22,7 +21,6 @@ from typing import Any
 
 import numpy as np
 
-from texvent import __version__
 from texvent.config import InterpolateConfig
 from texvent.errors import TexventError
 from texvent.extending import require
@@ -35,7 +33,7 @@ from texvent.simulate.gpu.frames import GpuPairs
 from texvent.simulate.gpu.launch import EXTRA, default_device
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Video
-from texvent_lab.bench.document import markdown_table, write_document
+from texvent_lab.bench.document import describe_environment, markdown_table, write_document
 from texvent_lab.measure.speed.timing import quartiles, rounded
 
 VGA, HD = SensorSize(640, 480), SensorSize(1280, 720)
@@ -47,7 +45,7 @@ FRAMES_PER_PAIR = 8
 
 @dataclass(frozen=True)
 class Plan:
-    """What is measured."""
+    """Sizes, densities and repeats of the measurement."""
 
     size: SensorSize = HD
     densities: tuple[float, ...] = (0.001, 0.01, 0.05, 0.2)
@@ -80,15 +78,10 @@ def measure(plan: Plan, device: str) -> dict[str, Any]:
 def describe(device: str) -> dict[str, Any]:
     """Device and versions."""
     torch, triton = require("torch", extra=EXTRA), require("triton", extra=EXTRA)
-    is_gpu = device == "cuda"
-    return {
-        "device": torch.cuda.get_device_name() if is_gpu else "CPU, Triton's interpreter",
-        "cuda": torch.version.cuda if is_gpu else None,
-        "python": platform.python_version(),
-        "texvent": __version__,
-        "torch": torch.__version__,
-        "triton": triton.__version__,
-    }
+    facts = {**describe_environment(), "triton": triton.__version__}
+    if device == "cuda":
+        return {**facts, "device": torch.cuda.get_device_name(), "cuda": torch.version.cuda}
+    return {**facts, "device": "CPU, Triton's interpreter"}
 
 
 def measure_copy(plan: Plan, device: str) -> dict[str, Any]:

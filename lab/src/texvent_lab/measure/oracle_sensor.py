@@ -2,12 +2,12 @@
 
     python -m texvent_lab.measure.oracle_sensor
 
-writes src/texvent/bench/oracle/sensor.toml and, beside it, sensor_thresholds.npz.
+writes lab/src/texvent_lab/bench/oracle/sensor.toml and, beside it, sensor_thresholds.npz.
 
-It does what docs/calibration.md tells the owner of a sensor to do, with recordings that the
-benchmark does not score: a field at rest, without frames; a camera at rest before a texture of
-which one half moves, with the frames of an ordinary camera, which tell the balance; a field that
-flickers, without frames; and the texture again, now that the bandwidth is known.
+It follows docs/calibration.md with recordings that the benchmark does not score: a field at rest,
+without frames; a camera at rest before a texture of which one half moves, with the frames of an
+ordinary camera, which tell the balance; a field that flickers, without frames; and the texture
+again, now that the bandwidth is known.
 """
 
 from __future__ import annotations
@@ -73,7 +73,7 @@ def half_moving(seconds: float) -> Float64Array:
 
 
 def recorded(scene: Scene, frames: int = FRAMES) -> EventStream:
-    """What the benchmark's sensor records of a scene, while its camera takes so many frames."""
+    """Events of the benchmark's sensor during so many frames of its camera."""
     return record(scene, {"events": (NOISY, REFERENCE_SEED)}, frames=frames)["events"]
 
 

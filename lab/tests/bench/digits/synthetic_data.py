@@ -45,7 +45,7 @@ def record(images):
     """Events of each image by the measured motion, with the right polarity."""
     sheet = DigitSheet(Digits.as_measured(images))
     settings = find_arm("esim").settings("exact", threshold=0.5)
-    events = sheet.inside(prepare_video(sheet, settings).packets.collect())
+    events = prepare_video(sheet, settings).packets.collect()
     return [tile_events(sheet, events, number) for number in range(len(images))]
 
 

@@ -16,9 +16,9 @@ from texvent.sensor import SensorSize
 from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent_lab.bench.fidelity.entries import read_ablations
 from texvent_lab.bench.paper import run as paper
+from texvent_lab.bench.paper.config import PaperConfig
 from texvent_lab.bench.paper.published_tables import TABLES
 from texvent_lab.bench.paper.run import (
-    PaperConfig,
     measure_ablations,
     measure_accuracy,
     measure_event_frames,

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from texvent_lab.bench.fidelity.entries import Entry
-from texvent_lab.bench.reconstruction.noise_robustness import noise_curve
 from texvent_lab.bench.reconstruction.run import (
     DEFAULT_SKIP,
     RECORDED,
     ReconstructionPlan,
     ReconstructionScorer,
+    noise_curve,
     recorded_rate_hz,
     run_reconstruction,
     simulate_recording,
@@ -104,11 +104,11 @@ def test_frames_of_a_sensor_are_linear_for_models_that_ask():
 
 
 def test_more_noise_degrades_the_images_more():
-    points = noise_curve(moving_bar(), scorer(skip=0), (0.0, 0.1, 0.5))
-    for scores in ("against_clean", "against_frames"):
-        errors = [getattr(point, scores).mean("mse") for point in points]
-        assert errors[0] < 1e-12
-        assert errors[0] < errors[1] < errors[2]
+    errors = [
+        scores.mean("mse") for scores in noise_curve(moving_bar(), scorer(skip=0), (0.0, 0.1, 0.5))
+    ]
+    assert errors[0] < 1e-12
+    assert errors[0] < errors[1] < errors[2]
 
 
 def test_scattered_events_keep_their_number_and_the_others_stay():
@@ -127,18 +127,15 @@ def test_scattered_events_keep_their_number_and_the_others_stay():
 def test_tables_and_document_state_every_figure():
     recordings = [moving_bar("one"), moving_bar("two")]
     report = run_reconstruction(recordings, scorer())
-    noise = noise_curve(recordings[0], scorer(), [0.05])
-    text = reconstruction_tables(report, noise)
+    text = reconstruction_tables(report)
     for part in ("### one, stand-in (4 images)", "### all recordings", "| esim, blend | ×"):
         assert part in text
-    assert "| 5% of the events scattered |" in text
     assert "not measured: lpips: LPIPS's weights are not here" in text
-    document = json.loads(json.dumps(reconstruction_document(report, noise), allow_nan=False))
+    document = json.loads(json.dumps(reconstruction_document(report), allow_nan=False))
     assert document["schema"] == "texvent-reconstruction-2"
     assert len(document["rows"]) == 4
     assert len(document["rows"][0]["values"]["ssim"]) == 4
     assert document["rows"][1]["mean"]["mse"] == pytest.approx(report.rows[1].scores.mean("mse"))
-    assert document["noise"][0]["share"] == 0.05
     assert document["network"] == {
         "name": "stand-in",
         "sha256": "0" * 64,

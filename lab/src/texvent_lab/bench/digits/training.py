@@ -1,4 +1,4 @@
-"""A small network that tells digits apart, trained on images that were made before.
+"""Training of a small classifier of digits on images in memory.
 
 A training takes seconds, keeps its last network, and counts steps, not epochs: few samples are
 trained on for as long as many.

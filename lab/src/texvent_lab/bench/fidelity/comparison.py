@@ -1,4 +1,4 @@
-"""Which entries of a table can be told apart, and which not from the best."""
+"""Significance of differences between the entries of a table."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ ALIKE = "≈"
 
 
 class Behind(NamedTuple):
-    """How far an entry is behind."""
+    """Distance of an entry from the best."""
 
     best: str
     """The best entry."""
@@ -40,12 +40,12 @@ class Comparison:
 
     @property
     def windows(self) -> int:
-        """How many there are."""
+        """Number of windows."""
         return max(map(len, self.values.values()), default=0)
 
     @property
     def is_enough(self) -> bool:
-        """Whether any entries could be told apart."""
+        """Whether there are enough windows for a significant difference."""
         return self.windows >= LEAST_WINDOWS
 
     def mean(self, entry: str) -> float:
@@ -85,7 +85,7 @@ class Comparison:
         return max(known, key=known.__getitem__, default=None)
 
     def document(self, entry: str) -> dict[str, Any] | None:
-        """How far an entry is behind, as plain values; None for the best and for no candidate."""
+        """Distance from the best as plain values; None for the best and for no candidate."""
         behind = self.behind_best.get(entry)
         if behind is None:
             return None
@@ -128,7 +128,7 @@ def difference_text(difference: Mean, *, sign: str = "") -> str:
 
 
 def comparison_note(windows: int, kind: str) -> str:
-    """What the columns of a table with that many windows say, or why there are none.
+    """Legend of a table with that many windows.
 
     Args:
         windows: how many.

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeAlias
 
-from texvent.errors import ConfigError, InputError, shown
+from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.extending import SIMULATORS, suggest
+from texvent.extending import SIMULATORS
 from texvent.run.prepare import prepare_video
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.model_options import contrast_threshold_of, with_contrast_threshold
@@ -55,13 +55,13 @@ class Entry:
 
     @property
     def name(self) -> str:
-        """How tables call it."""
+        """Name in tables."""
         preset = f" {self.preset}" if self.preset else ""
         return f"{self.simulator}{preset}, {self.interpolate}"
 
     @property
     def track(self) -> Track:
-        """Whether it is given the true intermediate frames, or the sensor."""
+        """Input of the simulator: frames or true frames, and whether it knows the sensor."""
         if self.interpolate == "exact":
             return "true frames, sensor known" if self._is_calibrated else "true frames"
         return "frames, sensor known" if self._is_calibrated else "frames"
@@ -144,31 +144,17 @@ def choose_entries(simulators: str | None = None, interpolations: str | None = N
         simulators: `NAME` or `NAME:PRESET`, separated by commas; None means all to compare,
             and `CALIBRATED`.
         interpolations: names separated by commas; None means `INTERPOLATIONS`.
-
-    Raises:
-        ConfigError: `physical` has no such preset.
     """
     chosen = [*simulators_to_compare(), CALIBRATED]
     if simulators is not None:
         words = (word.partition(":") for word in simulators.split(","))
         chosen = [(simulator, preset or None) for simulator, _, preset in words]
-        _check_presets(chosen)
     names = interpolations.split(",") if interpolations is not None else INTERPOLATIONS
     return [
         Entry(simulator=simulator, preset=preset, interpolate=interpolate)
         for simulator, preset in chosen
         for interpolate in names
     ]
-
-
-def _check_presets(chosen: list[tuple[str, str | None]]) -> None:
-    """Refuse presets of `physical` that are neither its own nor the benchmark's."""
-    allowed = (*SIMULATORS.load(CALIBRATED[0]).presets, CALIBRATED[1])
-    for simulator, preset in chosen:
-        if simulator == CALIBRATED[0] and preset is not None and preset not in allowed:
-            raise ConfigError(
-                f"simulator {simulator!r} has no preset {shown(preset)}; {suggest(preset, allowed)}"
-            )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -90,7 +90,7 @@ class FidelityReport:
     """Entry → why it did not run."""
     seconds: float = 0.0
     floor_name: str = "second recording"
-    """What the floor compares with the truth."""
+    """Events that the floor compares with the truth."""
     protocol: Mapping[str, Any] = field(default_factory=dict)
     """Recording → what was used of it, for real ones."""
 

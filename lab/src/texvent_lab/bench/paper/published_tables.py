@@ -36,7 +36,7 @@ class Measured:
     rows: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
     """Row → column → value as text."""
     notes: Sequence[str] = ()
-    """How the values were measured, where that differs from the paper."""
+    """Differences to the paper's measurement."""
     needs: Sequence[str] = ()
     """Inputs that are missing for the rest."""
 

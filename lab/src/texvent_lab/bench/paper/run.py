@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import time
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
-from typing import ClassVar
 
 import numpy as np
 
-from texvent.config import check_range
-from texvent.data.pull import find_pulled
-from texvent.errors import ConfigError, InputError, MissingDependencyError, TexventError
+from texvent.errors import InputError, MissingDependencyError, TexventError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
 from texvent.metrics.compare import load_metric
 from texvent.metrics.latent_similarity import load_eqs
@@ -23,26 +20,22 @@ from texvent_lab.bench.fidelity.comparison import difference_text
 from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, simulate_video
 from texvent_lab.bench.fidelity.results import FidelityReport
 from texvent_lab.bench.jobs import Progress
+from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
 from texvent_lab.bench.paper.published_tables import IMAGE_ROWS, TABLES, Measured, join_measured
 from texvent_lab.bench.real.recording import (
-    WITH_FRAMES,
-    FrameRecording,
     RealScene,
-    locate_source,
-    open_recording,
     open_scene,
 )
 from texvent_lab.bench.real.run import run_real
-from texvent_lab.bench.reconstruction.noise_robustness import noise_curve
 from texvent_lab.bench.reconstruction.run import (
     ReconstructionPlan,
     ReconstructionScorer,
+    noise_curve,
     run_reconstruction,
 )
 from texvent_lab.bench.reconstruction.scores import pool_scores
 from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor
-from texvent_lab.registries import RECONSTRUCTORS
 from texvent_lab.train.classification.config import (
     ClassData,
     ClassificationConfig,
@@ -50,9 +43,6 @@ from texvent_lab.train.classification.config import (
 )
 from texvent_lab.train.schedule import Hardware
 
-BASELINE = "Texvent"
-ABLATIONS = (4, 5)
-"""Tables of configs/paper."""
 NETWORKS = {1: "e2vid", 7: "e2vid", 8: "et-net"}
 """Table → the network that the paper reconstructs with."""
 ENTRIES: Mapping[str, Entry] = {
@@ -75,75 +65,6 @@ EQS_NEED = (
     "EQS itself: it needs RVT's weights, and streams of N-ImageNet and streams simulated from "
     "their captions, which no one publishes"
 )
-
-
-@dataclass(frozen=True, kw_only=True)
-class PaperConfig:
-    """Which table, from which inputs.
-
-    Raises:
-        ConfigError: an unknown table or network, jobs below 1, or nothing to run.
-    """
-
-    main_options: ClassVar[tuple[str, ...]] = (
-        "table", "scenes", "recordings", "configs", "weights", "match_rate", "out", "overwrite",
-        "quiet",
-    )  # fmt: skip
-
-    table: int | None = None
-    """Table of the paper: 1, 2, 4, 5, 7, 8 or 9; default: the ablations of both 4 and 5."""
-    scenes: str | None = None
-    """Tables 4 and 5: names of scenes of bench fidelity, separated by commas; default: its own."""
-    oracle: bool = True
-    """Tables 4 and 5: run on scenes with true events; --no-oracle leaves recordings alone."""
-    recordings: str | None = None
-    """Names of pulled data sets, or paths of recordings, separated by commas; default: slider_depth
-    and davis346 where they are pulled, for tables 4 and 5 none."""
-    match_rate: bool = True
-    """Fit each contrast threshold to the number of true events. With --no-match-rate every row
-    keeps its own, as in the paper: then the number of events decides."""
-    configs: Path = Path("configs/paper")
-    """Tables 4 and 5: folder with one TOML file per row."""
-    baseline: str = BASELINE
-    """Tables 4 and 5: row that the others are compared with, pair by pair."""
-    weights: Path | None = None
-    """Tables 1, 7, 8: published weights of the network; table 9: those of the classifier."""
-    network: str | None = None
-    """Tables 1, 7, 8: network that reconstructs images; default: the paper's (e2vid, for table 8
-    et-net). firenet is the smallest."""
-    rvt_weights: Path | None = None
-    """Table 2: RVT's published weights, for EQS."""
-    folder: Path | None = None
-    """Table 9: folder with a sub-folder per column (original, texvent ...), each with a sub-folder
-    of event files per class."""
-    jobs: int = 2
-    """Processes for simulating on recordings and scenes."""
-
-    def __post_init__(self) -> None:
-        if self.table is not None and self.table not in TABLES:
-            raise ConfigError(
-                f"table is {self.table}; the tables are {', '.join(map(str, TABLES))}"
-            )
-        if self.network is not None:
-            RECONSTRUCTORS.load(self.network)
-        check_range("jobs", self.jobs, 1)
-        if not self.oracle and not self.recordings and self.table in (None, *ABLATIONS):
-            raise ConfigError("--no-oracle leaves nothing to run; name --recordings")
-
-    @property
-    def named_recordings(self) -> tuple[str, ...]:
-        """Those of the option."""
-        return tuple(self.recordings.split(",")) if self.recordings else ()
-
-    @property
-    def sources(self) -> tuple[str, ...]:
-        """Recordings to use; none if nothing is named and nothing pulled."""
-        pulled = tuple(name for name in WITH_FRAMES if find_pulled(name) is not None)
-        return self.named_recordings or pulled
-
-    def whole_recordings(self) -> list[FrameRecording]:
-        """The recordings, to be read through."""
-        return [open_recording(locate_source(source)[0]) for source in self.sources]
 
 
 def measure_table(config: PaperConfig, progress: Progress) -> Measured:
@@ -325,7 +246,7 @@ def measure_noise(config: PaperConfig, network: Reconstructor, progress: Progres
     curves = []
     for recording in recordings:
         progress(f"{recording.name}: noise curve")
-        curves.append([score.against_clean for score in noise_curve(recording, scorer)])
+        curves.append(noise_curve(recording, scorer))
     pooled = dict(zip(TABLES[7].columns, map(pool_scores, zip(*curves, strict=True)), strict=True))
     rows = {
         title: {column: f"{one.mean(measure):.4f}" for column, one in pooled.items()}

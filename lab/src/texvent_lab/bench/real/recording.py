@@ -122,7 +122,7 @@ WITH_FRAMES = ("slider_depth", "davis346")
 
 
 class RecordingPart(NamedTuple):
-    """Which part of a recording is used, and how its clocks fit."""
+    """Part of a recording that is used, and offset of its clocks."""
 
     start_s: float = 0.0
     """Skipped at the start of the frames, s."""
@@ -145,14 +145,14 @@ class RealScene:
     """Frames, moved by the offset."""
     events: EventStream
     fit: TimeSpan
-    """Where δ is fitted."""
+    """Span in which δ is fitted."""
     scored: tuple[TimeSpan, ...]
-    """What is scored, span by span."""
+    """Spans that are scored."""
     frames_gamma: float
     offset_us: int
 
     target: ClassVar[str] = "recorded"
-    """What takes the place of the oracle's kind of pixels."""
+    """In place of the oracle's kind of pixels."""
 
     @property
     def references(self) -> list[EventStream]:
@@ -245,7 +245,7 @@ def open_scene(source: str, part: RecordingPart = WHOLE) -> RealScene:
 
 
 def locate_source(source: str) -> tuple[Path, int]:
-    """Where a recording lies, and the frozen offset of its frames, µs.
+    """Path of a recording, and the frozen offset of its frames, µs.
 
     Raises:
         InputError: it is not there, or not pulled.

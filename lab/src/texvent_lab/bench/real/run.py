@@ -98,7 +98,7 @@ def _halves(scene: RealScene, metrics: Metrics) -> Score:
 
 
 def _protocol(scene: RealScene) -> Mapping[str, Any]:
-    """What was used of a recording, ready for JSON; times are µs on the recording's clock."""
+    """Used parts of a recording, ready for JSON; times are µs on the recording's clock."""
     return {
         "frame_offset_us": scene.offset_us,
         "frames_gamma": scene.frames_gamma,

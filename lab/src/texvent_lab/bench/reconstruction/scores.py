@@ -80,7 +80,7 @@ class ScoreCollector:
             self._values[measure.name].append(measure.compare(a, b))
 
     def scores(self) -> ImageScores:
-        """What was collected.
+        """The values collected so far.
 
         Raises:
             InputError: nothing counted.

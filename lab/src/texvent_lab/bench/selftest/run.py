@@ -145,14 +145,14 @@ def perturb(events: EventStream, name: str) -> EventStream:
 SCENE, TEXTURE_SEED = "mixed", 7
 RECORDING_SEEDS = (1, 2, 3, 4)
 FLOOR_PAIRS = ((0, 1), (1, 0), (2, 3), (3, 2), (0, 2), (2, 0), (1, 3), (3, 1))
-"""Which recordings are compared to learn how much two recordings of one scene differ."""
+"""Pairs of recordings whose differences make the floor."""
 DETECTED = 3.0
 """Standard deviations above the floor from which a perturbation counts as found."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class SelftestRow:
-    """What one metric saw."""
+    """Result of one metric."""
 
     metric: str
     better: str

@@ -49,7 +49,7 @@ def _usage() -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class ResultOptions:
-    """Where the result goes."""
+    """Output of the result."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 

@@ -37,12 +37,12 @@ QUICK: Mapping[str, Any] = {
     "ways": ("exact", "frames"),
     "folds": 5,
 }
-"""What --quick covers."""
+"""Plan of --quick."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class DigitsOptions:
-    """What to run."""
+    """Data, simulators and networks."""
 
     mnist: Path = REQUIRED
     """Folder of MNIST's test images and labels."""

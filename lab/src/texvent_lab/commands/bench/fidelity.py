@@ -15,7 +15,7 @@ from texvent_lab.commands.bench.bench import ResultOptions
 
 @dataclass(frozen=True, kw_only=True)
 class FidelityOptions:
-    """What to run."""
+    """Scenes and simulators."""
 
     full: bool = False
     """Every scene, ideal and noisy pixels, eight seeds: an hour instead of minutes."""

@@ -18,7 +18,7 @@ from texvent_lab.bench.page import page_files, page_name
 
 @dataclass(frozen=True, kw_only=True)
 class PageOptions:
-    """Which result, and where the page goes."""
+    """Result and folder of the page."""
 
     positional: ClassVar[tuple[str, ...]] = ("result",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}

@@ -13,11 +13,9 @@ from texvent_lab.bench.fidelity.entries import read_ablations
 from texvent_lab.bench.fidelity.table import check_baseline, fidelity_tables
 from texvent_lab.bench.jobs import Progress
 from texvent_lab.bench.oracle.run import FidelityPlan, run_fidelity
+from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
 from texvent_lab.bench.paper.published_tables import TABLES, compare_with_paper, join_measured
 from texvent_lab.bench.paper.run import (
-    ABLATIONS,
-    BASELINE,
-    PaperConfig,
     leave_out_other_tables,
     measure_ablations,
     measure_table,

@@ -26,7 +26,7 @@ explains the tables."""
 
 @dataclass(frozen=True, kw_only=True)
 class RealOptions:
-    """What to run."""
+    """Recordings and simulators."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("sources",)
     positional: ClassVar[tuple[str, ...]] = ("sources",)

@@ -13,7 +13,6 @@ from texvent.errors import ConfigError
 from texvent.sensor import parse_sensor
 from texvent_lab.bench.fidelity.entries import choose_entries
 from texvent_lab.bench.real.recording import FrameRecording, locate_source, open_recording
-from texvent_lab.bench.reconstruction.noise_robustness import NoiseScore, noise_curve
 from texvent_lab.bench.reconstruction.run import (
     ReconstructionPlan,
     ReconstructionScorer,
@@ -35,12 +34,12 @@ network's weights must be yours: docs/reconstruction.md says where they come fro
 
 @dataclass(frozen=True, kw_only=True)
 class ReconstructionOptions:
-    """What to run."""
+    """Recordings and simulators."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("recordings", "frames")
     positional: ClassVar[tuple[str, ...]] = ("recordings",)
     main_options: ClassVar[tuple[str, ...]] = (
-        "network", "weights", "simulators", "interpolations", "match_rate", "time", "noise", "out",
+        "network", "weights", "simulators", "interpolations", "match_rate", "time", "out",
         "overwrite",
     )  # fmt: skip
 
@@ -65,13 +64,11 @@ class ReconstructionOptions:
     skip_frames: int | None = None
     """Do not score this many images at the start, and score all others; default: 10, but 0 where
     a part is named."""
-    noise: bool = False
-    """Also add noise to the recorded events step by step: the paper's Table 7."""
     seed: int = 0
-    """Of the simulators and of the noise."""
+    """Of the simulators."""
 
     def plan(self) -> ReconstructionPlan:
-        """What these options ask for.
+        """The plan of these options.
 
         Raises:
             ConfigError: a value is out of range, or something named does not exist.
@@ -125,9 +122,5 @@ def run(arguments: Sequence[str]) -> None:
     recordings = options.open_recordings()
     scorer = ReconstructionScorer(reconstructor=reconstructor, measures=load_measures(), plan=plan)
     report = run_reconstruction(recordings, scorer, progress=output.progress)
-    noise: list[NoiseScore] = []
-    for recording in recordings if options.noise else ():
-        output.progress(f"{recording.name}: noise")
-        noise += noise_curve(recording, scorer)
-    output.write(lambda: reconstruction_document(report, noise))
-    write_out(reconstruction_tables(report, noise))
+    output.write(lambda: reconstruction_document(report))
+    write_out(reconstruction_tables(report))

@@ -14,7 +14,7 @@ from texvent_lab.commands.bench.bench import ResultOptions
 
 @dataclass(frozen=True, kw_only=True)
 class SelftestOptions:
-    """What to test."""
+    """Metrics to test."""
 
     metrics: str | None = None
     """Names of metrics, separated by commas; default: all whose weights are here."""

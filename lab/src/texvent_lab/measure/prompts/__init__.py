@@ -1,4 +1,4 @@
-"""How well the embedded generator shows what prompts say.
+"""Quality of the scenes that the embedded generator makes of prompts.
 
     python -m texvent_lab.measure.prompts public --vbench F --moviegen F --coco F -o DIR
     python -m texvent_lab.measure.prompts sheet PROMPTS.csv -o DIR --jobs 2

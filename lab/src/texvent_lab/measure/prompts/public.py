@@ -83,12 +83,12 @@ def draw(texts: Sequence[str], style: str, name: str) -> list[Prompt]:
 
 
 def half_of(text: str) -> str:
-    """Which half a prompt belongs to: by the digest of its subject."""
+    """Half of a prompt, by the digest of its subject."""
     return HALVES[int(digest(f"half {subject_of(text)}"), 16) % 2]
 
 
 def subject_of(text: str) -> str:
-    """What stands before the first comma."""
+    """Text before the first comma."""
     return text.split(",")[0].lower()
 
 

@@ -38,7 +38,7 @@ Z95 = 1.959964
 
 @dataclass(frozen=True)
 class Share:
-    """How many of how many.
+    """A number of successes and of trials.
 
     Example:
         >>> str(Share(8, 10)), str(Share(0, 0))

@@ -24,7 +24,7 @@ THREADS = "TEXVENT_NUM_THREADS"
 
 @dataclass(frozen=True)
 class Plan:
-    """How much is measured."""
+    """Frames, steps and models."""
 
     frames: int
     """Frames that differ: together more than the caches hold, so that each comes from DRAM."""
