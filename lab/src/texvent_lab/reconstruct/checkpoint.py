@@ -73,7 +73,8 @@ def read_network(published: PublishedNetwork, path: Path) -> RecurrentNetwork:
             f"{path} is not {published.name}'s: its first layer is of another kind; {where}"
         ) from error
     load_strictly(network, tensors, path, where)
-    return network.eval()
+    network.eval()
+    return network
 
 
 def network_settings(content: Mapping[str, Any]) -> Mapping[str, Any]:

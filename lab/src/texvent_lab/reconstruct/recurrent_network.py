@@ -48,7 +48,8 @@ class RecurrentNetwork(Network):
         with _torch.device("meta"):
             network = cls.like(shapes_of(tensors), settings)
         network.load_state_dict(dict(tensors), assign=True)
-        return network.eval()
+        network.eval()
+        return network
 
     def reset(self) -> None:
         """Forget everything seen."""
