@@ -10,6 +10,7 @@ from texvent_lab.bench.digits.data import read_mnist
 from texvent_lab.bench.digits.plan import ARMS, Cell, DigitsPlan, Training, find_arm
 from texvent_lab.bench.digits.results import digits_table, read_report
 from texvent_lab.bench.digits.run import Run, run_digits, simulate_digits
+from texvent_lab.bench.digits.training import shift_images
 from texvent_lab.bench.document import read_document, write_document
 from texvent_lab.bench.page import page_files
 from texvent_lab.train.schedule import Schedule
@@ -103,6 +104,13 @@ def test_counts_fall_with_the_threshold(data):
     ]
     assert counts == sorted(counts, reverse=True)
     assert counts[0] > 3 * counts[-1]
+
+
+def test_images_move_by_whole_pixels_with_zeros_behind():
+    image = np.arange(1, 26).reshape(1, 1, 5, 5)
+    expected = np.zeros_like(image)
+    expected[..., :3, 1:] = image[..., 2:, :4]
+    assert np.array_equal(shift_images(image, np.array([[1, -2]])), expected)
 
 
 def run(**changes):

@@ -108,8 +108,9 @@ def test_floor_and_null_bound_the_scores(report):
 
 def test_a_scene_without_true_events_has_undefined_ratios_not_numbers():
     metrics = ("nearest", "stpp")
-    plan = FidelityPlan(scenes=("static",), targets=("ideal",), score_seeds=(7,), metrics=metrics)
+    plan = FidelityPlan(scenes=("static",), targets=("ideal",), score_seeds=(21,), metrics=metrics)
     ((truth, reference, _),) = record_truths(plan, "static")
+    assert (list(truth.fit), list(truth.scored)) == ([7], [21])
     score = score_entry(truth, Entry(simulator="esim", interpolate="none"), metrics)
     assert math.isnan(score.default_ratio)
     assert math.isnan(score.values["nearest"][0])
