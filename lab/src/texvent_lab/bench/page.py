@@ -10,9 +10,8 @@ from texvent_lab.bench.digits import results as digits
 from texvent_lab.bench.document import COMPRESSED, read_records, without_tags
 from texvent_lab.bench.fidelity.results import FidelityReport, read_report
 from texvent_lab.bench.fidelity.table import BASELINE, check_baseline, fidelity_tables
-from texvent_lab.bench.selftest.run import SelftestRow
-from texvent_lab.bench.selftest.table import SCHEMA as SELFTEST_SCHEMA
-from texvent_lab.bench.selftest.table import selftest_chart, selftest_table
+from texvent_lab.bench.selftest import SCHEMA as SELFTEST_SCHEMA
+from texvent_lab.bench.selftest import SelftestRow, selftest_chart, selftest_table
 from texvent_lab.bench.summary import summarise
 from texvent_lab.charts import COLOURS, Dot, DotPanel, dot_chart
 

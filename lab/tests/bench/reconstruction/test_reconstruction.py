@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from texvent_lab.bench.fidelity.entries import Entry
+from texvent_lab.bench.perturbations import scatter
 from texvent_lab.bench.reconstruction.run import (
     DEFAULT_SKIP,
     RECORDED,
@@ -17,7 +18,6 @@ from texvent_lab.bench.reconstruction.run import (
     simulate_recording,
 )
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
-from texvent_lab.bench.selftest.run import scatter
 from texvent_lab.reconstruct.image_measures import load_measures
 
 from .synthetic_network import FRAMES, STEP_US, StandInReconstructor, moving_bar

@@ -18,7 +18,7 @@ from texvent_lab.bench.fidelity.results import Reference, Score
 from texvent_lab.bench.jobs import Progress, run_jobs
 
 NULL = "shuffle all times"
-"""Perturbation of the null; see `selftest.run`."""
+"""Perturbation of the null; see `perturbations`."""
 
 
 class Truth(Protocol):

@@ -26,7 +26,7 @@ from texvent_lab.bench.oracle.pixel import (
 )
 from texvent_lab.bench.oracle.recording import oracle_scene, record
 from texvent_lab.bench.oracle.scenes import check_scene, scene_names
-from texvent_lab.bench.selftest.run import perturb
+from texvent_lab.bench.perturbations import perturb
 
 OTHER_SENSOR = "another sensor of the kind"
 """Row of a recording by a sensor with the same constants and other pixels: a simulator that knows

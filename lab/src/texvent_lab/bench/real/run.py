@@ -20,8 +20,8 @@ from texvent_lab.bench.fidelity.run import (
     score_recorded,
 )
 from texvent_lab.bench.jobs import Progress, no_progress
+from texvent_lab.bench.perturbations import perturb
 from texvent_lab.bench.real.recording import SEED, RealScene
-from texvent_lab.bench.selftest.run import perturb
 
 HALVES = "half of the recording"
 """Row of the recording's events, one random half judged by the other."""

@@ -28,9 +28,9 @@ from texvent.simulate.model_options import contrast_threshold_of
 from texvent.video import MICROSECONDS
 from texvent_lab.bench.fidelity.entries import Entry
 from texvent_lab.bench.jobs import Progress, no_progress
+from texvent_lab.bench.perturbations import scatter
 from texvent_lab.bench.real.recording import FrameRecording
 from texvent_lab.bench.reconstruction.scores import ImageScores, ScoreCollector, score_images
-from texvent_lab.bench.selftest.run import scatter
 from texvent_lab.reconstruct.image_measures import Measures
 from texvent_lab.reconstruct.reconstructor import Reconstructor
 

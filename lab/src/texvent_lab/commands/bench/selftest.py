@@ -7,8 +7,7 @@ from dataclasses import dataclass
 
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
-from texvent_lab.bench.selftest.run import run_selftest
-from texvent_lab.bench.selftest.table import selftest_document, selftest_table
+from texvent_lab.bench.selftest import run_selftest, selftest_document, selftest_table
 from texvent_lab.commands.bench.bench import ResultOptions
 
 

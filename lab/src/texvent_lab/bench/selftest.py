@@ -3,126 +3,25 @@
 from __future__ import annotations
 
 import itertools
+import math
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from functools import partial
-from typing import TypeAlias
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
 
 import numpy as np
 
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.metrics.compare import default_metrics, load_metric
-from texvent.metrics.controls import (
-    Generator,
-    add_noise,
-    columns_of,
-    draw_columns,
-    flip,
-    shuffle_space,
-    shuffle_time,
-    stream_of,
-)
+from texvent.metrics.compare import default_metrics, load_metric, plain_values
 from texvent.metrics.protocol import Metric
+from texvent_lab.bench.document import describe_environment, markdown_table
 from texvent_lab.bench.jobs import Progress, no_progress
 from texvent_lab.bench.oracle.pixel import NOISY
 from texvent_lab.bench.oracle.recording import oracle_scene, record
+from texvent_lab.bench.perturbations import PERTURBATIONS, perturb
 from texvent_lab.bench.summary import badness
-
-Perturbation: TypeAlias = Callable[[EventStream, Generator], EventStream]
-
-FRAME_RATE_HZ = 24
-
-
-def jitter_time(events: EventStream, rng: Generator, *, sd_ms: float) -> EventStream:
-    """Times moved by normal noise."""
-    columns = columns_of(events)
-    columns["t"] += np.rint(rng.normal(0, sd_ms * 1000, len(events))).astype(np.int64)
-    return stream_of(columns, events)
-
-
-def shift_time(events: EventStream, rng: Generator, *, shift_ms: float) -> EventStream:
-    """All times moved by the same amount."""
-    del rng
-    columns = columns_of(events)
-    columns["t"] += round(shift_ms * 1000)
-    return stream_of(columns, events)
-
-
-def batch(events: EventStream, rng: Generator, *, rate_hz: int) -> EventStream:
-    """Times moved to the end of their frame: what a simulator without time stamps gives."""
-    del rng
-    columns = columns_of(events)
-    frame = -(-columns["t"] * rate_hz // 1_000_000)
-    columns["t"] = frame * 1_000_000 // rate_hz
-    return stream_of(columns, events)
-
-
-def shuffle_in_frames(events: EventStream, rng: Generator) -> EventStream:
-    """Times exchanged between the events of each 1/24 s."""
-    columns = columns_of(events)
-    frame = columns["t"] * FRAME_RATE_HZ // 1_000_000
-    # Times ascend, so the sorted frame numbers are those of the unshuffled times.
-    columns["t"] = columns["t"][np.argsort(np.lexsort((rng.random(len(events)), frame)))]
-    return stream_of(columns, events)
-
-
-def drop(events: EventStream, rng: Generator, *, share: float) -> EventStream:
-    """A random share of the events lost."""
-    return events[rng.random(len(events)) >= share]
-
-
-def scatter(events: EventStream, rng: Generator, *, share: float) -> EventStream:
-    """A random share of the events moved to random pixels, times and polarities."""
-    is_moved = rng.random(len(events)) < share
-    columns = columns_of(events)
-    moved = draw_columns(rng, int(is_moved.sum()), events.size, events.time_range or (0, 1))
-    for name, values in moved.items():
-        columns[name][is_moved] = values
-    return stream_of(columns, events)
-
-
-def move_right(events: EventStream, rng: Generator) -> EventStream:
-    """Everything one pixel to the right; the last column stays."""
-    del rng
-    columns = columns_of(events)
-    columns["x"] = np.minimum(columns["x"] + 1, events.size.width - 1)
-    return stream_of(columns, events)
-
-
-def jitter_space(events: EventStream, rng: Generator) -> EventStream:
-    """Each event up to one pixel away, in x and y."""
-    columns = columns_of(events)
-    for name, side in (("x", events.size.width), ("y", events.size.height)):
-        moved = columns[name] + rng.integers(-1, 2, len(events))
-        columns[name] = np.clip(moved, 0, side - 1)
-    return stream_of(columns, events)
-
-
-PERTURBATIONS: Mapping[str, Perturbation] = {
-    "jitter 0.5 ms": partial(jitter_time, sd_ms=0.5),
-    "jitter 2 ms": partial(jitter_time, sd_ms=2.0),
-    "jitter 8 ms": partial(jitter_time, sd_ms=8.0),
-    "shift 2 ms": partial(shift_time, shift_ms=2.0),
-    "batch 240 Hz": partial(batch, rate_hz=240),
-    "batch 24 Hz": partial(batch, rate_hz=24),
-    "shuffle in frames": shuffle_in_frames,
-    "shuffle all times": shuffle_time,
-    "drop 10 %": partial(drop, share=0.1),
-    "drop 30 %": partial(drop, share=0.3),
-    "drop 50 %": partial(drop, share=0.5),
-    "noise 10 %": partial(add_noise, share=0.1),
-    "noise 30 %": partial(add_noise, share=0.3),
-    "noise 100 %": partial(add_noise, share=1.0),
-    "flip 5 %": partial(flip, share=0.05),
-    "flip 20 %": partial(flip, share=0.2),
-    "flip 100 %": partial(flip, share=1.0),
-    "right 1 px": move_right,
-    "jitter 1 px": jitter_space,
-    "shuffle all pixels": shuffle_space,
-}
-"""Name → what it does to a stream."""
+from texvent_lab.charts import matrix_chart
 
 SERIES: Mapping[str, tuple[str, ...]] = {
     "jitter": ("jitter 0.5 ms", "jitter 2 ms", "jitter 8 ms"),
@@ -134,13 +33,6 @@ SERIES: Mapping[str, tuple[str, ...]] = {
     "space": ("right 1 px", "shuffle all pixels"),
 }
 """Perturbations in order of severity: a metric should worsen along each."""
-
-
-def perturb(events: EventStream, name: str) -> EventStream:
-    """The stream after the perturbation `name`; the same each time."""
-    index = list(PERTURBATIONS).index(name)
-    return PERTURBATIONS[name](events, np.random.default_rng([2026, index]))
-
 
 SCENE, TEXTURE_SEED = "mixed", 7
 RECORDING_SEEDS = (1, 2, 3, 4)
@@ -249,3 +141,78 @@ def ranked_rows(rows: Iterable[SelftestRow]) -> list[SelftestRow]:
 
 def _is_monotone(z: Sequence[float]) -> bool:
     return all(later > earlier for earlier, later in itertools.pairwise(z))
+
+
+SCHEMA = "texvent-selftest-1"
+"""Name of the document's layout: one entry of `rows` per `SelftestRow`."""
+MOST_NAMES = 8
+"""Missed perturbations that a row of the table names; of more, one less and dots."""
+FOUND, REWARDED = (0.298, 0.471, 0.659), (0.894, 0.341, 0.337)
+"""Colours of what was found, and of damage that scores better than a second recording."""
+FULL = 1000.0
+"""Standard deviations that are drawn in full colour."""
+LEGEND = (
+    "Standard deviations worse than the floor. Blue: found (above 3). White: missed. "
+    "Red: damage that the metric rewards."
+)
+
+
+def selftest_table(rows: Sequence[SelftestRow]) -> str:
+    """The result as a Markdown table, best metrics first."""
+    lines = []
+    for row in ranked_rows(rows):
+        missed = row.missed
+        if len(missed) > MOST_NAMES:
+            missed = (*missed[: MOST_NAMES - 1], "...")
+        floor = f"{row.floor:.4g} ± {row.floor_sd:.1g}"
+        counts = (str(len(row.found)), str(sum(row.monotone.values())))
+        lines.append((row.metric, floor, *counts, ", ".join(missed) or "–"))
+    totals = (f"found /{len(PERTURBATIONS)}", f"monotone /{len(SERIES)}")
+    return markdown_table(("metric", "floor", *totals, "missed"), lines)
+
+
+def selftest_document(rows: Sequence[SelftestRow]) -> dict[str, Any]:
+    """The result as plain values, ready for JSON; NaN becomes None."""
+    return {
+        "schema": SCHEMA,
+        "environment": describe_environment(),
+        "scene": SCENE,
+        "texture_seed": TEXTURE_SEED,
+        "recording_seeds": list(RECORDING_SEEDS),
+        "series": {name: list(steps) for name, steps in SERIES.items()},
+        "rows": [plain_values(asdict(row)) for row in rows],
+    }
+
+
+def selftest_chart(rows: Sequence[SelftestRow]) -> bytes:
+    """An SVG image of z-scores, the metrics that found most on top.
+
+    Args:
+        rows: result of `run_selftest`.
+    """
+    ranked = ranked_rows(rows)
+    return matrix_chart(
+        rows=[row.metric for row in ranked],
+        columns=[*PERTURBATIONS],
+        colours=[[_colour(row.z[name]) for name in PERTURBATIONS] for row in ranked],
+        texts=[[_short(row.z[name]) for name in PERTURBATIONS] for row in ranked],
+        note=LEGEND,
+    )
+
+
+def _colour(z: float) -> tuple[float, float, float, float]:
+    """As strong as the damage was seen; white where it was not."""
+    if not abs(z) > DETECTED:
+        return (1.0, 1.0, 1.0, 1.0)
+    share = min(math.log(abs(z) / DETECTED) / math.log(FULL / DETECTED), 1.0)
+    return (*(FOUND if z > 0 else REWARDED), 0.15 + 0.85 * share)
+
+
+def _short(z: float) -> str:
+    """A number in at most five characters."""
+    if math.isnan(z):
+        return "–"
+    if abs(z) == math.inf:
+        return "∞" if z > 0 else "−∞"
+    text = f"{z:.0f}" if abs(z) < 10_000 else f"{z / 1000:.0f}k"
+    return text.replace("-0", "0").replace("-", "−")

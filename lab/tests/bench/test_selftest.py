@@ -13,23 +13,20 @@ from texvent.events import EventStream
 from texvent.extending import METRICS
 from texvent.metrics.compare import load_metric
 from texvent.sensor import SensorSize
+from texvent_lab.bench import selftest
 from texvent_lab.bench.document import read_document, read_records, write_document
-from texvent_lab.bench.selftest import run as selftest
-from texvent_lab.bench.selftest.run import (
+from texvent_lab.bench.perturbations import PERTURBATIONS, perturb
+from texvent_lab.bench.selftest import (
     DETECTED,
-    PERTURBATIONS,
     SelftestRow,
     evaluate_metric,
-    perturb,
     run_selftest,
-)
-from texvent_lab.bench.selftest.table import (
     selftest_chart,
     selftest_document,
     selftest_table,
 )
 
-ROOT = Path(__file__).parents[4]
+ROOT = Path(__file__).parents[3]
 SIZE = SensorSize(20, 15)
 SVG = "{http://www.w3.org/2000/svg}"
 
