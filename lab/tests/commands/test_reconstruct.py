@@ -3,12 +3,11 @@
 import json
 
 import cv2
-import numpy as np
 import pytest
 
 from texvent.cli.app import main
 
-from ..bench.reconstruction.synthetic_network import SIZE, moving_bar
+from ..bench.reconstruction.synthetic_network import SIZE, moving_bar, write_recording
 from ..reconstruct.network_files import save_published
 
 pytestmark = pytest.mark.torch
@@ -32,18 +31,7 @@ def events(tmp_path):
 
 @pytest.fixture
 def recording(tmp_path):
-    """The bar in the layout of the Event-Camera Dataset."""
-    folder = tmp_path / "bar"
-    (folder / "images").mkdir(parents=True)
-    bar = moving_bar()
-    bar.events.collect().save(folder / "events.txt")
-    lines = []
-    for number, frame in enumerate(bar.frames):
-        name = f"images/{number:04d}.png"
-        cv2.imwrite(str(folder / name), np.rint(frame.pixels).astype(np.uint8))
-        lines.append(f"{frame.t_us / 1e6:.6f} {name}\n")
-    (folder / "images.txt").write_text("".join(lines))
-    return folder
+    return write_recording(tmp_path / "bar", moving_bar())
 
 
 def run(capsys, *words):

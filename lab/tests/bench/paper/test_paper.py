@@ -22,10 +22,12 @@ from texvent_lab.bench.paper.run import (
     measure_ablations,
     measure_accuracy,
     measure_event_frames,
+    measure_noise,
     measure_table,
 )
 from texvent_lab.bench.real.recording import RecordingPart, open_scene
 
+from ..reconstruction.synthetic_network import StandInReconstructor, moving_bar, write_recording
 from ..synthetic_report import synthetic_report
 
 PAPER = Path(__file__).parents[4] / "configs" / "paper"
@@ -136,6 +138,16 @@ def test_event_frames_are_compared_where_simulators_can_run(pan_folder, monkeypa
     # A recording compared with itself would have 0.
     recorded = scenes[0].recorded(scenes[0].scored[0])
     assert compare(recorded, recorded, ["ef_mse"]) == {"ef_mse": 0.0}
+
+
+def test_noise_that_grows_makes_images_less_like_those_without(tmp_path, monkeypatch):
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))  # no weights of LPIPS
+    folder = write_recording(tmp_path / "bar", moving_bar())
+    config = PaperConfig(table=7, recordings=str(folder))
+    found = measure_noise(config, StandInReconstructor(), silent)
+    errors = [float(found.rows["MSE ↓"][column]) for column in TABLES[7].columns]
+    assert 0 <= errors[0] < errors[2] < errors[4]
+    assert any(need.startswith("lpips: ") for need in found.needs)
 
 
 def test_tables_say_which_input_is_missing(monkeypatch, tmp_path):
