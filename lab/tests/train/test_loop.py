@@ -74,7 +74,9 @@ def test_the_rate_falls_and_training_stops_where_nothing_improves(
         "stop_after = 5\nlearning_rate = 1e-9\n"
     )
     scores = iter([math.nan, 0.5, 0.9, 0.9, math.nan, *[0.8] * 25])
-    monkeypatch.setattr(ClassificationTask, "validate", lambda *_, **__: {"accuracy": next(scores)})
+    monkeypatch.setattr(
+        ClassificationTask, "validate", lambda *_, **__: ({"accuracy": next(scores)}, {})
+    )
     state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
     assert (state.best_epoch, state.epochs) == (3, 8)
     rate = state.optimizer["param_groups"][0]["lr"]

@@ -226,7 +226,7 @@ def train(
         )
         with torch.inference_mode(), hardware.autocast(device):
             network.eval()
-            scores = task.validate(network, device, workers=hardware.workers)
+            scores, _ = task.validate(network, device, workers=hardware.workers)
         row = {"epoch": state.epochs + 1, LOSS: loss, **scores}
         state.rows.append({**row, "seconds": round(time.perf_counter() - started, 3)})
         _note_epoch(state, task, schedule, network, optimizer)

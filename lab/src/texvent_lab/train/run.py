@@ -20,7 +20,6 @@ from texvent.settings.config_files import read_document
 from texvent_lab.reconstruct.checkpoint import LEFT_BY_TRAINING
 from texvent_lab.train.loop import TrainingState, train
 from texvent_lab.train.schedule import EXTRA, Hardware, TrainingConfig
-from texvent_lab.train.task import PredictingTask
 
 Config = TypeVar("Config")
 
@@ -151,12 +150,7 @@ def evaluate(config: TrainingConfig, weights: Path, hardware: Hardware) -> Evalu
     task.read(network, content, weights)
     network.to(device).eval()
     with require("torch", extra=EXTRA).inference_mode(), hardware.autocast(device):
-        predictions = {}
-        if isinstance(task, PredictingTask):
-            predictions = task.predict(network, device, workers=hardware.workers)
-            scores = task.scores(predictions)
-        else:
-            scores = task.validate(network, device, workers=hardware.workers)
+        scores, predictions = task.validate(network, device, workers=hardware.workers)
     facts = {
         "texvent_version": full_version(),
         "weights": describe_file(weights),

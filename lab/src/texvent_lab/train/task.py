@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, Protocol, runtime_checkable
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -51,8 +51,14 @@ class Task(Protocol):
         """Of a batch, a scalar; it depends on its arguments alone."""
         ...
 
-    def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
-        """Scores on the validation samples by name."""
+    def validate(
+        self, network: Any, device: Any, *, workers: int
+    ) -> tuple[dict[str, float], dict[str, list[Any]]]:
+        """Scores on the validation samples by name.
+
+        Returns:
+            The scores; predictions, a value per sample in columns by name, or {}.
+        """
         ...
 
     def published(self, network: Any) -> Mapping[str, Any]:
@@ -65,19 +71,6 @@ class Task(Protocol):
         Raises:
             FileFormatError: they do not fit the network or the samples.
         """
-        ...
-
-
-@runtime_checkable
-class PredictingTask(Task, Protocol):
-    """A task that says what it predicts for each validation sample."""
-
-    def predict(self, network: Any, device: Any, *, workers: int) -> dict[str, list[Any]]:
-        """Columns by name, a value per validation sample."""
-        ...
-
-    def scores(self, predictions: Mapping[str, Sequence[Any]]) -> dict[str, float]:
-        """What `validate` gives, from these columns."""
         ...
 
 

@@ -183,7 +183,9 @@ class TruthTask:
         schedule, seed = self._config.schedule, self._config.seed
         return Batches(examples, len(examples), schedule.batch_size, seed, workers=workers)
 
-    def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
+    def validate(
+        self, network: Any, device: Any, *, workers: int
+    ) -> tuple[dict[str, float], dict[str, list[Any]]]:
         """Errors on all windows, and the score where there are events."""
         whole, seen = self.errors(), self.errors()
         clips = Batches(
@@ -196,7 +198,7 @@ class TruthTask:
                 whole.update(found[window], true[window])
                 seen.update(found[window], true[window], mask[window])
         name = self.score.name
-        return {**whole.compute(), f"{name} at events": seen.compute()[name]}
+        return {**whole.compute(), f"{name} at events": seen.compute()[name]}, {}
 
     def published(self, network: Any) -> Mapping[str, Any]:
         """See `Task`."""

@@ -163,8 +163,10 @@ def test_some_windows_are_scored_and_all_are_seen(folder: Path) -> None:
             true = windows.targets["frame"][place].astype(np.float64) / 255
             values.append(mean_squared_error(images[place].astype(np.float64), true))
     with torch.inference_mode():
-        assert third.validate(network, DEVICE, workers=0)["mse"] == pytest.approx(np.mean(values))
-        assert every.validate(network, DEVICE, workers=0)["mse"] != np.mean(values)
+        assert third.validate(network, DEVICE, workers=0)[0]["mse"] == pytest.approx(
+            np.mean(values)
+        )
+        assert every.validate(network, DEVICE, workers=0)[0]["mse"] != np.mean(values)
 
 
 def test_lpips_is_trained_with_where_its_weights_are(

@@ -112,7 +112,9 @@ class ReconstructionTask:
         flow = batch[FLOW].to(device) if FLOW in batch else None
         return self._loss.to(device)(images, batch[IMAGES].to(device), flow)
 
-    def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
+    def validate(
+        self, network: Any, device: Any, *, workers: int
+    ) -> tuple[dict[str, float], dict[str, list[Any]]]:
         """Means over windows of whole clips, by the path that `texvent reconstruct` takes."""
         del workers
         torch, measures = require("torch", extra=EXTRA), load_measures().chosen
@@ -131,7 +133,7 @@ class ReconstructionTask:
                             values[one.name].append(one.compare(*_as_scored(image, frame)))
         # Small images have no LPIPS.
         defined = {name: [x for x in values[name] if not np.isnan(x)] for name in values}
-        return {name: float(np.mean(numbers)) for name, numbers in defined.items() if numbers}
+        return {name: float(np.mean(numbers)) for name, numbers in defined.items() if numbers}, {}
 
     def published(self, network: Any) -> Mapping[str, Any]:
         """See `Task`."""
