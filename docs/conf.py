@@ -127,7 +127,6 @@ CHILDREN = {
     "metrics": ["results/selftest"],
     "speed": ["results/speed"],
     "datasets": ["datasets-load"],
-    "training": ["latents"],
     "notebooks": ["notebooks/your-video", "notebooks/train-a-network"],
     "site/architecture": ["design"],
 }

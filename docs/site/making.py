@@ -22,6 +22,7 @@ BENCHMARKS = {
     "real-davis346": ("--baseline", "texvent accurate, flow"),
     "digits": (),
     "digits-all": (),
+    "selftest": (),
 }
 """Results that `texvent bench page` turns into a page of the same name, and its options."""
 
@@ -51,31 +52,13 @@ def make_film(folder: Path) -> None:
 
 
 def make_result_pages() -> None:
-    """Write a page beside each stored result: of benchmarks, the self-test and speed."""
+    """Write a page beside each stored result: of benchmarks and of speed."""
     for name, options in BENCHMARKS.items():
         if _is_old(RESULTS / f"{name}.md", [RESULTS / f"{name}.json.gz"]):
             result = str(RESULTS / f"{name}.json.gz")
             if main(["bench", "page", result, *options, "--overwrite"]):
                 raise RuntimeError(f"texvent bench page {result} failed")
-    make_selftest_page()
     make_speed_page()
-
-
-def make_selftest_page() -> None:
-    """Table and chart of the stored self-test of the metrics."""
-    from texvent_lab.bench.selftest.table import read_selftest, selftest_chart, selftest_table
-
-    rows = read_selftest(RESULTS / "selftest.json.gz")
-    (RESULTS / "selftest.svg").write_bytes(selftest_chart(rows))
-    text = [
-        "# Self-test of the metrics: the table",
-        "Written from `docs/results/selftest.json.gz`; [metrics.md](../metrics.md#self-test) "
-        "describes the test. Found: perturbations scored more than 3 sd worse than the floor. "
-        "Monotone: series of growing damage along which the metric worsens at every step.",
-        selftest_table(rows).rstrip(),
-        "![Standard deviations worse than the floor](selftest.svg)",
-    ]
-    (RESULTS / "selftest.md").write_text("\n\n".join(text) + "\n", encoding="utf-8")
 
 
 def make_speed_page() -> None:
@@ -86,9 +69,8 @@ def make_speed_page() -> None:
     text = [
         "# Speed: the tables",
         "Written from `docs/results/speed.json.gz`; [speed.md](../speed.md) has the summary. "
-        "`floor`: the time of the memory bandwidth. `clip`: one thread; `clips`: two threads with "
-        "a clip each. `drawn` draws every intermediate frame; `fused`, which runs use, computes "
-        "only pixels that may fire. Peers below 1 are faster than texvent.",
+        "`clip`: one thread; `clips`: two threads with a clip each. Peers below 1 are faster than "
+        "texvent.",
         as_markdown(read_document(RESULTS / "speed.json.gz")).replace("\n### ", "\n## "),
     ]
     (RESULTS / "speed.md").write_text("\n\n".join(text) + "\n", encoding="utf-8")

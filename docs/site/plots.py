@@ -140,8 +140,7 @@ def digits(colours: tuple[str, ...]) -> Figure:
         found = {
             score["arm"]: 100 * mean(score["accuracy"])
             for score in result["scores"]
-            if (score["way"], score["choice"], score["representation"])
-            == (way, "matched", "histogram")
+            if (score["way"], score["representation"]) == (way, "histogram")
         }
         series[label] = [found.get(name) for name in names]
     dots(axes, list(names), series, colours)

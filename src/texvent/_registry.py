@@ -210,8 +210,6 @@ METRICS = Registry(
         "ef_lpips": "texvent.metrics.event_frames:EventFrameLpips",
         "lfs": "texvent.metrics.latent_similarity:LatentSimilarity",
         "eqs": "texvent.metrics.latent_similarity:EventQualityScore",
-        "fwl": "texvent.metrics.event_sharpness:FlowWarpRatio",
-        "esr": "texvent.metrics.event_sharpness:StructuralRatioQuotient",
         "count_ratio": "texvent.metrics.count_statistics:CountRatio",
         "on_difference": "texvent.metrics.count_statistics:OnDifference",
         "active_iou": "texvent.metrics.count_statistics:ActiveIou",

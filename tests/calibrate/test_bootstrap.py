@@ -1,7 +1,5 @@
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
 
 from texvent.calibrate.bootstrap import bootstrap, percentile_interval
 
@@ -35,9 +33,3 @@ def test_percentiles_by_hand_and_what_is_no_number():
     ends = percentile_interval(drawn)
     assert ends[:, 0] == pytest.approx([5.0, 195.0])
     assert np.isnan(ends[:, 1]).all()
-
-
-@given(value=st.floats(-1e6, 1e6), count=st.integers(1, 20))
-def test_equal_units_have_no_uncertainty(value, count):
-    ends = bootstrap(mean_of(np.full(count, value)), (count,), resamples=5)
-    assert ends == pytest.approx(np.full((2, 1), value))

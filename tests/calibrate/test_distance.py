@@ -10,12 +10,6 @@ SMALL = SensorSize(13, 12)
 ONE_EVENT = EventStream([0], [0], [1000], [1], SMALL)
 
 
-def test_equal_streams_have_no_distance(recording):
-    distance = measure_distance(recording.events, recording.events)
-    assert distance.total == 0
-    assert str(distance).startswith("0.000 (1-STPP 0.000")
-
-
 def test_counts_are_compared_by_polarity(recording):
     events = recording.events
     thinned = events[(events.p == 1) | (events.t % 2 == 0)]

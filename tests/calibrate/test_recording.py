@@ -42,15 +42,6 @@ def test_unlike_sizes_are_refused(recording):
         Recording(recording.frames, other, recording.interpolate)
 
 
-def test_a_live_source_is_refused(recording):
-    class Live(Video):
-        is_live = True
-
-    frames = Live(recording.frames.pixels, recording.frames.times_us)
-    with pytest.raises(InputError, match="read again"):
-        Recording(frames, recording.events, recording.interpolate)
-
-
 def test_clocks_that_do_not_meet_are_refused(recording):
     frames = moving_blobs()
     late = Video(frames.pixels, [t + 10**9 for t in frames.times_us])
@@ -58,17 +49,3 @@ def test_clocks_that_do_not_meet_are_refused(recording):
         Recording(late, recording.events, InterpolateConfig()).halves()
     with pytest.raises(InputError, match="lacks one"):
         Recording(frames, EventStream.empty(frames.size), InterpolateConfig()).halves()
-
-
-def test_recordings_from_a_third_of_a_second_on_have_halves(recording):
-    events = recording.events
-    for count, is_enough in ((19, True), (14, False)):
-        frames = moving_blobs(count)
-        short = Recording(frames, events, recording.interpolate)
-        if is_enough:
-            first, second = short.halves()
-            assert first.seconds == pytest.approx(0.1, abs=1e-3)
-            assert second.seconds == pytest.approx(0.1, abs=1e-3)
-        else:
-            with pytest.raises(InputError, match=r"0\.117 s after the first 0\.1 s.*needs 0\.15 s"):
-                short.halves()

@@ -1,12 +1,10 @@
 import itertools
-import math
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.calibrate.estimates import Estimate, UnidentifiedOption
 from texvent.calibrate.recording import TimeSpan
 from texvent.calibrate.uncertainty import FARTHEST, cut_blocks, vertex, widen
 
@@ -35,13 +33,3 @@ def test_blocks_cover_their_span(start, length):
     assert blocks[-1].stop_us == start + length
     assert all(a.stop_us == b.start_us for a, b in itertools.pairwise(blocks))
     assert len(blocks) == 1 or min(b.stop_us - b.start_us for b in blocks) >= 10_000
-
-
-def test_a_line_says_value_unit_and_interval():
-    assert str(Estimate("cutoff_hz", 250.04, 241.1, 262.2, "Hz")) == (
-        "cutoff_hz 250 Hz (95 %: 241 to 262)"
-    )
-    assert Estimate("balance", 160.0, 135.0, math.inf).interval == "135 or more"
-    assert Estimate("balance", 2.0, -math.inf, 3.0).interval == "3 or less"
-    assert str(UnidentifiedOption("noise_curve", "1:2 3:4", "too dark")) == "noise_curve: too dark"
-    assert str(UnidentifiedOption("balance", 20.0, "too dark")) == "balance 20: too dark"

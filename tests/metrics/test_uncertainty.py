@@ -8,9 +8,9 @@ from hypothesis.extra import numpy as arrays
 
 from texvent.metrics.uncertainty import (
     LEAST_WINDOWS,
+    Verdict,
     average_blocks,
     bootstrap_interval,
-    describe_difference,
     independent_block_size,
     paired_differences,
 )
@@ -18,16 +18,7 @@ from texvent.metrics.uncertainty import (
 VALUES = arrays.arrays(np.float64, st.integers(6, 20), elements=st.floats(-5, 5, width=32))
 
 
-def test_the_interval_of_many_values_is_that_of_the_normal_distribution():
-    values = np.random.default_rng(3).normal(2.0, 1.0, 400)
-    low, high = bootstrap_interval(values)
-    error = values.std(ddof=1) / 20
-    assert low == pytest.approx(values.mean() - 1.966 * error, abs=0.1 * error)
-    assert high == pytest.approx(values.mean() + 1.966 * error, abs=0.1 * error)
-    assert bootstrap_interval(values, seed=1) != (low, high)
-
-
-@pytest.mark.parametrize("count", [6, 8, 16])
+@pytest.mark.parametrize("count", [6, 16])
 def test_95_of_100_intervals_hold_the_true_mean_of_few_normal_values(count):
     rng = np.random.default_rng(5)
     intervals = [bootstrap_interval(rng.normal(1.0, 2.0, count), seed=seed) for seed in range(300)]
@@ -65,23 +56,6 @@ def test_windows_that_follow_each_other_are_averaged_and_others_are_not():
     assert 16 // independent_block_size(np.arange(16.0)) < LEAST_WINDOWS
 
 
-def test_intervals_of_dependent_windows_hold_the_mean_only_by_blocks():
-    """An autoregressive series: neighbours correlate by 0.7."""
-    rng = np.random.default_rng(2)
-    held = {"windows": 0, "blocks": 0}
-    for seed in range(60):
-        series = [0.0]
-        for noise in rng.normal(size=200):
-            series.append(0.7 * series[-1] + noise)
-        values = np.array(series[73:])
-        blocks = average_blocks(values, independent_block_size(values))
-        for name, one in (("windows", values), ("blocks", blocks)):
-            low, high = bootstrap_interval(one, seed=seed)
-            held[name] += low <= 0 <= high
-    assert held["windows"] <= 45
-    assert held["blocks"] >= 51
-
-
 PAIRS = arrays.arrays(
     np.float64, st.tuples(st.just(2), st.integers(6, 10)), elements=st.floats(0, 1, width=16)
 )
@@ -92,10 +66,14 @@ def difference(first, second, **options):
     return paired_differences({"it": column}, **{"is_in_sequence": False, **options})["it"]
 
 
+def sentence(first, second, found, better="lower", unit=""):
+    return Verdict("it", first, second, found, better, unit).sentence
+
+
 def test_identical_candidates_do_not_differ():
     found = difference([0.5, 0.6, 0.7, 0.5, 0.4, 0.6], [0.5, 0.6, 0.7, 0.5, 0.4, 0.6])
     assert (found.mean, found.interval) == (0.0, (0.0, 0.0))
-    assert describe_difference("A", "B", found) == (
+    assert sentence("A", "B", found) == (
         "A and B do not differ significantly (difference 0.000, 95 % interval 0.000 to 0.000, "
         "6 windows)"
     )
@@ -105,9 +83,9 @@ def test_a_constant_advantage_over_eight_windows_is_significant():
     found = difference([0.75] * 8, [0.5] * 8)
     assert (found.mean, found.interval) == (0.25, (0.25, 0.25))
     text = "is closer than {} by 0.250 ms (95 % interval 0.250 to 0.250, 8 windows)"
-    higher = describe_difference("A", "B", found, better="higher", unit="ms")
+    higher = sentence("A", "B", found, better="higher", unit="ms")
     assert higher == f"A {text.format('B')}"
-    assert describe_difference("A", "B", found, unit="ms") == f"B {text.format('A')}"
+    assert sentence("A", "B", found, unit="ms") == f"B {text.format('A')}"
 
 
 @given(PAIRS)
@@ -117,12 +95,12 @@ def test_the_order_of_candidates_only_flips_signs(pair):
     assert other.interval == pytest.approx(found.reversed().interval)
     assert found.is_significant == other.is_significant
     if found.is_significant:
-        assert describe_difference("A", "B", found) == describe_difference("B", "A", other)
+        assert sentence("A", "B", found) == sentence("B", "A", other)
 
 
 def test_more_comparisons_widen_the_interval_and_equals_rarely_differ():
     rng = np.random.default_rng(4)
-    tables = rng.normal(size=(100, 20, 16))
+    tables = rng.normal(size=(60, 12, 16))
     alone = wrong = 0
     for table in tables:
         columns = dict(enumerate(table))
@@ -131,8 +109,8 @@ def test_more_comparisons_widen_the_interval_and_equals_rarely_differ():
         single = bootstrap_interval(table[0])
         alone += single.low > 0 or single.high < 0
         assert found[0].interval.low <= single.low <= single.high <= found[0].interval.high
-    assert alone <= 12
-    assert wrong <= 12
+    assert alone <= 8
+    assert wrong <= 8
 
 
 def test_windows_that_drift_count_by_blocks_of_which_too_few_are_left():
@@ -140,7 +118,7 @@ def test_windows_that_drift_count_by_blocks_of_which_too_few_are_left():
     assert difference(drift, 0 * drift).is_significant
     found = difference(drift, 0 * drift, is_in_sequence=True)
     assert (found.windows, found.block, found.is_significant) == (4, 4, False)
-    assert "too few independent windows to compare (n = 4;" in describe_difference("A", "B", found)
+    assert "too few independent windows to compare (n = 4;" in sentence("A", "B", found)
 
 
 def test_undefined_windows_are_left_out():

@@ -22,7 +22,7 @@ import sys
 import tempfile
 import time
 from collections import Counter
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -131,33 +131,6 @@ def attack(kind: str, scratch: Path, wanted: Path, seconds: float, chance: rando
     return "; ".join(f"{number.name}: {fault}" for fault in faults)
 
 
-def run_undisturbed(place: Path, kept: Path) -> tuple[dict[str, Path], dict[str, float]]:
-    """Run every kind of run once, in `place`; returns where its files are kept, and its time, s."""
-    wanted, seconds = {}, {}
-    for kind, words in RUNS.items():
-        (place / "out").mkdir()
-        seconds[kind] = run_whole(words, place)
-        wanted[kind] = kept / kind
-        shutil.move(place / "out", wanted[kind])
-    return wanted, seconds
-
-
-def repeat(count: int, what: str, attack: Callable[[str], str]) -> int:
-    """Rounds of all kinds in turn, each fault as it is found, then a table; 1 if there was one."""
-    rounds, failed = Counter[str](), Counter[str]()
-    for number in range(count):
-        kind = list(RUNS)[number % len(RUNS)]
-        rounds[kind] += 1
-        fault = attack(kind)
-        if fault:
-            failed[kind] += 1
-            sys.stdout.write(f"{kind}, round {number}: {fault}\n")
-            sys.stdout.flush()
-    for kind, done in rounds.items():
-        sys.stdout.write(f"{kind:14} {done:4} {what}, {failed[kind]} failed\n")
-    return 1 if failed else 0
-
-
 def main() -> int:
     """Run the attack; returns 1 if a round failed."""
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
@@ -165,15 +138,26 @@ def main() -> int:
     parser.add_argument("--seed", type=int, default=0)
     options = parser.parse_args()
     chance = random.Random(options.seed)
+    rounds, failed = Counter[str](), Counter[str]()
     with tempfile.TemporaryDirectory(prefix="texvent-kills-") as name:
-        scratch = Path(name)
+        scratch, wanted = Path(name), Path(name) / "wanted"
+        wanted.mkdir()
         make_inputs(scratch / "in")
-        wanted, seconds = run_undisturbed(scratch, scratch / "wanted")
-        return repeat(
-            options.kills,
-            "kills",
-            lambda kind: attack(kind, scratch, wanted[kind], seconds[kind], chance),
-        )
+        seconds = {}
+        for kind, words in RUNS.items():
+            (scratch / "out").mkdir()
+            seconds[kind] = run_whole(words, scratch)
+            shutil.move(scratch / "out", wanted / kind)
+        for number in range(options.kills):
+            kind = list(RUNS)[number % len(RUNS)]
+            rounds[kind] += 1
+            fault = attack(kind, scratch, wanted / kind, seconds[kind], chance)
+            if fault:
+                failed[kind] += 1
+                print(f"{kind}, round {number}: {fault}", flush=True)  # noqa: T201
+    for kind, done in rounds.items():
+        print(f"{kind:14} {done:4} kills, {failed[kind]} failed")  # noqa: T201
+    return 1 if failed else 0
 
 
 if __name__ == "__main__":

@@ -43,18 +43,6 @@ class Dot:
 
 
 @dataclass(frozen=True)
-class Matrix:
-    """Cells with a colour and a text each."""
-
-    title: str
-    rows: Sequence[str]
-    columns: Sequence[str]
-    colours: Any
-    """[rows, columns, 4] RGBA, 0..1."""
-    texts: Sequence[Sequence[str]]
-
-
-@dataclass(frozen=True)
 class DotPanel:
     """Dots of several rows beside each other, with vertical lines of reference."""
 
@@ -100,64 +88,34 @@ def dot_chart(
     return _svg(figure)
 
 
-def matrix_chart(panels: Sequence[Matrix], *, columns: int = 4, note: str = "") -> bytes:
-    """A panel each: coloured cells with their texts."""
-    high, wide = np.asarray(panels[0].colours).shape[:2]
-    columns = min(columns, len(panels))
-    figure, axes = _figure(len(panels), columns, 1.0 + 0.34 * wide, 0.9 + 0.2 * high)
-    for ax, panel in zip(axes, panels, strict=True):
-        colours = np.asarray(panel.colours, float)
-        ax.imshow(colours, aspect="auto", interpolation="nearest")
-        for (row, column), rgba in zip(np.ndindex(high, wide), colours.reshape(-1, 4), strict=True):
-            is_dark = rgba[3] * (1 - rgba[:3].mean()) > 0.35
-            ink = "white" if is_dark else INK
-            text = panel.texts[row][column]
-            ax.text(column, row, text, ha="center", va="center", fontsize=6, color=ink)
-        turned = {"rotation": 45, "ha": "right", "rotation_mode": "anchor"} if wide > 8 else {}
-        ax.set_xticks(range(wide), panel.columns, **turned)
-        ax.set_yticks(range(high), panel.rows)
-        ax.tick_params(length=0)
-        ax.set_title(_label(panel.title), loc="left", weight="bold", fontsize=7)
-    if note:
-        figure.supxlabel(note, fontsize=7)
-    return _svg(figure)
-
-
-def histogram_chart(
-    panels: Mapping[str, tuple[Sequence[float], str]], edges: Sequence[float], *, unit: str
-) -> bytes:
-    """A panel each, with equal axes: title → (share per bin, colour)."""
-    figure, axes = _figure(len(panels), 4, 2.3, 1.3)
-    highest = max((max(shares) for shares, _ in panels.values()), default=1.0) or 1.0
-    for ax, (title, (shares, colour)) in zip(axes, panels.items(), strict=True):
-        ax.stairs(shares, edges, fill=True, color=colour)
-        ax.axvline(0, color=REFERENCE, linestyle=":", linewidth=1)
-        ax.set_ylim(0, highest)
-        ax.set_yticks([])
-        ax.set_title("\n".join(map(_label, title.split("\n"))), loc="left", fontsize=7)
-        ax.set_xlabel(unit, fontsize=6)
-    return _svg(figure)
-
-
-def curve_chart(
-    curves: Mapping[str, Sequence[tuple[float, float]]],
-    ticks: Sequence[str],
+def matrix_chart(
+    rows: Sequence[str],
+    columns: Sequence[str],
+    colours: Any,
+    texts: Sequence[Sequence[str]],
     *,
-    title: str,
-    xlabel: str,
+    note: str = "",
 ) -> bytes:
-    """Curves over the same ticks: name → (mean, standard error) at each; NaN leaves a gap."""
-    figure, (ax,) = _figure(1, 1, 7.5, 3.6)
-    for number, (name, points) in enumerate(curves.items()):
-        means, errors = np.array(points, float).T
-        colour = COLOURS[number % len(COLOURS)]
-        ax.errorbar(range(len(ticks)), means, np.nan_to_num(errors), fmt="-o", color=colour,
-                    label=name)  # fmt: skip
-    ax.set_xticks(range(len(ticks)), ticks)
-    ax.set_xlabel(xlabel)
-    ax.set_title(title, loc="left", weight="bold")
-    ax.grid(axis="y", color=GRID)
-    figure.legend(loc="outside right upper", frameon=False)
+    """Coloured cells with a text each.
+
+    Args:
+        rows: names, from the top.
+        columns: names, from the left.
+        colours: [rows, columns, 4] RGBA, 0..1.
+        texts: of each cell, row by row.
+        note: below the cells.
+    """
+    figure, (ax,) = _figure(1, 1, 1.0 + 0.34 * len(columns), 0.9 + 0.2 * len(rows))
+    colours = np.asarray(colours, float)
+    ax.imshow(colours, aspect="auto", interpolation="nearest")
+    for row, column in np.ndindex(len(rows), len(columns)):
+        rgba = colours[row, column]
+        ink = "white" if rgba[3] * (1 - rgba[:3].mean()) > 0.35 else INK
+        ax.text(column, row, texts[row][column], ha="center", va="center", fontsize=6, color=ink)
+    ax.set_xticks(range(len(columns)), columns, rotation=45, ha="right", rotation_mode="anchor")
+    ax.set_yticks(range(len(rows)), rows)
+    ax.tick_params(length=0)
+    figure.supxlabel(note, fontsize=7)
     return _svg(figure)
 
 

@@ -23,9 +23,8 @@ TASKS = Registry(
     "task",
     {
         "classification": "texvent_lab.train.classification.config:ClassificationConfig",
-        "depth": "texvent_lab.train.depth.config:DepthConfig",
-        "flow": "texvent_lab.train.flow.config:FlowConfig",
-        "latents": "texvent_lab.train.latents.config:LatentsConfig",
+        "depth": "texvent_lab.train.depth:DepthConfig",
+        "flow": "texvent_lab.train.flow:FlowConfig",
         "reconstruction": "texvent_lab.train.reconstruction.config:ReconstructionConfig",
     },
 )

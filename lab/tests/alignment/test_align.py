@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -23,17 +22,14 @@ from texvent.cli.app import main  # noqa: E402
 from texvent.events import EventStream  # noqa: E402
 from texvent.sensor import SensorSize  # noqa: E402
 from texvent_lab.alignment.align import align  # noqa: E402
-from texvent_lab.alignment.clip_model import ClipModel, _prepare  # noqa: E402
+from texvent_lab.alignment.clip_model import ClipModel  # noqa: E402
 from texvent_lab.alignment.recordings import (  # noqa: E402
     DrawnEvents,
     Recording,
     list_samples,
-    list_streams,
 )
-from texvent_lab.nt_imagenet.files import read_captioned  # noqa: E402
 
 from ..nt_imagenet.tiny_data import WNIDS, stream_id, write_n_imagenet  # noqa: E402
-from ..reconstruct.network_files import save_published  # noqa: E402
 
 CAPTIONS = ["a red car drives left", "a dog runs", "a ball bounces", "a blue bus drives right"]
 
@@ -76,7 +72,7 @@ def recordings(events: list[EventStream], texts: list[str]) -> list[Recording]:
 def test_the_score_is_that_of_the_similarities_of_transformers(clip: Path, data: Path) -> None:
     samples = list_samples(data / "events")["texvent"]
     draw = DrawnEvents(images=2, events_per_image=15)
-    (row,) = align({"ours": samples}, {"drawn": draw}, ClipModel(clip))
+    report = align({"ours": samples}, draw, ClipModel(clip))["ours"]
     whole = transformers.CLIPModel.from_pretrained(clip).eval()
     tokenizer = transformers.AutoTokenizer.from_pretrained(clip)
     processor = transformers.CLIPImageProcessorPil(
@@ -92,12 +88,10 @@ def test_the_score_is_that_of_the_similarities_of_transformers(clip: Path, data:
             out = whole(**words, pixel_values=pixels)
         mean = out.image_embeds.mean(0)
         similarity[place] = (mean / mean.norm()) @ out.text_embeds.T
-    assert row.report.measured.mean_similarity == pytest.approx(
-        np.diag(similarity).mean(), abs=0.005
-    )
-    assert row.report.chance.mean_similarity == pytest.approx(similarity.mean(), abs=0.005)
+    assert report.measured.mean_similarity == pytest.approx(np.diag(similarity).mean(), abs=0.005)
+    assert report.chance.mean_similarity == pytest.approx(similarity.mean(), abs=0.005)
     assert max(counts) == 2
-    assert (row.report.recordings, row.report.texts) == (3, 3)
+    assert (report.recordings, report.texts) == (3, 3)
 
 
 def test_recordings_of_one_text_are_right_with_the_same_text(clip: Path) -> None:
@@ -106,43 +100,11 @@ def test_recordings_of_one_text_are_right_with_the_same_text(clip: Path) -> None
     x, y, t = rng.integers(0, 32, 200), rng.integers(0, 32, 200), np.arange(200)
     events = EventStream(x, y, t, rng.integers(0, 2, 200), size)
     same = recordings([events] * 4, ["a cat", "a cat", "a dog", "a dog"])
-    (row,) = align({"same": same}, {"drawn": DrawnEvents()}, model)
+    report = align({"same": same}, DrawnEvents(), model)["same"]
     # One image is nearer to one of two texts, whatever the model: half of them are right.
-    assert row.report.texts == 2
-    assert row.report.measured.recall[1] == 0.5
-    assert row.report.chance.recall[1] == 0.5
-
-
-def train(folder: Path, samples: list[Recording]) -> Path:
-    """A tiny CLIP that has learned the pairs by heart."""
-    tiny_pipelines.save_clip(folder)
-    model = transformers.CLIPModel.from_pretrained(folder)
-    tokenizer = transformers.AutoTokenizer.from_pretrained(folder)
-    words = tokenizer([one.text for one in samples], padding=True, return_tensors="pt")
-    pixels = torch.cat([_prepare(DrawnEvents(images=1)(one.load())[0], 32) for one in samples])
-    optimiser = torch.optim.Adam(model.parameters(), lr=3e-3)
-    for _ in range(1500):
-        optimiser.zero_grad()
-        loss = model(**words, pixel_values=pixels, return_loss=True).loss
-        loss.backward()
-        optimiser.step()
-        if loss.item() < 0.02:
-            break
-    assert loss.item() < 0.1, loss
-    model.save_pretrained(folder)
-    return folder
-
-
-def test_a_model_that_knows_the_pairs_finds_them_and_no_others(data: Path, tmp_path: Path) -> None:
-    samples = list_samples(data / "events")["texvent"]
-    samples += list_streams(data / "N", read_captioned(data / "nt" / "captions.jsonl")[3:])
-    model, views = ClipModel(train(tmp_path / "clip", samples)), {"drawn": DrawnEvents(images=1)}
-    others = [replace(one, text=samples[number - 1].text) for number, one in enumerate(samples)]
-    right, wrong = align({"right": samples, "wrong": others}, views, model)
-    assert right.report.measured.recall[1] == 1.0
-    assert right.report.measured.mean_similarity > right.report.shuffled.mean_similarity + 0.1
-    assert wrong.report.measured.recall[1] == 0.0
-    assert wrong.report.chance.recall[1] == 0.25
+    assert report.texts == 2
+    assert report.measured.recall[1] == 0.5
+    assert report.chance.recall[1] == 0.5
 
 
 def run(clip: Path, out: Path, *words: str) -> Any:
@@ -167,17 +129,3 @@ def test_ours_and_recorded_streams_rank_the_captions_that_both_have(
     assert ours["texts_cut"] == 0
     limited = run(clip, tmp_path / "two.json", *real, "--limit", "2")
     assert limited["rows"][0]["recordings"] == 2
-
-
-def test_reconstructed_images_are_scored_beside_drawn_events(
-    clip: Path, data: Path, tmp_path: Path
-) -> None:
-    weights = tmp_path / "firenet.pth"
-    save_published(torch, "firenet", weights)
-    network = ["--reconstruct", "--network", "firenet", "--weights", str(weights)]
-    found = run(clip, tmp_path / "a.json", str(data / "events"), *network, "--device", "cpu")
-    assert [row["view"] for row in found["rows"]] == ["drawn events", "firenet images"]
-    drawn, made = (row["measured"]["mean_similarity"] for row in found["rows"])
-    assert drawn != made
-    assert found["network"] == "firenet"
-    assert len(found["weights_sha256"]) == 64

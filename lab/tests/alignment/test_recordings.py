@@ -16,7 +16,6 @@ from texvent.sensor import SensorSize
 from texvent_lab.alignment.recordings import (
     DrawnEvents,
     Recording,
-    event_slices,
     keep_common,
     list_samples,
     list_streams,
@@ -71,15 +70,6 @@ def test_samples_come_by_variant_with_their_prompts_and_events(folder: Path) -> 
     assert len(list_samples(folder, split="test")["esim"]) == 2
 
 
-def test_ids_name_clips_and_leave_others_out(folder: Path) -> None:
-    first = list_samples(folder)["paper"][0]
-    named = list_samples(folder, ids={first.id: "image 1"})
-    assert {name: [one.id for one in found] for name, found in named.items()} == {
-        "paper": ["image 1"],
-        "esim": ["image 1", "image 1"],
-    }
-
-
 def test_recorded_streams_are_read_at_their_size(tmp_path: Path) -> None:
     write_n_imagenet(tmp_path, {WNIDS[0]: {1: 3_000}})
     caption = Captioned(id=stream_id(1), caption="a tench", label=WNIDS[0], seed=1)
@@ -129,11 +119,3 @@ def test_events_are_drawn_on_white_also_where_there_are_none() -> None:
     assert (image[0] == 255).all()
     (blank,) = DrawnEvents()(EventStream.empty(size))
     assert (blank == 255).all()
-
-
-@pytest.mark.parametrize(("count", "slices"), [(0, 5), (7, 5), (700, 10)])
-def test_slices_for_networks_follow_one_another(count: int, slices: int) -> None:
-    events = stream(count, SensorSize(20, 10))  # at most 70 events in a slice
-    parts = event_slices(events)
-    assert len(parts) == slices
-    assert np.concatenate([part.t for part in parts]).tolist() == events.t.tolist()

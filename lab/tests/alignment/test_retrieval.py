@@ -104,22 +104,3 @@ def test_the_order_of_pairs_and_the_scale_do_not_matter(
     scaled = score(2 * matrix + 1).measured
     assert scaled.recall == before.recall
     assert scaled.median_rank == before.median_rank
-
-
-def test_exchanges_within_classes_leave_what_the_classes_give() -> None:
-    groups = np.repeat(["cat", "dog", "fish"], 20)
-    by_class = (groups[:, None] == groups).astype(float)
-    only_class = score(by_class, groups=groups)
-    assert only_class.within is not None
-    assert close(only_class.measured, only_class.within)
-    assert only_class.measured.recall[1] == pytest.approx(1 / 20)
-    assert only_class.p_within == 1.0
-    assert only_class.p_value < 0.1
-    assert only_class.shuffled.median_rank > only_class.within.median_rank == 10.5
-    paired = score(by_class + 0.1 * np.eye(60), groups=groups)
-    assert paired.measured.recall[1] == 1.0
-    assert paired.p_within == 1 / 21
-    assert score(by_class).within is None
-    alone = score(by_class + np.eye(60), groups=np.arange(60))
-    assert alone.within is not None
-    assert close(alone.within, alone.measured), "nothing to exchange with"

@@ -2,20 +2,7 @@
 
 import math
 
-from texvent_lab.bench.fidelity.comparison import BINS, Details
 from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
-
-
-def synthetic_details(**changes):
-    return Details(
-        **{
-            "levels": [[0.9 - 0.1 * row] * 6 for row in range(5)],
-            "time_error": [0.02] * BINS,
-            "sharpness": [1.5, 1.4],
-            "flow_error": [10.0, math.nan],
-            **changes,
-        }
-    )
 
 
 def synthetic_report():
@@ -26,7 +13,6 @@ def synthetic_report():
         events=[100, 200],
         floor=metrics,
         null={"stpp": [0.1, 0.3], "nearest": [9.0, 9.0]},
-        details=synthetic_details(),
     )
 
     def score(entry, stpp, **changes):
@@ -39,9 +25,7 @@ def synthetic_report():
                 "threshold": 0.1,
                 "is_matched": True,
                 "default_ratio": 0.5,
-                "seconds": 1.0,
                 "values": {"stpp": stpp, "nearest": [5.0, 7.0]},
-                "details": synthetic_details(),
                 **changes,
             }
         )

@@ -34,5 +34,5 @@ def test_every_figure_is_measured_and_stored():
         if row["density"] == 0.2:
             assert share > 0.1
     assert document["rife_pairs"][0]["frames_per_pair"] == 2
-    text = gpu.as_text(document)
-    assert text.count("paper") == len(plan.densities) + len(plan.batches)
+    text = gpu.as_markdown(document)
+    assert text.count("| paper |") == len(plan.densities) + len(plan.batches)

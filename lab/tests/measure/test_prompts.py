@@ -1,4 +1,4 @@
-"""The prompt benchmark: strips that go on, sums of grades."""
+"""Prompts for grading: public ones drawn by digest, strips, sums of grades."""
 
 from __future__ import annotations
 
@@ -9,9 +9,10 @@ import sys
 import cv2
 import pytest
 
-from texvent_lab.measure.prompts import score
+from texvent_lab.measure.prompts import public, score
 from texvent_lab.measure.prompts.__main__ import main
 from texvent_lab.measure.prompts.score import Share
+from texvent_lab.measure.prompts.sheet import read_prompts
 
 GRADES = """id,style,nouns_asked,nouns_shown,motion,silently_wrong,fully_right,fully_reported,stand_in,grade,remark
 a,short,2,2,yes,no,yes,no,no,5,
@@ -19,6 +20,7 @@ b,short,3,1,partly,yes,no,no,no,2,no dog
 c,long,1,0,no,0,0,1,1,0,
 d,long,2,2,none,,1,,,4,
 """  # noqa: E501  # a row of a table
+SUBJECTS = [f"a thing of number {number}" for number in range(400)]
 
 
 def run(monkeypatch: pytest.MonkeyPatch, *words: object) -> int:
@@ -44,37 +46,62 @@ def test_a_sheet_of_grades_is_summed(tmp_path, capsys, monkeypatch):
     assert sums["fully right or fully reported"] == Share(3, 4)
     assert sums["stand-in"] == Share(1, 4)
     assert sums["mean grade"] == 2.75
-    assert run(monkeypatch, "score", tmp_path / "g.csv", "--json", tmp_path / "s.json") == 0
-    assert "| | all | short | long | target |" in capsys.readouterr().out
-    assert json.loads((tmp_path / "s.json").read_text())["short"]["prompts"] == 2
+    assert run(monkeypatch, "score", tmp_path / "g.csv") == 0
+    assert "|  | all | short | long |" in capsys.readouterr().out
 
 
-def test_strips_are_drawn_and_the_same_command_goes_on(tmp_path, monkeypatch, capsys):
+def test_strips_are_drawn_with_the_report(tmp_path, monkeypatch, capsys):
     rows = [["id", "style", "prompt"], ["a1", "short", "a red ball bounces next to a wug"],
             ["a2", "short", "qwerty zxcv"]]  # fmt: skip
     with (tmp_path / "p.csv").open("w", newline="") as file:
         csv.writer(file).writerows(rows)
-    words = ("sheet", tmp_path / "p.csv", "-o", tmp_path / "out", "--no-events")
+    words = ("sheet", tmp_path / "p.csv", "-o", tmp_path / "out")
     assert run(monkeypatch, *words) == 0
     assert "1/2  a1: drawn" in capsys.readouterr().out
-    reports = json.loads((tmp_path / "out" / "reports.json").read_text())
-    drawn, refused = reports["prompts"]
-    assert "wug" in drawn["prompt_report"]["not_understood"]
-    assert drawn["in_view"]["ball"] > 0
-    assert drawn["hardly_in_view"] == []
+    drawn, refused = json.loads((tmp_path / "out" / "reports.json").read_text())["prompts"]
+    assert "wug" in drawn["report"]["not_understood"]
     assert "nothing in the prompt was understood" in refused["error"]
     strip = cv2.imread(str(tmp_path / "out" / "strips" / "a1.png"))
     assert strip.shape[1] == 6 * 173 + 5 * 2
+    assert strip[:130].std() > 5
     assert (tmp_path / "out" / "contact-01.png").is_file()
     blank = (tmp_path / "out" / "grades.csv").read_text().splitlines()
-    assert blank[0] == GRADES.splitlines()[0]
-    assert blank[1] == "a1,short,,,,,,,,,"
-    assert run(monkeypatch, "mosaic", tmp_path / "out", "-o", tmp_path / "all.jpg") == 0
-    assert cv2.imread(str(tmp_path / "all.jpg")).shape == (65 + 12, 8 * 2 * 86, 3)
-    assert run(monkeypatch, "mosaic", tmp_path, "-o", tmp_path / "b.jpg") == 2
-    capsys.readouterr()
-    assert run(monkeypatch, *words) == 0
-    assert "drawn" not in capsys.readouterr().out
+    assert blank[:2] == [GRADES.splitlines()[0], "a1,short,,,,,,,,,"]
     (tmp_path / "p.csv").write_text("id,prompt\n../a,a dog\n")
     assert run(monkeypatch, *words) == 2
     assert "line 2: id is '../a'" in capsys.readouterr().err
+
+
+def test_draws_of_public_prompts_share_no_subject(tmp_path, monkeypatch, capsys):
+    styled = [f"{one}, {style}" for one in SUBJECTS for style in ("in oil", "zoom in")]
+    long = [f"{one} moves {'slowly ' * 20}along" for one in SUBJECTS]
+    captions = {"annotations": [{"caption": f" {one}\n"} for one in SUBJECTS]}
+    sources = {
+        "vbench": "\n".join(styled),
+        "moviegen": "\n".join(["a short one", "a pleasant stroll " * 9, *long]),
+        "coco": json.dumps(captions),
+    }
+    words: list[object] = []
+    for name, text in sources.items():
+        (tmp_path / name).write_text(text)
+        words += [f"--{name}", tmp_path / name]
+    assert run(monkeypatch, "public", *words, "-o", tmp_path / "out") == 0
+    assert "0 of them those that were graded" in capsys.readouterr().out
+    draws = [read_prompts(tmp_path / "out" / f"{name}.csv") for name in public.DRAWS]
+    for rows in draws:
+        styles = [style for style in public.STYLES for _ in range(public.PER_DRAW)]
+        assert [row.style for row in rows] == styles
+    every = [row for rows in draws for row in rows]
+    assert len({row.id for row in every}) == len(every)
+    assert not any("stroll" in row.prompt for row in every)
+    for style in public.STYLES:
+        subjects = [
+            {public.subject_of(row.prompt) for row in rows if row.style == style} for rows in draws
+        ]
+        assert len(set.union(*subjects)) == sum(len(one) for one in subjects)
+
+
+def test_the_order_of_the_lines_does_not_matter():
+    drawn = public.draw(SUBJECTS, "short", "test")
+    assert drawn == public.draw(SUBJECTS[::-1] * 2, "short", "test")
+    assert drawn[0].id == "V41"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from texvent.errors import FileFormatError, InputError
@@ -15,15 +14,13 @@ from texvent_lab.nt_imagenet.captions import (
     find_duplicates,
     normalised,
     read_captions,
-    similar_pairs,
 )
 
-SHARK = ("great white shark", "white shark")
 FACTS = {"model": "a", "longest": 200}
 
 
-def check(caption: str, names: tuple[str, ...] = SHARK) -> CaptionCheck:
-    return check_captions({"a": caption}, {"a": "n1"}, {"n1": names})["a"]
+def check(caption: str) -> CaptionCheck:
+    return check_captions({"a": caption})["a"]
 
 
 def test_captions_are_read_from_tables_and_lines(tmp_path: Path) -> None:
@@ -61,36 +58,6 @@ def test_a_store_goes_on_after_its_last_whole_line(tmp_path: Path) -> None:
     assert list(store.read()) == ["a", "d", "b"]
 
 
-def test_an_error_that_ends_all_keeps_what_was_made(tmp_path: Path) -> None:
-    store = CaptionStore(tmp_path / "made.jsonl", FACTS)
-
-    def make(id: str) -> str:
-        if id == "b":
-            raise KeyboardInterrupt
-        return id
-
-    with pytest.raises(KeyboardInterrupt):
-        store.fill(["a", "b"], make)
-    assert store.read() == {"a": "a"}
-
-
-@pytest.mark.parametrize(
-    ("caption", "names_class", "names_kind"),
-    [
-        ("A Great White Shark swims.", True, True),
-        ("Two white sharks circle.", True, True),
-        ("A great-white shark's fin", True, True),
-        ("A shark in the sea", False, True),
-        ("White sharkskin", False, False),
-    ],
-)
-def test_classes_are_named_as_words_of_their_own(
-    caption: str, names_class: bool, names_kind: bool
-) -> None:
-    found = check(caption)
-    assert (found.names_class, found.names_kind) == (names_class, names_kind)
-
-
 @pytest.mark.parametrize(("words", "is_fine"), [(38, False), (39, True), (124, True), (125, False)])
 def test_lengths_are_those_of_the_paper(words: int, is_fine: bool) -> None:
     found = check(" ".join(["word"] * words))
@@ -114,14 +81,6 @@ def test_refusals_are_told_from_descriptions(caption: str, is_refusal: bool) -> 
 def test_duplicates_differ_in_case_and_punctuation_alone() -> None:
     captions = {"a": "A dog, running.", "b": "a dog running", "c": "a dog runs"}
     assert find_duplicates(captions) == [("a", "b")]
-    checks = check_captions(captions, dict.fromkeys(captions, "n1"), {})
+    checks = check_captions(captions)
     assert [id for id, one in checks.items() if one.is_duplicate] == ["b"]
     assert normalised("ﬁsh — Ünder  water!") == "fish ünder water"
-
-
-def test_similar_pairs_are_those_of_a_high_cosine() -> None:
-    angles = np.radians([0, 15, 90, 20])
-    vectors = np.stack([np.cos(angles), np.sin(angles)], axis=1).astype(np.float32)
-    pairs = similar_pairs(["a", "b", "c", "d"], vectors)
-    assert [pair[:2] for pair in pairs] == [("b", "d"), ("a", "b")]
-    np.testing.assert_allclose([pair[2] for pair in pairs], np.cos(np.radians([5, 15])), atol=1e-6)

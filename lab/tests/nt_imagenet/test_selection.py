@@ -6,11 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from texvent.errors import FileFormatError
-from texvent_lab.nt_imagenet.files import find_class_names, find_image
+from texvent_lab.nt_imagenet.files import find_image
 from texvent_lab.nt_imagenet.selection import choose_classes, select_streams
 
-from .tiny_data import NAMES, WNIDS, stream_id, write_imagenet, write_n_imagenet
+from .tiny_data import WNIDS, stream_id, write_imagenet, write_n_imagenet
 
 COUNTS = {
     WNIDS[1]: {5: 4_000, 6: 2_999, 7: 3_000},
@@ -61,14 +60,3 @@ def test_images_are_found_by_class_and_all_in_one_folder(tmp_path: Path, by_clas
         assert found is not None
         assert found.name == f"{stream_id(1)}.JPEG"
     assert find_image(folder, WNIDS[0], stream_id(2)) is None
-
-
-def test_names_of_classes_come_from_the_list_beside_the_images(tmp_path: Path) -> None:
-    folder = write_imagenet(tmp_path / "images", {})
-    names = find_class_names(folder)
-    assert names["n01484850"] == ("great white shark", "white shark")
-    assert len(names) == len(NAMES)
-    assert find_class_names(tmp_path) == find_class_names(None) == {}
-    (tmp_path / "bad.txt").write_text("n01440764\n")
-    with pytest.raises(FileFormatError, match="line 1 is 'n01440764'"):
-        find_class_names(None, tmp_path / "bad.txt")

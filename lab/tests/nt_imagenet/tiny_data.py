@@ -10,11 +10,6 @@ import cv2
 import numpy as np
 
 WNIDS = ("n01440764", "n01443537", "n01484850")
-NAMES = {
-    "n01440764": "tench, Tinca tinca",
-    "n01443537": "goldfish, Carassius auratus",
-    "n01484850": "great white shark, white shark",
-}
 EVENT = np.dtype([("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
 
 
@@ -43,20 +38,13 @@ def write_n_imagenet(folder: Path, counts: Mapping[str, Mapping[int, int]]) -> P
 
 
 def write_imagenet(folder: Path, wnids: Mapping[int, str], *, by_class: bool = True) -> Path:
-    """Noise as JPEG files, with the list of names that Kaggle's copy has."""
+    """Noise as JPEG files."""
     for number, wnid in wnids.items():
         place = folder / "val" / (wnid if by_class else "")
         place.mkdir(parents=True, exist_ok=True)
         noise = np.random.default_rng(number).integers(0, 255, (24, 32, 3), dtype=np.uint8)
         (place / f"{stream_id(number)}.JPEG").write_bytes(cv2.imencode(".jpg", noise)[1].tobytes())
-    write_names(folder)
     return folder
-
-
-def write_names(folder: Path) -> None:
-    folder.mkdir(parents=True, exist_ok=True)
-    lines = [f"{wnid} {names}\n" for wnid, names in NAMES.items()]
-    (folder / "LOC_synset_mapping.txt").write_text("".join(lines))
 
 
 def contents(folder: Path) -> dict[str, str]:

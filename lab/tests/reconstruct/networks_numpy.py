@@ -116,11 +116,8 @@ def run_unet(voxels, state, *, has_sigmoid, is_dynamic=False):
         for number in range(3):
             name = f"{root}.encoders.{number}"
             x = relu(layer(x, state, f"{name}.conv", stride=2))
-            if f"{name}.recurrent_block.Gates.weight" in state:
-                memory[number] = lstm(x, state, f"{name}.recurrent_block", memory[number])
-                x = memory[number][0]
-            else:
-                x = memory[number] = gru(x, state, f"{name}.recurrent_block", memory[number])
+            memory[number] = lstm(x, state, f"{name}.recurrent_block", memory[number])
+            x = memory[number][0]
             skipped.append(x)
         for number in range(2):
             x = block(x, state, f"{root}.resblocks.{number}")

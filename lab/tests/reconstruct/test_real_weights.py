@@ -32,19 +32,18 @@ def uniform_similarity(a, b):
 
 
 @pytest.mark.parametrize(
-    ("name", "file", "is_published", "ssim", "mse"),
+    ("name", "file", "ssim", "mse"),
     [
-        ("firenet", "firenet.pth", True, 0.443, 0.1115),
-        ("firenet+", "firenet_plus_state_dict.pth", False, 0.465, 0.0406),
+        ("firenet", "firenet.pth", 0.443, 0.1115),
+        ("firenet+", "firenet_plus_state_dict.pth", 0.465, 0.0406),
     ],
 )
-def test_slider_depth_is_reconstructed_as_measured_before(name, file, is_published, ssim, mse):
+def test_slider_depth_is_reconstructed_as_measured_before(name, file, ssim, mse):
     path, pulled = WEIGHTS / file, find_pulled("slider_depth")
     if not path.is_file() or pulled is None:
         pytest.skip(f"{path} or the recording slider_depth is not here, so nothing was compared")
     recording = open_recording(pulled)
     reconstructor = load_reconstructor(name, path, device="cpu")
-    assert reconstructor.is_published == is_published
     frames = list(recording.frames)
     times_us = [frame.t_us for frame in frames]
     slices = slice_between(recording.events, times_us, size=recording.frames.size)

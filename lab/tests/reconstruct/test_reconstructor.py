@@ -97,23 +97,6 @@ def test_a_twin_shares_weights_but_no_memory(folder):
     assert twin._network.tensors[name] is reconstructor._network.tensors[name]
 
 
-def test_a_slice_without_events_is_reconstructed_too(folder):
-    image = load(folder, "firenet").reconstruct(EventStream.empty(SIZE))
-    assert image.shape == SIZE.shape
-
-
-def test_a_film_begins_anew_and_has_an_image_per_slice(folder):
-    reconstructor = load(folder, "firenet")
-    events = noise(1000)
-    slices = [(5_000, events[:300]), (9_000, events[300:])]
-    found = list(reconstructor.reconstruct_all(slices))
-    assert [t_us for t_us, _ in found] == [5_000, 9_000]
-    reconstructor.reset()
-    for (_, image), (_, part) in zip(found, slices, strict=True):
-        np.testing.assert_array_equal(image, reconstructor.reconstruct(part))
-    np.testing.assert_array_equal(next(reconstructor.reconstruct_all(slices))[1], found[0][1])
-
-
 def test_events_of_another_sensor_are_refused_until_the_reset(folder):
     reconstructor = load(folder, "firenet")
     reconstructor.reconstruct(noise())

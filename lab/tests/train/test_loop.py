@@ -17,6 +17,7 @@ from tests.dataset.loading.written_set import write_shard  # noqa: E402
 from texvent.errors import TexventError  # noqa: E402
 from texvent_lab.train.classification.config import ClassificationConfig  # noqa: E402
 from texvent_lab.train.classification.task import ClassificationTask  # noqa: E402
+from texvent_lab.train.loop import descend  # noqa: E402
 from texvent_lab.train.run import train_from_file  # noqa: E402
 from texvent_lab.train.schedule import Hardware, Schedule  # noqa: E402
 
@@ -53,25 +54,16 @@ def test_a_small_network_learns_and_its_files_say_how(specification: Path, tmp_p
         torch.testing.assert_close(tensor, state.best[name], rtol=0, atol=0)
 
 
-def test_equal_trainings_give_equal_weights_and_another_seed_others(
-    specification: Path, tmp_path: Path
-) -> None:
-    for name in ("one", "two"):
-        train_from_file(ClassificationConfig, specification, tmp_path / name, CPU)
+def test_workers_change_nothing_and_another_seed_does(specification: Path, tmp_path: Path) -> None:
+    train_from_file(ClassificationConfig, specification, tmp_path / "one", CPU)
+    train_from_file(
+        ClassificationConfig, specification, tmp_path / "two", Hardware(device="cpu", workers=1)
+    )
     specification.write_text("seed = 1\n" + specification.read_text())
     train_from_file(ClassificationConfig, specification, tmp_path / "three", CPU)
     one, two, three = (weights(tmp_path / name) for name in ("one", "two", "three"))
     assert all(torch.equal(one[name], two[name]) for name in one)
     assert not torch.equal(one["conv0.weight"], three["conv0.weight"])
-
-
-def test_workers_change_nothing(specification: Path, tmp_path: Path) -> None:
-    train_from_file(ClassificationConfig, specification, tmp_path / "one", CPU)
-    train_from_file(
-        ClassificationConfig, specification, tmp_path / "two", Hardware(device="cpu", workers=1)
-    )
-    one, two = weights(tmp_path / "one"), weights(tmp_path / "two")
-    assert all(torch.equal(one[name], two[name]) for name in one)
 
 
 def test_the_rate_falls_and_training_stops_where_nothing_improves(
@@ -82,12 +74,21 @@ def test_the_rate_falls_and_training_stops_where_nothing_improves(
         "stop_after = 5\nlearning_rate = 1e-9\n"
     )
     scores = iter([math.nan, 0.5, 0.9, 0.9, math.nan, *[0.8] * 25])
-    monkeypatch.setattr(ClassificationTask, "validate", lambda *_, **__: {"accuracy": next(scores)})
+    monkeypatch.setattr(
+        ClassificationTask, "validate", lambda *_, **__: ({"accuracy": next(scores)}, {})
+    )
     state = train_from_file(ClassificationConfig, specification, tmp_path / "run", CPU)
     assert (state.best_epoch, state.epochs) == (3, 8)
     rate = state.optimizer["param_groups"][0]["lr"]
     # Reduced after two epochs without a better score, and again after two more.
     assert rate == pytest.approx(0.25e-9)
+
+
+def test_the_loss_of_an_epoch_is_the_mean_of_its_batches() -> None:
+    network, schedule = torch.nn.Linear(1, 1), Schedule()
+    losses = (0 * network.weight.sum() + value for value in (1.0, 2.0, 6.0))
+    optimizer = schedule.make_optimizer(network)
+    assert descend(losses, optimizer, network, where="", schedule=schedule) == 3.0
 
 
 def test_options_of_the_schedule_reach_the_optimiser(specification: Path, tmp_path: Path) -> None:

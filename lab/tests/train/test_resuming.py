@@ -13,11 +13,9 @@ import pytest
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from lab.tests.latents.tiny_autoencoder import write_autoencoder  # noqa: E402
-
 from texvent.extending import full_version  # noqa: E402
 
-from .sequences.windowed_specification import TEXT, write_specification  # noqa: E402
+from .windowed_specification import TEXT, write_specification  # noqa: E402
 from .written_samples import write_bars  # noqa: E402
 
 pytestmark = pytest.mark.torch
@@ -54,8 +52,6 @@ TRAININGS = {
     "loss = {lpips = 0, l1 = 1}\n",
     "depth": f"{WINDOWS}}}\nnetwork.width = 2\n",
     "flow": f"{WINDOWS}}}\nnetwork.width = 2\n",
-    "latents": f'data = {{{CLIPS}, autoencoder = "vae"}}\n'
-    "network = {bins = 4, width = 8, blocks = 1}\n",
 }
 SCHEDULE = "schedule = {epochs = 3, batch_size = 1, learning_rate = 0.003}\n"
 
@@ -72,8 +68,6 @@ def stored(folder: Path) -> dict[str, Any]:
 def test_a_killed_training_ends_as_one_that_was_not(task: str, tmp_path: Path) -> None:
     write_bars(tmp_path / "bars")
     write_specification(tmp_path, TEXT.replace("0.125", "0.17"))
-    if task == "latents":
-        write_autoencoder(tmp_path / "vae")
     path = tmp_path / "training.toml"
     path.write_text(SCHEDULE + TRAININGS[task])
     one, other = tmp_path / "whole", tmp_path / "killed"

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import json
 import math
-import sys
 from pathlib import Path
-from types import ModuleType
 
 import numpy as np
 import pytest
@@ -16,17 +14,15 @@ from texvent.cli.app import main
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
 from texvent_lab.registries import TASKS  # noqa: E402
-from texvent_lab.train.depth.config import DepthConfig  # noqa: E402
-from texvent_lab.train.depth.task import (  # noqa: E402
+from texvent_lab.train.depth import (  # noqa: E402
+    DepthConfig,
     encode_depth,
-    make_e2depth,
     settings_of,
 )
-from texvent_lab.train.flow.e_raft import make_e_raft  # noqa: E402
 from texvent_lab.train.run import read_training, train_from_file  # noqa: E402
 from texvent_lab.train.schedule import Hardware  # noqa: E402
 
-from .sequences.windowed_specification import write_specification  # noqa: E402
+from .windowed_specification import write_specification  # noqa: E402
 
 pytestmark = pytest.mark.torch
 TASK_NAMES = ("depth", "flow")
@@ -88,62 +84,13 @@ def test_depth_has_the_published_layout(tmp_path: Path, capsys: pytest.CaptureFi
     train_from_file(TASKS.load("depth"), path, tmp_path / "run", CPU)
     content = torch.load(tmp_path / "run" / "weights.pt", weights_only=True)
     assert content["arch"] == "E2VIDRecurrent"
-    assert content["config"]["model"] == {
-        "num_bins": 5,
-        "skip_type": "sum",
-        "recurrent_block_type": "convlstm",
-        "num_encoders": 3,
-        "base_num_channels": 2,
-        "num_residual_blocks": 2,
-        "use_upsample_conv": True,
-        "norm": "none",
-    }
-    names = set(content["state_dict"])
-    assert {name.split(".")[0] for name in names} == {"unetrecurrent"}
-    assert "unetrecurrent.encoders.2.recurrent_block.Gates.weight" in names
+    assert content["config"]["model"] == settings_of(2)
+    assert "unetrecurrent.encoders.2.recurrent_block.Gates.weight" in content["state_dict"]
     wider = write_training(tmp_path, network="width = 4")
     assert main(["evaluate", "depth", str(wider), str(tmp_path / "run" / "weights.pt")]) == 2
     error = capsys.readouterr().err
     assert "network.width must be that of the file" in error
     assert len(error.strip().splitlines()) == 1
-
-
-def test_a_checkpoint_as_the_program_of_e2depth_leaves_it_is_scored(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
-) -> None:
-    # Its training stores an object of its own beside the weights.
-    module = ModuleType("logger.logger")
-    module.Logger = type("Logger", (), {"__module__": "logger.logger"})
-    monkeypatch.setitem(sys.modules, "logger", ModuleType("logger"))
-    monkeypatch.setitem(sys.modules, "logger.logger", module)
-    content = {
-        "arch": "E2VIDRecurrent",
-        "epoch": 300,
-        "logger": module.Logger(),
-        "state_dict": make_e2depth(2, seed=1).tensors,
-        "optimizer": {"state": {}},
-        "monitor_best": 0.01,
-        "config": {"model": settings_of(2)},
-    }
-    torch.save(content, tmp_path / "E2DEPTH_si_grad_loss_mixed.pth.tar")
-    monkeypatch.undo()
-    words = [str(write_training(tmp_path)), str(tmp_path / "E2DEPTH_si_grad_loss_mixed.pth.tar")]
-    assert main(["evaluate", "depth", *words, "--device", "cpu"]) == 0
-    assert "abs_rel at events" in capsys.readouterr().out
-
-
-def test_e_raft_is_scored_from_its_published_layout_and_not_trained(
-    tmp_path: Path, capsys: pytest.CaptureFixture[str]
-) -> None:
-    path = str(write_training(tmp_path, network='name = "e-raft", bins = 15'))
-    state = {f"module.{name}": one for name, one in make_e_raft(15, seed=1).tensors.items()}
-    state["module.cnet.norm1.num_batches_tracked"] = torch.tensor(7)
-    torch.save({"model": state}, tmp_path / "dsec.tar")
-    assert main(["evaluate", "flow", path, str(tmp_path / "dsec.tar"), "--device", "cpu"]) == 0
-    assert "EPE at events" in capsys.readouterr().out
-    assert main(["train", "flow", path, "-o", str(tmp_path / "run"), "-q"]) == 2
-    assert "e-raft is not trained here" in capsys.readouterr().err
-    assert not (tmp_path / "run").exists()
 
 
 @pytest.mark.parametrize("task", TASK_NAMES)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import dataclasses
 import math
 from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -56,17 +57,28 @@ class UnidentifiedOption(NamedTuple):
         return f"{self.name}{value}: {self.reason}"
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Measurement:
+    """Result of a calibration: the model, measured constants, and options that stay."""
+
+    config: PhysicalConfig
+    """The model; options that the recording cannot identify keep their start value."""
+    found: tuple[Estimate, ...]
+    kept: tuple[UnidentifiedOption, ...]
+    remarks: tuple[str, ...] = ()
+
+    def lines(self) -> list[str]:
+        """One line per constant, the measured ones first, then the remarks."""
+        found, kept = (f"found {one}" for one in self.found), (f"kept {one}" for one in self.kept)
+        return [*found, *kept, *self.remarks]
+
+
 def with_estimates(config: PhysicalConfig, found: Iterable[Estimate]) -> PhysicalConfig:
     """Options with the constants that were found; those that are no option are left out."""
     values: dict[str, Any] = {one.name: one.value for one in found if hasattr(config, one.name)}
     if "refractory_period_us" in values:
         values["refractory_period_us"] = round(values["refractory_period_us"])
     return dataclasses.replace(config, **values)
-
-
-def describe_estimates(found: Iterable[Estimate], kept: Iterable[UnidentifiedOption]) -> list[str]:
-    """One line per constant, the measured ones first."""
-    return [*(f"found {one}" for one in found), *(f"kept {one}" for one in kept)]
 
 
 NOT_OF_THE_SENSOR = ("gamma", "sensor_seed")
@@ -107,22 +119,7 @@ def write_preset(
     return Path(path)
 
 
-def describe_scene(
-    found: Iterable[Estimate],
-    kept: Iterable[UnidentifiedOption],
-    remarks: Iterable[str],
-    source: str,
-) -> list[str]:
-    """Constants and remarks of a measurement without frames, one line each.
-
-    Args:
-        found: measured constants.
-        kept: options that the recording cannot identify.
-        remarks: further lines.
-        source: file of the events, and the scene.
-    """
-    return [
-        f"Measured from {' '.join(source.split())}, by texvent {full_version()}.",
-        *describe_estimates(found, kept),
-        *remarks,
-    ]
+def describe_scene(measured: Measurement, source: str) -> list[str]:
+    """Lines on a measurement without frames; `source` is the file of the events, and the scene."""
+    heading = f"Measured from {' '.join(source.split())}, by texvent {full_version()}."
+    return [heading, *measured.lines()]

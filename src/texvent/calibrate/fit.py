@@ -9,14 +9,14 @@ from __future__ import annotations
 
 import dataclasses
 from collections.abc import Collection, Mapping
-from typing import NamedTuple
+from dataclasses import dataclass
 
 from texvent._version import full_version
-from texvent.calibrate.estimates import Estimate, UnidentifiedOption
+from texvent.calibrate.estimates import Measurement, UnidentifiedOption
 from texvent.calibrate.noise import LEAST_EXPOSURE_S, MeasuredNoise, measure_noise
 from texvent.calibrate.recording import Recording, TimeSpan, simulate_span
 from texvent.calibrate.search import COORDINATES, Distance, Report, Search, measure_distance
-from texvent.calibrate.uncertainty import FitSummary, judge_fit
+from texvent.calibrate.uncertainty import judge_fit
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
 
@@ -34,11 +34,10 @@ NOT_FITTED = (
 """Options that frames and events of a moving scene cannot identify."""
 
 
-class Fit(NamedTuple):
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Fit(Measurement):
     """Fitted model, its noise and its distance to the recording."""
 
-    config: PhysicalConfig
-    """The fitted model."""
     offset_us: int
     """Offset added to the frame times, µs; it belongs to the recording, not to the sensor."""
     noise: MeasuredNoise | None
@@ -49,12 +48,6 @@ class Fit(NamedTuple):
     """The part that was not."""
     distances: Mapping[str, tuple[Distance, Distance]]
     """"start" and "fitted" → distance on the fitted and on the held-out part."""
-    found: tuple[Estimate, ...]
-    """Measured constants with their intervals."""
-    kept: tuple[UnidentifiedOption, ...]
-    """Constants that the recording cannot identify."""
-    compared: tuple[EventStream, EventStream]
-    """Recorded and simulated events of the held-out part."""
 
 
 def fit_sensor(
@@ -96,7 +89,6 @@ def fit_sensor(
         for name, config in (("start", start), ("fitted", fitted.config))
         for part in (span, held_out)
     }
-    of_noise = _noise_constants(noise, start)
     return Fit(
         config=fitted.config,
         offset_us=search.offset_us,
@@ -110,9 +102,8 @@ def fit_sensor(
             )
             for name in ("start", "fitted")
         },
-        found=(*fitted.found, *of_noise.found),
-        kept=(*fitted.kept, *of_noise.kept),
-        compared=(truth[held_out], events["fitted", held_out]),
+        found=(*fitted.found, *(() if noise is None else noise.estimates())),
+        kept=(*fitted.kept, *_noise_kept(noise, start)),
     )
 
 
@@ -122,16 +113,15 @@ def _fit_circuit(
     span: TimeSpan,
     first: PhysicalConfig,
     start: PhysicalConfig,
-) -> FitSummary:
+) -> Measurement:
     """Thresholds, balance and cutoff, if there are events enough."""
     on = int(truth.p.sum())
     off = len(truth) - on
     if min(on, off) < LEAST_EVENTS:
         names = ("contrast_threshold", "on_off_ratio", *COORDINATES)
         reason = f"{on} ON and {off} OFF events; {LEAST_EVENTS} of each are needed"
-        return FitSummary(
-            first, (), tuple(UnidentifiedOption(n, getattr(start, n), reason) for n in names)
-        )
+        kept = (UnidentifiedOption(name, getattr(start, name), reason) for name in names)
+        return Measurement(config=first, found=(), kept=tuple(kept))
     search.find_offset(search.match_counts(first).config)
     best = search.run(search.match_counts(first))
     return judge_fit(search, truth, span, best.config, start)
@@ -146,24 +136,17 @@ def _with_noise(config: PhysicalConfig, noise: MeasuredNoise) -> PhysicalConfig:
     )
 
 
-def _noise_constants(noise: MeasuredNoise | None, start: PhysicalConfig) -> FitSummary:
-    """Noise and leak with their intervals, or why they stay."""
-    kept = [
-        UnidentifiedOption(n, getattr(start, n), "needs a recording without frames")
-        for n in NOT_FITTED
-    ]
+def _noise_kept(noise: MeasuredNoise | None, start: PhysicalConfig) -> list[UnidentifiedOption]:
+    """Why other options of noise and leak stay."""
+    reasons = dict.fromkeys(NOT_FITTED, "needs a recording without frames")
     if noise is None:
         reason = f"no still pixels for {LEAST_EXPOSURE_S:g} pixel-seconds in two ranges of light"
-        kept += [
-            UnidentifiedOption(n, getattr(start, n), reason)
-            for n in ("noise_curve", "leak_rate_hz")
-        ]
-        return FitSummary(start, (), tuple(kept))
-    return FitSummary(start, noise.estimates(), tuple(kept))
+        reasons |= dict.fromkeys(("noise_curve", "leak_rate_hz"), reason)
+    return [UnidentifiedOption(name, getattr(start, name), one) for name, one in reasons.items()]
 
 
 def describe_fit(fit: Fit, source: str) -> list[str]:
-    """The fit in a few lines: what was fitted, how well, and how well elsewhere."""
+    """The fitted span, distances to it and to the held-out part, and the constants."""
     lines = [
         f"Fitted to {' '.join(source.split())} by texvent {full_version()}.",
         f"Frame times were moved by {fit.offset_us} µs; noise was "
@@ -179,4 +162,4 @@ def describe_fit(fit: Fit, source: str) -> list[str]:
             f"{title} {span.start_us / 1e6:.3f}..{span.stop_us / 1e6:.3f} s: "
             f"{fit.distances['start'][place]} before, {fit.distances['fitted'][place]} after"
         )
-    return lines
+    return [*lines, *fit.lines()]

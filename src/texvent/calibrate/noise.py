@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from typing import NamedTuple
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -25,8 +25,8 @@ STILL_LEVELS, STILL_SHARE = 1.5, 0.02
 """A pixel is still if all of its neighbourhood, in the frame before, this one and the next, lies
 within 1.5 levels plus 2 % of its intensity, once 3×3 means have averaged out the frames' noise; or
 if each pixel of its neighbourhood stays that close to its own mean for a second."""
-RADIUS = 2
-"""Of the neighbourhood, pixels: what moves in from farther away within a frame is seen too late."""
+NEIGHBOURHOOD = np.ones((5, 5), np.uint8)
+"""Pixels around one: motion that comes from farther away within a frame is seen too late."""
 STATIC_US, STATIC_FRAMES = 1_000_000, 10
 """How long a textured neighbourhood must not change for its pixel to be still, µs, and in how many
 frames at least this must be seen: three frames do not tell a slow edge from none."""
@@ -146,7 +146,9 @@ def _still_pixels(
         times = [frame.t_us for frame in window]
         seen = [linearize(frame.luma, gamma) for frame in window]
         own = np.mean(seen, axis=0)
-        light = [average_neighbours(intensity) for intensity in seen]
+        # 3×3 means, edges repeated, average out the frames' noise.
+        blurred = (cv2.blur(one, (3, 3), borderType=cv2.BORDER_REPLICATE) for one in seen)
+        light = [np.asarray(one, np.float64) for one in blurred]
         static = find_static_pixels(light)
         for i in range(1, len(window) - 1):
             still = find_still_pixels(light[i], light[i - 1 : i + 2]) | static
@@ -183,10 +185,7 @@ def find_static_pixels(frames: list[Float64Array]) -> BoolArray:
     static = np.ones(mean.shape, np.bool_)
     for frame in frames:
         static &= np.abs(frame - mean) <= tolerance
-    padded = np.pad(static, RADIUS, constant_values=True)
-    reach = 2 * RADIUS + 1
-    windows = np.lib.stride_tricks.sliding_window_view(padded, (reach, reach))
-    return np.asarray(windows.all(axis=(2, 3)))
+    return np.asarray(cv2.erode(static.astype(np.uint8), NEIGHBOURHOOD), np.bool_)
 
 
 def find_still_pixels(now: Float64Array, frames: list[Float64Array]) -> BoolArray:
@@ -197,21 +196,8 @@ def find_still_pixels(now: Float64Array, frames: list[Float64Array]) -> BoolArra
         frames: this frame and its neighbours in time.
     """
     tolerance = STILL_LEVELS + STILL_SHARE * now
-    height, width = now.shape
     still = np.ones(now.shape, np.bool_)
     for frame in frames:
-        padded = np.pad(frame, RADIUS, mode="edge")
-        for dy, dx in itertools.product(range(2 * RADIUS + 1), repeat=2):
-            neighbour = padded[dy : dy + height, dx : dx + width]
-            still &= np.abs(neighbour - now) <= tolerance
+        still &= cv2.dilate(frame, NEIGHBOURHOOD) - now <= tolerance
+        still &= now - cv2.erode(frame, NEIGHBOURHOOD) <= tolerance
     return still
-
-
-def average_neighbours(intensity: Float64Array) -> Float64Array:
-    """Mean of every pixel and its eight neighbours, edges repeated, [H, W]."""
-    height, width = intensity.shape
-    padded = np.pad(intensity, 1, mode="edge")
-    shifts = itertools.product(range(3), repeat=2)
-    return np.asarray(
-        sum(padded[dy : dy + height, dx : dx + width] for dy, dx in shifts) / 9.0, np.float64
-    )

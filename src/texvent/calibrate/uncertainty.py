@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.calibrate.bootstrap import Float64Array, bootstrap
-from texvent.calibrate.estimates import Estimate, UnidentifiedOption
+from texvent.calibrate.estimates import Estimate, Measurement, UnidentifiedOption
 from texvent.calibrate.recording import TimeSpan
 from texvent.calibrate.search import COORDINATES, STEPS, Search, measure_distance
 from texvent.events import EventStream
@@ -35,15 +35,6 @@ THRESHOLD_FACTOR = 1.1
 """By which thresholds are changed to see how counts fall."""
 LEAST_POWER = 0.3
 """The least power with which counts fall that is believed."""
-
-
-class FitSummary(NamedTuple):
-    """Fitted options with their intervals, and those that stay."""
-
-    config: PhysicalConfig
-    """The model; options that the recording cannot identify keep their start value."""
-    found: tuple[Estimate, ...]
-    kept: tuple[UnidentifiedOption, ...]
 
 
 class Interval(NamedTuple):
@@ -70,7 +61,7 @@ class Interval(NamedTuple):
 
 def judge_fit(
     search: Search, truth: EventStream, span: TimeSpan, best: PhysicalConfig, start: PhysicalConfig
-) -> FitSummary:
+) -> Measurement:
     """Intervals of thresholds, balance and cutoff.
 
     Args:
@@ -104,7 +95,7 @@ def judge_fit(
         if name not in search.coordinates
     ]
     thresholds = _thresholds(search, truth, blocks, best, others)
-    return FitSummary(best, (*thresholds, *found), tuple(kept))
+    return Measurement(config=best, found=(*thresholds, *found), kept=tuple(kept))
 
 
 def cut_blocks(span: TimeSpan) -> list[TimeSpan]:

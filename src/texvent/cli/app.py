@@ -88,7 +88,7 @@ COMMANDS = {
 """Command → its module, which has a function `run(arguments)`, and what it does."""
 COMMAND_GROUP = "texvent.commands"
 """Entry points of packages with more commands: mappings like `COMMANDS`."""
-OF_THE_LAB = ("align", "bench", "caption", "evaluate", "nt-imagenet", "reconstruct", "train")
+OF_THE_LAB = ("align", "bench", "evaluate", "nt-imagenet", "reconstruct", "train")
 """Commands of the package texvent-lab."""
 LONGEST_LISTING, LONGEST_WORD = 220, 30
 """Characters of the list of commands and of a word that is none, in an error."""

@@ -2,67 +2,18 @@
 
 from __future__ import annotations
 
-import html
 import math
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from typing import Any
 
 from texvent._registry import METRICS
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.metrics.protocol import Metric, check_pair, find_missing
+from texvent.metrics.protocol import Metric, check_pair
 from texvent.runtime.progress import NO_PROGRESS, Progress
 
 GOOD = {"lower": "low", "higher": "high", "one": "near 1"}
 """`Metric.better` in words."""
-TITLES = ("metric", "value", "good", "does not see")
-
-
-class Scores(dict[str, float]):
-    """Name → value, NaN where a metric is undefined; a dict in every other way."""
-
-    def __init__(self, values: Mapping[str, float], metrics: Sequence[Metric]) -> None:
-        """Keep the values.
-
-        Args:
-            values: one for each metric.
-            metrics: the metrics, which know their units and what is good.
-        """
-        super().__init__(values)
-        # Not the metrics: some hold networks, which would stay in memory and be pickled.
-        self._facts = {
-            metric.name: (
-                getattr(metric, "unit", ""),
-                GOOD.get(getattr(metric, "better", ""), ""),
-                getattr(metric, "blind_to", ""),
-            )
-            for metric in metrics
-        }
-
-    def _repr_mimebundle_(
-        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
-    ) -> dict[str, str]:
-        """Notebook display: a table with units and the direction of good values."""
-        nothing = ("", "", "")
-        rows = [
-            _cells(name, value, *self._facts.get(name, nothing)) for name, value in self.items()
-        ]
-        head = f"<thead>{_row('th', TITLES)}</thead>"
-        body = "".join(_row("td", row) for row in rows)
-        table = f'<table style="font-size:13px">{head}<tbody>{body}</tbody></table>'
-        return {"text/plain": repr(self), "text/html": table}
-
-
-def _cells(
-    name: str, value: float, unit: str, good: str, blind_to: str
-) -> tuple[str, str, str, str]:
-    return name, f"{score_text(value)} {unit}".strip(), good, blind_to
-
-
-def _row(tag: str, cells: Sequence[str]) -> str:
-    style = "text-align:left; vertical-align:top; padding:2px 8px 2px 0"
-    row = "".join(f'<{tag} style="{style}">{html.escape(cell)}</{tag}>' for cell in cells)
-    return f"<tr>{row}</tr>"
 
 
 def score_text(value: float) -> str:
@@ -77,7 +28,7 @@ def compare(
     *,
     span_us: tuple[int, int] | None = None,
     progress: Progress = NO_PROGRESS,
-) -> Scores:
+) -> dict[str, float]:
     """Scores of `predicted` against `reference`.
 
     Args:
@@ -89,8 +40,7 @@ def compare(
         progress: receives each metric.
 
     Returns:
-        Name → value, NaN where a metric is undefined for these streams: a dict that notebooks
-        show as a table.
+        Name → value, NaN where a metric is undefined for these streams.
 
     Raises:
         InputError: the sensors differ in size, or a metric's weights are not here.
@@ -117,7 +67,7 @@ def compare(
     for done, metric in enumerate(built):
         progress.advance("metrics", done, len(built))
         scores[metric.name] = metric(predicted, reference)
-    return Scores(scores, built)
+    return scores
 
 
 def load_metric(name: str) -> Metric:
@@ -137,7 +87,7 @@ def describe_metrics() -> Mapping[str, Metric]:
 
 def default_metrics() -> list[Metric]:
     """Every registered metric with its defaults, without those whose weights are missing."""
-    return [metric for metric in describe_metrics().values() if find_missing(metric) is None]
+    return [metric for metric in describe_metrics().values() if metric.missing() is None]
 
 
 def plain_values(value: Any, *, digits: int | None = None) -> Any:

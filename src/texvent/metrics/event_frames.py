@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
@@ -15,7 +14,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.events import EventStream
-from texvent.metrics.image_measures import structural_similarity
+from texvent.metrics.image_measures import decibels, mean_squared_error, structural_similarity
 from texvent.metrics.lpips import Lpips, find_lpips_weights, lpips_distance, read_lpips_weights
 from texvent.metrics.protocol import UNDEFINED, Metric
 from texvent.metrics.windows import count_windows, occupied_windows
@@ -63,7 +62,7 @@ class EventFrameMse(EventFrameMetric):
     name = "ef_mse"
 
     def _score(self, predicted: EventStream, reference: EventStream) -> float:
-        return self._mean(predicted, reference, _squared_difference, empty=0.0)
+        return self._mean(predicted, reference, mean_squared_error, empty=0.0)
 
 
 class EventFramePsnr(EventFrameMetric):
@@ -76,7 +75,7 @@ class EventFramePsnr(EventFrameMetric):
 
     def _score(self, predicted: EventStream, reference: EventStream) -> float:
         mse = EventFrameMse(fps=self.fps)(predicted, reference)
-        return float("inf") if mse == 0 else -10.0 * math.log10(mse)
+        return decibels(mse)
 
 
 class EventFrameSsim(EventFrameMetric):
@@ -124,7 +123,3 @@ class EventFrameLpips(EventFrameMetric):
 
     def _weights_file(self) -> Path:
         return self.weights or find_lpips_weights()
-
-
-def _squared_difference(a: Float64Array, b: Float64Array) -> float:
-    return float(((a - b) ** 2).mean())

@@ -1,18 +1,12 @@
-"""Comparison of grey images, 0..1: MSE, PSNR, SSIM, LPIPS."""
+"""Comparison of grey images, 0..1: MSE, PSNR, SSIM."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
-
-from texvent.errors import InputError, MissingDependencyError
-from texvent.metrics.lpips import Lpips, find_lpips_weights, lpips_distance, read_lpips_weights
-from texvent.metrics.protocol import Better
 
 SIGMA_PX = 1.5
 RADIUS_PX = 5
@@ -21,7 +15,6 @@ LUMINANCE, CONTRAST = 0.01, 0.03
 """K1 and K2 of the paper."""
 
 Float64Array: TypeAlias = NDArray[np.float64]
-Compare: TypeAlias = Callable[[Float64Array, Float64Array], float]
 
 
 def structural_similarity(a: Float64Array, b: Float64Array, *, data_range: float = 1.0) -> float:
@@ -68,49 +61,11 @@ def gaussian_window() -> Float64Array:
     return np.asarray(weights / weights.sum())
 
 
-@dataclass(frozen=True)
-class ImageMeasure:
-    """Comparison of two images, 0..1."""
-
-    name: str
-    better: Better
-    compare: Compare
-
-
-@dataclass(frozen=True, kw_only=True)
-class Measures:
-    """Available measures, and reasons for missing ones."""
-
-    chosen: tuple[ImageMeasure, ...]
-    absent: Mapping[str, str] = field(default_factory=dict)
-    """Name of a measure → why it is left out."""
-
-
-def load_measures() -> Measures:
-    """All measures; LPIPS only where its weights were pulled.
-
-    Source: EVREAL (Ercan et al., CVPRW 2023) reports MSE, SSIM and LPIPS (AlexNet); the paper adds
-        PSNR in its Table 3.
-    """
-    plain = (
-        ImageMeasure("mse", "lower", mean_squared_error),
-        ImageMeasure("psnr", "higher", peak_signal_to_noise),
-        ImageMeasure("ssim", "higher", structural_similarity),
-    )
-    try:
-        network = Lpips(read_lpips_weights(find_lpips_weights()))
-    except (InputError, MissingDependencyError) as error:
-        return Measures(chosen=plain, absent={"lpips": str(error)})
-    lpips = ImageMeasure("lpips", "lower", lambda a, b: lpips_distance(a, b, network))
-    return Measures(chosen=(*plain, lpips))
-
-
 def mean_squared_error(a: Float64Array, b: Float64Array) -> float:
     """Mean squared difference of two images."""
     return float(((a - b) ** 2).mean())
 
 
-def peak_signal_to_noise(a: Float64Array, b: Float64Array) -> float:
-    """`−10 log10(MSE)` in dB for images from 0 to 1; infinite for equal ones."""
-    mse = mean_squared_error(a, b)
+def decibels(mse: float) -> float:
+    """`−10 log10(MSE)`, dB; infinite for 0."""
     return math.inf if mse == 0 else -10.0 * math.log10(mse)

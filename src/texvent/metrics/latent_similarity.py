@@ -11,18 +11,23 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.metrics.protocol import UNDEFINED, Metric
-from texvent.metrics.rvt_backbone import WHERE_FROM, Features, RvtBackbone, read_rvt_weights
 from texvent.metrics.windows import flat_index, occupied_windows, rate_of_window
 from texvent.represent.array_ops import columns_of
 from texvent.represent.histogram import BINS, CUTOFF, stacked_histogram, time_bins
 
+Features: TypeAlias = NDArray[np.float32]
+"""[C, H, W]."""
 Backbone: TypeAlias = Callable[[Features], Sequence[Features]]
 """Stacked histogram [20, H, W] → feature maps [C, H', W'], one per stage."""
 
 PATCH = 3
+WHERE_FROM = (
+    "the published files are rvt-t.ckpt, rvt-s.ckpt and rvt-b.ckpt, to which the project "
+    "uzh-rpg/RVT on GitHub links"
+)
 
 
 def keep_input(histogram: Features) -> Sequence[Features]:
@@ -142,7 +147,7 @@ class EventQualityScore(Metric):
     range = (-1.0, 1.0)
     blind_to = "small time errors; added noise can improve it: see its controls"
 
-    backbone: RvtBackbone | None = None
+    backbone: Backbone | None = None
     """RVT's backbone with published weights; see `load_eqs`."""
 
     def missing(self) -> str | None:
@@ -165,4 +170,8 @@ def load_eqs(path: Path) -> EventQualityScore:
         FileFormatError: it does not hold RVT's backbone.
         MissingDependencyError: torch is not installed.
     """
-    return EventQualityScore(backbone=RvtBackbone(read_rvt_weights(path)))
+    if not path.is_file():
+        raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
+    from texvent.metrics.rvt_backbone import read_rvt  # needs torch
+
+    return EventQualityScore(backbone=read_rvt(path))

@@ -11,7 +11,7 @@ import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -21,8 +21,7 @@ from texvent.errors import FileFormatError, InputError, one_line
 from texvent.io.arrays.npz import read_arrays
 from texvent.io.atomic import atomic_file
 from texvent.metrics.protocol import UNDEFINED
-from texvent.networks.layer_shapes import Shapes
-from texvent.networks.weight_files import DAMAGE, Tensor
+from texvent.networks.weight_files import DAMAGE, Shape, Tensor
 from texvent.runtime.cache_folder import cache_folder
 
 Float32Array = NDArray[np.float32]
@@ -34,9 +33,12 @@ SPREAD = np.array([0.458, 0.448, 0.450], np.float32)
 """Mean and spread of red, green and blue in training, of values from −1 to 1."""
 LEAST_LENGTH = 1e-10
 """Added to the length of a feature vector, so that a vector of zeros can be divided by it."""
-LpipsNet: TypeAlias = Literal["alex", "vgg"]
-
 COLOURS = 3
+PUBLISHED_NAME = "AlexNet_0"
+"""Key of the convolutions in the published file."""
+FILE_NAME = "lpips-alex.npz"
+"""Name, in the weights folder, of the file that `texvent weights pull lpips` leaves there."""
+WHERE_FROM = "fetch them with: texvent weights pull lpips"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -60,14 +62,11 @@ class Convolution:
 class LpipsLayout:
     """A network and its heads: one weight per channel that is compared."""
 
-    name: LpipsNet
-    published_name: str
-    """Key of the convolutions in the published file."""
     convolutions: tuple[Convolution, ...]
 
-    def array_shapes(self) -> Shapes:
+    def array_shapes(self) -> dict[str, Shape]:
         """Name → shape of every array: kernels are [rows, columns, channels in, channels out]."""
-        shapes: Shapes = {}
+        shapes: dict[str, Shape] = {}
         channels_in = COLOURS
         for number, layer in enumerate(self.convolutions):
             shapes[f"kernel{number}"] = (layer.kernel, layer.kernel, channels_in, layer.channels)
@@ -88,43 +87,16 @@ class LpipsLayout:
         return side
 
 
-def _vgg_block(channels: int, count: int, *, pools: int = 2) -> tuple[Convolution, ...]:
-    """Convolutions of one width; the first halves the map, the last is compared."""
-    return tuple(
-        Convolution(
-            channels=channels,
-            pools=pools if number == 0 else 0,
-            is_compared=number == count - 1,
-        )
-        for number in range(count)
-    )
-
-
 ALEX = LpipsLayout(
-    "alex",
-    "AlexNet_0",
     (
         Convolution(channels=64, kernel=11, stride=4, padding=2, is_compared=True),
         Convolution(channels=192, kernel=5, padding=2, pools=3, is_compared=True),
         Convolution(channels=384, pools=3, is_compared=True),
         Convolution(channels=256, is_compared=True),
         Convolution(channels=256, is_compared=True),
-    ),
+    )
 )
-VGG = LpipsLayout(
-    "vgg",
-    "VGG16_0",
-    (
-        *_vgg_block(64, 2, pools=0),
-        *_vgg_block(128, 2),
-        *_vgg_block(256, 3),
-        *_vgg_block(512, 3),
-        *_vgg_block(512, 3),
-    ),
-)
-LAYOUTS: tuple[LpipsLayout, ...] = (ALEX, VGG)
-
-ARCHIVE_SUFFIX = ".npz"
+"""AlexNet."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -136,52 +108,40 @@ class LpipsWeights:
     """Names and shapes as `layout.array_shapes()`."""
 
 
-def weights_file_name(net: LpipsNet) -> str:
-    """Name, in the weights folder, of what `texvent weights pull` leaves there."""
-    return f"lpips-{net}{ARCHIVE_SUFFIX}"
-
-
-def where_from(net: LpipsNet) -> str:
-    """Command that fetches the weights of a network."""
-    return f"fetch them with: texvent weights pull {'lpips' if net == 'alex' else f'lpips-{net}'}"
-
-
-def find_lpips_weights(net: LpipsNet = "alex") -> Path:
-    """The file with the pulled weights of a network.
+def find_lpips_weights() -> Path:
+    """The file with the pulled weights.
 
     Raises:
         InputError: they were not pulled.
     """
-    path = cache_folder("weights") / weights_file_name(net)
+    path = cache_folder("weights") / FILE_NAME
     if not path.is_file():
-        raise InputError(f"LPIPS's weights are not here: {path}; {where_from(net)}")
+        raise InputError(f"LPIPS's weights are not here: {path}; {WHERE_FROM}")
     return path
 
 
-def read_lpips_weights(path: Path) -> LpipsWeights:
+def read_lpips_weights(path: Path, layout: LpipsLayout = ALEX) -> LpipsWeights:
     """Weights from the published file, or from one that `texvent weights pull` converted.
 
     Args:
-        path: `.npz`, or the published pickle of NumPy arrays under any other name. The network is
-            recognised from the shapes of the arrays.
+        path: `.npz`, or the published pickle of NumPy arrays under any other name.
+        layout: of the network.
 
     Raises:
         FileFormatError: the file is damaged or holds another network.
     """
     try:
-        arrays = read_arrays(path) if path.suffix == ARCHIVE_SUFFIX else _read_published(path)
+        arrays = read_arrays(path) if path.suffix == ".npz" else _read_published(path)
         shapes = {name: array.shape for name, array in arrays.items()}
     except (*DAMAGE, zlib.error, MemoryError) as error:
         reason = f"{type(error).__name__}: {one_line(error)}"
         raise FileFormatError(
             f"{path} cannot be read as LPIPS's weights, it is damaged or of another kind "
-            f"({reason}); {where_from('alex')}"
+            f"({reason}); {WHERE_FROM}"
         ) from error
-    layout = next((one for one in LAYOUTS if one.array_shapes() == shapes), None)
-    if layout is None:
+    if shapes != layout.array_shapes():
         raise FileFormatError(
-            f"{path} does not hold the arrays of LPIPS's network "
-            f"({' or '.join(one.name for one in LAYOUTS)}); {where_from('alex')}"
+            f"{path} does not hold the arrays of LPIPS's network, AlexNet; {WHERE_FROM}"
         )
     for name, array in arrays.items():
         if array.dtype != np.float32 or not np.isfinite(array).all():
@@ -206,10 +166,9 @@ def _read_published(path: Path) -> dict[str, Any]:
     """The arrays under our names: {net: {Conv_i: {kernel, bias}}, NetLinLayer_i: {Conv_0: …}}."""
     with path.open("rb") as file:
         content = _ArrayUnpickler(file).load()
-    nets = [layout.published_name for layout in LAYOUTS if layout.published_name in content]
     arrays: dict[str, Any] = {}
-    for number in range(len(content[nets[0]])):
-        layer = content[nets[0]][f"Conv_{number}"]
+    for number in range(len(content[PUBLISHED_NAME])):
+        layer = content[PUBLISHED_NAME][f"Conv_{number}"]
         arrays[f"kernel{number}"], arrays[f"bias{number}"] = layer["kernel"], layer["bias"]
     for number in range(len(content) - 1):
         # A convolution of one pixel with one channel out: [1, 1, C, 1].
@@ -315,7 +274,7 @@ def lpips_distance(a: ArrayLike, b: ArrayLike, network: Lpips) -> float:
 
     Returns:
         0 for equal images, about 1 for unrelated ones; NaN if a side is too short for the
-        network (31 px for alex, 16 px for vgg).
+        network (31 px).
 
     Raises:
         InputError: the shapes differ or are no images, or a value is outside 0..1.

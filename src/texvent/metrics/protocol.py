@@ -12,9 +12,6 @@ from texvent.events import EventStream
 Better: TypeAlias = Literal["lower", "higher", "one"]
 """Direction of good values: low, high, or close to 1."""
 
-Needs: TypeAlias = Literal["same scene", "any scene"]
-"""Required reference: a recording of the same scene, or any recording."""
-
 UNDEFINED = float("nan")
 """Value of a metric that the two streams do not define."""
 
@@ -31,7 +28,6 @@ class Metric(ABC):
     unit: ClassVar[str] = ""
     """Unit of the value; empty for a pure number."""
     better: ClassVar[Better] = "lower"
-    needs: ClassVar[Needs] = "same scene"
     range: ClassVar[tuple[float, float]] = (0.0, 1.0)
     """Smallest and largest value possible."""
     blind_to: ClassVar[str]
@@ -63,13 +59,6 @@ class Metric(ABC):
     @abstractmethod
     def _score(self, predicted: EventStream, reference: EventStream) -> float:
         """The value for two streams of the same size."""
-
-
-def find_missing(metric: Metric) -> str | None:
-    """`metric.missing()`; None for a metric of a plug-in that has no such method."""
-    missing = getattr(metric, "missing", None)
-    reason: str | None = missing() if missing is not None else None
-    return reason
 
 
 def check_pair(predicted: EventStream, reference: EventStream) -> None:

@@ -147,20 +147,19 @@ class NearestTime(Metric):
 
     def _mean_us(self, events: Trains, others: Trains) -> float:
         """Mean capped time from each of `events` to the nearest of `others`, µs."""
-        return float(np.abs(time_to_nearest(events, others, cap_us=self.cap_us)).mean())
+        return float(time_to_nearest(events, others, cap_us=self.cap_us).mean())
 
 
 def time_to_nearest(events: Trains, others: Trains, *, cap_us: int) -> NDArray[np.int64]:
-    """Time from each of `events` to the nearest of `others` in the same train.
+    """Time between each of `events` and the nearest of `others` in the same train.
 
     Args:
         events: where the times start; not empty.
         others: where they end; not empty.
-        cap_us: longest time that counts, µs.
+        cap_us: longest time that counts, µs; also where there is none.
 
     Returns:
-        [n] µs, in the order of `events`: positive where the nearest comes later; `cap_us` where it
-        is further away than that, or there is none.
+        [n] µs, in the order of `events`.
     """
     # One sorted axis for all trains: they are laid end to end, further apart than the cap.
     start = min(int(events.t.min()), int(others.t.min()))
@@ -168,7 +167,6 @@ def time_to_nearest(events: Trains, others: Trains, *, cap_us: int) -> NDArray[n
     stride = stop - start + cap_us + 1
     here, there = (one.train * stride + (one.t - start) for one in (events, others))
     after = np.searchsorted(there, here)
-    to_next = there[np.minimum(after, len(there) - 1)] - here
-    to_last = here - there[np.maximum(after - 1, 0)]
-    nearest = np.where(np.abs(to_next) < np.abs(to_last), to_next, -to_last)
-    return np.where(np.abs(nearest) < cap_us, nearest, cap_us)
+    to_next = np.abs(there[np.minimum(after, len(there) - 1)] - here)
+    to_last = np.abs(here - there[np.maximum(after - 1, 0)])
+    return np.minimum(np.minimum(to_next, to_last), cap_us)

@@ -200,44 +200,6 @@ def paired_differences(
     }
 
 
-def describe_difference(
-    first: str, second: str, difference: Mean, *, better: Better = "lower", unit: str = ""
-) -> str:
-    """A sentence on which of two candidates is closer to the reference.
-
-    Args:
-        first: name of the one candidate.
-        second: name of the other.
-        difference: of their values, first minus second.
-        better: "higher" where larger values are closer.
-        unit: of the values.
-
-    Example:
-        >>> found = Mean(0.036, Interval(0.031, 0.042), 8)
-        >>> describe_difference("A", "B", found, better="higher")
-        'A is closer than B by 0.036 (95 % interval 0.031 to 0.042, 8 windows)'
-    """
-    if not difference.is_enough:
-        kind = "windows" if difference.block == 1 else "independent windows"
-        return (
-            f"{first} and {second}: too few {kind} to compare (n = {difference.windows}; "
-            f"{LEAST_WINDOWS} are needed)"
-        )
-    is_first = (difference.mean > 0) == (better == "higher")
-    if difference.is_significant and difference.mean < 0:
-        difference = difference.reversed()
-    largest = max(map(abs, (difference.mean, *difference.interval)))
-    # Two digits that count of the larger end, at least three, at most six.
-    digits = min(max(1 - math.floor(math.log10(largest)), 3), 6) if largest > 0 else 3
-    mean, low, high = (f"{one:.{digits}f}" for one in (difference.mean, *difference.interval))
-    blocks = "windows" if difference.block == 1 else f"blocks of {difference.block} windows"
-    where = f"95 % interval {low} to {high}, {difference.windows} {blocks}"
-    if not difference.is_significant:
-        return f"{first} and {second} do not differ significantly (difference {mean}, {where})"
-    closer, other = (first, second) if is_first else (second, first)
-    return f"{closer} is closer than {other} by {f'{mean} {unit}'.strip()} ({where})"
-
-
 class Verdict(NamedTuple):
     """Comparison of two candidates by one metric."""
 
@@ -253,15 +215,43 @@ class Verdict(NamedTuple):
     @property
     def closer(self) -> str | None:
         """The candidate that is closer to the reference; None without a significant difference."""
-        if not self.difference.is_significant:
-            return None
+        return self._ordered[0] if self.difference.is_significant else None
+
+    @property
+    def _ordered(self) -> tuple[str, str]:
+        """The candidate with the better mean, then the other."""
         is_first = (self.difference.mean > 0) == (self.better == "higher")
-        return self.first if is_first else self.second
+        return (self.first, self.second) if is_first else (self.second, self.first)
 
     @property
     def sentence(self) -> str:
-        """See `describe_difference`."""
-        return describe_difference(*self[1:4], better=self.better, unit=self.unit)
+        """A sentence on which of both is closer to the reference.
+
+        Example:
+            >>> found = Mean(0.036, Interval(0.031, 0.042), 8)
+            >>> Verdict("stpp", "A", "B", found, "higher", "").sentence
+            'A is closer than B by 0.036 (95 % interval 0.031 to 0.042, 8 windows)'
+        """
+        difference = self.difference
+        if not difference.is_enough:
+            kind = "windows" if difference.block == 1 else "independent windows"
+            return (
+                f"{self.first} and {self.second}: too few {kind} to compare (n = "
+                f"{difference.windows}; {LEAST_WINDOWS} are needed)"
+            )
+        if difference.is_significant and difference.mean < 0:
+            difference = difference.reversed()
+        largest = max(map(abs, (difference.mean, *difference.interval)))
+        # Two digits that count of the larger end, at least three, at most six.
+        digits = min(max(1 - math.floor(math.log10(largest)), 3), 6) if largest > 0 else 3
+        mean, low, high = (f"{one:.{digits}f}" for one in (difference.mean, *difference.interval))
+        blocks = "windows" if difference.block == 1 else f"blocks of {difference.block} windows"
+        where = f"95 % interval {low} to {high}, {difference.windows} {blocks}"
+        if not difference.is_significant:
+            pair = f"{self.first} and {self.second}"
+            return f"{pair} do not differ significantly (difference {mean}, {where})"
+        closer, other = self._ordered
+        return f"{closer} is closer than {other} by {f'{mean} {self.unit}'.strip()} ({where})"
 
     def document(self) -> dict[str, Any]:
         """Plain values, NaN where undefined."""

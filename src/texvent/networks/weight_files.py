@@ -14,11 +14,14 @@ from typing import Any, TypeAlias
 
 from texvent._require import require
 from texvent.errors import FileFormatError
-from texvent.networks.layer_shapes import BATCH_COUNTER, Shape
 
 Tensor: TypeAlias = Any
 """torch.Tensor; torch is imported only when weights are read."""
 
+Shape: TypeAlias = tuple[int, ...]
+
+BATCH_COUNTER = "num_batches_tracked"
+"""A counter that only training reads; some files have it and some have not."""
 SAFETENSORS = ".safetensors"
 STATE = "state_dict"
 NOTES, TRAINING = "texvent", "training"
@@ -144,6 +147,26 @@ def check_finite(tensors: Mapping[str, Tensor], path: Path) -> None:
     for name, tensor in tensors.items():
         if not bool(tensor.isfinite().all()):
             raise FileFormatError(f"{path}: {name} holds values that are NaN or infinite")
+
+
+def load_strictly(network: Any, tensors: Mapping[str, Tensor], path: Path, hint: str) -> None:
+    """Fill a network with the tensors of a file.
+
+    Args:
+        network: a torch module; it may be on the device "meta".
+        tensors: name → tensor, float32.
+        path: of the file, for messages.
+        hint: where to get the right file.
+
+    Raises:
+        FileFormatError: a tensor is missing, unknown, of another shape, or not finite.
+    """
+    try:
+        network.load_state_dict(tensors, strict=True, assign=True)
+    except RuntimeError as error:
+        problem = str(error).splitlines()[1].strip().rstrip(". ")
+        raise FileFormatError(f"{path} holds another network: {problem[:300]}; {hint}") from error
+    check_finite(tensors, path)
 
 
 def describe_mismatch(found: Mapping[str, Shape], expected: Mapping[str, Shape]) -> str | None:

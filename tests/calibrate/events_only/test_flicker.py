@@ -8,13 +8,13 @@ import pytest
 
 from texvent.calibrate.events_only.flicker import NAMES, measure_flicker
 from texvent.calibrate.events_only.flicker_cycles import find_bursts, find_cycles
-from texvent.calibrate.events_only.known_scenes import simulate_flicker
 from texvent.calibrate.events_only.pixel_trains import PixelTrains
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent_lab.bench.oracle.pixel import NOISY, PixelArray
+from texvent_lab.measure.known_scenes import simulate_flicker
 
 SIZE = SensorSize(28, 20)
 START = PhysicalConfig(gamma=1.0)
@@ -126,10 +126,3 @@ def test_cycles_and_bursts_of_a_pixel_by_hand():
     assert on.follows.tolist() == [False, True] * (len(on.pixel) // 2)
     assert np.diff(on.since_us)[::2] == pytest.approx(2000, abs=1)
     assert not off.follows.any()
-
-
-def test_a_region_of_a_few_pixels_gives_the_thresholds_of_the_circuit():
-    events = simulate_flicker(TRUTH, SensorSize(3, 2), 5.0, ratio=6.0, number=40)
-    found = {one.name: one for one in measure_flicker(events, START, hz=5.0, ratio=6.0).found}
-    assert found["cutoff_hz"].value == pytest.approx(120, rel=0.1)
-    assert found["contrast_threshold"].value == pytest.approx(0.26, rel=0.25)

@@ -6,11 +6,6 @@ from hypothesis import strategies as st
 from texvent.calibrate.events_only.leak import leak_rate
 
 
-def test_without_noise_the_leak_is_the_surplus():
-    assert leak_rate(0.0, 0.25, 0.0, 0.0) == pytest.approx(0.25, rel=1e-3)
-    assert leak_rate(3.0, 0.0, 0.25, 0.1) == 0.0
-
-
 @given(noise=st.floats(0.01, 20), leak=st.floats(0.05, 20))
 def test_the_leak_is_found_from_how_often_it_fires_among_noise(noise, leak):
     if noise / leak > 20:

@@ -13,7 +13,7 @@ from texvent.errors import FileFormatError, InputError
 
 OpenEXR = pytest.importorskip("OpenEXR")
 BLENDER = Path(__file__).parent / "blender_sample"
-"""Three frames of texvent_lab/measure/blender_scene.py, rendered by Blender 5.0 at 48x36."""
+"""Three frames of a ball that shoots past pillars, rendered by Blender 5.0 at 48x36."""
 
 
 def write(path, channels, **header):

@@ -15,7 +15,7 @@ from texvent.sensor import SensorSize
 def pair(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "empty"))
-    size = SensorSize(16, 12)
+    size = SensorSize(16, 10)
     truth = EventStream([1, 2, 3, 4], [0, 0, 5, 6], [100, 200, 40_000, 900_000], [1, 0, 1, 1], size)
     truth.save("truth.npz")
     truth[:2].save("guess.npz")
@@ -23,7 +23,7 @@ def pair(tmp_path, monkeypatch):
 
 
 def test_compare_prints_a_table_with_what_each_metric_does_not_see(pair, capsys):
-    assert main(["compare", "guess.npz", "truth.npz", "--metrics", "stpp,count_ratio,fwl"]) == 0
+    assert main(["compare", "guess.npz", "truth.npz", "--metrics", "stpp,count_ratio,ef_ssim"]) == 0
     shown = capsys.readouterr().out
     assert "count_ratio" in shown
     assert "0.5000" in shown
@@ -36,7 +36,7 @@ def test_compare_judges_the_first_file_by_the_second(pair, capsys):
     document = json.loads(capsys.readouterr().out)
     assert document["predicted"] == {"path": "guess.npz", "events": 2}
     assert document["scores"]["count_ratio"] == 0.5
-    assert document["scores"]["fwl"] is None
+    assert document["scores"]["ef_ssim"] is None
 
 
 def test_compare_shows_a_similarity_beside_its_controls(pair, capsys):
@@ -93,10 +93,10 @@ def candidates(tmp_path, monkeypatch):
     """A truth of 1.2 s, a candidate that is 1 ms late, and one that is 4 ms late."""
     monkeypatch.chdir(tmp_path)
     rng = np.random.default_rng(0)
-    size = SensorSize(16, 12)
+    size = SensorSize(16, 10)
     t = np.sort(rng.integers(0, 1_250_000, 6000))
     t[0] = 0
-    x, y, p = rng.integers(0, 16, 6000), rng.integers(0, 12, 6000), rng.integers(0, 2, 6000)
+    x, y, p = rng.integers(0, 16, 6000), rng.integers(0, 10, 6000), rng.integers(0, 2, 6000)
     for name, late_us in (("truth", 0), ("near", 1_000), ("far", 4_000)):
         EventStream(x, y, t + late_us, p, size).save(f"{name}.npz")
 
@@ -120,11 +120,10 @@ def test_several_candidates_are_compared_by_windows_in_words(candidates, capsys)
 
 
 def test_one_candidate_has_intervals_of_its_window_means(candidates, capsys):
-    words = ["compare", "near.npz", "truth.npz", "--metrics", "stpp,fwl"]
+    words = ["compare", "near.npz", "truth.npz", "--metrics", "stpp,ef_ssim"]
     assert main(words) == 0
     table = capsys.readouterr().out
     assert "mean of windows" in table
-    # 60 ms of these windows hold fewer than 500 events, of which fwl is made.
     assert "undefined" in table
     assert main([*words, "--json", "--window", "0.2"]) == 0
     document = json.loads(capsys.readouterr().out)

@@ -1,7 +1,6 @@
 import numpy as np
 import pytest
 
-from texvent.calibrate.events_only.known_scenes import simulate_flicker, simulate_static
 from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -10,6 +9,7 @@ from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.physical.threshold_map import read_threshold_map
 from texvent.video import Video
+from texvent_lab.measure.known_scenes import simulate_flicker, simulate_static
 
 
 @pytest.fixture(scope="module")
@@ -38,11 +38,10 @@ def words(folder, out, *more):
 
 
 def test_calibrate_writes_a_preset_and_says_how_good_it_is(recording, tmp_path, capsys):
-    out, page = tmp_path / "my.toml", tmp_path / "my.svg"
-    assert main(words(recording, out, "--report", str(page))) == 0
+    out = tmp_path / "my.toml"
+    assert main(words(recording, out)) == 0
     said = capsys.readouterr()
-    assert said.out == f"{out}\n{page}\n"
-    assert page.read_text().startswith("<?xml")
+    assert said.out == f"{out}\n"
     assert "held out" in said.err
     found = resolve("simulate", {}, config=out).simulate
     assert found.contrast_threshold == pytest.approx(0.35, rel=0.25)
@@ -57,7 +56,6 @@ def test_calibrate_writes_a_preset_and_says_how_good_it_is(recording, tmp_path, 
         (("--seconds", "0"), "seconds"),
         (("--events", "nowhere.npz"), "no such file"),
         (("--frames-gamma", "-1"), "gamma"),
-        (("--report", "a.html"), "must end in .png, .svg or .pdf"),
         (("--flicker-hz", "5"), "leave out --frames"),
         (("--start-preset", "nowhere.toml"), "nowhere.toml"),
     ],
@@ -85,23 +83,21 @@ def scenes(tmp_path_factory):
 
 
 def test_events_alone_are_measured_one_scene_after_the_other(scenes, tmp_path, capsys):
-    rest, both, page = tmp_path / "rest.toml", tmp_path / "both.toml", tmp_path / "page.png"
+    rest, both = tmp_path / "rest.toml", tmp_path / "both.toml"
     first = ["calibrate", "--events", str(scenes / "rest.npz")]
-    assert main([*first, "-o", str(rest), "--report", str(page)]) == 0
+    assert main([*first, "-o", str(rest)]) == 0
     said = capsys.readouterr()
-    assert said.out == f"{rest}\n{page}\n"
+    assert said.out == f"{rest}\n"
     assert "found noise_rate_hz" in said.err
-    assert page.read_bytes().startswith(b"\x89PNG")
     second = ["calibrate", "--events", str(scenes / "flicker.npz")]
     light = ["--flicker-hz", "5", "--flicker-ratio", "6", "--start-preset", str(rest)]
     pixels = tmp_path / "pixels.npz"
-    report = ["--report", str(tmp_path / "flicker.pdf"), "--threshold-map", str(pixels), "-q"]
-    assert main([*second, *light, "-o", str(both), *report]) == 0
+    more = ["--threshold-map", str(pixels), "-q"]
+    assert main([*second, *light, "-o", str(both), *more]) == 0
     found = resolve("simulate", {}, config=both).simulate
     assert found.contrast_threshold == pytest.approx(0.3, rel=0.1)
     assert float(found.noise_curve.partition(":")[2]) == pytest.approx(2.0, rel=0.1)
     assert "# found contrast_threshold" in both.read_text()
-    assert (tmp_path / "flicker.pdf").read_bytes().startswith(b"%PDF")
     assert found.threshold_map == pixels
     assert capsys.readouterr().out.splitlines()[1] == str(pixels)
     assert read_threshold_map(pixels).on.shape == SMALL.shape

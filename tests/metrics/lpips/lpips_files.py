@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.metrics.lpips import ALEX, LpipsWeights
+from texvent.metrics.lpips import ALEX, PUBLISHED_NAME, LpipsWeights
 
 NARROW = replace(
     ALEX,
@@ -35,7 +35,7 @@ def published(weights):
     count = len(weights.layout.convolutions)
     heads = [name for name in arrays if name.startswith("head")]
     return {
-        weights.layout.published_name: {
+        PUBLISHED_NAME: {
             f"Conv_{n}": {"kernel": arrays[f"kernel{n}"], "bias": arrays[f"bias{n}"]}
             for n in range(count)
         },

@@ -5,12 +5,9 @@ import pickle
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.metrics import lpips
 from texvent.metrics.event_frames import EventFrameLpips
 from texvent.metrics.lpips import (
     ALEX,
@@ -29,10 +26,9 @@ WEIGHTS = narrow_weights()
 
 
 @pytest.fixture(autouse=True)
-def _known_layouts(monkeypatch, request):
+def _torch(request):
     if request.node.get_closest_marker("torch"):
         pytest.importorskip("torch")
-    monkeypatch.setattr(lpips, "LAYOUTS", (NARROW, ALEX))
 
 
 def distance(a, b, weights=WEIGHTS):
@@ -54,30 +50,12 @@ def test_the_distance_agrees_with_its_slow_twin(seed):
 
 
 @pytest.mark.torch
-@given(seed=st.integers(0, 100))
-@settings(max_examples=5)
-def test_the_distance_is_symmetric_and_zero_for_equal_images(seed):
-    a, b = images(seed, 31, 33)
-    assert distance(a, a) == 0.0
-    assert distance(a, b) == pytest.approx(distance(b, a))
-
-
-@pytest.mark.torch
-def test_a_grey_image_is_one_with_equal_colours():
-    grey = images(3)[..., 0]
-    colours = np.repeat(grey[..., None], 3, axis=3)
-    assert distance(*grey) == distance(*colours)
-
-
-@pytest.mark.torch
 @pytest.mark.parametrize(
     ("a", "b", "complaint"),
     [
         (np.zeros((40, 40)), np.zeros((40, 41)), "40x40 px with one of 41x40 px"),
         (np.zeros((40, 40, 4)), np.zeros((40, 40, 4)), r"\[40, 40, 4\]; it must be"),
-        (np.zeros((0, 40)), np.zeros((0, 40)), "it must be"),
         (np.full((40, 40), 255.0), np.zeros((40, 40)), "divide 8-bit images by 255"),
-        (np.full((40, 40), np.nan), np.zeros((40, 40)), "from nan to nan"),
     ],
 )
 def test_what_is_no_pair_of_images_is_refused(a, b, complaint):
@@ -86,10 +64,11 @@ def test_what_is_no_pair_of_images_is_refused(a, b, complaint):
 
 
 def test_the_published_file_and_the_converted_one_hold_the_same_arrays(tmp_path):
-    read = read_lpips_weights(write_published(WEIGHTS, tmp_path / "alexnet.ckpt"))
+    read = read_lpips_weights(write_published(WEIGHTS, tmp_path / "alexnet.ckpt"), NARROW)
     write_lpips_weights(read, tmp_path / "lpips.npz")
-    again = read_lpips_weights(tmp_path / "lpips.npz")
-    assert read.layout == again.layout == NARROW
+    again = read_lpips_weights(tmp_path / "lpips.npz", NARROW)
+    with pytest.raises(FileFormatError, match="does not hold the arrays of LPIPS's network"):
+        read_lpips_weights(tmp_path / "lpips.npz")
     for name, array in WEIGHTS.arrays.items():
         np.testing.assert_array_equal(again.arrays[name], array)
 
@@ -114,21 +93,20 @@ def test_a_truncated_file_is_refused_by_name(tmp_path, suffix):
         write_lpips_weights(WEIGHTS, whole)
     else:
         write_published(WEIGHTS, whole)
-    for size in (0, 10, whole.stat().st_size // 2):
-        part = tmp_path / f"part{suffix}"
-        part.write_bytes(whole.read_bytes()[:size])
-        with pytest.raises(FileFormatError, match=r"part\..* cannot be read as LPIPS's weights"):
-            read_lpips_weights(part)
+    whole.write_bytes(whole.read_bytes()[: whole.stat().st_size // 2])
+    with pytest.raises(FileFormatError, match=r"whole\..* cannot be read as LPIPS's weights"):
+        read_lpips_weights(whole)
 
 
 @pytest.mark.torch
 def test_event_frames_are_compared_as_grey_images(tmp_path):
-    write_lpips_weights(WEIGHTS, tmp_path / "narrow.npz")
-    metric = EventFrameLpips(weights=tmp_path / "narrow.npz")
+    weights = narrow_weights(layout=ALEX)
+    write_lpips_weights(weights, tmp_path / "alex.npz")
+    metric = EventFrameLpips(weights=tmp_path / "alex.npz")
     size = SensorSize(40, 33)
     a, b = random_events(1, 600, size, 40_000), random_events(2, 600, size, 40_000)
     frames = [event_frame(one, "polarity").astype(np.float64) for one in (a, b)]
-    assert metric(a, b) == pytest.approx(distance(*frames))
+    assert metric(a, b) == pytest.approx(distance(*frames, weights))
     assert metric(a, a) == 0.0
     assert metric.missing() is None
     # A second frame that is empty in both counts 0.

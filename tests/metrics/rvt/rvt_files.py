@@ -4,30 +4,32 @@ import math
 
 import numpy as np
 
-from texvent.metrics.rvt_backbone import STRIDES, RvtLayout
+STRIDES = (4, 2, 2, 2)
+TINY = (8, 4)
+"""Channels of the first stage and of a head: narrower than any that was published, for arithmetic
+that is checked by loops."""
 
-TINY = RvtLayout("tiny", 8, 4)
-"""Narrower than any that was published, for arithmetic that is checked by loops."""
 
-
-def random_tensors(layout, seed=0):
+def random_tensors(size, seed=0):
     """Name → float64 array; norms near 1, the rest small."""
+    from texvent.metrics.rvt_backbone import RvtBackbone
+
     rng = np.random.default_rng(seed)
     found = {}
-    for name, shape in layout.tensor_shapes().items():
-        values = rng.normal(0, 1 / math.sqrt(max(np.prod(shape[1:]), 4)), shape)
+    for name, tensor in RvtBackbone(*size).state_dict().items():
+        values = rng.normal(0, 1 / math.sqrt(max(np.prod(tensor.shape[1:]), 4)), tensor.shape)
         is_scale = ".norm" in name and name.endswith("weight")
         found[name] = values + 1 if is_scale or "gamma" in name else values
     return found
 
 
-def checkpoint(layout, seed=0):
+def checkpoint(size, seed=0):
     """The content of a Lightning checkpoint of the whole detector."""
     import torch
 
     backbone = {
         f"mdl.backbone.{name}": torch.from_numpy(values.astype(np.float32))
-        for name, values in random_tensors(layout, seed).items()
+        for name, values in random_tensors(size, seed).items()
     }
     rest = {
         "mdl.fpn.lateral_conv0.conv.weight": torch.zeros(2, 2, 1, 1),
@@ -46,7 +48,7 @@ def checkpoint(layout, seed=0):
     }
 
 
-def slow_backbone(histogram, tensors, layout, stages):
+def slow_backbone(histogram, tensors, head_channels, stages):
     """RVT's stages pixel by pixel from the paper's Eqs. 1-5; [C, H, W] per stage, padding kept."""
     channels, height, width = histogram.shape
     x = np.zeros((channels, height + -height % 64, width + -width % 64))
@@ -65,7 +67,7 @@ def slow_backbone(histogram, tensors, layout, stages):
             seen = np.zeros_like(x)
             for pixels in groups(x.shape[:2], partition):
                 rows, columns = np.array(pixels).T
-                seen[rows, columns] = attention(inner[rows, columns], tensors, name, layout)
+                seen[rows, columns] = attention(inner[rows, columns], tensors, name, head_channels)
             x = x + tensors[f"{name}.ls1.gamma"] * seen
             inner = linear(norm(x, tensors, f"{name}.norm2"), tensors, f"{name}.mlp.net.0.0")
             inner = np.vectorize(gelu)(inner)
@@ -120,10 +122,9 @@ def grids(shape, partition):
             yield [(top + i * gap_y, left + j * gap_x) for i in range(down) for j in range(across)]
 
 
-def attention(pixels, tensors, name, layout):
+def attention(pixels, tensors, name, size):
     """Multi-head attention of [n, C] pixels to each other, head by head."""
     mixed = linear(pixels, tensors, f"{name}.self_attn.qkv")
-    size = layout.head_channels
     heads = []
     for head in range(pixels.shape[1] // size):
         start = head * 3 * size

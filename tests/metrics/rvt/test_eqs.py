@@ -5,42 +5,39 @@ import math
 import numpy as np
 import pytest
 
-from texvent.errors import FileFormatError
-from texvent.events import EventStream
-from texvent.metrics.latent_similarity import LatentSimilarity, load_eqs
-from texvent.metrics.rvt_backbone import LAYOUTS, RvtBackbone, RvtWeights, read_rvt_weights
-from texvent.sensor import SensorSize
+pytestmark = pytest.mark.torch
+torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from ..recordings import random_events
-from .rvt_files import TINY, checkpoint, random_tensors, slow_backbone
+from texvent.errors import FileFormatError  # noqa: E402
+from texvent.events import EventStream  # noqa: E402
+from texvent.metrics.latent_similarity import LatentSimilarity, load_eqs  # noqa: E402
+from texvent.metrics.rvt_backbone import HEAD_CHANNELS, RvtBackbone, read_rvt  # noqa: E402
+from texvent.sensor import SensorSize  # noqa: E402
 
-RVT_T = LAYOUTS[0]
+from ..recordings import random_events  # noqa: E402
+from .rvt_files import TINY, checkpoint, random_tensors, slow_backbone  # noqa: E402
+
+RVT_T = (32, 32)
 
 
 def test_published_sizes_have_as_many_numbers_as_in_rvts_own_code():
-    counts = [sum(math.prod(s) for s in one.tensor_shapes().values()) for one in LAYOUTS]
+    networks = [RvtBackbone(*size) for size in HEAD_CHANNELS.items()]
+    counts = [sum(one.numel() for one in network.parameters()) for network in networks]
     assert counts == [3_220_032, 7_209_312, 12_784_768]
 
 
-@pytest.fixture(scope="module")
-def torch():
-    return pytest.importorskip("torch")
-
-
-def tiny_backbone(torch, stages=3):
+def tiny_backbone():
+    backbone = RvtBackbone(*TINY)
     tensors = random_tensors(TINY)
-    return RvtBackbone(
-        RvtWeights(TINY, {name: torch.from_numpy(one).float() for name, one in tensors.items()}),
-        stages=stages,
-    )
+    backbone.load_state_dict({name: torch.from_numpy(one) for name, one in tensors.items()})
+    return backbone
 
 
-@pytest.mark.torch
 @pytest.mark.parametrize("shape", [(70, 129), (64, 64)])
-def test_the_backbone_agrees_with_loops_over_pixels(torch, shape):
+def test_the_backbone_agrees_with_loops_over_pixels(shape):
     histogram = np.random.default_rng(1).poisson(0.3, (20, *shape)).astype(np.float32)
-    found = tiny_backbone(torch)(histogram)
-    expected = slow_backbone(histogram, random_tensors(TINY), TINY, stages=3)
+    found = tiny_backbone()(histogram)
+    expected = slow_backbone(histogram, random_tensors(TINY), TINY[1], stages=3)
     for stage, (one, other) in enumerate(zip(found, expected, strict=True)):
         stride = 4 * 2**stage
         rows, columns = (-(-side // stride) for side in shape)
@@ -49,9 +46,8 @@ def test_the_backbone_agrees_with_loops_over_pixels(torch, shape):
         assert np.abs(one).max() > 0.05
 
 
-@pytest.mark.torch
-def test_a_window_does_not_remember_the_one_before(torch):
-    backbone = tiny_backbone(torch, stages=1)
+def test_a_window_does_not_remember_the_one_before():
+    backbone = tiny_backbone()
     first, second = np.random.default_rng(2).poisson(1, (2, 20, 64, 64)).astype(np.float32)
     alone = backbone(second)[0]
     backbone(first)
@@ -59,7 +55,7 @@ def test_a_window_does_not_remember_the_one_before(torch):
 
 
 @pytest.fixture
-def published(torch, tmp_path):
+def published(tmp_path):
     """`published(change)`: a checkpoint of RVT-T's shape, changed before it is stored."""
 
     def write(change=lambda content: None, name="rvt-t.ckpt"):
@@ -71,43 +67,41 @@ def published(torch, tmp_path):
     return write
 
 
-@pytest.mark.torch
 def test_a_checkpoint_is_read_strictly_and_the_detector_left_out(published):
-    weights = read_rvt_weights(published())
-    assert weights.layout is RVT_T
-    assert {n: tuple(t.shape) for n, t in weights.tensors.items()} == RVT_T.tensor_shapes()
-    assert all(str(tensor.dtype) == "torch.float32" for tensor in weights.tensors.values())
+    path = published()
+    stored = torch.load(path)["state_dict"]
+    tensors = read_rvt(path).state_dict()
+    assert len(tensors) == len(stored) - 2
+    assert all(torch.equal(one, stored[f"mdl.backbone.{name}"]) for name, one in tensors.items())
 
 
 GAMMA_HERE = "stages.3.att_blocks.0.att_grid.ls2.gamma"
 GAMMA = f"mdl.backbone.{GAMMA_HERE}"
 
 
-@pytest.mark.torch
 @pytest.mark.parametrize(
     ("change", "complaint"),
     [
         (lambda c: c.pop("state_dict"), "holds no state_dict"),
         (lambda c: c["state_dict"].clear(), "has no tensor mdl.backbone.stages.0"),
-        (lambda c: c["state_dict"].pop(GAMMA), f"is not rvt-t: mdl.backbone lacks {GAMMA_HERE}"),
+        (lambda c: c["state_dict"].pop(GAMMA), f"Missing key.*{GAMMA_HERE}"),
         (
             lambda c: c["state_dict"].update({GAMMA: c["state_dict"][GAMMA][:5]}),
-            rf"has {GAMMA_HERE} of shape \[5\] instead of \[256\]",
+            f"size mismatch for {GAMMA_HERE}",
         ),
         (
             lambda c: c["state_dict"].update({"mdl.backbone.extra": c["state_dict"][GAMMA]}),
-            "has the unknown extra",
+            "Unexpected key.*extra",
         ),
         (lambda c: c["state_dict"][GAMMA].fill_(math.nan), "ls2.gamma holds values that are NaN"),
     ],
 )
 def test_a_checkpoint_of_another_network_is_refused(published, change, complaint):
     with pytest.raises(FileFormatError, match=complaint):
-        read_rvt_weights(published(change, "other.ckpt"))
+        read_rvt(published(change, "other.ckpt"))
 
 
-@pytest.mark.torch
-def test_eqs_is_lfs_with_the_backbone_of_the_file(torch, published):
+def test_eqs_is_lfs_with_the_backbone_of_the_file(published):
     eqs = load_eqs(published())
     size = SensorSize(64, 64)
     a, b = random_events(1, 500, size, 50_000), random_events(2, 500, size, 50_000)

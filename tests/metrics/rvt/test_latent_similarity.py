@@ -7,7 +7,7 @@ from texvent.events import EventStream
 from texvent.metrics.latent_similarity import LatentSimilarity, patch_cosine
 from texvent.sensor import SensorSize
 
-from ..recordings import one_event, random_events
+from ..recordings import random_events
 
 
 def test_cosine_is_taken_between_averages_of_three_by_three_patches():
@@ -40,13 +40,6 @@ def test_a_backbone_sees_the_stacked_histogram_and_its_stages_are_averaged():
     # Histogram: nothing in common, 0; constant features: 1.
     assert LatentSimilarity(backbone=backbone)(a, b) == pytest.approx(0.5)
     assert shapes == [(20, 6, 9)] * 2
-
-
-def test_streams_without_events_are_undefined_and_equal_ones_score_one():
-    nothing = EventStream.empty(one_event().size)
-    assert math.isnan(LatentSimilarity()(nothing, nothing))
-    a = random_events(1)
-    assert LatentSimilarity()(a, a) == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("size", [SensorSize(16, 13), SensorSize(7, 9)])

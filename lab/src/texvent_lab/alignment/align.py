@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -47,17 +47,12 @@ class RetrievalReport:
     """What an exchange of the texts gives in the long run, computed."""
     p_value: float
     """Share of the exchanges whose mean similarity is at least the measured one; never 0."""
-    within: Retrieval | None = None
-    """Mean over random exchanges of texts within their groups."""
-    p_within: float | None = None
-    """As `p_value`, of those exchanges."""
 
 
 def score_retrieval(
     similarity: NDArray[Any],
     own: NDArray[Any] | None = None,
     *,
-    groups: NDArray[Any] | None = None,
     seed: int = 0,
     resamples: int = 1000,
     exchanges: int = 100,
@@ -67,7 +62,6 @@ def score_retrieval(
     Args:
         similarity: of recording i and text j, [n, m], more is more similar.
         own: number of the text that belongs to each recording, [n]; default: the same number.
-        groups: class of each text, [m], any values; None: no exchange within groups.
         seed: of the bootstrap and of the exchanges.
         resamples: bootstrap samples of the recordings; the texts stay.
         exchanges: random exchanges of the texts.
@@ -88,12 +82,11 @@ def score_retrieval(
     drawn = [_values(places.take(sample)) for sample in samples]
     measured = _values(places)
 
-    def exchange(classes: NDArray[Any]) -> tuple[Retrieval, float]:
-        own = (_permuted(classes, chance)[targets] for _ in range(exchanges))
-        return _exchanged([_values(_Places.of(similarity, one)) for one in own], measured)
-
-    shuffled, p_value = exchange(np.zeros(texts, np.int64))
-    within = (None, None) if groups is None else exchange(np.asarray(groups))
+    mixed = [
+        _values(_Places.of(similarity, chance.permutation(texts)[targets]))
+        for _ in range(exchanges)
+    ]
+    at_least = sum(one[-1] >= measured[-1] for one in mixed)
     tail = 50 * (1 - CONFIDENCE)
     low, high = np.percentile(drawn, (tail, 100 - tail), axis=0)
     return RetrievalReport(
@@ -102,23 +95,14 @@ def score_retrieval(
         measured=_retrieval(measured),
         low=_retrieval(low),
         high=_retrieval(high),
-        shuffled=shuffled,
+        shuffled=_retrieval(np.mean(mixed, axis=0)),
         chance=Retrieval(
             recall={k: min(k / texts, 1.0) for k in RECALL_AT},
             median_rank=(texts + 1) / 2,
             mean_similarity=float(similarity.mean(dtype=np.float64)),
         ),
-        p_value=p_value,
-        within=within[0],
-        p_within=within[1],
+        p_value=float((1 + at_least) / (1 + exchanges)),
     )
-
-
-def _exchanged(mixed: Sequence[Any], measured: Any) -> tuple[Retrieval, float]:
-    """Mean over exchanges of the texts, and the share that is as good as the pairs."""
-    values = np.array(mixed)
-    at_least = int((values[:, -1] >= measured[-1]).sum())
-    return _retrieval(values.mean(axis=0)), (1 + at_least) / (1 + len(values))
 
 
 def _checked(
@@ -138,16 +122,6 @@ def _checked(
             f"{count} recordings and {texts} texts"
         )
     return similarity, targets
-
-
-def _permuted(groups: NDArray[Any], chance: np.random.Generator) -> NDArray[np.int64]:
-    """A random permutation that exchanges numbers of equal groups only."""
-    count = len(groups)
-    sorted_places = np.argsort(groups, kind="stable")
-    mixed_places = np.lexsort((chance.random(count), groups))
-    permutation = np.empty(count, np.int64)
-    permutation[sorted_places] = mixed_places
-    return permutation
 
 
 @dataclass(frozen=True)
@@ -184,36 +158,22 @@ def _retrieval(values: NDArray[np.float64]) -> Retrieval:
     )
 
 
-@dataclass(frozen=True, kw_only=True)
-class AlignmentRow:
-    """One source of events, seen in one way."""
-
-    source: str
-    view: str
-    report: RetrievalReport
-
-    @property
-    def facts(self) -> dict[str, Any]:
-        """Plain values, ready for JSON."""
-        return {"source": self.source, "view": self.view, **asdict(self.report)}
-
-
 def align(
     sources: Mapping[str, Sequence[Recording]],
-    views: Mapping[str, View],
+    draw: View,
     clip: ClipModel,
     *,
     seed: int = 0,
     progress: Callable[[str, int, int], None] = lambda stage, done, total: None,
-) -> list[AlignmentRow]:
-    """Score every source in every view.
+) -> dict[str, RetrievalReport]:
+    """Score every source.
 
     The vector of a recording is the mean of those of its images, at unit length. Its text is
     ranked among all different texts of its source.
 
     Args:
         sources: name → recordings.
-        views: name → how events become images.
+        draw: how events become images.
         clip: the model.
         seed: of the bootstrap and of the control.
         progress: told of (source, done, total).
@@ -221,31 +181,18 @@ def align(
     Raises:
         InputError, FileFormatError: a recording cannot be read.
     """
-    rows = []
+    reports = {}
     for source, recordings in sources.items():
         texts = list(dict.fromkeys(recording.text for recording in recordings))
         place = {text: number for number, text in enumerate(texts)}
         own = np.array([place[recording.text] for recording in recordings])
-        vectors: dict[str, list[Vectors]] = {name: [] for name in views}
+        vectors: list[Vectors] = []
         for done, recording in enumerate(recordings):
             progress(source, done, len(recordings))
-            events = recording.load()
-            for name, view in views.items():
-                vectors[name].append(_mean(clip.embed_images(view(events))))
-        of_texts = clip.embed_texts(texts)
-        groups = _labels(recordings, texts)
-        for name in views:
-            similarity = np.concatenate(vectors[name]) @ of_texts.T
-            report = score_retrieval(similarity, own, groups=groups, seed=seed)
-            rows.append(AlignmentRow(source=source, view=name, report=report))
-    return rows
-
-
-def _labels(recordings: Sequence[Recording], texts: Sequence[str]) -> NDArray[Any] | None:
-    """Class of each text; None where there are none, or one alone."""
-    found = {recording.text: recording.label for recording in recordings}
-    labels = {label for label in found.values() if label is not None}
-    return np.array([str(found[text]) for text in texts]) if len(labels) > 1 else None
+            vectors.append(_mean(clip.embed_images(draw(recording.load()))))
+        similarity = np.concatenate(vectors) @ clip.embed_texts(texts).T
+        reports[source] = score_retrieval(similarity, own, seed=seed)
+    return reports
 
 
 def _mean(vectors: Vectors) -> Vectors:
@@ -254,24 +201,17 @@ def _mean(vectors: Vectors) -> Vectors:
     return np.asarray(mean / max(float(np.linalg.norm(mean)), 1e-12), np.float32)
 
 
-COLUMNS = ("events", "seen as", "n", "texts", *(f"R@{k}" for k in RECALL_AT), "median rank",
-           "cosine", "p")  # fmt: skip
+COLUMNS = ("events", "n", "texts", *(f"R@{k}" for k in RECALL_AT), "median rank", "cosine", "p")
 
 
-def alignment_table(rows: Sequence[AlignmentRow]) -> str:
-    """The scores with their intervals (95 %), and the control below each."""
+def alignment_table(reports: Mapping[str, RetrievalReport]) -> str:
+    """The scores with their intervals (95 %), and the controls below each."""
     lines = [list(COLUMNS)]
-    for row in rows:
-        report = row.report
+    for source, report in reports.items():
         counts = [f"{report.recordings:,}", f"{report.texts:,}"]
-        lines.append(
-            [row.source, row.view, *counts, *_with_interval(report), f"{report.p_value:.3f}"]
-        )
-        lines.append(["", "texts exchanged", "", "", *_cells(report.shuffled), ""])
-        if report.within is not None:
-            p_value = f"{report.p_within:.3f}"
-            lines.append(["", "within classes", "", "", *_cells(report.within), p_value])
-        lines.append(["", "chance", "", "", *_cells(report.chance), ""])
+        lines.append([source, *counts, *_with_interval(report), f"{report.p_value:.3f}"])
+        lines.append(["texts exchanged", "", "", *_cells(report.shuffled), ""])
+        lines.append(["chance", "", "", *_cells(report.chance), ""])
     widths = [max(map(len, column)) for column in zip(*lines, strict=True)]
     return "".join(
         "  ".join(cell.ljust(width) for cell, width in zip(line, widths, strict=True)).rstrip()

@@ -2,27 +2,27 @@
 
 from __future__ import annotations
 
-import itertools
-import math
+import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
+from io import StringIO
 from pathlib import Path
 from typing import TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.dataset.generation.recipe import ITEMS_FILE, read_facts
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.reading.stored_events import read_events
-from texvent.errors import InputError
+from texvent.dataset.specification.clips import clip_key, video_seed
+from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
 from texvent.io.arrays.n_imagenet import load_stream
 from texvent.represent.event_frame import count_events
-from texvent.sensor import SensorSize
 from texvent_lab.nt_imagenet.files import Captioned
 from texvent_lab.nt_imagenet.selection import STREAM_EXTENSION, validation_folder
-from texvent_lab.reconstruct.reconstructor import Reconstructor
 
 
 @dataclass(frozen=True)
@@ -33,8 +33,6 @@ class Recording:
     """What it shares with recordings of the same text in other sources."""
     text: str
     load: Callable[[], EventStream]
-    label: str | None = None
-    """Class of the text."""
 
 
 def list_samples(
@@ -64,12 +62,41 @@ def list_samples(
                     f"{folder} is made of videos without prompts; there is no text to fit"
                 )
             load = partial(read_events, shard.path, sample)
-            recording = Recording(id, sample.prompt, load, sample.label)
+            recording = Recording(id, sample.prompt, load)
             found.setdefault(shard.record.variant, []).append(recording)
     if not found:
         where = "" if split is None else f" in split {split}"
         raise InputError(f"{folder} holds no sample of texvent{where}; make it first")
     return found
+
+
+def ids_of_clips(folder: Path, captioned: Sequence[Captioned]) -> Mapping[str, str]:
+    """Key of a clip of a data set → id of its caption.
+
+    Raises:
+        InputError: no data set is there, or it was not made from these captions.
+        FileFormatError: it is damaged.
+    """
+    known = {(one.seed, one.label, one.caption): one.id for one in captioned}
+    specification = read_facts(folder).get("specification", {})
+    path, ids = folder / ITEMS_FILE, dict[str, str]()
+    try:
+        root, repeats = int(specification["seed"]), int(specification["repeats"])
+        items = [json.loads(line) for line in StringIO(path.read_text(encoding="utf-8"))]
+        for item in items:
+            id = known.get((item["seed"], item["label"], item["prompt"]))
+            if id is not None:
+                for repeat in range(repeats):
+                    seed = video_seed(root, item["key"], item["seed"], repeat)
+                    ids[clip_key(item["key"], seed)] = id
+    except (OSError, ValueError, TypeError, KeyError, AttributeError) as error:
+        raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
+    if not ids:
+        raise InputError(
+            f"{folder} was not made from these captions; make it with texvent dataset make from "
+            "the specification.toml beside them"
+        )
+    return ids
 
 
 def list_streams(n_imagenet: Path, captioned: Sequence[Captioned]) -> list[Recording]:
@@ -84,7 +111,7 @@ def list_streams(n_imagenet: Path, captioned: Sequence[Captioned]) -> list[Recor
         path = root / one.label / f"{one.id}{STREAM_EXTENSION}"
         if not path.is_file():
             raise InputError(f"{root} lacks {one.label}/{path.name}; its caption is there")
-        recordings.append(Recording(one.id, one.caption, partial(load_stream, path), one.label))
+        recordings.append(Recording(one.id, one.caption, partial(load_stream, path)))
     return recordings
 
 
@@ -121,10 +148,6 @@ View: TypeAlias = Callable[[EventStream], list[Image]]
 PALETTE = "paper"
 EVENTS_PER_PIXEL = 70_000 / (640 * 480)
 """Events in one drawn image; EventCLIP takes 70,000 of N-ImageNet's 640x480."""
-SLICE_PER_PIXEL = 0.35
-"""Most events that a network sees at once, as in E2VID's program."""
-FEWEST_SLICES = 5
-"""A recurrent network needs a few slices before its image is one."""
 
 
 @dataclass(frozen=True)
@@ -150,45 +173,8 @@ class DrawnEvents:
 
     def runs(self, events: EventStream) -> list[EventStream]:
         """The events of each image."""
-        length = self.events_per_image or max(1, round(EVENTS_PER_PIXEL * _pixels(events.size)))
+        pixels = events.size.width * events.size.height
+        length = self.events_per_image or max(1, round(EVENTS_PER_PIXEL * pixels))
         count = min(self.images, max(1, len(events) // length))
         starts = np.linspace(0, max(0, len(events) - length), count).astype(int)
         return [events[int(start) : int(start) + length] for start in starts]
-
-
-@dataclass(frozen=True)
-class ReconstructedImages:
-    """Images that a published network makes of the events, from the second half of a recording."""
-
-    reconstructor: Reconstructor
-    images: int = 4
-    """Most images of a recording."""
-
-    def __call__(self, events: EventStream) -> list[Image]:
-        """The images.
-
-        Raises:
-            InputError, FileFormatError: as `Reconstructor.reconstruct`.
-        """
-        slices = event_slices(events)
-        made = [image for _, image in self.reconstructor.reconstruct_all(enumerate(slices))]
-        late = made[len(made) // 2 :]
-        chosen = np.unique(np.linspace(0, len(late) - 1, self.images).round().astype(int))
-        return [_as_rgb(late[int(place)]) for place in chosen]
-
-
-def event_slices(events: EventStream) -> list[EventStream]:
-    """A recording in slices of as many events, which follow one another."""
-    most = SLICE_PER_PIXEL * _pixels(events.size)
-    count = max(FEWEST_SLICES, math.ceil(len(events) / most))
-    bounds = np.linspace(0, len(events), count + 1).astype(int)
-    return [events[int(begin) : int(end)] for begin, end in itertools.pairwise(bounds)]
-
-
-def _pixels(size: SensorSize) -> int:
-    return size.width * size.height
-
-
-def _as_rgb(image: NDArray[np.float32]) -> Image:
-    levels = np.rint(np.clip(image, 0, 1) * 255).astype(np.uint8)
-    return np.repeat(levels[:, :, None], 3, axis=2)

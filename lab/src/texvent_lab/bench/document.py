@@ -9,17 +9,14 @@ import math
 import os
 import platform
 import re
-import types
-import typing
 import zlib
-from abc import ABC, abstractmethod
-from collections.abc import Collection, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from importlib import metadata
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 from texvent import __version__
-from texvent.errors import FileFormatError, InputError, one_line, shown
+from texvent.errors import FileFormatError, InputError, one_line
 from texvent.extending import source_commit
 from texvent.io.atomic import atomic_file
 from texvent.metrics.compare import plain_values
@@ -27,6 +24,7 @@ from texvent.metrics.compare import plain_values
 DIGITS = 7
 """Significant digits of the numbers in a compressed document: more than any table shows."""
 COMPRESSED = ".gz"
+Record = TypeVar("Record", bound=Any)
 
 
 def write_document(path: Path, document: Any, *, overwrite: bool) -> None:
@@ -70,99 +68,33 @@ def read_document(path: Path) -> dict[str, Any]:
     return document
 
 
-def result_name(file_name: str) -> str:
-    """Name of a result's file without .json or .json.gz."""
-    return Path(file_name.removesuffix(COMPRESSED)).stem
-
-
-def restore_nan(value: Any) -> Any:
-    """Values read from JSON, with NaN for None."""
-    if isinstance(value, Mapping):
-        return {key: restore_nan(item) for key, item in value.items()}
-    if isinstance(value, list):
-        return [restore_nan(item) for item in value]
-    return math.nan if value is None else value
-
-
-LARGEST = 2**63
-"""Numbers of results are smaller."""
-
-
-def check_record(record_type: type, values: object, where: str) -> None:
-    """Refuse values that no JSON object of a dataclass's fields gives.
+def read_records(kind: type[Record], values: Sequence[Mapping[str, Any]]) -> list[Record]:
+    """Dataclasses from their fields in a document, where null stands for NaN.
 
     Args:
-        record_type: a dataclass of numbers, texts, lists, mappings and dataclasses.
-        values: what the document holds; NaN stands for null.
-        where: what to call it in messages, such as `scores 3`.
+        kind: the dataclass; null stays None in a field that may be None.
+        values: an object each; other names in it are left out.
 
     Raises:
-        FileFormatError: a field is missing or of another type.
+        KeyError, TypeError, AttributeError: the document has another layout.
     """
-    if not isinstance(values, Mapping):
-        raise FileFormatError(f"{where} is {shown(values)}, not an object")
-    for name, hint in typing.get_type_hints(record_type).items():
-        if name not in values:
-            raise FileFormatError(f"{where} lacks {name}")
-        _check(hint, values[name], f"{where}: {name}")
+    return [
+        kind(
+            **{
+                field.name: one[field.name] if "None" in str(field.type) else _nan(one[field.name])
+                for field in dataclasses.fields(kind)
+            }
+        )
+        for one in values
+    ]
 
 
-def _check(hint: Any, value: object, where: str) -> None:
-    origin, arguments = typing.get_origin(hint), typing.get_args(hint)
-    if hint is Any:
-        return
-    if dataclasses.is_dataclass(hint) and isinstance(hint, type):
-        check_record(hint, value, where)
-    elif origin in (typing.Union, types.UnionType):
-        if value is not None:
-            _check(next(one for one in arguments if one is not type(None)), value, where)
-    elif origin in (list, Sequence):
-        _check_type(value, list, where)
-        for one in typing.cast("list[object]", value):
-            _check(arguments[0], one, where)
-    elif origin is Mapping:
-        _check_type(value, dict, where)
-        for one in typing.cast("dict[str, object]", value).values():
-            _check(arguments[1], one, where)
-    elif hint in (int, float):
-        _check_number(hint, value, where)
-    else:
-        _check_type(value, hint, where)
-
-
-def _check_number(hint: Any, value: object, where: str) -> None:
-    kinds = (int,) if hint is int else (int, float)
-    if isinstance(value, bool) or not isinstance(value, kinds) or abs(value) >= LARGEST:
-        raise FileFormatError(f"{where} holds {shown(value)}, not a {_NAMES[hint]}")
-
-
-def _check_type(value: object, wanted: type, where: str) -> None:
-    if not isinstance(value, wanted):
-        raise FileFormatError(f"{where} is {shown(value)}, not {_NAMES[wanted]}")
-
-
-_NAMES: Mapping[type, str] = {
-    int: "whole number",
-    float: "number",
-    str: "a text",
-    bool: "true or false",
-    list: "a list",
-    dict: "an object",
-}
-
-
-class MarkdownReport(ABC):
-    """A report that notebooks show as its tables."""
-
-    @abstractmethod
-    def markdown(self) -> str:
-        """All tables."""
-
-    def _repr_mimebundle_(
-        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
-    ) -> dict[str, str]:
-        """What a notebook shows: the tables."""
-        return {"text/plain": repr(self), "text/markdown": self.markdown()}
+def _nan(value: Any) -> Any:
+    if isinstance(value, Mapping):
+        return {key: _nan(item) for key, item in value.items()}
+    if isinstance(value, list):
+        return [_nan(item) for item in value]
+    return math.nan if value is None else value
 
 
 def markdown_table(titles: Sequence[str], rows: Iterable[Sequence[str]]) -> str:

@@ -11,10 +11,6 @@ COMMANDS = {
         "Train a network on simulated events or a data set.",
     ),
     "evaluate": ("texvent_lab.commands.evaluate", "Scores of trained weights on other samples."),
-    "caption": (
-        "texvent_lab.commands.caption",
-        "Prompts from images, by a vision-language model of yours.",
-    ),
     "nt-imagenet": (
         "texvent_lab.commands.nt_imagenet",
         "N-ImageNet with captions, as prompts for simulated streams.",

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import ClassVar
 
@@ -17,9 +17,8 @@ from texvent_lab.alignment.align import align, alignment_table
 from texvent_lab.alignment.clip_model import ClipModel
 from texvent_lab.alignment.recordings import (
     DrawnEvents,
-    ReconstructedImages,
     Recording,
-    View,
+    ids_of_clips,
     keep_common,
     list_samples,
     list_streams,
@@ -27,8 +26,6 @@ from texvent_lab.alignment.recordings import (
 from texvent_lab.bench.document import describe_environment
 from texvent_lab.commands.bench.bench import ResultOptions
 from texvent_lab.nt_imagenet.files import read_captioned
-from texvent_lab.nt_imagenet.pairing import ids_of_clips
-from texvent_lab.reconstruct.reconstructor import ReconstructConfig, load_reconstructor
 
 SCHEMA = "texvent-alignment-1"
 DESCRIPTION = """Does the text that a recording was made from fit it better than other texts? A CLIP
@@ -49,8 +46,8 @@ class AlignOptions:
     input_texts: ClassVar[tuple[str, ...]] = ("clip",)
     positional: ClassVar[tuple[str, ...]] = ("folder",)
     main_options: ClassVar[tuple[str, ...]] = (
-        *("folder", "clip", "n_imagenet", "captions", "split", "limit", "images", "reconstruct"),
-        *("seed", "network", "weights", "out", "overwrite"),
+        *("folder", "clip", "n_imagenet", "captions", "split", "limit", "images", "seed"),
+        *("device", "out", "overwrite"),
     )
 
     folder: Path | None = None
@@ -69,10 +66,10 @@ class AlignOptions:
     """Most images of a recording."""
     events_per_image: int | None = None
     """Events in a drawn image; default: 70,000 at 640x480, in proportion for other sensors."""
-    reconstruct: bool = False
-    """Also score images that --network reconstructs from the events."""
     seed: int = 0
     """Of the bootstrap and of the exchanged captions."""
+    device: str = "auto"
+    """Where the model runs: auto, cpu, cuda, cuda:1."""
 
     def __post_init__(self) -> None:
         check_range("limit", self.limit, 2)
@@ -102,23 +99,18 @@ class AlignOptions:
 
 def run(arguments: Sequence[str]) -> int:
     """Run the command; returns 0."""
-    options, network, output = parse_configs(
+    options, output = parse_configs(
         arguments,
-        {"input": AlignOptions(), "network": ReconstructConfig(), "output": ResultOptions()},
+        {"input": AlignOptions(), "output": ResultOptions()},
         prog="texvent align",
         description=DESCRIPTION,
     )
     output.check()
     sources = options.sources()
-    clip = ClipModel(options.clip, device=network.device)
-    views: dict[str, View] = {"drawn events": DrawnEvents(options.images, options.events_per_image)}
-    facts: Mapping[str, str] = {}
-    if options.reconstruct:
-        reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
-        views[f"{reconstructor.name} images"] = ReconstructedImages(reconstructor, options.images)
-        facts = {"network": reconstructor.name, "weights_sha256": reconstructor.sha256}
+    clip = ClipModel(options.clip, device=options.device)
+    draw = DrawnEvents(options.images, options.events_per_image)
     with ConsoleProgress(is_quiet=output.quiet) as progress:
-        rows = align(sources, views, clip, seed=options.seed, progress=progress.advance)
+        reports = align(sources, draw, clip, seed=options.seed, progress=progress.advance)
     texts = {recording.text for one in sources.values() for recording in one}
     cut = sum(clip.count_tokens(text) > clip.most_tokens for text in texts)
     output.write(
@@ -126,15 +118,14 @@ def run(arguments: Sequence[str]) -> int:
             "schema": SCHEMA,
             "environment": describe_environment(),
             "clip": options.clip,
-            **facts,
             "images": options.images,
             "events_per_image": options.events_per_image,
             "seed": options.seed,
             "texts_cut": cut,
-            "rows": [row.facts for row in rows],
+            "rows": [{"source": name, **asdict(one)} for name, one in reports.items()],
         }
     )
-    write_out(alignment_table(rows))
+    write_out(alignment_table(reports))
     if cut:
         write_out(
             f"{cut:,} of {len(texts):,} texts are longer than the {clip.most_tokens} tokens that "

@@ -16,7 +16,7 @@ from texvent.errors import ConfigError, InputError, TexventError, shown
 from texvent.extending import suggest
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent_lab.nt_imagenet import files
-from texvent_lab.nt_imagenet.captioner import INSTRUCTION, Captioner, Dtype
+from texvent_lab.nt_imagenet.captioner import INSTRUCTION, Captioner
 from texvent_lab.nt_imagenet.captions import (
     CHECKS,
     FILE,
@@ -24,13 +24,10 @@ from texvent_lab.nt_imagenet.captions import (
     check_captions,
     read_captions,
 )
-from texvent_lab.nt_imagenet.files import Captioned, find_class_names, find_image
-from texvent_lab.nt_imagenet.pairing import list_pairs
+from texvent_lab.nt_imagenet.files import Captioned, find_image
 from texvent_lab.nt_imagenet.report import Report
 from texvent_lab.nt_imagenet.selection import (
     CLASSES,
-    FEWEST_EVENTS,
-    MOST_EVENTS,
     PER_CLASS,
     Selection,
     choose_classes,
@@ -45,7 +42,6 @@ prompts.
   texvent nt-imagenet --n-imagenet N_Imagenet --imagenet ImageNet \\
       --model hub:llava-hf/llava-1.5-13b-hf -o nt
   texvent dataset make nt/specification.toml -o nt-events
-  texvent nt-imagenet -o nt --events nt-events
 
 The same command goes on where it was stopped. docs/datasets.md explains it."""
 
@@ -54,14 +50,10 @@ The same command goes on where it was stopped. docs/datasets.md explains it."""
 class NtImagenetOptions:
     """Which streams, and where their captions come from."""
 
-    input_texts: ClassVar[tuple[str, ...]] = ("model", "sentence_model")
+    input_texts: ClassVar[tuple[str, ...]] = ("model",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
-    main_options: ClassVar[tuple[str, ...]] = (
-        "n_imagenet", "imagenet", "out", "model", "captions", "events", "classes", "class_names",
-        "leave_out", "generator",
-    )  # fmt: skip
 
-    n_imagenet: Path | None = None
+    n_imagenet: Path = REQUIRED
     """Folder of N-ImageNet (with extracted_val), or of its classes."""
     imagenet: Path | None = None
     """Folder of ImageNet's validation images, all in one folder or by class; needed for --model."""
@@ -71,46 +63,26 @@ class NtImagenetOptions:
     """LLaVA that makes captions: folder saved by transformers, or hub:org/name."""
     captions: Path | None = None
     """Captions made elsewhere: .csv or .jsonl with id (name of the image without extension) and
-    caption. With --model, it makes those that are missing."""
-    events: Path | None = None
-    """Data set that was made from the captions in --out: only write pairs.csv, which puts its
-    samples beside the streams."""
+    caption."""
     classes: Path | None = None
     """Text file with one WordNet id per line; without it, the first --class-count classes."""
     class_count: int = CLASSES
     """Classes, in order of their ids; the paper does not say which."""
-    class_names: Path | None = None
-    """Names of classes, for the check of captions: lines such as n01440764 tench, Tinca tinca;
-    default: LOC_synset_mapping.txt or synset_words.txt in ImageNet's folder."""
     per_class: int = PER_CLASS
     """Streams of each class."""
-    min_events: int = FEWEST_EVENTS
-    """Fewest events of a stream."""
-    max_events: int = MOST_EVENTS
-    """Most events of a stream."""
     leave_out: str | None = None
-    """Leave out captions with these problems, separated by commas: length, refusal, class,
-    duplicate; without it they are only reported."""
-    sentence_model: str | None = None
-    """Sentence model that finds similar captions: folder saved by transformers, or hub:org/name."""
-    instruction: str = INSTRUCTION
-    """What the model is asked."""
+    """Leave out captions with these problems, separated by commas: length, refusal, duplicate;
+    without it they are only reported."""
     longest: int = 200
     """Most tokens of a caption."""
     device: str = "auto"
     """Where models run: auto, cpu, cuda, cuda:1."""
-    dtype: Dtype = "auto"
-    """Numbers that the model computes with; auto: bfloat16 on a GPU, else float32."""
-    generator: str | None = None
-    """Generator that the specification names; default: the embedded one."""
     quiet: bool = False
     """No progress."""
 
     def __post_init__(self) -> None:
         check_range("class_count", self.class_count, 1)
         check_range("per_class", self.per_class, 1)
-        check_range("min_events", self.min_events, 0)
-        check_range("max_events", self.max_events, self.min_events)
         check_range("longest", self.longest, 1, 4096)
         for name in self.leaving_out:
             if name not in CHECKS:
@@ -120,21 +92,16 @@ class NtImagenetOptions:
         """Refuse to begin without what is needed.
 
         Raises:
-            ConfigError: streams, captions or images are not named.
+            ConfigError: captions or images are not named, or captions twice.
         """
+        if (self.model is None) == (self.captions is None):
+            raise ConfigError("give captions by --model, or a file of them by --captions")
         if self.model is not None and self.imagenet is None:
             raise ConfigError("the model describes images; give their folder with --imagenet")
-        has_source = self.model is not None or self.captions is not None
         if self.captions is not None and self.captions.resolve().parent == self.out.resolve():
             raise ConfigError(
                 f"{self.captions} lies in the folder that is written; name another folder with -o"
             )
-        if self.events is not None and has_source:
-            raise ConfigError("events pairs with captions that are there; run it after them, alone")
-        if self.events is None and self.n_imagenet is None:
-            raise ConfigError("no streams; give N-ImageNet's folder with --n-imagenet")
-        if self.events is None and not has_source:
-            raise ConfigError("no captions; give --model, or a file of them with --captions")
 
     @property
     def leaving_out(self) -> tuple[str, ...]:
@@ -155,24 +122,18 @@ def run(arguments: Sequence[str]) -> int:
         description=DESCRIPTION,
     )
     options.check_sources()
-    if options.events is not None:
-        return _pair(options.out, options.events)
-    n_imagenet = options.n_imagenet or Path()
-    names = find_class_names(options.imagenet, options.class_names)
-    classes = choose_classes(n_imagenet, options.class_count, options.classes)
+    classes = choose_classes(options.n_imagenet, options.class_count, options.classes)
     files.prepare_folder(options.out)
     with ConsoleProgress(is_quiet=options.quiet) as progress:
         selection = select_streams(
-            n_imagenet,
+            options.n_imagenet,
             classes,
             per_class=options.per_class,
-            fewest=options.min_events,
-            most=options.max_events,
             progress=lambda done, total: progress.advance("reading streams", done, total),
         )
         captions, failures, made_by = _captions(options, selection, progress)
-    report = _report(options, selection, captions, failures, made_by, names)
-    _write(options, report, validation_folder(n_imagenet))
+    report = _report(options, selection, captions, failures, made_by)
+    _write(options, report, validation_folder(options.n_imagenet))
     if failures:
         raise TexventError(
             f"{len(failures)} of {len(selection.streams)} streams have no caption, such as "
@@ -185,61 +146,42 @@ def _captions(
     options: NtImagenetOptions, selection: Selection, progress: ConsoleProgress
 ) -> tuple[dict[str, str], dict[str, str], dict[str, Any]]:
     """Captions by id, why others are missing, and what made them."""
-    ids = [stream.id for stream in selection.streams]
-    path = options.captions
-    found = {} if path is None else read_captions(path)
+    ids, path = [stream.id for stream in selection.streams], options.captions
+    if path is None:
+        return _make_captions(options, selection, progress)
+    found = read_captions(path)
     captions = {id: found[id] for id in ids if id in found}
-    made_by: dict[str, Any] = {} if path is None else {"file": str(path), "of_file": len(captions)}
-    missing = [id for id in ids if id not in captions]
-    if options.model is None:
-        if not captions:
-            raise InputError(f"{path} has no caption of these streams, such as {ids[0]}")
-        return captions, {id: f"{id} is not in {path}" for id in missing}, made_by
-    if not missing:
-        return captions, {}, made_by
-    made, failures, facts = _make_captions(options, selection, missing, progress)
-    return (
-        {id: (captions | made)[id] for id in ids if id in captions or id in made},
-        failures,
-        {
-            **made_by,
-            **facts,
-        },
-    )
+    if not captions:
+        raise InputError(f"{path} has no caption of these streams, such as {ids[0]}")
+    failures = {id: f"{id} is not in {path}" for id in ids if id not in captions}
+    return captions, failures, {"file": str(path)}
 
 
 def _make_captions(
-    options: NtImagenetOptions, selection: Selection, ids: Sequence[str], progress: ConsoleProgress
+    options: NtImagenetOptions, selection: Selection, progress: ConsoleProgress
 ) -> tuple[dict[str, str], dict[str, str], dict[str, Any]]:
     model, folder = str(options.model), options.imagenet or Path()
     wnids = {stream.id: stream.wnid for stream in selection.streams}
-    facts = {
-        "model": model,
-        "instruction": options.instruction,
-        "longest": options.longest,
-        "dtype": options.dtype,
-    }
+    place = {id: number for number, id in enumerate(wnids)}
+    facts = {"model": model, "instruction": INSTRUCTION, "longest": options.longest}
 
     @functools.cache
     def captioner() -> Captioner:
-        return Captioner(model, device=options.device, dtype=options.dtype, option="device")
-
-    place = {id: number for number, id in enumerate(ids)}
+        return Captioner(model, device=options.device)
 
     def make(id: str) -> str:
-        progress.advance("captions", place[id], len(ids))
+        progress.advance("captions", place[id], len(place))
         image = find_image(folder, wnids[id], id)
         if image is None:
             raise InputError(f"{folder} has no image {id}")
-        return captioner().caption(image, instruction=options.instruction, longest=options.longest)
+        return captioner().caption(image, longest=options.longest)
 
-    store = CaptionStore(options.out / FILE, facts)
-    if not any(find_image(folder, wnids[id], id) for id in ids):
+    if not any(find_image(folder, wnid, id) for id, wnid in wnids.items()):
         raise InputError(
-            f"{folder} has none of the images, such as {ids[0]}.JPEG; give the folder of "
-            "ImageNet's validation images"
+            f"{folder} has none of the images, such as {next(iter(wnids))}.JPEG; give the folder "
+            "of ImageNet's validation images"
         )
-    made, failures = store.fill(ids, make)
+    made, failures = CaptionStore(options.out / FILE, facts).fill(list(wnids), make)
     return made, failures, facts
 
 
@@ -249,15 +191,8 @@ def _report(
     captions: Mapping[str, str],
     failures: Mapping[str, str],
     made_by: Mapping[str, Any],
-    names: Mapping[str, tuple[str, ...]],
 ) -> Report:
-    wnids = {stream.id: stream.wnid for stream in selection.streams}
-    checks = check_captions(captions, wnids, names)
-    similar = None
-    if options.sentence_model is not None:
-        from texvent_lab.nt_imagenet.captions import find_similar
-
-        similar = find_similar(captions, options.sentence_model, device=options.device)
+    checks = check_captions(captions)
     left_out = [
         id for id, check in checks.items() if set(check.problems) & set(options.leaving_out)
     ]
@@ -268,7 +203,6 @@ def _report(
         checks=checks,
         failures=failures,
         left_out=left_out,
-        similar=similar,
         made_by=made_by,
     )
 
@@ -284,17 +218,9 @@ def _write(options: NtImagenetOptions, report: Report, root: Path) -> None:
         raise InputError("every caption is left out; name fewer problems with --leave-out")
     files.write_streams(out, streams, root)
     files.write_captions(out, captioned)
-    files.write_report(out, report.facts, report.text)
-    is_new = files.write_specification(out, generator=options.generator)
+    files.write_report(out, report.facts)
+    is_new = files.write_specification(out)
     write_out(report.text)
     write_out(f"{out}: {len(captioned):,} captions in {files.CAPTIONS}\n")
     if not is_new:
         write_out(f"{files.SPECIFICATION} was there already and is kept\n")
-
-
-def _pair(out: Path, events: Path) -> int:
-    captioned = files.read_captioned(out / files.CAPTIONS)
-    pairs = list_pairs(events, captioned, files.read_streams(out / files.STREAMS))
-    files.write_pairs(out, pairs)
-    write_out(f"{len(pairs):,} samples beside their streams in {out / files.PAIRS}\n")
-    return 0

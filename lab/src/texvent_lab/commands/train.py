@@ -30,7 +30,7 @@ class TrainOptions:
     outputs: ClassVar[tuple[str, ...]] = ("out",)
 
     task: str = REQUIRED
-    """classification, reconstruction, depth, flow or latents."""
+    """classification, reconstruction, depth or flow."""
     specification: Path = REQUIRED
     """Data, network and schedule: TOML or YAML."""
     out: Path = REQUIRED

@@ -14,10 +14,11 @@ from typing import Any
 
 from texvent.calibrate.estimates import Estimate
 from texvent.calibrate.events_only.flicker import measure_flicker
-from texvent.calibrate.events_only.known_scenes import simulate_flicker, simulate_static
 from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
+from texvent_lab.bench.document import markdown_table
+from texvent_lab.measure.known_scenes import simulate_flicker, simulate_static
 
 START = PhysicalConfig(gamma=1.0, noise_scale=1.0)
 SEEDS = (1, 2, 3)
@@ -60,14 +61,17 @@ def main() -> None:
         truths[key].add(true)
         ratios[key].append(one.value / true)
         held[key].append(one.low <= true <= one.high)
-    print("| scene | constant | true | found over true | intervals that hold it |")
-    print("|---|---|---|---|---|")
-    for key, found in ratios.items():
-        values = ", ".join(f"{value:g}" for value in sorted(truths[key]))
-        print(
-            f"| {key[0]} | {key[1]} | {values} | {min(found):.3f}..{max(found):.3f} "
-            f"| {sum(held[key])} of {len(held[key])} |"
+    rows = [
+        (
+            *key,
+            ", ".join(f"{value:g}" for value in sorted(truths[key])),
+            f"{min(found):.3f}..{max(found):.3f}",
+            f"{sum(held[key])} of {len(held[key])}",
         )
+        for key, found in ratios.items()
+    ]
+    titles = ("scene", "constant", "true", "found over true", "intervals that hold it")
+    print(markdown_table(titles, rows))
 
 
 def _found() -> Iterator[tuple[str, float, Estimate]]:
@@ -97,7 +101,7 @@ def _at_rest(config: PhysicalConfig, seed: int) -> Iterator[tuple[str, float, Es
             # How many pixels are hot is a matter of chance; those of this specimen are counted.
             continue
         elif one.name == "hot_pixel_rate_hz" and config.hot_pixel_fraction == 0:
-            raise RuntimeError(f"{scene.is_hot.sum()} pixels pass for hot, none is")
+            raise RuntimeError("pixels pass for hot, none is")
         elif getattr(config, one.name) > 0:
             yield "static", float(getattr(config, one.name)), one
 

@@ -11,8 +11,6 @@ compile the kernels, are not timed. It ends within four minutes.
 from __future__ import annotations
 
 import argparse
-import json
-import platform
 import sys
 import tempfile
 import time
@@ -23,9 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from texvent import __version__
 from texvent.config import InterpolateConfig
-from texvent.errors import TexventError
 from texvent.extending import require
 from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.interpolate.rife.weights import write_rife_weights
@@ -33,10 +29,11 @@ from texvent.sensor import SensorSize
 from texvent.simulate import gpu
 from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.gpu.frames import GpuPairs
-from texvent.simulate.gpu.launch import EXTRA, default_device
+from texvent.simulate.gpu.launch import EXTRA
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Video
-from texvent_lab.measure.speed.timing import Quartiles, rounded
+from texvent_lab.bench.document import describe_environment, markdown_table, write_document
+from texvent_lab.measure.speed.timing import quartiles, rounded
 
 VGA, HD = SensorSize(640, 480), SensorSize(1280, 720)
 DARK, BRIGHT = 100, 145
@@ -47,7 +44,7 @@ FRAMES_PER_PAIR = 8
 
 @dataclass(frozen=True)
 class Plan:
-    """What is measured."""
+    """Sizes, densities and repeats of the measurement."""
 
     size: SensorSize = HD
     densities: tuple[float, ...] = (0.001, 0.01, 0.05, 0.2)
@@ -68,39 +65,31 @@ class Plan:
 def measure(plan: Plan, device: str) -> dict[str, Any]:
     """All figures, ready for JSON."""
     copy = measure_copy(plan, device)
-    rows = list(measure_simulation(plan, device, copy.median))
-    pairs = list(measure_pairs(plan, device))
     return {
         "schema": 1,
         "environment": describe(device),
-        "copy_gb_per_s": copy.as_json(),
-        "simulation": rows,
-        "rife_pairs": pairs,
-        "targets": check_targets(rows, pairs),
+        "copy_gb_per_s": copy,
+        "simulation": list(measure_simulation(plan, device, copy["median"])),
+        "rife_pairs": list(measure_pairs(plan, device)),
     }
 
 
 def describe(device: str) -> dict[str, Any]:
     """Device and versions."""
     torch, triton = require("torch", extra=EXTRA), require("triton", extra=EXTRA)
-    is_gpu = device == "cuda"
-    return {
-        "device": torch.cuda.get_device_name() if is_gpu else "CPU, Triton's interpreter",
-        "cuda": torch.version.cuda if is_gpu else None,
-        "python": platform.python_version(),
-        "texvent": __version__,
-        "torch": torch.__version__,
-        "triton": triton.__version__,
-    }
+    facts = {**describe_environment(), "triton": triton.__version__}
+    if device == "cuda":
+        return {**facts, "device": torch.cuda.get_device_name(), "cuda": torch.version.cuda}
+    return {**facts, "device": "CPU, Triton's interpreter"}
 
 
-def measure_copy(plan: Plan, device: str) -> Quartiles:
+def measure_copy(plan: Plan, device: str) -> dict[str, Any]:
     """GB/s of a copy within the device's memory, bytes read and written."""
     torch = require("torch", extra=EXTRA)
     source = torch.empty(plan.copy_bytes, dtype=torch.uint8, device=device)
     target = torch.empty_like(source)
     times = _times(lambda: target.copy_(source), plan.repeats, device)
-    return Quartiles.of([2 * plan.copy_bytes / 1e9 / one for one in times])
+    return quartiles([2 * plan.copy_bytes / 1e9 / one for one in times])
 
 
 def measure_simulation(plan: Plan, device: str, copy: float) -> Iterator[dict[str, Any]]:
@@ -116,8 +105,8 @@ def measure_simulation(plan: Plan, device: str, copy: float) -> Iterator[dict[st
         clips = _Clips(_config(model), frames, plan)
         times = _times(clips.run, plan.repeats, device, calls=plan.calls)
         count = batch * plan.frames
-        per_frame = Quartiles.of([one / count for one in times], scale=1e6)
-        rate = frames.element_size() * frames.numel() / 1e9 / (per_frame.median * count * 1e-6)
+        per_frame = quartiles(times, scale=1e6 / count)
+        rate = frames.element_size() * frames.numel() / 1e9 / (per_frame["median"] * count * 1e-6)
         yield {
             "model": model,
             "size": str(plan.size),
@@ -126,7 +115,7 @@ def measure_simulation(plan: Plan, device: str, copy: float) -> Iterator[dict[st
             "batch": batch,
             "frames": plan.frames,
             "events_per_frame": rounded(clips.events / count),
-            "us_per_frame": per_frame.as_json(),
+            "us_per_frame": per_frame,
             "frames_gb_per_s": rounded(rate),
             "share_of_copy": rounded(rate / copy),
         }
@@ -207,8 +196,8 @@ def _measure_pair(plan: Plan, pairs: GpuPairs, pictures: Any) -> dict[str, Any]:
         "size": str(SensorSize(width, height)),
         "frames_per_pair": plan.between + 1,
         "events_per_pair": rounded(float(np.median(events[1:]))),
-        "ms_per_pair": Quartiles.of(times, scale=1e3).as_json(),
-        "ms_per_frame": Quartiles.of(times, scale=1e3 / (plan.between + 1)).as_json(),
+        "ms_per_pair": quartiles(times, scale=1e3),
+        "ms_per_frame": quartiles(times, scale=1e3 / (plan.between + 1)),
         "peak_mib": rounded(float(peak)),
     }
 
@@ -225,25 +214,6 @@ def write_random_weights(width: int | None, path: Path) -> Path:
             parameter.normal_(0, 0.02, generator=generator)
     write_rife_weights(network, path)
     return path
-
-
-def check_targets(rows: list[dict[str, Any]], pairs: list[dict[str, Any]]) -> list[dict[str, Any]]:
-    """The project's targets for a GPU, met or not, where they were measured."""
-    found = [
-        ("us per 1280x720 frame, 1 %, batch 8", 2.0, row["us_per_frame"]["median"])
-        for row in rows
-        if (row["model"], row["pixels"], row["density"], row["batch"], row["size"])
-        == ("paper", "uint8", 0.01, 8, "1280x720")
-    ]
-    found += [
-        ("ms per 640x480 pair, RIFE + simulation", 6.5, row["ms_per_pair"]["median"])
-        for row in pairs
-        if row["size"] == "640x480"
-    ]
-    return [
-        {"name": name, "limit": limit, "value": value, "is_met": value <= limit}
-        for name, limit, value in found
-    ]
 
 
 def _times(call: Callable[[], Any], repeats: int, device: str, *, calls: int = 1) -> list[float]:
@@ -266,51 +236,44 @@ def _nothing() -> None:
     """The CPU has finished when a call returns."""
 
 
-def as_text(document: dict[str, Any]) -> str:
-    """The figures as two tables."""
+def as_markdown(document: dict[str, Any]) -> str:
+    """The figures as tables."""
+    simulation = [
+        (
+            row["model"], row["pixels"], f"{row['density']:.1%}", str(row["batch"]),
+            f"{row['events_per_frame']:,.0f}", _spread(row["us_per_frame"]),
+            f"{row['share_of_copy']:.1%}",
+        )
+        for row in document["simulation"]
+    ]  # fmt: skip
+    pairs = [
+        (row["size"], _spread(row["ms_per_pair"]), f"{row['peak_mib']:,.0f}")
+        for row in document["rife_pairs"]
+    ]
+    head = ("model", "pixels", "jumping", "clips", "events", "us per frame", "share of copy")
     lines = [f"{name}: {value}" for name, value in document["environment"].items()]
-    lines.append(f"copy: {document['copy_gb_per_s']['median']} GB/s")
-    lines.append("model     pixels   density  batch  events/frame  us/frame (q1..q3)  of copy")
-    for row in document["simulation"]:
-        time_us = row["us_per_frame"]
-        lines.append(
-            f"{row['model']:9} {row['pixels']:8} {row['density']:7.1%} {row['batch']:6}"
-            f" {row['events_per_frame']:13,.0f} {time_us['median']:8.2f}"
-            f" ({time_us['q1']:.2f}..{time_us['q3']:.2f}) {row['share_of_copy']:8.1%}"
-        )
-    lines.append("RIFE + simulation   ms/pair (q1..q3)  ms/frame  peak MiB")
-    for row in document["rife_pairs"]:
-        time_ms = row["ms_per_pair"]
-        lines.append(
-            f"{row['size']:19} {time_ms['median']:8.2f}"
-            f" ({time_ms['q1']:.2f}..{time_ms['q3']:.2f}) {row['ms_per_frame']['median']:9.2f}"
-            f" {row['peak_mib']:9,.0f}"
-        )
-    for target in document["targets"]:
-        verdict = "met" if target["is_met"] else "missed"
-        lines.append(f"{target['name']}: {target['value']} (at most {target['limit']}): {verdict}")
+    lines.append(f"copy: {document['copy_gb_per_s']['median']} GB/s\n")
+    lines.append(markdown_table(head, simulation))
+    lines.append(markdown_table(("RIFE and simulation", "ms per pair", "peak, MiB"), pairs))
     return "\n".join(lines)
 
 
-def main(words: list[str] | None = None) -> int:
+def _spread(times: dict[str, Any]) -> str:
+    return f"{times['median']:g} ({times['q1']:g}-{times['q3']:g})"
+
+
+def main() -> int:
     """Measure, print, write; 2 without a GPU."""
-    parser = argparse.ArgumentParser(
-        prog="python -m texvent_lab.measure.gpu", description=(__doc__ or "").split("\n")[0]
-    )
+    parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.gpu")
     parser.add_argument("--json", type=Path, help="write the figures here")
-    chosen = parser.parse_args(words)
-    try:
-        device = default_device()
-    except TexventError as error:
-        print(f"nothing was measured: {error}", file=sys.stderr)
+    chosen = parser.parse_args()
+    if not require("torch", extra=EXTRA).cuda.is_available():
+        print("nothing was measured: torch finds no GPU", file=sys.stderr)
         return 2
-    if device != "cuda":
-        print("nothing was measured: times in Triton's interpreter say nothing", file=sys.stderr)
-        return 2
-    document = measure(Plan(), device)
+    document = measure(Plan(), "cuda")
     if chosen.json is not None:
-        chosen.json.write_text(json.dumps(document, indent=1) + "\n", encoding="utf-8")
-    print(as_text(document))
+        write_document(chosen.json, document, overwrite=True)
+    print(as_markdown(document))
     return 0
 
 

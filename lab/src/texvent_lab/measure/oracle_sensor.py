@@ -2,12 +2,12 @@
 
     python -m texvent_lab.measure.oracle_sensor
 
-writes src/texvent/bench/oracle/sensor.toml and, beside it, sensor_thresholds.npz.
+writes lab/src/texvent_lab/bench/oracle/sensor.toml and, beside it, sensor_thresholds.npz.
 
-It does what docs/calibration.md tells the owner of a sensor to do, with recordings that the
-benchmark does not score: a field at rest, without frames; a camera at rest before a texture of
-which one half moves, with the frames of an ordinary camera, which tell the balance; a field that
-flickers, without frames; and the texture again, now that the bandwidth is known.
+It follows docs/calibration.md with recordings that the benchmark does not score: a field at rest,
+without frames; a camera at rest before a texture of which one half moves, with the frames of an
+ordinary camera, which tell the balance; a field that flickers, without frames; and the texture
+again, now that the bandwidth is known.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from texvent.calibrate.estimates import describe_estimates, describe_scene, write_preset
+from texvent.calibrate.estimates import describe_scene, write_preset
 from texvent.calibrate.events_only.flicker import measure_flicker
 from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.calibrate.fit import describe_fit, fit_sensor
@@ -73,7 +73,7 @@ def half_moving(seconds: float) -> Float64Array:
 
 
 def recorded(scene: Scene, frames: int = FRAMES) -> EventStream:
-    """What the benchmark's sensor records of a scene, while its camera takes so many frames."""
+    """Events of the benchmark's sensor during so many frames of its camera."""
     return record(scene, {"events": (NOISY, REFERENCE_SEED)}, frames=frames)["events"]
 
 
@@ -95,15 +95,12 @@ def main() -> None:
     config = dataclasses.replace(fit.config, initial_phase="random", threshold_map=None)
     source = "the benchmark's sensor"
     lines = [
-        *describe_scene(rest.found, rest.kept, rest.remarks, f"{source}, a field at rest"),
-        *describe_scene(
-            flicker.found, flicker.kept, flicker.remarks, f"{source}, a field that flickers"
-        ),
+        *describe_scene(rest, f"{source}, a field at rest"),
+        *describe_scene(flicker, f"{source}, a field that flickers"),
         *describe_fit(
             fit,
             "a texture of which one half moves, see lab/src/texvent_lab/measure/oracle_sensor.py",
         ),
-        *describe_estimates(fit.found, fit.kept),
     ]
     write_preset(config, lines, folder / SENSOR_FILE.name, size=SIZE, overwrite=True)
 

@@ -6,14 +6,12 @@ from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any, TypeVar
 
-from texvent.errors import FileFormatError
 from texvent.extending import require
-from texvent.networks.layer_shapes import BATCH_COUNTER, Shape
 from texvent.networks.weight_files import (
+    BATCH_COUNTER,
+    Shape,
     Tensor,
-    check_finite,
-    describe_mismatch,
-    shapes_of,
+    load_strictly,
     state_tensors,
 )
 from texvent_lab.networks import EXTRA
@@ -45,11 +43,7 @@ class Network(_Module):
             FileFormatError: a tensor is missing, unknown, of another shape, NaN or infinite.
         """
         found = state_tensors(content, path, where_from, extra=EXTRA)
-        problem = describe_mismatch(shapes_of(found), shapes_of(self.tensors))
-        if problem is not None:
-            raise FileFormatError(f"{path} does not fit the network: it {problem}; {where_from}")
-        check_finite(found, path)
-        self.load_state_dict(found)
+        load_strictly(self, found, path, where_from)
 
 
 def make_seeded(make: Callable[[], Made], seed: int) -> Made:

@@ -8,7 +8,7 @@ caption.
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
 from texvent.errors import InputError, one_line
 from texvent.extending import require
@@ -21,8 +21,6 @@ INSTRUCTION = "Caption the image in detail."
 """The paper's."""
 PLAIN_CHAT = "USER: <image>\n{} ASSISTANT:"
 """Prompt of LLaVA 1.5, for models without a chat template."""
-Dtype: TypeAlias = Literal["auto", "float16", "bfloat16", "float32"]
-IMAGE_EXTENSIONS = (".png", ".jpg", ".jpeg", ".webp", ".bmp")
 
 
 class Captioner:
@@ -31,8 +29,6 @@ class Captioner:
     Args:
         model: folder of a model saved by transformers, or `hub:org/name`.
         device: "auto", or a torch device.
-        dtype: numbers that it computes with; "auto" is bfloat16 on a GPU, else float32.
-        option: what the caller calls the device, for messages.
 
     Raises:
         InputError: there is no such model.
@@ -40,27 +36,17 @@ class Captioner:
         MissingDependencyError: transformers is not installed.
     """
 
-    def __init__(
-        self,
-        model: str,
-        *,
-        device: str = "auto",
-        dtype: Dtype = "auto",
-        option: str = "generator_device",
-    ) -> None:
-        self._device, free = resolve_device(device, option)
+    def __init__(self, model: str, *, device: str = "auto") -> None:
+        self._device, free = resolve_device(device, "device")
         folder = find_saved_model(model, "image-and-text model", example="llava-hf/llava-1.5-7b-hf")
-        if dtype == "auto":
-            dtype = "bfloat16" if free else "float32"
-        self._processor, self._model = _load(folder, dtype)
+        self._processor, self._model = _load(folder, "bfloat16" if free else "float32")
         self._model.to(self._device)
 
-    def caption(self, image: Path, *, instruction: str = INSTRUCTION, longest: int = 124) -> str:
+    def caption(self, image: Path, *, longest: int = 124) -> str:
         """One line that describes an image.
 
         Args:
             image: its file.
-            instruction: what to ask.
             longest: most tokens of the answer; the paper's captions have up to 124.
 
         Raises:
@@ -73,7 +59,7 @@ class Captioner:
                 rgb = opened.convert("RGB")
         except OSError as error:
             raise InputError(f"{image} cannot be read as an image ({one_line(error)})") from error
-        inputs = self._processor(images=rgb, text=self._ask(instruction), return_tensors="pt").to(
+        inputs = self._processor(images=rgb, text=self._prompt(), return_tensors="pt").to(
             self._device
         )
         inputs["pixel_values"] = inputs["pixel_values"].to(self._model.dtype)
@@ -82,33 +68,17 @@ class Captioner:
         answer = tokens[0, inputs["input_ids"].shape[1] :]
         text = " ".join(self._processor.decode(answer, skip_special_tokens=True).split())
         if not text:
-            raise InputError(f"the model says nothing about {image}; try another instruction")
+            raise InputError(f"the model says nothing about {image}")
         return text
 
-    def _ask(self, instruction: str) -> str:
+    def _prompt(self) -> str:
         if getattr(self._processor, "chat_template", None) is None:
-            return PLAIN_CHAT.format(instruction)
-        content = [{"type": "image"}, {"type": "text", "text": instruction}]
+            return PLAIN_CHAT.format(INSTRUCTION)
+        content = [{"type": "image"}, {"type": "text", "text": INSTRUCTION}]
         asked: str = self._processor.apply_chat_template(
             [{"role": "user", "content": content}], add_generation_prompt=True
         )
         return asked
-
-
-def find_images(path: Path) -> list[Path]:
-    """The image, or all images right in the folder, in order of name.
-
-    Raises:
-        InputError: there is none.
-    """
-    if path.is_file():
-        return [path]
-    found = sorted(
-        one for one in path.glob("*") if one.suffix.lower() in IMAGE_EXTENSIONS and one.is_file()
-    )
-    if not found:
-        raise InputError(f"there is no image at {path} ({', '.join(IMAGE_EXTENSIONS)})")
-    return found
 
 
 def _load(folder: Path, dtype: str) -> tuple[Any, Any]:

@@ -12,20 +12,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from numpy.typing import NDArray
-
 from texvent.batch.list_files import read_list
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line
-from texvent.extending import require
-from texvent.generate.diffusers_models.pipeline_loading import resolve_device
-from texvent.generate.video_models.loading import loading
-from texvent.generate.video_models.model_files import find_saved_model
 from texvent.io.atomic import atomic_file
 
 FEWEST_WORDS, MOST_WORDS = 39, 124
 """Paper, Table 10: text length 39 to 124. The unit is not said; words are likely."""
-CHECKS = ("length", "refusal", "class", "duplicate")
+CHECKS = ("length", "refusal", "duplicate")
 _REFUSAL = re.compile(
     r"\b(i am sorry|i'm sorry|sorry,|i apologi[sz]e|i cannot|i can't|i am unable|i'm unable|"
     r"i am not able|as an ai|as a language model|unable to (see|view|process|describe|provide)|"
@@ -40,10 +33,6 @@ class CaptionCheck:
     words: int
     is_refusal: bool
     """Whether it excuses itself instead of describing."""
-    names_class: bool | None
-    """Whether it says a name of its class; None where the names are not known."""
-    names_kind: bool | None
-    """Whether it says at least the last word of one, such as "shark" of "white shark"."""
     is_duplicate: bool
     """Whether an earlier caption is the same but for case and punctuation."""
 
@@ -53,39 +42,22 @@ class CaptionCheck:
         found = {
             "length": not FEWEST_WORDS <= self.words <= MOST_WORDS,
             "refusal": self.is_refusal,
-            "class": self.names_class is False,
             "duplicate": self.is_duplicate,
         }
         return tuple(name for name in CHECKS if found[name])
 
 
-def check_captions(
-    captions: Mapping[str, str],
-    wnids: Mapping[str, str],
-    names: Mapping[str, Sequence[str]],
-) -> dict[str, CaptionCheck]:
-    """Check all captions.
-
-    Args:
-        captions: id → caption.
-        wnids: id → class.
-        names: class → its names; may lack some.
-    """
-    groups = find_duplicates(captions)
-    later = {id for group in groups for id in group[1:]}
-    checks = {}
-    for id, caption in captions.items():
-        known = names.get(wnids[id], ())
-        text = normalised(caption)
-        kinds = [normalised(name).split()[-1] for name in known if normalised(name)]
-        checks[id] = CaptionCheck(
+def check_captions(captions: Mapping[str, str]) -> dict[str, CaptionCheck]:
+    """Check all captions, id → caption."""
+    later = {id for group in find_duplicates(captions) for id in group[1:]}
+    return {
+        id: CaptionCheck(
             words=len(caption.split()),
             is_refusal=bool(_REFUSAL.search(_plain(caption))),
-            names_class=any(_says(text, normalised(name)) for name in known) if known else None,
-            names_kind=any(_says(text, kind) for kind in kinds) if known else None,
             is_duplicate=id in later,
         )
-    return checks
+        for id, caption in captions.items()
+    }
 
 
 def find_duplicates(captions: Mapping[str, str]) -> list[tuple[str, ...]]:
@@ -108,11 +80,6 @@ def normalised(text: str) -> str:
 
 def _plain(text: str) -> str:
     return unicodedata.normalize("NFKC", text).casefold().replace("’", "'")
-
-
-def _says(text: str, name: str) -> bool:
-    """True if the name, or its regular plural, stands in the text as words of its own."""
-    return bool(name) and re.search(rf"\b{re.escape(name)}(?:s|es)?\b", text) is not None
 
 
 FILE = "made_captions.jsonl"
@@ -217,66 +184,3 @@ class CaptionStore:
 
 def _line(table: Mapping[str, Any]) -> str:
     return json.dumps(table, ensure_ascii=False) + "\n"
-
-
-EXTRA = "generate"
-EXAMPLE = "sentence-transformers/all-MiniLM-L6-v2"
-LEAST_COSINE = 0.95
-BATCH = 64
-
-
-def find_similar(
-    captions: Mapping[str, str], model: str, *, device: str = "auto"
-) -> list[tuple[str, str, float]]:
-    """Pairs of captions whose vectors have a cosine of at least 0.95: id, id, cosine.
-
-    Args:
-        captions: id → caption.
-        model: folder of a sentence model saved by transformers, or `hub:org/name`; a caption's
-            vector is the mean of the last layer over its tokens.
-        device: "auto", or a torch device.
-
-    Raises:
-        InputError: there is no such model.
-        FileFormatError: it cannot be loaded.
-        MissingDependencyError: torch or transformers is not installed.
-    """
-    return similar_pairs(list(captions), embed_sentences(list(captions.values()), model, device))
-
-
-def similar_pairs(ids: Sequence[str], vectors: NDArray[np.float32]) -> list[tuple[str, str, float]]:
-    """Pairs of vectors of unit length with a cosine of at least 0.95, the most similar first."""
-    pairs = []
-    for first, vector in enumerate(vectors):
-        cosines = vectors[first + 1 :] @ vector
-        for place in np.flatnonzero(cosines >= LEAST_COSINE):
-            pairs.append((ids[first], ids[first + 1 + int(place)], float(cosines[place])))
-    return sorted(pairs, key=lambda pair: -pair[2])
-
-
-def embed_sentences(texts: Sequence[str], model: str, device: str) -> NDArray[np.float32]:
-    """Vectors of unit length, [n, d]; errors as `find_similar`."""
-    torch, transformers = require("torch", extra=EXTRA), require("transformers", extra=EXTRA)
-    place, _ = resolve_device(device, "device")
-    folder = find_saved_model(model, "sentence model", example=EXAMPLE)
-    with loading(folder, "a sentence model"):
-        tokenizer = transformers.AutoTokenizer.from_pretrained(str(folder), local_files_only=True)
-        network = transformers.AutoModel.from_pretrained(
-            str(folder), local_files_only=True, use_safetensors=True
-        )
-    network = network.eval().to(place)
-    longest = int(network.config.max_position_embeddings)
-    parts = []
-    with torch.inference_mode():
-        for first in range(0, len(texts), BATCH):
-            words = tokenizer(
-                list(texts[first : first + BATCH]),
-                padding=True,
-                truncation=True,
-                max_length=longest,
-                return_tensors="pt",
-            ).to(place)
-            mask = words["attention_mask"].unsqueeze(-1).float()
-            total = (network(**words).last_hidden_state.float() * mask).sum(1)
-            parts.append(torch.nn.functional.normalize(total, dim=-1).cpu().numpy())
-    return np.concatenate(parts)

@@ -1,4 +1,4 @@
-"""What a folder of NT-ImageNet holds: captions as a list of prompts, streams, a specification.
+"""Folder of NT-ImageNet: captions as a list of prompts, streams, a report, a specification.
 
 Only ids, captions, counts of events and our own events are written: ImageNet's images may not be
 redistributed, and N-ImageNet's events stay under their own licence (AGPL-3.0).
@@ -9,13 +9,13 @@ from __future__ import annotations
 import csv
 import json
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import asdict, dataclass, fields
+from dataclasses import asdict, dataclass
 from io import StringIO
 from pathlib import Path
 from typing import Any
 
 from texvent.batch.identity import derived_seed
-from texvent.errors import FileFormatError, InputError, OutputError, one_line, shown
+from texvent.errors import FileFormatError, OutputError, one_line
 from texvent.io.atomic import atomic_file
 from texvent_lab.nt_imagenet.captions import FILE
 from texvent_lab.nt_imagenet.selection import Stream
@@ -23,7 +23,6 @@ from texvent_lab.nt_imagenet.selection import Stream
 FOLDERS = ("", "val", "ILSVRC2012_img_val", "Data/CLS-LOC/val", "ILSVRC/Data/CLS-LOC/val")
 """Where copies of ImageNet keep the validation images, all in one folder or by class."""
 EXTENSIONS = (".JPEG", ".jpeg", ".jpg", ".png")
-NAME_FILES = ("LOC_synset_mapping.txt", "synset_words.txt")
 
 
 def find_image(folder: Path, wnid: str, id: str) -> Path | None:
@@ -37,48 +36,9 @@ def find_image(folder: Path, wnid: str, id: str) -> Path | None:
     return None
 
 
-def find_class_names(
-    folder: Path | None, file: Path | None = None
-) -> Mapping[str, tuple[str, ...]]:
-    """WordNet id → its names; empty where there is no list of them.
-
-    Args:
-        folder: ImageNet's, which may hold `LOC_synset_mapping.txt` or `synset_words.txt`.
-        file: such a list elsewhere: on each line an id, then names with commas between.
-
-    Raises:
-        InputError: the file cannot be read.
-        FileFormatError: a line is not of this form.
-    """
-    if file is None:
-        found = (
-            [folder / name for name in NAME_FILES if (folder / name).is_file()] if folder else []
-        )
-        if not found:
-            return {}
-        file = found[0]
-    try:
-        lines = StringIO(file.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"cannot read {file}: {error}") from error
-    names: dict[str, tuple[str, ...]] = {}
-    for number, line in enumerate(lines, start=1):
-        wnid, _, rest = line.strip().partition(" ")
-        synonyms = tuple(name.strip() for name in rest.split(",") if name.strip())
-        if not wnid:
-            continue
-        if not synonyms:
-            raise FileFormatError(
-                f"{file} line {number} is {shown(line.strip())}; it must be an id and names, such "
-                "as n01440764 tench, Tinca tinca"
-            )
-        names[wnid] = synonyms
-    return names
-
-
-CAPTIONS, STREAMS, PAIRS = "captions.jsonl", "streams.csv", "pairs.csv"
-REPORT, REPORT_TEXT, SPECIFICATION = "report.json", "report.txt", "specification.toml"
-OWN = frozenset({CAPTIONS, STREAMS, PAIRS, REPORT, REPORT_TEXT, SPECIFICATION, FILE})
+CAPTIONS, STREAMS = "captions.jsonl", "streams.csv"
+REPORT, SPECIFICATION = "report.json", "specification.toml"
+OWN = frozenset({CAPTIONS, STREAMS, REPORT, SPECIFICATION, FILE})
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -143,66 +103,21 @@ def read_captioned(path: Path) -> list[Captioned]:
 
 def write_streams(folder: Path, streams: Sequence[Stream], root: Path) -> None:
     """Write the table of streams, their paths counted from N-ImageNet's folder of classes."""
-    _write_table(
-        folder / STREAMS,
-        ("id", "class", "events", "duration_us", "stream"),
-        ((s.id, s.wnid, s.events, s.duration_us, s.path.relative_to(root)) for s in streams),
-    )
+    names = ("id", "class", "events", "duration_us", "stream")
+    rows = ((s.id, s.wnid, s.events, s.duration_us, s.path.relative_to(root)) for s in streams)
+    with (
+        atomic_file(folder / STREAMS, overwrite=True) as part,
+        part.open("w", encoding="utf-8", newline="") as file,
+    ):
+        csv.writer(file, lineterminator="\n").writerows([names, *rows])
 
 
-def read_streams(path: Path) -> list[Stream]:
-    """What `write_streams` wrote; paths count from N-ImageNet's folder of classes.
-
-    Raises:
-        FileFormatError: it cannot be read or holds something else.
-    """
-    try:
-        with path.open(encoding="utf-8", newline="") as file:
-            return [
-                Stream(
-                    id=row["id"],
-                    wnid=row["class"],
-                    path=Path(row["stream"]),
-                    events=int(row["events"]),
-                    duration_us=int(row["duration_us"]),
-                )
-                for row in csv.DictReader(file)
-            ]
-    except (OSError, ValueError, KeyError, TypeError, csv.Error) as error:
-        raise FileFormatError(
-            f"{path} cannot be read as a table of streams ({one_line(error)}); run texvent dataset "
-            "nt-imagenet again without --events"
-        ) from error
-
-
-@dataclass(frozen=True, kw_only=True)
-class Pair:
-    """A sample of ours beside the recorded stream of the same caption: a line of `pairs.csv`."""
-
-    id: str
-    label: str
-    stream: str
-    """Recorded stream, from N-ImageNet's folder of classes."""
-    stream_events: int
-    shard: str
-    """Our sample: its file in the data set, and its key there."""
-    key: str
-    events: int
-
-
-def write_pairs(folder: Path, pairs: Sequence[Pair]) -> None:
-    """Write the table of pairs."""
-    names = [one.name for one in fields(Pair)]
-    _write_table(folder / PAIRS, names, ([getattr(one, name) for name in names] for one in pairs))
-
-
-def write_report(folder: Path, facts: Mapping[str, Any], text: str) -> None:
-    """Write the report for programs and for people."""
+def write_report(folder: Path, facts: Mapping[str, Any]) -> None:
+    """Write the report as JSON."""
     _write(folder / REPORT, json.dumps(facts, indent=1, ensure_ascii=False) + "\n")
-    _write(folder / REPORT_TEXT, text)
 
 
-def write_specification(folder: Path, *, generator: str | None) -> bool:
+def write_specification(folder: Path) -> bool:
     """Write a specification to make events of the captions, unless there is one already.
 
     Returns:
@@ -211,8 +126,7 @@ def write_specification(folder: Path, *, generator: str | None) -> bool:
     path = folder / SPECIFICATION
     if path.exists():
         return False
-    line = f'generator = "{generator}"' if generator else '# generator = "wan-1.3b"'
-    _write(path, _SPECIFICATION.format(captions=CAPTIONS, generator=line))
+    _write(path, _SPECIFICATION.format(captions=CAPTIONS))
     return True
 
 
@@ -235,7 +149,7 @@ file = "{captions}"
 sensor = "640x480"      # that of N-ImageNet's recordings
 # Without a generator the embedded one draws what it knows of a caption, which is little: name a
 # learned one (texvent generators).
-{generator}
+# generator = "wan-1.3b"
 
 [variants.texvent]
 """
@@ -244,14 +158,6 @@ sensor = "640x480"      # that of N-ImageNet's recordings
 def _write(path: Path, text: str) -> None:
     with atomic_file(path, overwrite=True) as part:
         part.write_text(text, encoding="utf-8")
-
-
-def _write_table(path: Path, names: Sequence[str], rows: Iterable[Sequence[Any]]) -> None:
-    with (
-        atomic_file(path, overwrite=True) as part,
-        part.open("w", encoding="utf-8", newline="") as file,
-    ):
-        csv.writer(file, lineterminator="\n").writerows([names, *rows])
 
 
 def _line(table: Mapping[str, Any]) -> str:

@@ -63,8 +63,6 @@ def select_streams(
     classes: Sequence[str],
     *,
     per_class: int = PER_CLASS,
-    fewest: int = FEWEST_EVENTS,
-    most: int = MOST_EVENTS,
     progress: Callable[[int, int], None] = lambda done, total: None,
 ) -> Selection:
     """The first streams of each class, in order of their ids, whose number of events is in range.
@@ -75,8 +73,6 @@ def select_streams(
         folder: see `validation_folder`.
         classes: WordNet ids.
         per_class: streams of each class.
-        fewest: fewest events of a stream.
-        most: most events of a stream.
         progress: told of classes done and in all.
 
     Raises:
@@ -98,17 +94,17 @@ def select_streams(
             except TexventError as error:
                 unreadable[path.stem] = str(error)
                 continue
-            if stream.events < fewest:
+            if stream.events < FEWEST_EVENTS:
                 too_few.append(stream.id)
-            elif stream.events > most:
+            elif stream.events > MOST_EVENTS:
                 too_many.append(stream.id)
             else:
                 chosen.append(stream)
                 count += 1
     if not chosen:
         raise InputError(
-            f"no stream in {root} has {fewest:,} to {most:,} events: {len(too_few)} have fewer, "
-            f"{len(too_many)} more, {len(unreadable)} cannot be read"
+            f"no stream in {root} has {FEWEST_EVENTS:,} to {MOST_EVENTS:,} events: {len(too_few)} "
+            f"have fewer, {len(too_many)} more, {len(unreadable)} cannot be read"
         )
     return Selection(
         streams=tuple(chosen),

@@ -1,31 +1,25 @@
-"""Files of reconstruction networks: found, recognised, and checked tensor by tensor."""
+"""Files of reconstruction networks: found, read and checked."""
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from texvent.errors import FileFormatError, InputError
 from texvent.extending import require
-from texvent.networks.layer_shapes import Shape
 from texvent.networks.weight_files import (
     StandIn,
-    Tensor,
-    check_finite,
-    describe_mismatch,
+    load_strictly,
     read_mapping,
     shapes_of,
     state_tensors,
 )
 from texvent.runtime.cache_folder import cache_folder
 from texvent_lab.networks import EXTRA
-from texvent_lab.registries import RECONSTRUCTORS
 
 if TYPE_CHECKING:
-    from texvent_lab.reconstruct.recurrent_network import PublishedNetwork
+    from texvent_lab.reconstruct.recurrent_network import PublishedNetwork, RecurrentNetwork
 
 LEFT_BY_TRAINING = (
     *("parse_config.ConfigParser", "utils.parse_config.ConfigParser", "logger.logger.Logger"),
@@ -34,18 +28,6 @@ LEFT_BY_TRAINING = (
 )
 """Classes of objects that the programs which trained these networks stored with the weights."""
 CONFIG = "config"
-
-
-@dataclass(frozen=True, eq=False)
-class Checkpoint:
-    """The weights of one network."""
-
-    tensors: Mapping[str, Tensor]
-    """Name → tensor, float32, on the CPU; batch counters left out."""
-    settings: Mapping[str, Any]
-    """What the file says about the network, as its own program names it; {} if it says nothing."""
-    sha256: str
-    """Of the file."""
 
 
 def find_weights(published: PublishedNetwork, path: Path | None = None) -> Path:
@@ -66,8 +48,8 @@ def find_weights(published: PublishedNetwork, path: Path | None = None) -> Path:
     )
 
 
-def read_checkpoint(published: PublishedNetwork, path: Path) -> Checkpoint:
-    """The weights of a network from its published file, or from its tensors alone.
+def read_network(published: PublishedNetwork, path: Path) -> RecurrentNetwork:
+    """A network with the weights of its published file, or of its tensors alone.
 
     Args:
         published: the network that the file must hold.
@@ -79,52 +61,23 @@ def read_checkpoint(published: PublishedNetwork, path: Path) -> Checkpoint:
             known.
         MissingDependencyError: torch is not installed.
     """
-    digest = hashlib.sha256(path.read_bytes()).hexdigest()
-    _refuse_another_published(published, path, digest)
     where = published.where_from
     content = read_mapping(path, where, extra=EXTRA, stand_ins=LEFT_BY_TRAINING)
     tensors = state_tensors(content, path, where, extra=EXTRA)
-    _check_layout(published, tensors, path)
-    check_finite(tensors, path)
-    return Checkpoint(tensors, _network_settings(content), digest)
-
-
-def _check_layout(published: PublishedNetwork, tensors: Mapping[str, Tensor], path: Path) -> None:
-    """Refuse a tensor that is missing, unknown or of another shape."""
-    found = shapes_of(tensors)
-    problem = _describe_mismatch(published, found)
-    if problem is None:
-        return
-    fitting = [
-        name
-        for name in RECONSTRUCTORS.names()
-        if name != published.name and _describe_mismatch(RECONSTRUCTORS.load(name), found) is None
-    ]
-    hint = f"it fits {' and '.join(fitting)}" if fitting else published.where_from
-    raise FileFormatError(f"{path} is not {published.name}'s: it {problem}; {hint}")
-
-
-def _describe_mismatch(published: PublishedNetwork, found: Mapping[str, Shape]) -> str | None:
-    """The first way in which tensors differ from a network's, or None."""
+    shapes = shapes_of(tensors)
     try:
         with require("torch", extra=EXTRA).device("meta"):
-            expected = published.network.like(found, {}).tensors
-    except ValueError:  # the first kernel, of which the width is taken, has not four sides
-        return "has a first layer of another kind"
-    return describe_mismatch(found, shapes_of(expected))
+            network = published.network.like(shapes, network_settings(content))
+    except ValueError as error:  # the first kernel has not four sides
+        raise FileFormatError(
+            f"{path} is not {published.name}'s: its first layer is of another kind; {where}"
+        ) from error
+    load_strictly(network, tensors, path, where)
+    network.eval()
+    return network
 
 
-def _refuse_another_published(published: PublishedNetwork, path: Path, digest: str) -> None:
-    for name in RECONSTRUCTORS.names():
-        other: PublishedNetwork = RECONSTRUCTORS.load(name)
-        if other.name != published.name and digest in other.sha256:
-            raise FileFormatError(
-                f"{path} is the published file of {other.name}, not of {published.name}; choose "
-                f"--network {other.name}"
-            )
-
-
-def _network_settings(content: Mapping[str, Any]) -> Mapping[str, Any]:
+def network_settings(content: Mapping[str, Any]) -> Mapping[str, Any]:
     """How the program that trained the network built it, wherever it stored that.
 
     One program stores `model`, another `config` with `model` in it, a third an object around

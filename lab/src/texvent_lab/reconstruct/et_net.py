@@ -8,8 +8,7 @@ from typing import Any
 import numpy as np
 
 from texvent.extending import require
-from texvent.networks.layer_shapes import Shape
-from texvent.networks.weight_files import Tensor
+from texvent.networks.weight_files import Shape, Tensor
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import ConvLayer, ConvLstm, UpsampleLayer, count_blocks
 from texvent_lab.reconstruct.recurrent_network import RecurrentNetwork

@@ -12,22 +12,8 @@ from texvent_lab.reconstruct.recurrent_network import PublishedNetwork
 from texvent_lab.reconstruct.recurrent_unet import E2vid, E2vidPlus, HyperE2vid
 
 EVREAL = "the project ercanburak/EVREAL on GitHub carries it as pretrained/{}/model.pth"
-FIRENET_SHA256 = "a64af3191a00e9f01cd47d086d9a88c35ff1e63756566ca44b4ff02301ca696e"
-FIRENET_PLUS_SHA256 = "76122a81cf6313d84036509f388f150127482bcd977d46e8de650b7f841239f8"
-
-FIRENET = PublishedNetwork(
-    "firenet",
-    FireNet,
-    EVREAL.format("FireNet"),
-    is_normalised=True,
-    sha256=(FIRENET_SHA256,),
-)
-FIRENET_PLUS = PublishedNetwork(
-    "firenet+",
-    FireNetPlus,
-    EVREAL.format("FireNet+"),
-    sha256=(FIRENET_PLUS_SHA256,),
-)
+FIRENET = PublishedNetwork("firenet", FireNet, EVREAL.format("FireNet"), is_normalised=True)
+FIRENET_PLUS = PublishedNetwork("firenet+", FireNetPlus, EVREAL.format("FireNet+"))
 E2VID = PublishedNetwork(
     "e2vid",
     E2vid,

@@ -14,15 +14,15 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.extending import require
-from texvent.networks.weight_files import Tensor
+from texvent.networks.weight_files import Tensor, describe_file
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
 from texvent_lab.networks import EXTRA, Padding
-from texvent_lab.reconstruct.checkpoint import Checkpoint, find_weights, read_checkpoint
+from texvent_lab.reconstruct.checkpoint import find_weights, read_network
 from texvent_lab.registries import RECONSTRUCTORS
 
 if TYPE_CHECKING:
-    from texvent_lab.reconstruct.recurrent_network import PublishedNetwork
+    from texvent_lab.reconstruct.recurrent_network import PublishedNetwork, RecurrentNetwork
 
 Device: TypeAlias = Literal["auto", "cpu", "cuda"]
 
@@ -70,7 +70,8 @@ def load_reconstructor(
     if device == "cuda" and not has_gpu:
         raise ConfigError("device is cuda, but torch finds no GPU here; use device='cpu' or auto")
     chosen = ("cuda" if has_gpu else "cpu") if device == "auto" else device
-    return Reconstructor(published, read_checkpoint(published, path), device=chosen)
+    network = read_network(published, path)
+    return Reconstructor(published, network, sha256=describe_file(path)["sha256"], device=chosen)
 
 
 class Reconstructor:
@@ -88,24 +89,27 @@ class Reconstructor:
     """
 
     def __init__(
-        self, published: PublishedNetwork, checkpoint: Checkpoint, *, device: str = "cpu"
+        self,
+        published: PublishedNetwork,
+        network: RecurrentNetwork,
+        *,
+        sha256: str = "",
+        device: str = "cpu",
     ) -> None:
         """A network that has seen nothing.
 
         Args:
             published: which one.
-            checkpoint: its weights.
+            network: with its weights; its memory is used from now on.
+            sha256: of the weights file.
             device: "cpu" or "cuda".
         """
-        tensors = {name: one.to(device) for name, one in checkpoint.tensors.items()}
-        self._network = published.network.from_tensors(tensors, checkpoint.settings)
+        self._network = network.to(device).eval()
         self._published = published
         self._device = device
-        self._size: SensorSize | None = None
-        self.sha256 = checkpoint.sha256
+        self.sha256 = sha256
         """Of the weights file."""
-        self.is_published = checkpoint.sha256 in published.sha256
-        """True if the weights file is known to be the published one."""
+        self.reset()
 
     @property
     def name(self) -> str:
@@ -122,7 +126,7 @@ class Reconstructor:
     def reset(self) -> None:
         """Forget everything seen, as before another recording."""
         self._network.reset()
-        self._size = None
+        self._size: SensorSize | None = None
 
     def reconstruct(self, events: EventStream) -> Intensity:
         """The image at the end of a slice of events; slices follow one another in time.

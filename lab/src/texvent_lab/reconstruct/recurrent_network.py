@@ -7,8 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from texvent.extending import require
-from texvent.networks.layer_shapes import Shape
-from texvent.networks.weight_files import Tensor, shapes_of
+from texvent.networks.weight_files import Shape, Tensor, shapes_of
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import Network
 
@@ -41,7 +40,11 @@ class RecurrentNetwork(Network):
     def from_tensors(
         cls, tensors: Mapping[str, Tensor], settings: Mapping[str, Any]
     ) -> RecurrentNetwork:
-        """A network over checked tensors, which are not copied; it has seen nothing."""
+        """A network over tensors, which are not copied; it has seen nothing.
+
+        Raises:
+            RuntimeError: a tensor is missing, unknown or of another shape.
+        """
         with _torch.device("meta"):
             network = cls.like(shapes_of(tensors), settings)
         network.load_state_dict(dict(tensors), assign=True)
@@ -63,8 +66,6 @@ class RecurrentNetwork(Network):
         """
         raise NotImplementedError
 
-    # A window is compiled, not the whole sequence, which would take as many times longer.
-    @_torch.compiler.disable(recursive=False)  # type: ignore[untyped-decorator]
     def forward(self, voxels: Tensor) -> Tensor:
         """Images [n, windows, 1, H, W] of voxel grids [n, windows, bins, H, W].
 
@@ -90,8 +91,6 @@ class PublishedNetwork:
     """Whether the non-zero voxels are brought to mean 0 and deviation 1."""
     is_stretched: bool = False
     """Whether the image is stretched so that its 1st and 99th percentile become 0 and 1."""
-    sha256: tuple[str, ...] = ()
-    """Of the published files, where known."""
 
     @property
     def file_name(self) -> str:

@@ -7,11 +7,9 @@ from dataclasses import dataclass
 from typing import Any, ClassVar
 
 from texvent.extending import require
-from texvent.networks.layer_shapes import Shape
-from texvent.networks.weight_files import Tensor
+from texvent.networks.weight_files import Shape, Tensor
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import (
-    ConvGru,
     ConvLayer,
     ConvLstm,
     ResidualBlock,
@@ -114,8 +112,6 @@ class UNetVariant:
     blocks: int = 2
     has_norm: bool = False
     """Batch normalisation in place of biases."""
-    is_gru: bool = False
-    """Gated recurrent units instead of long short-term memories."""
     is_transposed: bool = False
     """Decoders are transposed convolutions instead of bilinear ones."""
 
@@ -131,7 +127,6 @@ class UNetVariant:
             encoders=count_blocks(found, f"{PREFIX}.encoders") or cls.encoders,
             blocks=count_blocks(found, f"{PREFIX}.resblocks") or cls.blocks,
             has_norm=f"{first}.conv.norm_layer.weight" in found,
-            is_gru=f"{first}.recurrent_block.reset_gate.weight" in found,
             is_transposed=f"{PREFIX}.decoders.1.transposed_conv2d.weight" in found,
         )
 
@@ -180,8 +175,7 @@ class E2vid(RecurrentNetwork):
     def _encoder(self, one: UNetVariant, number: int) -> Any:
         narrow, wide = one.width << number, one.width << (number + 1)
         layer = ConvLayer(narrow, wide, one.side, stride=2, has_norm=one.has_norm)
-        unit = ConvGru(wide) if one.is_gru else ConvLstm(wide)
-        return _nn.ModuleDict({"conv": layer, "recurrent_block": unit})
+        return _nn.ModuleDict({"conv": layer, "recurrent_block": ConvLstm(wide)})
 
     def _decoder(self, one: UNetVariant, number: int) -> Any:
         wide = one.width << (one.encoders - number)
@@ -202,7 +196,7 @@ class E2vid(RecurrentNetwork):
         skipped, states = [], []
         for encoder, state in zip(net["encoders"], self._states, strict=True):
             state = encoder["recurrent_block"](encoder["conv"](x).relu(), state)
-            x = state[0] if isinstance(state, tuple) else state
+            x = state[0]
             states.append(state)
             skipped.append(x)
         self._states = states

@@ -219,15 +219,14 @@ def train(
     network = task.make_network().to(device)
     optimizer = schedule.make_optimizer(network)
     _take_up(state, network, optimizer)
-    computed = torch.compile(network) if hardware.compile else network
     while not _is_over(state, schedule):
         started = time.perf_counter()
         loss = _train_epoch(
-            task, batches, computed, optimizer, schedule, state.epochs, hardware, progress
+            task, batches, network, optimizer, schedule, state.epochs, hardware, progress
         )
         with torch.inference_mode(), hardware.autocast(device):
             network.eval()
-            scores = task.validate(computed, device, workers=hardware.workers)
+            scores, _ = task.validate(network, device, workers=hardware.workers)
         row = {"epoch": state.epochs + 1, LOSS: loss, **scores}
         state.rows.append({**row, "seconds": round(time.perf_counter() - started, 3)})
         _note_epoch(state, task, schedule, network, optimizer)

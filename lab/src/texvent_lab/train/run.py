@@ -19,8 +19,7 @@ from texvent.runtime.progress import NO_PROGRESS, Progress
 from texvent.settings.config_files import read_document
 from texvent_lab.reconstruct.checkpoint import LEFT_BY_TRAINING
 from texvent_lab.train.loop import TrainingState, train
-from texvent_lab.train.schedule import EXTRA, Hardware
-from texvent_lab.train.task import PredictingTask, TaskConfig
+from texvent_lab.train.schedule import EXTRA, Hardware, TrainingConfig
 
 Config = TypeVar("Config")
 
@@ -73,7 +72,7 @@ WHERE_FROM = "texvent train writes it as weights.pt"
 
 
 def train_from_file(
-    kind: type[TaskConfig],
+    kind: type[TrainingConfig],
     specification: Path,
     folder: Path,
     hardware: Hardware,
@@ -125,7 +124,7 @@ class Evaluation:
 
 
 def evaluate_from_file(
-    kind: type[TaskConfig], specification: Path, weights: Path, hardware: Hardware
+    kind: type[TrainingConfig], specification: Path, weights: Path, hardware: Hardware
 ) -> Evaluation:
     """Score trained weights; the training samples are not opened.
 
@@ -138,7 +137,11 @@ def evaluate_from_file(
     Raises:
         InputError, ConfigError, FileFormatError: the file, the samples or the weights do not fit.
     """
-    config = read_training(specification, kind())
+    return evaluate(read_training(specification, kind()), weights, hardware)
+
+
+def evaluate(config: TrainingConfig, weights: Path, hardware: Hardware) -> Evaluation:
+    """Score trained weights on the validation samples of a training; see `evaluate_from_file`."""
     if not weights.is_file():
         raise InputError(f"there is no weights file {weights}; texvent train writes weights.pt")
     task, device = config.make_task(), hardware.find_device()
@@ -147,12 +150,7 @@ def evaluate_from_file(
     task.read(network, content, weights)
     network.to(device).eval()
     with require("torch", extra=EXTRA).inference_mode(), hardware.autocast(device):
-        predictions = {}
-        if isinstance(task, PredictingTask):
-            predictions = task.predict(network, device, workers=hardware.workers)
-            scores = task.scores(predictions)
-        else:
-            scores = task.validate(network, device, workers=hardware.workers)
+        scores, predictions = task.validate(network, device, workers=hardware.workers)
     facts = {
         "texvent_version": full_version(),
         "weights": describe_file(weights),

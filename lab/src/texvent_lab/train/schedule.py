@@ -1,14 +1,17 @@
-"""How long and how a network is trained, and on what."""
+"""Training configuration: schedule, hardware, and the fields of every task."""
 
 from __future__ import annotations
 
 from contextlib import AbstractContextManager, nullcontext
-from dataclasses import dataclass
-from typing import Any, Literal
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, Literal
 
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
 from texvent.extending import require
+
+if TYPE_CHECKING:
+    from texvent_lab.train.task import Task
 
 EXTRA = "train"
 """The texvent extra that brings torch and matplotlib."""
@@ -75,8 +78,6 @@ class Hardware:
     """auto is the GPU if torch finds one."""
     precision: Literal["float32", "bfloat16"] = "float32"
     """Number type of the network's computation; bfloat16 is for GPUs (mixed precision)."""
-    compile: bool = False
-    """Compile the network with torch.compile: slower to start, faster on long trainings."""
     workers: int = 0
     """Processes that make batches; 0: this one."""
 
@@ -104,3 +105,27 @@ class Hardware:
         torch = require("torch", extra=EXTRA)
         context: AbstractContextManager[Any] = torch.autocast(device.type, torch.bfloat16)
         return context
+
+
+@dataclass(frozen=True, kw_only=True)
+class TrainingConfig:
+    """The contents of a training file; tasks add tables, which are dataclasses too.
+
+    Raises:
+        ConfigError: a value out of range.
+    """
+
+    seed: int = 0
+    """Of the initial weights, the order of samples and their augmentation."""
+    schedule: Schedule = field(default_factory=Schedule)
+
+    def __post_init__(self) -> None:
+        check_range("seed", self.seed, 0, 2**63 - 1)
+
+    def make_task(self) -> Task:
+        """The task; this imports torch, and opens the validation samples.
+
+        Raises:
+            InputError, ConfigError, FileFormatError: it cannot be trained; the message says why.
+        """
+        raise NotImplementedError

@@ -1,11 +1,11 @@
-"""What a task brings to the training loop: its network, loss and scores, and its batches."""
+"""Interface of training tasks: network, loss, scores and batches."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, Protocol, runtime_checkable
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,29 +15,7 @@ from texvent.dataset.loading.torch_loader import collate
 from texvent.errors import TexventError
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor
-from texvent_lab.train.schedule import EXTRA, Schedule
-
-
-class TaskConfig(Protocol):
-    """What a training file may say for a task: a frozen dataclass, its tables dataclasses too."""
-
-    @property
-    def seed(self) -> int:
-        """Of the initial weights, the order of samples and their augmentation."""
-        ...
-
-    @property
-    def schedule(self) -> Schedule:
-        """How long and how it is trained."""
-        ...
-
-    def make_task(self) -> Task:
-        """The task; this imports torch, and opens the validation samples.
-
-        Raises:
-            InputError, ConfigError, FileFormatError: it cannot be trained; the message says why.
-        """
-        ...
+from texvent_lab.train.schedule import EXTRA
 
 
 @dataclass(frozen=True)
@@ -73,8 +51,14 @@ class Task(Protocol):
         """Of a batch, a scalar; it depends on its arguments alone."""
         ...
 
-    def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
-        """Scores on the validation samples by name."""
+    def validate(
+        self, network: Any, device: Any, *, workers: int
+    ) -> tuple[dict[str, float], dict[str, list[Any]]]:
+        """Scores on the validation samples by name.
+
+        Returns:
+            The scores; predictions, a value per sample in columns by name, or {}.
+        """
         ...
 
     def published(self, network: Any) -> Mapping[str, Any]:
@@ -87,19 +71,6 @@ class Task(Protocol):
         Raises:
             FileFormatError: they do not fit the network or the samples.
         """
-        ...
-
-
-@runtime_checkable
-class PredictingTask(Task, Protocol):
-    """A task that says what it predicts for each validation sample."""
-
-    def predict(self, network: Any, device: Any, *, workers: int) -> dict[str, list[Any]]:
-        """Columns by name, a value per validation sample."""
-        ...
-
-    def scores(self, predictions: Mapping[str, Sequence[Any]]) -> dict[str, float]:
-        """What `validate` gives, from these columns."""
         ...
 
 

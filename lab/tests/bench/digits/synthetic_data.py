@@ -1,14 +1,13 @@
 """Files in the formats of MNIST and N-MNIST with ten made-up figures, recorded by a simulator."""
 
 import gzip
-import zipfile
 
 import numpy as np
 
 from texvent.events import EventStream
 from texvent.run.prepare import prepare_video
 from texvent.sensor import SensorSize
-from texvent_lab.bench.digits.arms import find_arm
+from texvent_lab.bench.digits.plan import find_arm
 from texvent_lab.bench.digits.sheet import Digits, DigitSheet
 
 TRAIN, PAIRS = 40, 6
@@ -46,7 +45,7 @@ def record(images):
     """Events of each image by the measured motion, with the right polarity."""
     sheet = DigitSheet(Digits.as_measured(images))
     settings = find_arm("esim").settings("exact", threshold=0.5)
-    events = sheet.inside(prepare_video(sheet, settings).packets.collect())
+    events = prepare_video(sheet, settings).packets.collect()
     return [tile_events(sheet, events, number) for number in range(len(images))]
 
 
@@ -60,16 +59,15 @@ def tile_events(sheet, events, number):
     return EventStream(own.x - np.uint16(left), own.y - np.uint16(top), own.t, own.p, SIZE)
 
 
-def write_recordings(path, mnist_images):
-    """A .zip file as `--nmnist` takes it: the stored bit is 1 where brightness falls."""
-    numbers = [*range(1, TRAIN + 1), *range(60_001, 60_001 + PAIRS)]
+def write_recordings(folder, mnist_images):
+    """N-MNIST's folders: the stored bit is 1 where brightness falls."""
+    names = [(f"Train/{number % 10}", number + 1) for number in range(TRAIN)]
+    names += [(f"Test/{number % 10}", number + 1) for number in range(PAIRS)]
     images = np.concatenate([figures(TRAIN, 9), mnist_images[:PAIRS]])
-    with zipfile.ZipFile(path, "w") as archive:
-        rows = ["id,label"]
-        for number, events in zip(numbers, record(images), strict=True):
-            archive.writestr(f"{number}.bin", encode(events.x, events.y, events.t, 1 - events.p))
-            rows.append(f"{number},{(number - 1) % 10 if number <= TRAIN else number - 60_001}")
-        archive.writestr("labels.csv", "\n".join(rows) + "\n")
+    for (name, number), events in zip(names, record(images), strict=True):
+        (folder / name).mkdir(parents=True, exist_ok=True)
+        content = encode(events.x, events.y, events.t, 1 - events.p)
+        (folder / name / f"{number:05d}.bin").write_bytes(content)
 
 
 def encode(x, y, t, stored):

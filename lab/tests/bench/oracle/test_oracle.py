@@ -13,7 +13,6 @@ from texvent_lab.bench.oracle.scenes import (
     ValueNoise,
     build_scene,
     camera_level,
-    known_flow,
     radiance_of,
 )
 
@@ -98,9 +97,7 @@ def test_every_scene_is_finite_positive_and_its_own_per_seed(name):
 
 def test_textures_move_at_their_known_flow():
     scene = build_scene("translate", 7, SIZE)
-    vx, vy = known_flow("translate")
-    assert (vx, vy) == (120.0, 35.0)
-    # After 0.2 s the image has moved 24 px right and 7 px down.
+    # 120 and 35 px/s: after 0.2 s the image has moved 24 px right and 7 px down.
     np.testing.assert_allclose(scene(0.2)[7:, 24:], scene(0.0)[:-7, :-24], atol=1e-9)
 
 
@@ -143,7 +140,6 @@ def test_a_prompt_is_a_scene_that_the_camera_films_as_the_generator_drew_it():
     shown = np.rint(camera_level(oracle_scene(name, seed)(0.0)))
     drawn = video.at(0).luma
     assert np.abs(shown - drawn).max() <= 0.501
-    assert known_flow(name) is None
     # It moves, and another seed shows another scene.
     assert not np.array_equal(oracle_scene(name, seed)(0.0), oracle_scene(name, seed)(0.4))
     assert not np.array_equal(oracle_scene(name, seed)(0.0), oracle_scene(name, 8)(0.0))

@@ -2,28 +2,76 @@
 
 import dataclasses
 import json
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from texvent.cli.app import main
 from texvent.errors import InputError
+from texvent.events import EventStream
 from texvent.metrics.compare import compare
 from texvent.metrics.event_frames import EventFrameLpips
-from texvent_lab.bench.paper import tables
-from texvent_lab.bench.paper.config_entry import read_ablations
-from texvent_lab.bench.paper.published_tables import (
-    TABLES,
-)
-from texvent_lab.bench.paper.run import PaperInputs, measure_table
-from texvent_lab.bench.paper.tables import (
-    ablation_figures,
-    accuracy_figures,
-    event_frame_figures,
+from texvent.sensor import SensorSize
+from texvent.simulate.texvent.simulator import TexventSimulator
+from texvent_lab.bench.fidelity.entries import read_ablations
+from texvent_lab.bench.paper import run as paper
+from texvent_lab.bench.paper.config import PaperConfig
+from texvent_lab.bench.paper.published_tables import TABLES
+from texvent_lab.bench.paper.run import (
+    measure_ablations,
+    measure_accuracy,
+    measure_event_frames,
+    measure_noise,
+    measure_table,
 )
 from texvent_lab.bench.real.recording import RecordingPart, open_scene
 
+from ..reconstruction.synthetic_network import StandInReconstructor, moving_bar, write_recording
 from ..synthetic_report import synthetic_report
+
+PAPER = Path(__file__).parents[4] / "configs" / "paper"
+
+
+def test_the_paper_has_twelve_ablations_in_their_order():
+    names = [entry.name for entry in read_ablations(PAPER)]
+    assert names == [*(f"E{i}" for i in range(1, 13)), "Texvent"]
+
+
+@pytest.mark.parametrize(
+    ("name", "changes"),
+    [
+        ("Texvent", {}),
+        ("E1", {"balance": 0.001}),
+        ("E2", {"balance": 15.0}),
+        ("E3", {"balance": 60.0}),
+        ("E4", {"cache": "none"}),
+        ("E5", {"cache": "global"}),
+        ("E9", {"noise": "none"}),
+        ("E10", {"noise": "gaussian"}),
+        ("E11", {"noise": "random"}),
+        ("E12", {"timestamp_rule": "random"}),
+    ],
+)
+def test_each_ablation_changes_what_the_paper_says(name, changes):
+    entry = next(entry for entry in read_ablations(PAPER) if entry.name == name)
+    assert entry.settings(5).simulate == dataclasses.replace(
+        TexventSimulator.presets["paper"], **changes
+    )
+    assert entry.settings(5).run.seed == 5
+
+
+def test_interpolation_is_removed_fixed_and_replaced():
+    entries = {entry.name: entry.settings(0).interpolate for entry in read_ablations(PAPER)}
+    assert entries["E6"].interpolate == "none"
+    assert (entries["E7"].count, entries["E7"].fixed_count) == ("fixed", 10)
+    assert entries["E8"].interpolate not in ("none", entries["Texvent"].interpolate)
+
+
+def test_the_threshold_is_fitted_only_if_asked_for():
+    kept, fitted = (read_ablations(PAPER, is_rate_matched=flag)[0] for flag in (False, True))
+    assert kept.default_threshold is None
+    assert fitted.default_threshold == 0.2
 
 
 def silent(line):
@@ -33,10 +81,10 @@ def silent(line):
 def keep_few(monkeypatch):
     """Three of the columns, without motion compensation, which is tested elsewhere."""
     few = {
-        column: dataclasses.replace(tables.ENTRIES[column], interpolate="none")
+        column: dataclasses.replace(paper.ENTRIES[column], interpolate="none")
         for column in ("VID2E", "V2CE", "Texvent")
     }
-    monkeypatch.setattr(tables, "ENTRIES", few)
+    monkeypatch.setattr(paper, "ENTRIES", few)
 
 
 def test_every_row_of_a_table_has_a_figure_per_column():
@@ -57,7 +105,7 @@ def test_ablations_give_scores_and_paired_differences_to_the_papers_setting():
     report = dataclasses.replace(
         report, scores=[dataclasses.replace(one, entry=names[one.entry]) for one in report.scores]
     )
-    figures = ablation_figures(5, report).figures
+    figures = measure_ablations(5, report).rows
     assert figures["STPP ↑, mixed, noisy pixels"]["E12"] == "0.750 (count not reached)"
     assert figures["− Texvent, mixed, noisy pixels"]["E12"] == "+0.300 ± 0.100"
     assert "E10" not in figures["STPP ↑, mixed, noisy pixels"]
@@ -75,16 +123,14 @@ def test_thresholds_are_fitted_unless_the_user_wants_the_papers_way(capsys, tmp_
     assert document["is_rate_matched"] is True
     (report,) = document["reports"]
     assert report["scores"][1]["threshold"] != 0.2
-    kept = read_ablations(tmp_path, is_rate_matched=False)[0]
-    assert kept.default_threshold is None
 
 
 def test_event_frames_are_compared_where_simulators_can_run(pan_folder, monkeypatch):
     keep_few(monkeypatch)
     monkeypatch.setattr(EventFrameLpips, "missing", lambda self: "no weights")
     scenes = [open_scene(str(pan_folder), RecordingPart(offset_us=5_000))]
-    found = event_frame_figures(scenes, is_rate_matched=True, jobs=1, progress=silent)
-    mse = found.figures["event frames: MSE ↓"]
+    found = measure_event_frames(scenes, PaperConfig(table=1, jobs=1), silent)
+    mse = found.rows["event frames: MSE ↓"]
     assert set(mse) == {"VID2E", "Texvent"}
     assert all(0 < float(value) < 1 for value in mse.values())
     assert any(need.startswith("v2ce, none: ") for need in found.needs)
@@ -94,38 +140,54 @@ def test_event_frames_are_compared_where_simulators_can_run(pan_folder, monkeypa
     assert compare(recorded, recorded, ["ef_mse"]) == {"ef_mse": 0.0}
 
 
+def test_noise_that_grows_makes_images_less_like_those_without(tmp_path, monkeypatch):
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))  # no weights of LPIPS
+    folder = write_recording(tmp_path / "bar", moving_bar())
+    config = PaperConfig(table=7, recordings=str(folder))
+    found = measure_noise(config, StandInReconstructor(), silent)
+    errors = [float(found.rows["MSE ↓"][column]) for column in TABLES[7].columns]
+    assert 0 <= errors[0] < errors[2] < errors[4]
+    assert any(need.startswith("lpips: ") for need in found.needs)
+
+
 def test_tables_say_which_input_is_missing(monkeypatch, tmp_path):
     monkeypatch.setenv("TEXVENT_DATA", str(tmp_path))
     for number, word in ((1, "data pull"), (7, "data pull"), (8, "data pull"), (9, "--folder")):
-        found = measure_table(number, PaperInputs(), silent)
-        assert not found.figures
+        found = measure_table(PaperConfig(table=number), silent)
+        assert not found.rows
         assert word in " ".join(found.needs)
 
 
 @pytest.mark.torch
-def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path):
+def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path, monkeypatch):
     torch = pytest.importorskip("torch")
-    from texvent.events import EventStream
-    from texvent.sensor import SensorSize
     from texvent_lab.networks.resnet34 import ResNet
 
+    narrow = dataclasses.replace(paper.CLASSIFIER, width=1)
+    monkeypatch.setattr(paper, "CLASSIFIER", narrow)
+    t = np.arange(40)
+    events = EventStream(t % 8, t % 6, t, t % 2, SensorSize(8, 6))
     for name in ("n01", "n02"):
         place = tmp_path / "streams" / "texvent" / name
         place.mkdir(parents=True)
-        t = np.arange(40)
-        EventStream(t % 8, t % 6, t, t % 2, SensorSize(8, 6)).save(
-            place / "a.npz", format="n-imagenet"
-        )
-    tensors = ResNet(2, 2, width=4, blocks=(1, 1, 1, 1)).tensors
+        events.save(place / "a.npz", format="n-imagenet")
+    # The recorded files of N-ImageNet store no size; they are 640x480.
+    recorded = np.zeros(3, [("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
+    recorded["x"] = 639
+    for name in ("n01", "n02"):
+        place = tmp_path / "streams" / "Original" / name
+        place.mkdir(parents=True)
+        np.savez(place / "a.npz", event_data=recorded)
+    tensors = ResNet(2, 2, width=1).tensors
     state = {name: torch.ones_like(one) for name, one in tensors.items()}
-    torch.save({"state_dict": state}, tmp_path / "weights.tar")
     weights = tmp_path / "weights.tar"
-    found = accuracy_figures(tmp_path / "streams", weights, classes=None, progress=silent)
-    # Both classes have the same score, so the right one is never beaten.
-    assert found.figures["Acc@1 ↑"] == {"Texvent": "1.0000"}
+    torch.save({"state_dict": state}, weights)
+    config = PaperConfig(table=9, folder=tmp_path / "streams", weights=weights)
+    found = measure_accuracy(config, silent)
+    # Both classes have the same score, and the first is taken.
+    assert found.rows["Acc@1 ↑"] == {"Original": "0.5000", "Texvent": "0.5000"}
+    assert found.rows["Acc@5 ↑"]["Texvent"] == "1.0000"
     assert "vid2e" in found.needs[0]
     (tmp_path / "empty").mkdir()
     with pytest.raises(InputError, match="original, vid2e"):
-        accuracy_figures(
-            tmp_path / "empty", tmp_path / "weights.tar", classes=None, progress=silent
-        )
+        measure_accuracy(dataclasses.replace(config, folder=tmp_path / "empty"), silent)

@@ -1,5 +1,6 @@
 """A recording with frames that is known exactly, and a stand-in for a network."""
 
+import cv2
 import numpy as np
 
 from texvent.event_packets import EventPackets
@@ -18,7 +19,6 @@ class StandInReconstructor:
 
     name = "stand-in"
     sha256 = "0" * 64
-    is_published = False
 
     def __init__(self):
         self.reset()
@@ -64,3 +64,16 @@ def moving_bar(name="bar", frames=FRAMES):
     t, y, x, p = (np.array(column) for column in zip(*rows, strict=True))
     events = EventStream.from_columns(x, y, t, p, size=SIZE)
     return FrameRecording(name=name, frames=video, events=EventPackets((events,), SIZE))
+
+
+def write_recording(folder, recording):
+    """Write a recording in the layout of the Event-Camera Dataset."""
+    (folder / "images").mkdir(parents=True)
+    recording.events.collect().save(folder / "events.txt")
+    lines = []
+    for number, frame in enumerate(recording.frames):
+        name = f"images/{number:04d}.png"
+        cv2.imwrite(str(folder / name), np.rint(frame.pixels).astype(np.uint8))
+        lines.append(f"{frame.t_us / 1e6:.6f} {name}\n")
+    (folder / "images.txt").write_text("".join(lines))
+    return folder

@@ -6,19 +6,19 @@ import numpy as np
 import pytest
 
 from texvent.errors import InputError
-from texvent.metrics.image_measures import (
-    ImageMeasure,
-    Measures,
-    load_measures,
-    mean_squared_error,
-    peak_signal_to_noise,
-)
+from texvent.metrics.image_measures import mean_squared_error
 from texvent.video import Frame
 from texvent_lab.bench.reconstruction.scores import (
     ImageScores,
     ScoreCollector,
     pool_scores,
     score_images,
+)
+from texvent_lab.reconstruct.image_measures import (
+    ImageMeasure,
+    Measures,
+    load_measures,
+    peak_signal_to_noise,
 )
 
 MSE = Measures(chosen=(ImageMeasure("mse", "lower", mean_squared_error),))

@@ -1,28 +1,26 @@
 """Events judged by the images made of them, on a recording whose events explain its frames."""
 
-import dataclasses
 import json
-import math
 
 import numpy as np
 import pytest
 
-from texvent.metrics.image_measures import load_measures
 from texvent_lab.bench.fidelity.entries import Entry
-from texvent_lab.bench.reconstruction.noise_robustness import NoiseLevel, noise_curve
+from texvent_lab.bench.perturbations import scatter
 from texvent_lab.bench.reconstruction.run import (
     DEFAULT_SKIP,
     RECORDED,
     ReconstructionPlan,
     ReconstructionScorer,
+    noise_curve,
     recorded_rate_hz,
     run_reconstruction,
     simulate_recording,
 )
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
-from texvent_lab.bench.selftest.run import add_background, scatter
+from texvent_lab.reconstruct.image_measures import load_measures
 
-from .synthetic_network import FRAMES, SIZE, STEP_US, StandInReconstructor, moving_bar
+from .synthetic_network import FRAMES, STEP_US, StandInReconstructor, moving_bar
 
 ESIM = Entry(simulator="esim", interpolate="blend")
 
@@ -85,13 +83,9 @@ def test_by_default_the_part_that_evreal_names_counts_else_all_but_the_first_ima
 
 
 def test_nothing_is_reconstructed_after_the_part_that_counts():
-    seen = []
     end_us = 5 * STEP_US
-    one = scorer(span_us=(2 * STEP_US, end_us))
-    reporting = dataclasses.replace(one, on_image=lambda *seen_one: seen.append(seen_one[2]))
-    row = reporting.score(moving_bar(), moving_bar().events)
+    row = scorer(span_us=(2 * STEP_US, end_us)).score(moving_bar(), moving_bar().events)
     assert row.scores.t_us == [number * STEP_US for number in range(2, 6)]
-    assert seen == [number * STEP_US for number in range(1, 6)]
     assert row.events == len(moving_bar().events.collect().between(0, end_us))
 
 
@@ -110,28 +104,11 @@ def test_frames_of_a_sensor_are_linear_for_models_that_ask():
 
 
 def test_more_noise_degrades_the_images_more():
-    levels = [NoiseLevel("scattered", share) for share in (0.0, 0.1, 0.5)]
-    levels += [NoiseLevel("background", rate_hz) for rate_hz in (0.0, 5.0, 50.0)]
-    points = noise_curve(moving_bar(), scorer(skip=0), levels)
-    for kind in ("scattered", "background"):
-        for scores in ("against_clean", "against_frames"):
-            errors = [
-                getattr(point, scores).mean("mse") for point in points if point.level.kind == kind
-            ]
-            assert errors[0] < 1e-12
-            assert errors[0] < errors[1] < errors[2]
-
-
-def test_noise_is_the_same_each_time_and_of_the_amount_asked_for():
-    events = moving_bar().events.collect()
-    level = NoiseLevel("background", 100.0)
-    noisy = level.apply(events, 0, 560_000, seed=0)
-    assert noisy.equals(level.apply(events, 0, 560_000, seed=0))
-    assert not noisy.equals(level.apply(events, 0, 560_000, seed=1))
-    expected = 100.0 * SIZE.width * SIZE.height * 0.56
-    assert len(noisy) - len(events) == pytest.approx(expected, abs=4 * math.sqrt(expected))
-    scattered = NoiseLevel("scattered", 1.0).apply(events, 0, 560_000, seed=0)
-    assert len(scattered) == len(events)
+    errors = [
+        scores.mean("mse") for scores in noise_curve(moving_bar(), scorer(skip=0), (0.0, 0.1, 0.5))
+    ]
+    assert errors[0] < 1e-12
+    assert errors[0] < errors[1] < errors[2]
 
 
 def test_scattered_events_keep_their_number_and_the_others_stay():
@@ -144,27 +121,22 @@ def test_scattered_events_keep_their_number_and_the_others_stay():
         return set(zip(one.x.tolist(), one.y.tolist(), one.t.tolist(), strict=True))
 
     assert len(cells(events) & cells(moved)) / len(cells(events)) == pytest.approx(0.75, abs=0.1)
-    background = add_background(events, rng, rate_hz=0.0, span_us=(0, 10))
-    assert background.equals(events)
+    assert len(moved) == len(events)
 
 
 def test_tables_and_document_state_every_figure():
     recordings = [moving_bar("one"), moving_bar("two")]
     report = run_reconstruction(recordings, scorer())
-    noise = noise_curve(recordings[0], scorer(), [NoiseLevel("scattered", 0.05)])
-    text = reconstruction_tables(report, noise)
+    text = reconstruction_tables(report)
     for part in ("### one, stand-in (4 images)", "### all recordings", "| esim, blend | ×"):
         assert part in text
-    assert "| 5% of the events scattered |" in text
     assert "not measured: lpips: LPIPS's weights are not here" in text
-    document = json.loads(json.dumps(reconstruction_document(report, noise), allow_nan=False))
-    assert document["schema"] == "texvent-reconstruction-1"
+    document = json.loads(json.dumps(reconstruction_document(report), allow_nan=False))
+    assert document["schema"] == "texvent-reconstruction-2"
     assert len(document["rows"]) == 4
     assert len(document["rows"][0]["values"]["ssim"]) == 4
     assert document["rows"][1]["mean"]["mse"] == pytest.approx(report.rows[1].scores.mean("mse"))
-    assert document["noise"][0]["amount"] == 0.05
     assert document["network"] == {
         "name": "stand-in",
         "sha256": "0" * 64,
-        "is_published": False,
     }

@@ -10,7 +10,6 @@ from tests.represent.definitions import rows, streams
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.transform.edits import resize
 from texvent_lab.train.classification.config import Augmentation
 from texvent_lab.train.classification.samples import augment, take_run
 
@@ -58,21 +57,6 @@ def test_done_twice_it_is_undone(stream: EventStream, time: bool, x: bool) -> No
     np.testing.assert_array_equal(twice.x, stream.x)
     np.testing.assert_array_equal(twice.p, stream.p)
     np.testing.assert_array_equal(twice.t - twice.t[:1], stream.t - stream.t[:1])
-
-
-@given(streams(), st.integers(0, 3), st.integers(0, 2**32))
-def test_no_event_is_made_up(stream: EventStream, shift: int, seed: int) -> None:
-    augmentation = Augmentation(shift=shift, flip_time=True, flip_x=True)
-    found = augment(stream, augmentation, np.random.default_rng(seed))
-    assert len(found) <= len(stream)
-    assert len(found) == len(stream) or shift
-
-
-def test_coordinates_are_scaled_and_rounded_down() -> None:
-    large = EventStream([0, 20, 639], [0, 479, 240], [1, 2, 3], [1, 0, 1], SensorSize(640, 480))
-    found = resize(large, SensorSize(224, 224))
-    assert rows(found) == [(0, 0, 1, 1), (7, 223, 2, 0), (223, 112, 3, 1)]
-    assert found.size == (224, 224)
 
 
 def test_a_run_is_drawn_of_longer_recordings_only() -> None:

@@ -39,7 +39,7 @@ def scores_of(table: np.ndarray):
 def test_accuracy_and_its_standard_error(tmp_path: Path) -> None:
     # Classes 0, 0, 0, 1, 1: three are right.
     table = np.array([[2, 1], [0, 1], [3, 0], [5, 0], [0, 1]])
-    found = task(tmp_path, (3, 2)).validate(scores_of(table), torch.device("cpu"), workers=0)
+    found, _ = task(tmp_path, (3, 2)).validate(scores_of(table), torch.device("cpu"), workers=0)
     assert [*found] == ["accuracy", "accuracy standard error", "validation loss"]
     assert found["accuracy"] == pytest.approx(3 / 5)
     assert found["accuracy standard error"] == pytest.approx(math.sqrt(0.6 * 0.4 / 5))
@@ -53,7 +53,7 @@ def test_with_more_than_five_classes_the_right_one_may_be_among_the_five_likelie
     counts = (1,) * 7
     order = np.array([[0, 1, 2, 3, 4, 5, 6]] * 7)  # class 0 is the likeliest, 6 the least
     table = -order.astype(float)
-    found = task(tmp_path, counts).validate(scores_of(table), torch.device("cpu"), workers=0)
+    found, _ = task(tmp_path, counts).validate(scores_of(table), torch.device("cpu"), workers=0)
     assert found["accuracy"] == pytest.approx(1 / 7)
     assert found["top-5 accuracy"] == pytest.approx(5 / 7)
     assert found["top-5 accuracy standard error"] == pytest.approx(math.sqrt(10 / 49 / 7))
@@ -63,7 +63,9 @@ def test_of_equal_scores_the_first_class_is_predicted_and_no_number_recognises_n
     tmp_path: Path,
 ) -> None:
     table = np.array([[2, 2], [np.nan, np.nan], [3, 0], [2, 2], [0, 1]])
-    predictions = task(tmp_path, (3, 2)).predict(scores_of(table), torch.device("cpu"), workers=0)
+    _, predictions = task(tmp_path, (3, 2)).validate(
+        scores_of(table), torch.device("cpu"), workers=0
+    )
     assert predictions["class"] == [0, 0, 0, 1, 1]
     assert predictions["rank"] == [0, 2, 0, 1, 0]
     assert predictions["predicted"][0] == predictions["predicted"][3] == 0

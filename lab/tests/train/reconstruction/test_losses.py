@@ -5,7 +5,7 @@ import pytest
 from tests.metrics.lpips.lpips_files import narrow_weights
 
 from texvent.metrics.image_measures import structural_similarity
-from texvent.metrics.lpips import Lpips, lpips_distance
+from texvent.metrics.lpips import Lpips
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
@@ -14,7 +14,6 @@ from texvent_lab.train.reconstruction.losses import (  # noqa: E402
     SequenceLoss,
     dissimilarity,
     inconsistency,
-    l1,
     ssim,
 )
 
@@ -23,32 +22,6 @@ pytestmark = pytest.mark.torch
 
 def images(count=3, height=40, width=36, seed=0):
     return np.random.default_rng(seed).random((count, 1, height, width)).astype(np.float32)
-
-
-def test_lpips_equals_the_metric():
-    weights, a, b = narrow_weights(), images(), images(seed=1)
-    found = Lpips(weights)(torch.from_numpy(a), torch.from_numpy(b))
-    expected = [lpips_distance(x[0], y[0], Lpips(weights)) for x, y in zip(a, b, strict=True)]
-    np.testing.assert_allclose(found, expected, rtol=1e-4)
-    assert Lpips(weights)(torch.from_numpy(a), torch.from_numpy(a)).tolist() == [0, 0, 0]
-
-
-def test_lpips_has_the_gradient_of_finite_differences():
-    weights, side = narrow_weights(), 35
-    loss = Lpips(weights)
-    loss._tensors = {name: one.double() for name, one in loss._tensors.items()}
-    a = torch.from_numpy(images(1, side, side)).double().requires_grad_()
-    b = torch.from_numpy(images(1, side, side, seed=2)).double()
-    # Features are narrowed to float32 before they are compared, so steps are not tiny.
-    loss(a, b).sum().backward()
-    rng = np.random.default_rng(0)
-    for _ in range(3):
-        direction = torch.from_numpy(rng.normal(size=a.shape))
-        step = 1e-3 / direction.norm()
-        with torch.no_grad():
-            change = loss(a + step * direction, b) - loss(a - step * direction, b)
-        expected = float(change.sum() / (2 * step))
-        assert float((a.grad * direction).sum()) == pytest.approx(expected, rel=0.05)
 
 
 def test_lpips_has_a_finite_gradient_where_all_features_are_zero():
@@ -83,25 +56,6 @@ def test_mixed_precision_changes_no_similarity_and_hardly_lpips():
         mixed, mixed_lpips = ssim(a, b), Lpips(lpips)(a, b)
     torch.testing.assert_close(mixed, ssim(a, b), rtol=0, atol=0)
     torch.testing.assert_close(mixed_lpips, Lpips(lpips)(a, b), rtol=0.02, atol=0)
-
-
-def test_l1_is_the_mean_absolute_difference():
-    a = torch.tensor([[[[0.0, 1.0]]], [[[0.5, 0.5]]]])
-    assert l1(a, torch.zeros_like(a)).tolist() == [0.5, 0.5]
-
-
-def test_ssim_and_consistency_have_correct_gradients():
-    def double(seed):
-        return torch.from_numpy(images(2, 12, 13, seed)).double()
-
-    a, b = double(0).requires_grad_(), double(1).requires_grad_()
-    flow = torch.from_numpy(np.random.default_rng(3).normal(0, 2, (2, 2, 12, 13)))
-
-    def compare(one, other):
-        return inconsistency((one, other), (double(4), double(5)), flow, alpha=5.0)
-
-    assert torch.autograd.gradcheck(compare, (a, b), eps=1e-7, atol=1e-4)
-    assert torch.autograd.gradcheck(ssim, (a, b.detach()), eps=1e-6, atol=1e-2, rtol=1e-2)
 
 
 def row(*values):

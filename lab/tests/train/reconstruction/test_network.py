@@ -32,14 +32,3 @@ def test_gradients_reach_all_parameters_through_time() -> None:
     network(grids)[:, -1].sum().backward()
     assert grids.grad[:, 0].any()
     assert all(one.grad.any() for one in network.parameters())
-
-
-@pytest.mark.parametrize("name", ["firenet", "e2vid"])
-def test_a_window_is_one_graph_for_the_compiler(name: str) -> None:
-    published = RECONSTRUCTORS.load(name)
-    tensors, grids = new_network(published, 0).tensors, voxels()
-    plain, compiled = (published.network.from_tensors(tensors, {}) for _ in range(2))
-    step = torch.compile(compiled.step, backend="eager", fullgraph=True)
-    with torch.no_grad():
-        for grid in grids.unbind(dim=1):
-            torch.testing.assert_close(step(grid), plain.step(grid))

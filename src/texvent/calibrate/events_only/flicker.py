@@ -11,12 +11,18 @@ from __future__ import annotations
 
 import dataclasses
 import math
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
 from texvent.calibrate.bootstrap import Float64Array, bootstrap
-from texvent.calibrate.estimates import Estimate, UnidentifiedOption, with_estimates
+from texvent.calibrate.estimates import (
+    Estimate,
+    Measurement,
+    UnidentifiedOption,
+    with_estimates,
+)
 from texvent.calibrate.events_only.flicker_cycles import Bursts, Cycles, find_bursts, find_cycles
 from texvent.calibrate.events_only.pixel_trains import PixelTrains
 from texvent.calibrate.events_only.step_response_fit import (
@@ -69,13 +75,10 @@ EXCESS_ERROR = 0.05
 """Relative error of the bandwidth of the dark half over that of the bright one."""
 
 
-class Flicker(NamedTuple):
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Flicker(Measurement):
     """Measurement of a flickering field."""
 
-    config: PhysicalConfig
-    found: tuple[Estimate, ...]
-    kept: tuple[UnidentifiedOption, ...]
-    remarks: tuple[str, ...]
     cycles: Cycles
     thresholds: ThresholdMap
     """Thresholds of every pixel, over the mean of all."""
@@ -137,12 +140,12 @@ def measure_flicker(
     if fit.omega * fit.dead_s > MOST_LOST:
         found, kept = [], _lost(fit, start, kept)
     return Flicker(
-        with_estimates(start, found),
-        tuple(found),
-        tuple(kept),
-        (*_settling(fit, cycles, dark), *_remark(dark, ratio, start.balance)),
-        cycles,
-        _map_thresholds(fit, events.size),
+        config=with_estimates(start, found),
+        found=tuple(found),
+        kept=tuple(kept),
+        remarks=(*_settling(fit, cycles, dark), *_remark(dark, ratio, start.balance)),
+        cycles=cycles,
+        thresholds=_map_thresholds(fit, events.size),
     )
 
 

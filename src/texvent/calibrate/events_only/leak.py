@@ -6,15 +6,10 @@ import math
 
 import numpy as np
 
-from texvent.calibrate.bootstrap import Float64Array, bootstrap
-from texvent.calibrate.estimates import Estimate
-from texvent.calibrate.events_only.pixel_trains import BoolArray, PixelTrains
-from texvent.video import MICROSECONDS
+from texvent.calibrate.bootstrap import Float64Array
 
 NODES, WEIGHTS = np.polynomial.hermite_e.hermegauss(9)
 """Gauss-Hermite quadrature of the mean over a normal distribution."""
-LEAST_PER_PIXEL, LEAST_SHARE = 4, 0.8
-"""Intervals that a pixel needs, and pixels that must have them, for the spread of the leak."""
 
 
 def leak_rate(
@@ -63,46 +58,3 @@ def _factors(decades: float) -> Float64Array:
     """Log-normal factors of mean 1 at the nodes."""
     spread = math.log(10) * decades
     return np.asarray(np.exp(spread * NODES - spread**2 / 2))
-
-
-def leak_spread(trains: PixelTrains, leak_hz: float, groups: int) -> Estimate | None:
-    """Spread of the leak over pixels, from their regular intervals.
-
-    Most intervals that end in an ON event must be whole leak periods; then their median is the
-    pixel's.
-
-    Args:
-        trains: of pixels at rest.
-        leak_hz: mean leak rate, events per pixel and second.
-        groups: of pixels, which the bootstrap draws.
-
-    Returns:
-        The constant `leak_rate_decades`, or None if leak is too rare.
-    """
-    waits = trains.waits_us()
-    chosen = trains.is_on & np.isfinite(waits)
-    pixel, period = trains.pixel[chosen], waits[chosen]
-    if leak_hz <= 0 or _share(period * leak_hz > 0.4 * MICROSECONDS) < LEAST_SHARE:
-        return None
-    numbers, first, count = np.unique(pixel, return_index=True, return_counts=True)
-    order = np.lexsort((period, pixel))
-    middle = np.log10(period[order][first + count // 2])
-    enough = count >= LEAST_PER_PIXEL
-    seen = len(np.unique(trains.pixel))
-    if enough.sum() < max(LEAST_SHARE * seen, 2):
-        return None
-    group, middle = numbers[enough] % groups, middle[enough] - middle[enough].mean()
-    sums = np.stack(
-        [np.bincount(group, weights=middle**power, minlength=groups) for power in (0, 1, 2)]
-    )
-
-    def spread(weights: Float64Array) -> Float64Array:
-        number, total, squares = sums @ weights
-        return np.array([math.sqrt(max(squares / number - (total / number) ** 2, 0.0))])
-
-    low, high = bootstrap(spread, (groups,))[:, 0]
-    return Estimate("leak_rate_decades", float(spread(np.ones(groups))[0]), low, high)
-
-
-def _share(chosen: BoolArray) -> float:
-    return float(chosen.mean()) if chosen.size else 0.0

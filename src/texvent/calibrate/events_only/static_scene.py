@@ -15,8 +15,13 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.calibrate.bootstrap import bootstrap
-from texvent.calibrate.estimates import Estimate, UnidentifiedOption, with_estimates
-from texvent.calibrate.events_only.leak import leak_rate, leak_spread
+from texvent.calibrate.estimates import (
+    Estimate,
+    Measurement,
+    UnidentifiedOption,
+    with_estimates,
+)
+from texvent.calibrate.events_only.leak import leak_rate
 from texvent.calibrate.events_only.pixel_trains import (
     BoolArray,
     Float64Array,
@@ -43,23 +48,16 @@ HOT_CHANCE = 0.01
 """Expected number of pixels that pass for hot by chance."""
 MOST_DECADES = 1.0
 """Spread of noise rates above which they are not noise."""
-NOT_TOLD = ("contrast_threshold", "on_off_ratio", "threshold_sigma", "cutoff_hz")
+NOT_TOLD = (
+    "contrast_threshold",
+    "on_off_ratio",
+    "threshold_sigma",
+    "cutoff_hz",
+    "leak_rate_decades",
+)
 """Options that a scene at rest cannot identify."""
 FLAT_LEVEL = 128
 """Level at which the curve of one point is written; it holds at every level."""
-
-
-class StaticScene(NamedTuple):
-    """Measurement of a scene at rest."""
-
-    config: PhysicalConfig
-    found: tuple[Estimate, ...]
-    kept: tuple[UnidentifiedOption, ...]
-    remarks: tuple[str, ...]
-    is_hot: BoolArray
-    """[H, W]."""
-    rests: BoolArray
-    """[H, W] which pixels were measured."""
 
 
 class _Counts(NamedTuple):
@@ -86,7 +84,7 @@ class _Values(NamedTuple):
     hot_rate_hz: float
 
 
-def measure_static_scene(events: EventStream, start: PhysicalConfig) -> StaticScene:
+def measure_static_scene(events: EventStream, start: PhysicalConfig) -> Measurement:
     """Measure noise, hot pixels, leak and refractory period in a recording at rest.
 
     Args:
@@ -125,21 +123,17 @@ def measure_static_scene(events: EventStream, start: PhysicalConfig) -> StaticSc
         (WINDOWS, GROUPS),
     )
     found, kept = _judge(counts, values, ends, start, exposure_s)
-    spread = leak_spread(calm, values.leak_hz, GROUPS) or "too few leak events per pixel"
-    for name, one in (("leak_rate_decades", spread), ("refractory_period_us", dead)):
-        if isinstance(one, str):
-            kept.append(UnidentifiedOption(name, getattr(start, name), one))
-        else:
-            found.append(one)
+    if isinstance(dead, str):
+        kept.append(UnidentifiedOption("refractory_period_us", start.refractory_period_us, dead))
+    else:
+        found.append(dead)
     reason = "a scene at rest cannot identify it"
     kept += [UnidentifiedOption(name, getattr(start, name), reason) for name in NOT_TOLD]
-    return StaticScene(
-        _with(start, found, values.noise_hz),
-        tuple(found),
-        tuple(kept),
-        tuple(_remarks(events, rests)),
-        hot.reshape(rests.shape),
-        rests,
+    return Measurement(
+        config=_with(start, found, values.noise_hz),
+        found=tuple(found),
+        kept=tuple(kept),
+        remarks=tuple(_remarks(events, rests)),
     )
 
 

@@ -3,25 +3,17 @@
 from __future__ import annotations
 
 import dataclasses
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar, Literal
 
 from texvent._registry import suggest
-from texvent.calibrate.estimates import describe_estimates, describe_scene, write_preset
+from texvent.calibrate.estimates import describe_scene, write_preset
 from texvent.calibrate.events_only.flicker import measure_flicker
 from texvent.calibrate.events_only.static_scene import measure_static_scene
 from texvent.calibrate.fit import describe_fit, fit_sensor
 from texvent.calibrate.recording import Recording
-from texvent.calibrate.report import (
-    FORMATS,
-    Comparison,
-    compare_fit,
-    compare_flicker,
-    compare_static,
-    write_report,
-)
 from texvent.capture.open import open_frames
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
@@ -55,10 +47,10 @@ class CalibrateOptions:
     """Recording to fit, and files to write."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("frames", "start_preset")
-    outputs: ClassVar[tuple[str, ...]] = ("out", "report", "threshold_map")
+    outputs: ClassVar[tuple[str, ...]] = ("out", "threshold_map")
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
     main_options: ClassVar[tuple[str, ...]] = (
-        "frames", "events", "flicker_hz", "flicker_ratio", "out", "report",
+        "frames", "events", "flicker_hz", "flicker_ratio", "out",
         "threshold_map", "sensor", "start_preset", "frames_gamma", "seconds", "overwrite",
     )  # fmt: skip
 
@@ -75,8 +67,6 @@ class CalibrateOptions:
     thresholds are only compared with one another."""
     out: Path = REQUIRED
     """Config file to write, .toml."""
-    report: Path | None = None
-    """Figure to write, .png, .svg or .pdf: the fitted model beside the recording."""
     threshold_map: Path | None = None
     """File to write, .npz: the thresholds of each pixel, which a flickering field tells. The config
     file then names it, and simulates this very sensor."""
@@ -115,8 +105,6 @@ class CalibrateOptions:
             raise ConfigError("--flicker-ratio and --threshold-map are for --flicker-hz")
         if self.threshold_map is not None and self.threshold_map.suffix != ".npz":
             raise ConfigError(f"--threshold-map is {self.threshold_map}; its name must end in .npz")
-        if self.report is not None and self.report.suffix.lower() not in FORMATS:
-            raise ConfigError(f"--report is {self.report}; its name must end in .png, .svg or .pdf")
         if self.frames is None and self.keep:
             raise ConfigError("--keep is for a scene with --frames")
         if self.flicker_hz is not None and self.frames is not None:
@@ -148,7 +136,7 @@ def run(arguments: Sequence[str]) -> int:
     options, capture, interpolate = parse_configs(
         arguments, groups, prog="texvent calibrate", description=DESCRIPTION
     )
-    outputs = options.out, options.report, options.threshold_map
+    outputs = options.out, options.threshold_map
     check_outputs([one for one in outputs if one is not None], overwrite=options.overwrite)
     start = options.start_config
     if not options.events.exists():
@@ -159,9 +147,9 @@ def run(arguments: Sequence[str]) -> int:
     if options.frames is not None:
         frames = open_frames(options.frames, capture)
         recording = Recording(frames, events, interpolate)
-        config, lines, compare = _fit(recording, start, options, progress)
+        config, lines = _fit(recording, start, options, progress)
     else:
-        config, lines, compare = _measure(events, start, options)
+        config, lines = _measure(events, start, options)
     for line in lines:
         progress.announce(line)
     written = write_preset(
@@ -170,9 +158,6 @@ def run(arguments: Sequence[str]) -> int:
     write_out(f"{written}\n")
     if options.threshold_map is not None:
         write_out(f"{options.threshold_map}\n")
-    if options.report is not None:
-        page = write_report(compare(), options.report, overwrite=options.overwrite)
-        write_out(f"{page}\n")
     return 0
 
 
@@ -181,7 +166,7 @@ def _fit(
     start: PhysicalConfig,
     options: CalibrateOptions,
     progress: ConsoleProgress,
-) -> tuple[PhysicalConfig, list[str], Callable[[], Comparison]]:
+) -> tuple[PhysicalConfig, list[str]]:
     """Fit frames and events."""
     fit = fit_sensor(
         recording,
@@ -191,24 +176,20 @@ def _fit(
         report=progress.announce,
     )
     source = " and ".join(dict.fromkeys((str(options.frames), str(options.events))))
-    lines = describe_fit(fit, source)
-    return fit.config, [*lines, *describe_estimates(fit.found, fit.kept)], lambda: compare_fit(fit)
+    return fit.config, describe_fit(fit, source)
 
 
 def _measure(
     events: EventStream, start: PhysicalConfig, options: CalibrateOptions
-) -> tuple[PhysicalConfig, list[str], Callable[[], Comparison]]:
+) -> tuple[PhysicalConfig, list[str]]:
     """Measure a known scene from events alone."""
-    source, ratio = str(options.events), options.flicker_ratio
+    source = str(options.events)
     if options.flicker_hz is None:
         static = measure_static_scene(events, start)
-        lines = describe_scene(
-            static.found, static.kept, static.remarks, f"{source}, a scene at rest"
-        )
-        return static.config, lines, lambda: compare_static(static, events)
-    flicker = measure_flicker(events, start, hz=options.flicker_hz, ratio=ratio)
+        return static.config, describe_scene(static, f"{source}, a scene at rest")
+    flicker = measure_flicker(events, start, hz=options.flicker_hz, ratio=options.flicker_ratio)
     what = f"{source}, a field that flickers at {flicker.cycles.hz:.5g} Hz"
-    lines = describe_scene(flicker.found, flicker.kept, flicker.remarks, what)
+    lines = describe_scene(flicker, what)
     config = flicker.config
     if options.threshold_map is not None:
         if not flicker.found:
@@ -217,4 +198,4 @@ def _measure(
             flicker.thresholds, options.threshold_map, overwrite=options.overwrite
         )
         config = dataclasses.replace(config, threshold_map=written.resolve())
-    return config, lines, lambda: compare_flicker(flicker, events, ratio)
+    return config, lines

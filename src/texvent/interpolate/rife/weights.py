@@ -11,8 +11,8 @@ from texvent._require import require
 from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
 from texvent.networks.weight_files import (
-    check_finite,
     describe_file,
+    load_strictly,
     named_tensors,
     read_mapping,
 )
@@ -83,15 +83,7 @@ def read_rife_weights(path: Path) -> RifeNetwork:
     layout, widths = closest_layout(inner)
     with torch.device("meta"):
         network = RifeNetwork(layout, widths)
-    try:
-        network.load_state_dict(inner, strict=True, assign=True)
-    except RuntimeError as error:
-        problem = str(error).splitlines()[1].strip().rstrip(". ")
-        raise FileFormatError(
-            f"{path} holds another network: {problem[:300]}; closest version: {layout.name}; "
-            f"{WHERE_FROM}"
-        ) from error
-    check_finite(inner, path)
+    load_strictly(network, inner, path, f"closest version: {layout.name}; {WHERE_FROM}")
     return network
 
 

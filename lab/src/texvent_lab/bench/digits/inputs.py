@@ -1,10 +1,8 @@
-"""Digits of MNIST's files, and recordings as the images that networks see."""
+"""Recordings of digits as the images that networks see."""
 
 from __future__ import annotations
 
-import gzip
 import math
-import zlib
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,128 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.camera_path.motion import DURATION_US
-from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file
 from texvent.represent.named import represent_window
+from texvent_lab.bench.digits.data import Recording
 from texvent_lab.bench.digits.sheet import DigitSheet
-
-IMAGES, LABELS = "t10k-images", "t10k-labels"
-KINDS = {IMAGES: "idx3-ubyte", LABELS: "idx1-ubyte"}
-SIDE = 28
-"""Width and height of a digit, px."""
-CLASSES = 10
-MAX_BYTES = 2**28
-UINT8 = 8
-"""Number of the type of values in a file's head."""
-
-
-class Mnist(NamedTuple):
-    """The test images, which stand in the order of the published file."""
-
-    images: NDArray[np.uint8]
-    """[n, 28, 28], 0 is background."""
-    labels: NDArray[np.uint8]
-    """[n] 0..9."""
-
-
-def read_mnist(folder: Path) -> Mnist:
-    """MNIST's test images and labels.
-
-    Args:
-        folder: holds t10k-images-idx3-ubyte and t10k-labels-idx1-ubyte, each as it is or
-            compressed (.gz).
-
-    Raises:
-        InputError: a file is missing.
-        FileFormatError: a file is damaged, or the two do not belong together.
-    """
-    images, labels = (read_idx(_find(folder, kind)) for kind in (IMAGES, LABELS))
-    if images.shape[1:] != (SIDE, SIDE):
-        raise FileFormatError(
-            f"the images in {folder} are of shape {list(images.shape)}; they must be 28x28"
-        )
-    if labels.shape != images.shape[:1] or (len(labels) and labels.max() >= CLASSES):
-        raise FileFormatError(
-            f"{folder} holds {len(images)} images and labels of shape {list(labels.shape)}; give "
-            "one label 0..9 per image"
-        )
-    return Mnist(images, labels)
-
-
-def read_idx(path: Path) -> NDArray[np.uint8]:
-    """The array of an IDX file of bytes, such as [10000, 28, 28].
-
-    Raises:
-        InputError: the file cannot be read.
-        FileFormatError: it is damaged, or holds something else.
-
-    Format: two zero bytes, the type (8: bytes), the number of axes; the length of each axis as a
-        big-endian uint32; the values, the last axis fastest.
-    """
-    content = _content(path)
-    axes = content[3] if len(content) > 3 else 0
-    head = 4 + 4 * axes
-    if content[:3] != bytes((0, 0, UINT8)) or not 1 <= axes <= 3 or len(content) < head:
-        raise FileFormatError(f"{path} is no IDX file of bytes; give the file as it was published")
-    shape = tuple(int(one) for one in np.frombuffer(content, ">u4", axes, 4))
-    if len(content) - head != math.prod(shape):
-        raise FileFormatError(
-            f"{path} holds {len(content) - head} values, its head says {list(shape)}; it was cut "
-            "off or changed"
-        )
-    return np.frombuffer(content, np.uint8, offset=head).reshape(shape)
-
-
-def _find(folder: Path, kind: str) -> Path:
-    names = [f"{kind}{sign}{KINDS[kind]}{end}" for sign in "-." for end in (".gz", "")]
-    for name in names:
-        if (folder / name).is_file():
-            return folder / name
-    raise InputError(f"there is no {names[0]} in {folder}; give the folder of MNIST's test files")
-
-
-def _content(path: Path) -> bytes:
-    try:
-        with gzip.open(path) if path.suffix == ".gz" else path.open("rb") as file:
-            content = file.read(MAX_BYTES + 1)
-    except (EOFError, zlib.error, gzip.BadGzipFile) as error:
-        raise FileFormatError(f"{path} is damaged ({one_line(error)}); fetch it again") from error
-    except OSError as error:
-        raise InputError(f"cannot read {path}: {one_line(error)}") from error
-    if len(content) > MAX_BYTES:
-        raise FileFormatError(f"{path} holds more than {MAX_BYTES} bytes; MNIST's files hold less")
-    return content
-
-
-STEP_US = 5_000
-CLEAR = 5.0
-"""Levels of 0..255 per step from which a change is clear."""
-
-
-def polarity_agreement(sheet: DigitSheet, recorded: Sequence[EventStream]) -> float:
-    """Share of events that are ON where their digit brightens, or OFF where it darkens.
-
-    Args:
-        sheet: digits with the measured motion.
-        recorded: their recordings, in the same order; events where the digit changes little do
-            not count.
-
-    Returns:
-        0..1, NaN without an event that counts. About 0.5 means that recordings do not show these
-        digits, less that their polarity is the opposite one.
-    """
-    events = sheet.lay_out(recorded)
-    times = range(0, DURATION_US + 1, STEP_US)
-    frames = np.stack([sheet.at(t_us).pixels for t_us in times])
-    change = np.diff(frames, axis=0)
-    step = events.t // STEP_US
-    is_inside = (step >= 0) & (step < len(change))
-    events, step = events[is_inside], step[is_inside]
-    seen = change[step, events.y, events.x]
-    is_clear = np.abs(seen) > CLEAR
-    return float(((seen > 0) == (events.p == 1))[is_clear].mean()) if is_clear.any() else np.nan
-
 
 WINDOW_US = (0, DURATION_US)
 
@@ -167,9 +48,10 @@ class InputSet:
     """[n, 2] OFF and ON events in the window."""
     labels: NDArray[np.int64]
     """[n] 0..9."""
-
-    def __len__(self) -> int:
-        return len(self.labels)
+    threshold: float = math.nan
+    """Contrast threshold of simulated ones, log units."""
+    is_matched: bool = True
+    """Whether that threshold gives the wanted count; else the preset's own is kept."""
 
     @property
     def median_count(self) -> float:
@@ -181,14 +63,11 @@ class InputSet:
         """Share of ON among all events."""
         return float(self.counts[:, 1].sum() / max(self.counts.sum(), 1))
 
-    def __getitem__(self, which: NDArray[Any] | slice) -> InputSet:
-        images = {name: values[which] for name, values in self.images.items()}
-        return InputSet(images, self.counts[which], self.labels[which])
-
     def write(self, path: Path) -> None:
         """Write a compressed file that `read` reads."""
+        arrays: dict[str, Any] = {**vars(self), **self.images}
+        del arrays["images"]
         with atomic_file(path, overwrite=True) as part, part.open("wb") as file:
-            arrays: dict[str, Any] = {**self.images, "counts": self.counts, "labels": self.labels}
             np.savez_compressed(file, **arrays)
 
     @classmethod
@@ -196,7 +75,8 @@ class InputSet:
         """The recordings of a file that `write` wrote."""
         with np.load(path) as file:
             images = {name: file[name] for name in REPRESENTATIONS}
-            return cls(images, file["counts"], file["labels"])
+            threshold, is_matched = float(file["threshold"]), bool(file["is_matched"])
+            return cls(images, file["counts"], file["labels"], threshold, is_matched)
 
 
 def join_inputs(parts: Sequence[InputSet]) -> InputSet:
@@ -205,6 +85,16 @@ def join_inputs(parts: Sequence[InputSet]) -> InputSet:
         {name: np.concatenate([one.images[name] for one in parts]) for name in REPRESENTATIONS},
         np.concatenate([one.counts for one in parts]),
         np.concatenate([one.labels for one in parts]),
+    )
+
+
+def represent_recordings(recordings: Sequence[Recording]) -> InputSet:
+    """The images of recordings."""
+    images, counts = zip(*(represent_all(one.events) for one in recordings), strict=True)
+    return InputSet(
+        {name: np.stack([one[name] for one in images]) for name in images[0]},
+        np.stack(counts).sum(axis=(2, 3)),
+        np.array([one.label for one in recordings], np.int64),
     )
 
 
@@ -224,3 +114,32 @@ def represent_all(events: EventStream) -> tuple[dict[str, NDArray[Any]], NDArray
             image = image.clip(0, np.iinfo(np.uint8).max)
         images[key] = image.reshape(-1, *image.shape[-2:]).astype(kind.dtype)
     return images, counts
+
+
+STEP_US = 5_000
+CLEAR = 5.0
+"""Levels of 0..255 per step from which a change is clear."""
+
+
+def polarity_agreement(sheet: DigitSheet, recorded: Sequence[EventStream]) -> float:
+    """Share of events that are ON where their digit brightens, or OFF where it darkens.
+
+    Args:
+        sheet: digits with the measured motion.
+        recorded: their recordings, in the same order; events where the digit changes little do
+            not count.
+
+    Returns:
+        0..1, NaN without an event that counts. About 0.5 means that recordings do not show these
+        digits, less that their polarity is the opposite one.
+    """
+    events = sheet.lay_out(recorded)
+    times = range(0, DURATION_US + 1, STEP_US)
+    frames = np.stack([sheet.at(t_us).pixels for t_us in times])
+    change = np.diff(frames, axis=0)
+    step = events.t // STEP_US
+    is_inside = (step >= 0) & (step < len(change))
+    events, step = events[is_inside], step[is_inside]
+    seen = change[step, events.y, events.x]
+    is_clear = np.abs(seen) > CLEAR
+    return float(((seen > 0) == (events.p == 1))[is_clear].mean()) if is_clear.any() else np.nan

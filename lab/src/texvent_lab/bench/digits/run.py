@@ -1,29 +1,68 @@
-"""Networks trained on simulated digits, tested on recorded ones: all steps, then the report."""
+"""Networks trained on simulated digits, tested on recorded ones: all steps, then the report.
+
+Every set and every prediction is a file in the plan's folder, named after all that it depends on,
+so that a run that was stopped goes on.
+"""
 
 from __future__ import annotations
 
+import dataclasses
+import hashlib
+import json
 import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent import __version__
 from texvent.config import check_range
+from texvent.errors import FileFormatError
 from texvent.extending import require
-from texvent_lab.bench.digits.arms import Step, find_arm
-from texvent_lab.bench.digits.networks import train_one
-from texvent_lab.bench.digits.plan import DigitsPlan, Run, list_trainings
-from texvent_lab.bench.digits.results import Collector, DigitsReport
-from texvent_lab.bench.digits.simulation import fit_cell, fit_physical, open_run, simulate_cell
+from texvent.io.atomic import atomic_file
+from texvent.run.prepare import prepare_video
+from texvent.run.rate_search import UNREACHED, find_threshold
+from texvent.runtime.cache_folder import make_folder
+from texvent.settings.resolution import Settings
+from texvent.simulate.model_options import contrast_threshold_of
+from texvent_lab.bench.digits.data import FIRST_TEST, Mnist, Recording, read_mnist, read_recordings
+from texvent_lab.bench.digits.inputs import (
+    REPRESENTATIONS,
+    InputSet,
+    join_inputs,
+    polarity_agreement,
+    represent_all,
+    represent_recordings,
+)
+from texvent_lab.bench.digits.plan import Cell, DigitsPlan, Training, find_arm
+from texvent_lab.bench.digits.results import DigitsReport, SetScore, compare_with_best
+from texvent_lab.bench.digits.sheet import Digits, DigitSheet
+from texvent_lab.bench.digits.training import predict, train_network
+from texvent_lab.bench.document import describe_environment
 from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
 from texvent_lab.train.schedule import EXTRA
+
+PROTOCOL = 3
+"""Part of every file's name: raise it when a step computes something else from the same plan."""
+SHEET = 100
+"""Digits per sheet."""
+LEAST_AGREEMENT = 0.6
+"""Share of events with the right sign below which recordings are refused; see
+`polarity_agreement`."""
+DRAWING_SEED = 0
+"""Of motion and contrast."""
 
 
 def run_digits(
     plan: DigitsPlan, *, jobs: int = 1, progress: Progress = no_progress
 ) -> DigitsReport:
-    """Simulate, train and test what was not before; see `DigitsPlan`.
+    """Simulate, train and test what was not before.
 
     Args:
-        plan: what is covered.
+        plan: see `DigitsPlan`.
         jobs: processes to use; 1 stays in this one.
         progress: told of every step.
 
@@ -36,19 +75,261 @@ def run_digits(
     check_range("jobs", jobs, 1)
     require("torch", extra=EXTRA)
     run = open_run(plan)
-
-    def make(
-        function: Callable[[Run, Any], str], step_of: Callable[[Any], Step], what: Sequence[Any]
-    ) -> None:
-        missing = [one for one in what if not step_of(one).is_done]
+    steps = (
+        (make_set, [cell for cell in plan.cells if not run.set_path(cell).exists()]),
+        (
+            train_one,
+            [one for one in plan.every_training if not run.prediction_path(one).exists()],
+        ),
+    )
+    for function, missing in steps:
         done = run_jobs(function, [(run, one) for one in missing], jobs)
         for number, line in enumerate(done, start=1):
             progress(f"{number} of {len(missing)}  {line}")
+    return collect(run, time.perf_counter() - start)
 
-    is_fitted = [name for name in plan.arms if find_arm(name).is_fitted]
-    make(fit_physical, lambda _: run.pair_fit_step(), is_fitted[:1])
-    fits = {run.fit_step(cell).digest: cell for cell in plan.cells if cell.choice == "matched"}
-    make(fit_cell, run.fit_step, list(fits.values()))
-    make(simulate_cell, run.set_step, plan.cells)
-    make(train_one, run.training_step, list_trainings(plan))
-    return Collector(run).report(time.perf_counter() - start)
+
+@dataclass(frozen=True)
+class Run:
+    """A plan and facts of its data; small, so that processes can be given it."""
+
+    plan: DigitsPlan
+    mnist: str
+    """Digest of the images and labels."""
+    recorded: str
+    """Digest of the recordings that are tested on."""
+    target: float
+    """Events that the pair in the middle has."""
+    polarity: float
+    """See `polarity_agreement`, of the pairs."""
+
+    def path(self, kind: str, extension: str, *config: Any) -> Path:
+        """File of a result that depends on the config, plain values."""
+        name = digest_of(__version__, PROTOCOL, kind, *config)
+        return self.plan.work / f"{kind}-{name}{extension}"
+
+    @property
+    def recordings_path(self) -> Path:
+        """Recordings that are tested on."""
+        return self.path("recordings", ".npz", self.recorded)
+
+    def set_path(self, cell: Cell) -> Path:
+        """The simulated recordings of a set."""
+        plan, settings = self.plan, find_arm(cell.arm).settings(cell.way).as_tables()
+        facts = (settings, plan.pairs, self.target, plan.digits, self.mnist)
+        return self.path("set", ".npz", *facts)
+
+    def prediction_path(self, training: Training) -> Path:
+        """The predictions of a network."""
+        plan, schedule = self.plan, self.plan.schedule
+        seen = self.set_path(training.cell).stem if training.cell else (training.fold, plan.folds)
+        how = (plan.steps, schedule.batch_size, schedule.learning_rate, plan.precision)
+        facts = (self.recorded, seen, training.representation, training.seed, *how)
+        return self.path("predicted", ".npy", *facts)
+
+
+def digest_of(*values: Any) -> str:
+    """A name for plain values and bytes."""
+    found = hashlib.sha256()
+    for value in values:
+        content = value if isinstance(value, bytes) else json.dumps(value, sort_keys=True).encode()
+        found.update(hashlib.sha256(content).digest())
+    return found.hexdigest()[:20]
+
+
+def open_run(plan: DigitsPlan) -> Run:
+    """Read the data, check it, and keep the images of the recordings.
+
+    Raises:
+        InputError, FileFormatError: a file is missing or damaged; the message says which.
+    """
+    mnist = read_mnist(plan.mnist)
+    if len(mnist.images) < plan.pairs + plan.digits:
+        raise FileFormatError(
+            f"{plan.mnist} holds {len(mnist.images)} images; MNIST's test set has 10000"
+        )
+    pairs = read_recordings(plan.nmnist, range(FIRST_TEST + 1, FIRST_TEST + 1 + plan.pairs))
+    if [one.label for one in pairs] != mnist.labels[: plan.pairs].tolist():
+        raise FileFormatError(
+            f"recordings {FIRST_TEST + 1} and up in {plan.nmnist} have other labels than the "
+            f"images in {plan.mnist}; they must show MNIST's test images in their order"
+        )
+    sheet = DigitSheet(Digits.as_measured(mnist.images[: plan.pairs]))
+    polarity = polarity_agreement(sheet, [one.events for one in pairs])
+    if polarity < LEAST_AGREEMENT:
+        raise FileFormatError(
+            f"{polarity:.0%} of the events in {plan.nmnist} have the sign of their digit's change "
+            "of brightness; N-MNIST's files as published have 1 where it falls, so do not flip it"
+        )
+    recorded = read_recordings(plan.nmnist, range(1, plan.recorded + 1))
+    run = Run(
+        plan=plan,
+        mnist=digest_of(mnist.images.tobytes(), mnist.labels.tobytes()),
+        recorded=digest_of(*map(_bytes, recorded)),
+        target=represent_recordings(pairs).median_count,
+        polarity=polarity,
+    )
+    make_folder(plan.work)
+    if not run.recordings_path.exists():
+        represent_recordings(recorded).write(run.recordings_path)
+    return run
+
+
+def _bytes(recording: Recording) -> bytes:
+    events = recording.events
+    columns = (events.x, events.y, events.t, events.p)
+    return b"".join(one.tobytes() for one in columns) + bytes([recording.label])
+
+
+def make_set(run: Run, cell: Cell) -> str:
+    """Fit the threshold of a set to the pairs and simulate it; returns a line for progress.
+
+    Where no threshold gives the count, the preset's own is kept.
+    """
+    start_s, plan, arm = time.perf_counter(), run.plan, find_arm(cell.arm)
+    mnist = read_mnist(plan.mnist)
+
+    def simulate(numbers: NDArray[np.int64], threshold: float | None) -> InputSet:
+        return simulate_digits(mnist, numbers, arm.settings(cell.way, threshold=threshold))
+
+    start = contrast_threshold_of(arm.settings(cell.way).simulate)
+    match = find_threshold(
+        lambda threshold: simulate(1 + np.arange(plan.pairs), threshold).median_count,
+        run.target,
+        start=start,
+    )
+    is_matched = abs(match.ratio - 1) <= UNREACHED
+    threshold = match.threshold if is_matched else start
+    found = dataclasses.replace(
+        simulate(plan.numbers, threshold), threshold=threshold, is_matched=is_matched
+    )
+    found.write(run.set_path(cell))
+    seconds = time.perf_counter() - start_s
+    return (
+        f"{cell.arm}, {cell.way}: threshold {threshold:.3f} (from {start:.3f}), "
+        f"{found.median_count:.0f} events ({seconds:.0f} s)"
+    )
+
+
+def simulate_digits(mnist: Mnist, numbers: NDArray[np.int64], settings: Settings) -> InputSet:
+    """Simulated recordings of digits.
+
+    Args:
+        mnist: all images.
+        numbers: of those to record, from 1.
+        settings: of the simulation.
+    """
+    parts = []
+    for first in range(0, len(numbers), SHEET):
+        chosen = numbers[first : first + SHEET]
+        run = dataclasses.replace(settings.run, seed=int(chosen[0]))
+        sheet = DigitSheet(Digits.draw(mnist.images[chosen - 1], chosen, DRAWING_SEED))
+        video = prepare_video(sheet, dataclasses.replace(settings, run=run))
+        images, counts = represent_all(video.packets.collect())
+        parts.append(
+            InputSet(
+                {name: sheet.cut(image) for name, image in images.items()},
+                sheet.cut(counts).sum(axis=(2, 3)),
+                mnist.labels[chosen - 1].astype(np.int64),
+            )
+        )
+    return join_inputs(parts)
+
+
+def train_one(run: Run, training: Training) -> str:
+    """Train a network and store its predictions; returns a line for progress."""
+    plan, start = run.plan, time.perf_counter()
+    recorded = InputSet.read(run.recordings_path)
+    number = np.arange(len(recorded.labels))
+    if training.cell is None:
+        is_seen = number % plan.folds != training.fold
+        seen, which = recorded, is_seen
+    else:
+        is_seen = np.zeros(len(number), np.bool_)
+        seen = InputSet.read(run.set_path(training.cell))
+        which = np.ones(len(seen.labels), np.bool_)
+    network = train_network(
+        seen.images[training.representation][which],
+        seen.labels[which],
+        steps=plan.steps,
+        schedule=plan.schedule,
+        seed=training.seed,
+        precision=plan.precision,
+    )
+    images = recorded.images[training.representation]
+    predicted = np.where(is_seen, -1, predict(network, images))
+    with atomic_file(run.prediction_path(training), overwrite=True) as part, part.open("wb") as out:
+        np.save(out, predicted)
+    right = (predicted == recorded.labels)[~is_seen].mean()
+    return f"{training.name}: {right:.3f} ({time.perf_counter() - start:.0f} s)"
+
+
+def collect(run: Run, seconds: float) -> DigitsReport:
+    """The report of a run whose files are all there."""
+    plan = run.plan
+    recorded = InputSet.read(run.recordings_path)
+
+    def predicted(trainings: Sequence[Training]) -> NDArray[np.int64]:
+        """[trainings, recordings]; −1 for a recording that a network saw."""
+        return np.stack([np.load(run.prediction_path(one)) for one in trainings])
+
+    scores: list[SetScore] = []
+    for kind in REPRESENTATIONS:
+        votes = {cell: predicted(plan.trainings(cell, kind)) for cell in plan.cells}
+        p_values = {
+            cell: p
+            for way in dict.fromkeys(cell.way for cell in plan.cells)
+            for cell, p in compare_with_best(
+                {cell: one for cell, one in votes.items() if cell.way == way}, recorded.labels
+            ).items()
+        }
+        for cell in plan.cells:
+            simulated = InputSet.read(run.set_path(cell))
+            scores.append(
+                SetScore(
+                    arm=cell.arm,
+                    way=cell.way,
+                    representation=kind,
+                    events=simulated.median_count,
+                    on_share=simulated.on_share,
+                    threshold=simulated.threshold,
+                    is_matched=simulated.is_matched,
+                    accuracy=(votes[cell] == recorded.labels).mean(axis=1).tolist(),
+                    p=p_values[cell],
+                )
+            )
+    ceiling = {
+        kind: [
+            float((predicted(plan.folds_of(kind, seed)).max(axis=0) == recorded.labels).mean())
+            for seed in range(plan.seeds)
+        ]
+        for kind in REPRESENTATIONS
+    }
+    return DigitsReport(
+        environment=describe_environment(),
+        protocol=_protocol(run),
+        recorded_events=recorded.median_count,
+        recorded_on_share=recorded.on_share,
+        scores=scores,
+        ceiling=ceiling,
+        seconds=seconds,
+    )
+
+
+def _protocol(run: Run) -> dict[str, Any]:
+    plan = run.plan
+    return {
+        "training images": f"{plan.numbers[0]} to {plan.numbers[-1]}",
+        "recordings": plan.recorded,
+        "pairs for fitting": plan.pairs,
+        "events of the pair in the middle": run.target,
+        "share of events with the right sign": run.polarity,
+        "steps of training": plan.steps,
+        "batch size": plan.schedule.batch_size,
+        "learning rate": f"{plan.schedule.learning_rate}, falling to 0",
+        "precision": plan.precision,
+        "networks per set": plan.seeds,
+        "folds": plan.folds,
+        "digest of the recordings": run.recorded,
+        "digest of the images": run.mnist,
+    }

@@ -115,7 +115,7 @@ class DigitSheet:
         return Frame(self._render(t_us), t_us, is_source=False)
 
     def cut(self, images: NDArray[Any]) -> NDArray[Any]:
-        """What lies on each digit's part of the sensor.
+        """Parts of images that belong to each digit.
 
         Args:
             images: [..., H, W] of the sheet.
@@ -137,12 +137,6 @@ class DigitSheet:
         y = (y + numbers // self._columns * PITCH + MARGIN).astype(np.uint16)
         order = np.argsort(t, kind="stable")
         return EventStream(x[order], y[order], t[order], p[order], self.size)
-
-    def inside(self, events: EventStream) -> EventStream:
-        """The events of a sheet that lie on a digit's part of the sensor."""
-        x, y = events.x % PITCH, events.y % PITCH
-        last = MARGIN + TILE
-        return events[(x >= MARGIN) & (x < last) & (y >= MARGIN) & (y < last)]
 
     @property
     def _columns(self) -> int:

@@ -1,4 +1,4 @@
-"""A small network that tells digits apart, trained on images that were made before.
+"""Training of a small classifier of digits on images in memory.
 
 A training takes seconds, keeps its last network, and counts steps, not epochs: few samples are
 trained on for as long as many.
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from texvent.dataset.loading.epoch_sampler import epoch_order
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor
-from texvent_lab.bench.digits.inputs import CLASSES
+from texvent_lab.bench.digits.data import CLASSES
 from texvent_lab.train.schedule import EXTRA, Schedule
 
 Precision: TypeAlias = Literal["float32", "bfloat16"]

@@ -1,1 +1,1 @@
-"""Simulators against the exact events of the oracle."""
+"""Scores of simulators against known events: entries, fit of δ, tables."""

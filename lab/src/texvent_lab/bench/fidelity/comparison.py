@@ -1,4 +1,4 @@
-"""Which entries of a table can be told apart, and which not from the best."""
+"""Significance of differences between the entries of a table."""
 
 from __future__ import annotations
 
@@ -9,21 +9,16 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
-from texvent.events import EventStream
-from texvent.metrics.event_sharpness import estimate_velocities, flow_warp_sharpness
-from texvent.metrics.spike_trains import Trains, time_to_nearest
-from texvent.metrics.stpp import Stpp
-from texvent.metrics.summary import summarise
 from texvent.metrics.uncertainty import LEAST_WINDOWS, Mean, paired_differences
+from texvent_lab.bench.summary import summarise
 
 ALIKE = "≈"
 """Marks a difference that cannot be told from none."""
 
 
 class Behind(NamedTuple):
-    """How far an entry is behind."""
+    """Distance of an entry from the best."""
 
     best: str
     """The best entry."""
@@ -45,12 +40,12 @@ class Comparison:
 
     @property
     def windows(self) -> int:
-        """How many there are."""
+        """Number of windows."""
         return max(map(len, self.values.values()), default=0)
 
     @property
     def is_enough(self) -> bool:
-        """Whether any entries could be told apart."""
+        """Whether there are enough windows for a significant difference."""
         return self.windows >= LEAST_WINDOWS
 
     def mean(self, entry: str) -> float:
@@ -90,7 +85,7 @@ class Comparison:
         return max(known, key=known.__getitem__, default=None)
 
     def document(self, entry: str) -> dict[str, Any] | None:
-        """How far an entry is behind, as plain values; None for the best and for no candidate."""
+        """Distance from the best as plain values; None for the best and for no candidate."""
         behind = self.behind_best.get(entry)
         if behind is None:
             return None
@@ -133,7 +128,7 @@ def difference_text(difference: Mean, *, sign: str = "") -> str:
 
 
 def comparison_note(windows: int, kind: str) -> str:
-    """What the columns of a table with that many windows say, or why there are none.
+    """Legend of a table with that many windows.
 
     Args:
         windows: how many.
@@ -150,72 +145,3 @@ def comparison_note(windows: int, kind: str) -> str:
         "compared with the same entry hold together). (too few): too few are defined, or "
         "independent of their neighbours.\n"
     )
-
-
-CAP_US = 10_000
-BIN_US = 500
-BINS = 2 * CAP_US // BIN_US
-"""Bins of the histogram of time errors: from −10 to +10 ms."""
-
-
-@dataclass(frozen=True, kw_only=True)
-class Details:
-    """What lies behind one entry's score on one scene."""
-
-    levels: list[list[float]]
-    """STPP per level, mean over scoring seeds: rows 1, 2, 4, 8, 16 cells in time, columns 1 .. 32
-    in space."""
-    time_error: list[float]
-    """Share of true events whose nearest simulated event (same pixel and polarity) is so much
-    later: `BINS` bins of 0.5 ms from −10 to +10 ms, mean over seeds. What is missing from 1 has
-    no partner within 10 ms."""
-    sharpness: list[float]
-    """Flow-warp sharpness along the known flow, per seed; NaN for scenes without one."""
-    flow_error: list[float]
-    """px/s between the known flow and what contrast maximisation finds in the events, per seed;
-    NaN for scenes without a flow, or with too few events."""
-
-
-def describe(
-    predicted: Sequence[EventStream],
-    references: Sequence[EventStream],
-    velocity_px_s: tuple[float, float] | None,
-) -> Details:
-    """Details of simulated events against the true ones.
-
-    Args:
-        predicted: one stream per scoring seed.
-        references: the true streams, in the same order.
-        velocity_px_s: (vx, vy) of the whole scene, px/s, or None.
-    """
-    pairs = list(zip(predicted, references, strict=True))
-    levels = [Stpp().levels(one, other) for one, other in pairs]
-    errors = [time_errors(one, other) for one, other in pairs]
-    known = velocity_px_s if velocity_px_s != (0.0, 0.0) else None
-    return Details(
-        levels=np.mean(levels, axis=0).tolist(),
-        time_error=np.mean(errors, axis=0).tolist(),
-        sharpness=[flow_warp_sharpness(one, known) if known else math.nan for one in predicted],
-        flow_error=[_flow_error(one, known) if known else math.nan for one in predicted],
-    )
-
-
-def time_errors(predicted: EventStream, reference: EventStream) -> NDArray[np.float64]:
-    """Histogram of the time from each true event to the nearest simulated one.
-
-    Returns:
-        [40] float64, shares of the true events; all 0 if either stream is empty.
-    """
-    if not len(predicted) or not len(reference):
-        return np.zeros(BINS)
-    error_us = time_to_nearest(Trains.of(reference), Trains.of(predicted), cap_us=CAP_US)
-    near = error_us[error_us < CAP_US]
-    counts = np.bincount((near + CAP_US) // BIN_US, minlength=BINS)
-    return np.asarray(counts / len(reference))
-
-
-def _flow_error(events: EventStream, known: tuple[float, float]) -> float:
-    found = estimate_velocities(events)
-    if not found:
-        return math.nan
-    return float(np.mean([math.hypot(vx - known[0], vy - known[1]) for vx, vy in found]))

@@ -1,16 +1,17 @@
-"""What the benchmark runs: every simulator by every way of filling the time between frames."""
+"""Rows of the benchmarks: simulators by interpolators, or config files."""
 
 from __future__ import annotations
 
 import dataclasses
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, TypeAlias
 
-from texvent.errors import ConfigError, shown
+from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.extending import SIMULATORS, suggest
+from texvent.extending import SIMULATORS
 from texvent.run.prepare import prepare_video
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.model_options import contrast_threshold_of, with_contrast_threshold
@@ -54,13 +55,13 @@ class Entry:
 
     @property
     def name(self) -> str:
-        """How tables call it."""
+        """Name in tables."""
         preset = f" {self.preset}" if self.preset else ""
         return f"{self.simulator}{preset}, {self.interpolate}"
 
     @property
     def track(self) -> Track:
-        """Whether it is given the true intermediate frames, or the sensor."""
+        """Input of the simulator: frames or true frames, and whether it knows the sensor."""
         if self.interpolate == "exact":
             return "true frames, sensor known" if self._is_calibrated else "true frames"
         return "frames, sensor known" if self._is_calibrated else "frames"
@@ -68,13 +69,6 @@ class Entry:
     @property
     def _is_calibrated(self) -> bool:
         return (self.simulator, self.preset) == CALIBRATED
-
-    @classmethod
-    def parse(cls, name: str) -> Entry:
-        """The entry that tables call so."""
-        model, _, interpolate = name.rpartition(", ")
-        simulator, _, preset = model.partition(" ")
-        return cls(simulator=simulator, preset=preset or None, interpolate=interpolate)
 
     def settings(self, seed: int) -> Settings:
         """Resolved options of a run.
@@ -150,15 +144,11 @@ def choose_entries(simulators: str | None = None, interpolations: str | None = N
         simulators: `NAME` or `NAME:PRESET`, separated by commas; None means all to compare,
             and `CALIBRATED`.
         interpolations: names separated by commas; None means `INTERPOLATIONS`.
-
-    Raises:
-        ConfigError: `physical` has no such preset.
     """
     chosen = [*simulators_to_compare(), CALIBRATED]
     if simulators is not None:
         words = (word.partition(":") for word in simulators.split(","))
         chosen = [(simulator, preset or None) for simulator, _, preset in words]
-        _check_presets(chosen)
     names = interpolations.split(",") if interpolations is not None else INTERPOLATIONS
     return [
         Entry(simulator=simulator, preset=preset, interpolate=interpolate)
@@ -167,11 +157,59 @@ def choose_entries(simulators: str | None = None, interpolations: str | None = N
     ]
 
 
-def _check_presets(chosen: list[tuple[str, str | None]]) -> None:
-    """Refuse presets of `physical` that are neither its own nor the benchmark's."""
-    allowed = (*SIMULATORS.load(CALIBRATED[0]).presets, CALIBRATED[1])
-    for simulator, preset in chosen:
-        if simulator == CALIBRATED[0] and preset is not None and preset not in allowed:
-            raise ConfigError(
-                f"simulator {simulator!r} has no preset {shown(preset)}; {suggest(preset, allowed)}"
-            )
+@dataclass(frozen=True, kw_only=True)
+class ConfigEntry(Entry):
+    """A row whose options stand in a config file."""
+
+    path: Path
+    """TOML or YAML file."""
+
+    @classmethod
+    def read(cls, path: Path, *, is_rate_matched: bool = False) -> ConfigEntry:
+        """The row of a config file.
+
+        Raises:
+            InputError: the file cannot be read.
+            ConfigError: it is wrong.
+        """
+        settings = resolve("simulate", {}, config=path)
+        return cls(
+            simulator=settings.run.simulator,
+            interpolate=settings.interpolate.interpolate,
+            path=path,
+            is_rate_matched=is_rate_matched,
+        )
+
+    @property
+    def name(self) -> str:
+        """The file's name without its extension."""
+        return self.path.stem
+
+    def settings(self, seed: int) -> Settings:
+        """Resolved options of a run.
+
+        Raises:
+            ConfigError: the file holds an unknown option, or a value out of range.
+        """
+        return resolve("simulate", {"seed": seed}, config=self.path)
+
+
+def read_ablations(folder: Path, *, is_rate_matched: bool = False) -> list[ConfigEntry]:
+    """One row per config file of a folder, E2 before E10.
+
+    Raises:
+        InputError: there is no such folder, or no config file in it.
+        ConfigError: a file is wrong.
+    """
+    paths = sorted(folder.glob("*.toml"), key=_by_number)
+    if not paths:
+        raise InputError(
+            f"no config file in {folder}; give the folder configs/paper of the source "
+            "distribution, or one with TOML files of your own"
+        )
+    return [ConfigEntry.read(path, is_rate_matched=is_rate_matched) for path in paths]
+
+
+def _by_number(path: Path) -> tuple[str, int, str]:
+    match = re.fullmatch(r"(\D*)(\d+)(.*)", path.stem)
+    return (match[1], int(match[2]), match[3]) if match else (path.stem, -1, "")

@@ -1,251 +1,101 @@
-"""The oracle benchmark: simulators see 24 frames per second, and are judged by the true events."""
+"""Entries scored against true or recorded events: δ fitted on one part, scored on another."""
 
 from __future__ import annotations
 
-import dataclasses
 import itertools
 import math
 import time
-from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Callable, Iterable, Sequence
+from typing import Protocol
 
-from texvent.config import check_range
-from texvent.errors import ConfigError, TexventError
+from texvent.errors import TexventError
 from texvent.events import EventStream
-from texvent.metrics.compare import compare, load_metric
+from texvent.metrics.compare import compare
 from texvent.metrics.protocol import Metric
 from texvent.run.rate_search import ThresholdMatch, find_threshold
-from texvent_lab.bench.document import describe_environment
-from texvent_lab.bench.fidelity.comparison import describe
-from texvent_lab.bench.fidelity.entries import Entry, choose_entries
-from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
-from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
-from texvent_lab.bench.oracle.pixel import (
-    FLOOR_SEED,
-    OTHER_SEED,
-    OTHER_SENSOR_SEED,
-    REFERENCE_SEED,
-    SENSOR_SEED,
-    TARGETS,
-)
-from texvent_lab.bench.oracle.recording import oracle_scene, record
-from texvent_lab.bench.oracle.scenes import check_scene, known_flow, scene_names
-from texvent_lab.bench.selftest.run import perturb
+from texvent_lab.bench.fidelity.entries import Entry
+from texvent_lab.bench.fidelity.results import Reference, Score
+from texvent_lab.bench.jobs import Progress, run_jobs
 
 NULL = "shuffle all times"
-OTHER_SENSOR = "another sensor of the kind"
-"""Row of a recording by a sensor with the same constants and other pixels: a simulator that knows
-the kind of the sensor, but not each pixel, gets no closer."""
+"""Perturbation of the null; see `perturbations`."""
 
 
-@dataclass(frozen=True, kw_only=True)
-class FidelityPlan:
-    """What a run of the benchmark covers.
+class Truth(Protocol):
+    """A scene or recording whose events are known; picklable."""
 
-    Raises:
-        ConfigError: an unknown scene, target or metric, or no seed to fit or to score.
-    """
+    @property
+    def scene(self) -> str:
+        """Its name."""
+        ...
 
-    scenes: Sequence[str] = ("mixed", "translate", "fast", "slow")
-    targets: Sequence[str] = ("noisy",)
-    fit_seeds: Sequence[int] = (7,)
-    """Textures on which δ is fitted."""
-    score_seeds: Sequence[int] = (21, 33, 54, 68, 85, 97)
-    """Textures on which the entries are scored with that δ; six and more can tell entries apart."""
-    metrics: Sequence[str] = (
-        "stpp",
-        "van_rossum",
-        "nearest",
-        "ef_mse",
-        "count_ratio",
-    )
-    entries: Sequence[Entry] = ()
-    """Simulators and interpolators; none means all that are registered."""
+    @property
+    def target(self) -> str:
+        """Kind of pixels, or "recorded"."""
+        ...
 
-    def __post_init__(self) -> None:
-        for scene in self.scenes:
-            check_scene(scene)
-        for metric in self.metrics:
-            load_metric(metric)
-        unknown = set(self.targets) - set(TARGETS)
-        if unknown or not self.fit_seeds or not self.score_seeds:
-            raise ConfigError(
-                f"targets {list(self.targets)}, fit seeds {list(self.fit_seeds)}, score seeds "
-                f"{list(self.score_seeds)}: targets are {', '.join(TARGETS)}, seeds at least one"
-            )
+    @property
+    def references(self) -> Sequence[EventStream]:
+        """The true events that are scored, window by window."""
+        ...
 
+    @property
+    def fit_count(self) -> int:
+        """Number of true events to which δ is fitted."""
+        ...
 
-FULL = FidelityPlan(
-    scenes=scene_names(),
-    targets=tuple(TARGETS),
-    fit_seeds=(7, 21),
-    score_seeds=(33, 54, 68, 85, 97, 113),
-    metrics=(*FidelityPlan.metrics, "ef_ssim", "active_iou"),
-)
-"""The paper-grade run: every scene, ideal and noisy pixels, eight seeds."""
+    def count(self, entry: Entry, threshold: float | None) -> int:
+        """Number of simulated events where δ is fitted; None leaves the preset's δ."""
+        ...
+
+    def simulate(self, entry: Entry, threshold: float | None) -> list[EventStream]:
+        """Simulated events of each scored window.
+
+        Raises:
+            TexventError: the simulator cannot run as it is, such as without its weights.
+        """
+        ...
 
 
-@dataclass(frozen=True, kw_only=True)
-class TrueRecordings:
-    """True recordings of one scene by one kind of pixels."""
-
-    scene: str
-    target: str
-    references: Mapping[int, EventStream]
-    """Texture seed → the recording that counts as the truth."""
+Metrics = Sequence[str | Metric]
 
 
-def run_fidelity(
-    plan: FidelityPlan, *, jobs: int = 1, progress: Progress = no_progress
-) -> FidelityReport:
-    """Run the benchmark.
-
-    Args:
-        plan: what it covers.
-        jobs: processes to use; 1 stays in this one.
-        progress: told of every step.
-
-    Raises:
-        ConfigError: the plan names something that does not exist, or jobs is below 1.
-    """
-    check_range("jobs", jobs, 1)
-    start = time.perf_counter()
-    entries = list(plan.entries) or choose_entries()
-    for entry in entries:
-        entry.settings(0)
-    environment = describe_environment()
-    truths: list[TrueRecordings] = []
-    references: list[Reference] = []
-    others: list[Score] = []
-    for found in run_jobs(record_truths, [(plan, scene) for scene in plan.scenes], jobs):
-        for truth, reference, other in found:
-            progress(f"recorded {truth.scene}, {truth.target} pixels")
-            truths.append(truth)
-            references.append(reference)
-            others.append(other)
+def score_entries(
+    truths: Sequence[Truth],
+    entries: Sequence[Entry],
+    metrics: Metrics,
+    *,
+    jobs: int,
+    progress: Progress,
+) -> tuple[list[Score], dict[str, str]]:
+    """Scores of every entry on every truth, and why others did not run: name → reason."""
     scores: list[Score] = []
     skipped: dict[str, str] = {}
-    work = [(plan, truth, entry) for truth, entry in itertools.product(truths, entries)]
-    for score in run_jobs(score_entry, work, jobs):
-        if isinstance(score, Score):
-            progress(f"{score.scene}, {score.target}: {score.entry} ({score.seconds:.1f} s a run)")
-            scores.append(score)
+    work = [(truth, entry, metrics) for truth, entry in itertools.product(truths, entries)]
+    for found in run_jobs(score_entry, work, jobs):
+        if isinstance(found, Score):
+            progress(f"{found.scene}, {found.target}: {found.entry} ({found.seconds:.1f} s)")
+            scores.append(found)
         else:
-            skipped[score[0]] = score[1]
-    return FidelityReport(
-        environment=environment,
-        fit_seeds=plan.fit_seeds,
-        score_seeds=plan.score_seeds,
-        references=references,
-        scores=[*scores, *others],
-        skipped=skipped,
-        seconds=time.perf_counter() - start,
-    )
+            skipped[found[0]] = found[1]
+    return scores, skipped
 
 
-def record_truths(plan: FidelityPlan, scene: str) -> list[tuple[TrueRecordings, Reference, Score]]:
-    """The true recordings of one scene by each kind of pixels.
-
-    Args:
-        plan: which pixels, seeds and metrics.
-        scene: name of the scene.
-
-    Returns:
-        With floor and null, and what another sensor of the kind scores.
-    """
-    # All at once, since drawing a scene 4,800 times a second takes longer than its pixels do.
-    sensors = {
-        (target, noise): (dataclasses.replace(TARGETS[target], sensor_seed=sensor), noise)
-        for target in plan.targets
-        for noise, sensor in (
-            (REFERENCE_SEED, SENSOR_SEED),
-            (FLOOR_SEED, SENSOR_SEED),
-            (OTHER_SEED, OTHER_SENSOR_SEED),
-        )
-    }
-    recordings = {
-        seed: record(oracle_scene(scene, seed), sensors)
-        for seed in (*plan.fit_seeds, *plan.score_seeds)
-    }
-    found = []
-    for target in plan.targets:
-        references, seconds, others = (
-            {texture: all_of[target, noise] for texture, all_of in recordings.items()}
-            for noise in (REFERENCE_SEED, FLOOR_SEED, OTHER_SEED)
-        )
-        truth = TrueRecordings(scene=scene, target=target, references=references)
-        bounds = _measure_bounds(plan, truth, seconds)
-        found.append((truth, bounds, _score_other_sensor(plan, truth, others)))
-    return found
-
-
-def _score_other_sensor(
-    plan: FidelityPlan, truth: TrueRecordings, others: Mapping[int, EventStream]
-) -> Score:
-    """What the recordings of another sensor score against the truth."""
-    simulated = [others[seed] for seed in plan.score_seeds]
-    return Score(
-        scene=truth.scene,
-        target=truth.target,
-        entry=OTHER_SENSOR,
-        track="recorded",
-        threshold=None,
-        is_matched=True,
-        default_ratio=math.nan,
-        seconds=0.0,
-        **_judge(plan, truth, simulated),
-    )
-
-
-def _judge(
-    plan: FidelityPlan, truth: TrueRecordings, simulated: Sequence[EventStream]
-) -> dict[str, Any]:
-    """`values` and `details` of a score."""
-    references = [truth.references[seed] for seed in plan.score_seeds]
-    return {
-        "values": compare_all(simulated, references, plan.metrics),
-        "details": describe(simulated, references, known_flow(truth.scene)),
-    }
-
-
-def _measure_bounds(
-    plan: FidelityPlan, truth: TrueRecordings, seconds: Mapping[int, EventStream]
-) -> Reference:
-    """What second recordings and shuffled ones score against the truth."""
-    scored = [truth.references[seed] for seed in plan.score_seeds]
-    floors = [seconds[seed] for seed in plan.score_seeds]
-    nulls = [perturb(events, NULL) for events in scored]
-    return Reference(
-        scene=truth.scene,
-        target=truth.target,
-        events=[len(events) for events in scored],
-        floor=compare_all(floors, scored, plan.metrics),
-        null=compare_all(nulls, scored, plan.metrics),
-        details=describe(floors, scored, known_flow(truth.scene)),
-    )
-
-
-def score_entry(plan: FidelityPlan, truth: TrueRecordings, entry: Entry) -> Score | tuple[str, str]:
-    """One entry on one scene: δ fitted on the fitting seeds, scored on the others.
+def score_entry(truth: Truth, entry: Entry, metrics: Metrics) -> Score | tuple[str, str]:
+    """One entry on one truth.
 
     Returns:
         The score, or (name of the entry, why it cannot run).
     """
-    scenes = {seed: oracle_scene(truth.scene, seed) for seed in truth.references}
-
-    def count_events(threshold: float | None) -> int:
-        return sum(len(entry.simulate(scenes[seed], seed, threshold)) for seed in plan.fit_seeds)
-
-    target = sum(len(truth.references[seed]) for seed in plan.fit_seeds)
     try:
-        match, default_ratio = fit_threshold(count_events, target, entry.default_threshold)
+        match, default_ratio = fit_threshold(
+            lambda threshold: truth.count(entry, threshold),
+            truth.fit_count,
+            entry.default_threshold,
+        )
         start = time.perf_counter()
-        simulated = [
-            entry.simulate(scenes[seed], seed, match.threshold if match else None)
-            for seed in plan.score_seeds
-        ]
-        seconds = (time.perf_counter() - start) / len(simulated)
+        simulated = truth.simulate(entry, match.threshold if match else None)
+        seconds = time.perf_counter() - start
     except TexventError as error:
         return entry.name, str(error)
     return Score(
@@ -256,8 +106,47 @@ def score_entry(plan: FidelityPlan, truth: TrueRecordings, entry: Entry) -> Scor
         threshold=match.threshold if match else None,
         is_matched=bool(match and match.is_matched),
         default_ratio=default_ratio,
+        values=compare_all(simulated, truth.references, metrics),
         seconds=seconds,
-        **_judge(plan, truth, simulated),
+    )
+
+
+def score_recorded(
+    truth: Truth,
+    entry: str,
+    events: Sequence[EventStream],
+    metrics: Metrics,
+    *,
+    references: Sequence[EventStream] | None = None,
+) -> Score:
+    """Events of a sensor, window by window, as a row of the table.
+
+    Args:
+        truth: scene or recording of the row.
+        entry: name of the row.
+        events: of each window.
+        metrics: names, or metrics.
+        references: true events of each window; None: those of the truth.
+    """
+    return Score(
+        scene=truth.scene,
+        target=truth.target,
+        entry=entry,
+        track="recorded",
+        values=compare_all(events, references or truth.references, metrics),
+    )
+
+
+def measure_bounds(
+    truth: Truth, floors: Sequence[EventStream], nulls: Sequence[EventStream], metrics: Metrics
+) -> Reference:
+    """Scores of a second recording and of the null, both window by window."""
+    return Reference(
+        scene=truth.scene,
+        target=truth.target,
+        events=[len(events) for events in truth.references],
+        floor=compare_all(floors, truth.references, metrics),
+        null=compare_all(nulls, truth.references, metrics),
     )
 
 
@@ -272,7 +161,7 @@ def fit_threshold(
         default: where the search starts, log units; None for a simulator without a threshold.
 
     Returns:
-        What was found, None without a threshold; events per true event before the search.
+        The match, None without a threshold; events per true event before the search.
     """
     counts: dict[float | None, int] = {}
 
@@ -290,9 +179,7 @@ def fit_threshold(
 
 
 def compare_all(
-    predicted: Iterable[EventStream],
-    references: Iterable[EventStream],
-    metrics: Sequence[str | Metric],
+    predicted: Iterable[EventStream], references: Iterable[EventStream], metrics: Metrics
 ) -> dict[str, list[float]]:
     """Name of the metric → value per pair of a simulated and a true stream."""
     rows = [compare(one, other, metrics) for one, other in zip(predicted, references, strict=True)]

@@ -7,11 +7,11 @@ from collections.abc import Iterable, Iterator, Sequence
 
 from texvent.errors import ConfigError, shown
 from texvent.extending import suggest
-from texvent.metrics.summary import normalise, summarise
 from texvent_lab.bench.document import markdown_table
 from texvent_lab.bench.fidelity.comparison import Comparison, comparison_note, difference_text
 from texvent_lab.bench.fidelity.results import FidelityReport, Reference, Score
 from texvent_lab.bench.oracle.pixel import TARGETS
+from texvent_lab.bench.summary import normalise, summarise
 
 BASELINE = "texvent paper, blend"
 """The paper's own method: what the others are compared with, pair by pair."""
@@ -24,9 +24,6 @@ COLUMNS = {
 }
 """Metric → title; those that were not measured are left out."""
 BEHIND = "behind the best"
-
-MOTION = (("sharpness", "sharpness ↑", 3), ("flow_error", "flow error px/s", 0))
-"""Field of the details, title, digits."""
 
 
 def check_baseline(baseline: str, entries: Iterable[str], *, default: str = BASELINE) -> None:
@@ -63,37 +60,6 @@ def fidelity_tables(report: FidelityReport, *, baseline: str = BASELINE) -> str:
         parts.append("Not run:\n")
         parts += [f"- {'; '.join(names)}: {why}\n" for why, names in reasons.items()]
     return "\n".join(parts)
-
-
-def motion_table(report: FidelityReport) -> str:
-    """Sharpness along the known flow and error of the estimated flow, where they are defined."""
-    columns = [
-        (reference, name, title, digits)
-        for reference in report.references
-        for name, title, digits in MOTION
-        if summarise(getattr(reference.details, name)).defined
-    ]
-    titles = [f"{one.scene}, {one.target}: {title}" for one, _, title, _ in columns]
-    rows = {f"floor: {report.floor_name}": {_place(one): one.details for one in report.references}}
-    for score in report.scores:
-        rows.setdefault(score.entry, {})[_place(score)] = score.details
-    cells = [
-        [
-            entry,
-            *(
-                _mean_and_error(getattr(details[_place(one)], name), digits)
-                if _place(one) in details
-                else "–"
-                for one, name, _, digits in columns
-            ),
-        ]
-        for entry, details in rows.items()
-    ]
-    return markdown_table(["entry", *titles], cells)
-
-
-def _place(part: Reference | Score) -> tuple[str, str]:
-    return part.scene, part.target
 
 
 def _overview(report: FidelityReport) -> str:

@@ -30,7 +30,7 @@ LEAST_THRESHOLD = 0.06
 
 @dataclass(frozen=True, kw_only=True)
 class PixelModel:
-    """What the pixels of a recording do."""
+    """Parameters of the pixels of a recording."""
 
     dark_level: float = 0.004
     """Radiance added before the logarithm: the dark current."""
@@ -40,7 +40,7 @@ class PixelModel:
     cutoff_hz: float = math.inf
     """Bandwidth at radiance 0.5 and above; proportionally less below."""
     refractory_us: float = 0.0
-    """How long an event holds its pixel in reset."""
+    """Reset after an event, µs."""
     leak_hz: float = 0.0
     shot_hz: float = 0.0
     """Noise events per second of a dark pixel; a quarter of it at radiance 0.8 and above."""
@@ -48,7 +48,7 @@ class PixelModel:
     has_random_phase: bool = False
     """Start anywhere between the two thresholds, not just reset."""
     sensor_seed: int = SENSOR_SEED
-    """Which sensor of the kind it is."""
+    """Seed of the fixed pattern."""
 
 
 IDEAL = PixelModel()
@@ -143,7 +143,7 @@ class PixelArray:
         return self._level + share * (np.log(light) - self._level)
 
     def _leak(self, duration_us: float) -> Float64Array | float:
-        """How far the reference sinks: ON events at the leak rate where nothing moves."""
+        """Fall of the reference, log units: ON events at the leak rate where nothing moves."""
         if not self._model.leak_hz:
             return 0.0
         return self._model.leak_hz * duration_us / MICROSECONDS * self._on * self._pattern

@@ -21,9 +21,9 @@ FPS = Fraction(24)
 FRAMES = 13
 """Frames of a video: 12 intervals of 1/24 s are half a second."""
 STEP_RATE = Fraction(4800)
-"""How often the pixels see the scene, per second."""
+"""Exposures of the pixels, per second."""
 Name = TypeVar("Name")
-"""What tells one recording from another."""
+"""Key of a recording."""
 
 
 def render_video(scene: Scene, *, frames: int = FRAMES) -> Video:

@@ -124,11 +124,6 @@ def check_scene(name: str) -> None:
         raise ConfigError(f"unknown scene {shown(name)}; {suggest(name, scene_names())}")
 
 
-def known_flow(name: str) -> tuple[float, float] | None:
-    """Velocity (vx, vy) of everything in a scene, px/s, where the whole scene moves as one."""
-    return FLOWS.get(name)
-
-
 def panning_texture(
     noise: ValueNoise, size: SensorSize, seconds: float, velocity: tuple[float, float]
 ) -> Float64Array:
@@ -203,7 +198,7 @@ def _paint(image: Float64Array, coverage: Float64Array, radiance: float) -> None
 
 
 def _bounce(distance: float, low: float, high: float) -> float:
-    """Where something is that runs to and fro between two ends."""
+    """Position of an object that runs to and fro between two ends."""
     phase = distance % (2 * (high - low))
     return low + min(phase, 2 * (high - low) - phase)
 
@@ -236,7 +231,7 @@ SECONDS = 0.5
 def build_prompt_scene(
     prompt: str, seed: int, size: SensorSize
 ) -> Callable[[float], NDArray[np.float64]]:
-    """What a prompt shows, at any instant.
+    """Radiance of a prompt's scene at any instant.
 
     The generator draws each instant anew, so nothing between two frames is guessed. Its levels
     are taken for those of the benchmark's camera before rounding: the camera gives them back.

@@ -1,4 +1,4 @@
-"""The figures of the paper's tables, and tables that compare ours with them.
+"""The paper's tables, and tables that compare measured values with them.
 
 Source: "Texvent: Asynchronous Event Data Simulation via Text Prompt", Tables 1 and 2 of the paper,
 Tables 4, 5, 7, 8 and 9 of its supplement.
@@ -6,9 +6,8 @@ Tables 4, 5, 7, 8 and 9 of its supplement.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import TypeAlias
 
 from texvent_lab.bench.document import markdown_table
 
@@ -16,9 +15,6 @@ SIMULATORS = ("VID2E", "V2E", "V2CE", "DVS-Voltmeter", "SENPI", "Texvent")
 
 IMAGE_ROWS: Mapping[str, str] = {"MSE ↓": "mse", "SSIM ↑": "ssim", "LPIPS ↓": "lpips"}
 """Row of reconstructed images → measure."""
-
-Figures: TypeAlias = Mapping[str, Mapping[str, str]]
-"""Row → column → figure as text."""
 
 
 @dataclass(frozen=True)
@@ -29,17 +25,18 @@ class PaperTable:
     title: str
     columns: tuple[str, ...]
     rows: Mapping[str, tuple[float, ...]]
-    """What is measured → the paper's figure per column."""
+    """Row → the paper's value per column."""
     digits: int = 4
 
 
 @dataclass(frozen=True)
-class OurFigures:
-    """What was found here for one table."""
+class Measured:
+    """Values that were measured here for one table."""
 
-    figures: Figures = field(default_factory=dict)
+    rows: Mapping[str, Mapping[str, str]] = field(default_factory=dict)
+    """Row → column → value as text."""
     notes: Sequence[str] = ()
-    """How the figures were made, where that is not the paper's way."""
+    """Differences to the paper's measurement."""
     needs: Sequence[str] = ()
     """Inputs that are missing for the rest."""
 
@@ -116,31 +113,28 @@ TABLES: Mapping[int, PaperTable] = {
 """Number → table."""
 
 
-def join_figures(parts: Sequence[OurFigures]) -> OurFigures:
-    """Figures of several parts of one table; what is said twice is said once."""
-    return OurFigures(
-        {row: cells for part in parts for row, cells in part.figures.items()},
+def join_measured(parts: Sequence[Measured]) -> Measured:
+    """Values of several parts of one table; equal notes and needs once."""
+    return Measured(
+        {row: cells for part in parts for row, cells in part.rows.items()},
         tuple(dict.fromkeys(note for part in parts for note in part.notes)),
         tuple(dict.fromkeys(need for part in parts for need in part.needs)),
     )
 
 
-def compare_with_paper(table: PaperTable, ours: OurFigures) -> str:
-    """A Markdown table with the paper's figures and ours, row by row."""
+def compare_with_paper(table: PaperTable, ours: Measured) -> str:
+    """A Markdown table with the paper's values and ours, row by row."""
     rows: list[list[str]] = []
-    for name in dict.fromkeys((*table.rows, *ours.figures)):
+    for name in dict.fromkeys((*table.rows, *ours.rows)):
         is_published = name in table.rows
         if is_published:
             rows.append([name, "paper", *(f"{one:.{table.digits}f}" for one in table.rows[name])])
-        found = ours.figures.get(name, {})
+        found = ours.rows.get(name, {})
         if found or not is_published:
             label = "" if is_published else name
             rows.append([label, "here", *(found.get(one, "–") for one in table.columns)])
     shown = markdown_table(["", "", *table.columns], rows)
-    remarks = "\n".join(["", *_remarks(ours)])
-    return f"### Table {table.number}: {table.title}\n\n{shown}{remarks}\n"
-
-
-def _remarks(ours: OurFigures) -> Iterator[str]:
-    yield from (f"- {note}" for note in ours.notes)
-    yield from (f"- Not measured: {need}" for need in ours.needs)
+    remarks = [f"- {note}" for note in ours.notes]
+    remarks += [f"- Not measured: {need}" for need in ours.needs]
+    lines = "\n".join(["", *remarks])
+    return f"### Table {table.number}: {table.title}\n\n{shown}{lines}\n"

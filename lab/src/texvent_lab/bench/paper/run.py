@@ -1,185 +1,336 @@
-"""Runs of the paper's tables and of folders of config files."""
+"""The paper's tables, measured with the inputs at hand."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+import time
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
 
-from texvent.data.pull import find_pulled
-from texvent.errors import InputError, MissingDependencyError
+import numpy as np
+
+from texvent.errors import InputError, MissingDependencyError, TexventError
+from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
+from texvent.metrics.compare import load_metric
 from texvent.metrics.latent_similarity import load_eqs
+from texvent.metrics.protocol import Metric
+from texvent.sensor import SENSORS
+from texvent.video import Video
+from texvent_lab.bench.fidelity.comparison import difference_text
+from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, simulate_video
+from texvent_lab.bench.fidelity.results import FidelityReport
 from texvent_lab.bench.jobs import Progress
-from texvent_lab.bench.paper.published_tables import OurFigures, join_figures
-from texvent_lab.bench.paper.tables import (
-    accuracy_figures,
-    eqs_figures,
-    event_frame_figures,
-    image_figures,
-    noise_figures,
-    time_figures,
-)
+from texvent_lab.bench.paper.config import ABLATIONS, BASELINE, PaperConfig
+from texvent_lab.bench.paper.published_tables import IMAGE_ROWS, TABLES, Measured, join_measured
 from texvent_lab.bench.real.recording import (
-    WITH_FRAMES,
-    FrameRecording,
     RealScene,
-    locate_source,
-    open_recording,
     open_scene,
 )
+from texvent_lab.bench.real.run import run_real
+from texvent_lab.bench.reconstruction.run import (
+    ReconstructionPlan,
+    ReconstructionScorer,
+    noise_curve,
+    run_reconstruction,
+)
+from texvent_lab.bench.reconstruction.scores import pool_scores
+from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor
-from texvent_lab.registries import RECONSTRUCTORS
+from texvent_lab.train.classification.config import (
+    ClassData,
+    ClassificationConfig,
+    ClassNetwork,
+)
+from texvent_lab.train.schedule import Hardware
 
 NETWORKS = {1: "e2vid", 7: "e2vid", 8: "et-net"}
 """Table → the network that the paper reconstructs with."""
+ENTRIES: Mapping[str, Entry] = {
+    "VID2E": Entry(simulator="esim", interpolate="flow"),
+    "V2E": Entry(simulator="v2e", interpolate="flow"),
+    "V2CE": Entry(simulator="v2ce", interpolate="none"),
+    "DVS-Voltmeter": Entry(simulator="voltmeter", interpolate="none"),
+    "SENPI": Entry(simulator="senpi", interpolate="none"),
+    "Texvent": Entry(simulator="texvent", preset="paper", interpolate="flow"),
+}
+"""Column of the paper → its counterpart here. Those that come with a network for interpolation
+get motion compensation, as Texvent does; the others get the frames alone."""
+CLASSIFIER = ClassNetwork(name="resnet34", representation="binary-event-image")
+"""N-ImageNet's published classifier."""
+OWN_MODELS = "the other simulators are texvent's models of them; docs/simulators.md says how close"
+EVENT_FRAMES = {"MSE ↓": "ef_mse", "SSIM ↑": "ef_ssim", "LPIPS ↓": "ef_lpips"}
+PROMPT = "a red car drives left past two trees at dusk"
+TIMED_PAIRS, REPEATS = 12, 3
+EQS_NEED = (
+    "EQS itself: it needs RVT's weights, and streams of N-ImageNet and streams simulated from "
+    "their captions, which no one publishes"
+)
 
 
-@dataclass(frozen=True, kw_only=True)
-class PaperInputs:
-    """What the user has.
-
-    Raises:
-        ConfigError: an unknown network.
-    """
-
-    recordings: tuple[str, ...] = ()
-    """Names of pulled data sets, or paths of recordings; none: those data sets with frames that
-    are pulled."""
-    is_rate_matched: bool = True
-    """Fit each δ to the recorded number of events; else presets keep theirs, as in the paper."""
-    weights: Path | None = None
-    """Of the network of tables 1, 7 and 8, or of the classifier of table 9."""
-    network: str | None = None
-    """Name of the network; None: the paper's."""
-    rvt_weights: Path | None = None
-    folder: Path | None = None
-    """Table 9: a sub-folder per column, each with a sub-folder of event files per class."""
-    classes: Path | None = None
-    """Table 9: names of the classes in the classifier's order."""
-    jobs: int = 1
-    """Processes for event frames and EQS."""
-
-    def __post_init__(self) -> None:
-        if self.network is not None:
-            RECONSTRUCTORS.load(self.network)
-
-    @property
-    def sources(self) -> tuple[str, ...]:
-        """Recordings to use; none if nothing is named and nothing pulled."""
-        pulled = tuple(name for name in WITH_FRAMES if find_pulled(name) is not None)
-        return self.recordings or pulled
-
-    def scenes(self) -> list[RealScene]:
-        """Parts of the recordings, in memory."""
-        return [open_scene(source) for source in self.sources]
-
-    def whole_recordings(self) -> list[FrameRecording]:
-        """The recordings, to be read through."""
-        return [open_recording(locate_source(source)[0]) for source in self.sources]
-
-    def reconstructor(self, table: int) -> Reconstructor:
-        """The network of a table.
-
-        Raises:
-            ConfigError: it does not exist.
-            InputError: its weights are missing; the message says where they come from.
-            FileFormatError: the weights are damaged or of another network.
-            MissingDependencyError: torch is not installed.
-        """
-        return load_reconstructor(self.network or NETWORKS[table], self.weights)
-
-
-def measure_table(number: int, inputs: PaperInputs, progress: Progress) -> OurFigures:
-    """Our figures of one table, and what is missing for the rest.
+def measure_table(config: PaperConfig, progress: Progress) -> Measured:
+    """Values of one table, and what is missing for the rest.
 
     Args:
-        number: 1, 2, 7, 8 or 9; `paper_ablations` has 4 and 5.
-        inputs: what there is.
+        config: of table 1, 2, 7, 8 or 9; `measure_ablations` has 4 and 5.
         progress: told of every step.
 
     Raises:
         InputError, FileFormatError: an input that was named is missing or damaged.
+        ConfigError: the network does not exist.
     """
-    if number == 9:
-        return _measure_accuracy(inputs, progress)
-    if number != 2 and not inputs.sources:
-        return OurFigures(
+    if config.table == 9:
+        return measure_accuracy(config, progress)
+    if config.table == 2:
+        return join_measured([measure_times(progress), measure_eqs(config, progress)])
+    if not config.sources:
+        return Measured(
             needs=["anything; texvent data pull slider_depth, or --recordings with a recording"]
         )
-    if number == 2:
-        return _measure_eqs_and_time(inputs, progress)
-    network, missing = _find_network(number, inputs)
     found = []
-    if number == 1:
-        for need in missing.needs:  # said before what takes minutes
-            progress(f"not measured: {need}")
-        found.append(
-            event_frame_figures(
-                inputs.scenes(),
-                is_rate_matched=inputs.is_rate_matched,
-                jobs=inputs.jobs,
-                progress=progress,
-            )
-        )
-    if network is not None:
-        found.append(_measure_images(number, inputs, network, progress))
-    return join_figures([*found, missing])
-
-
-def _find_network(number: int, inputs: PaperInputs) -> tuple[Reconstructor | None, OurFigures]:
-    """The network of a table, or None and what is missing."""
+    if config.table == 1:
+        scenes = [open_scene(source) for source in config.sources]
+        found.append(measure_event_frames(scenes, config, progress))
     try:
-        return inputs.reconstructor(number), OurFigures()
+        name = config.network or NETWORKS[config.table or 1]
+        network = load_reconstructor(name, config.weights)
     except (InputError, MissingDependencyError) as error:
-        if inputs.weights is not None:
+        if config.weights is not None:
             raise
-        return None, OurFigures(needs=[f"images; {error}"])
+        return join_measured([*found, Measured(needs=[f"images; {error}"])])
+    measure = measure_noise if config.table == 7 else measure_images
+    return join_measured([*found, measure(config, network, progress)])
 
 
-def _measure_images(
-    number: int, inputs: PaperInputs, network: Reconstructor, progress: Progress
-) -> OurFigures:
-    if number == 7:
-        return noise_figures(inputs.whole_recordings(), network, progress=progress)
-    return image_figures(
-        inputs.whole_recordings(),
-        network,
-        prefix="images: " if number == 1 else "",
-        is_rate_matched=inputs.is_rate_matched,
-        progress=progress,
-    )
+def leave_out_other_tables(number: int, entries: Sequence[ConfigEntry]) -> list[ConfigEntry]:
+    """The rows of Table 4 or 5, and the user's own; not those of the other of the two."""
+    others = {column for table in ABLATIONS for column in TABLES[table].columns}
+    return [one for one in entries if one.name not in others - set(TABLES[number].columns)]
 
 
-def _measure_eqs_and_time(inputs: PaperInputs, progress: Progress) -> OurFigures:
-    eqs = None if inputs.rvt_weights is None else load_eqs(inputs.rvt_weights)
-    found = [time_figures(progress)]
-    if eqs is None or not inputs.sources:
-        needs = [
-            "EQS; --rvt-weights FILE (docs/metrics.md says where it comes from) and a "
-            "recording, such as texvent data pull slider_depth"
-        ]
-        found.append(OurFigures(needs=needs))
-    else:
-        found.append(
-            eqs_figures(
-                inputs.scenes(),
-                eqs,
-                is_rate_matched=inputs.is_rate_matched,
-                jobs=inputs.jobs,
-                progress=progress,
-            )
-        )
-    return join_figures(found)
+def measure_ablations(number: int, report: FidelityReport) -> Measured:
+    """STPP of the rows of Table 4 or 5, and its paired difference to the paper's own setting.
+
+    Args:
+        number: 4 or 5.
+        report: a run of the files in configs/paper, on scenes, on recordings, or both.
+    """
+    rows: dict[str, dict[str, str]] = {}
+    for reference in report.references:
+        scores = {one.entry: one for one in report.ranked(reference.scene, reference.target)}
+        compared = report.comparison(reference)
+        has_baseline = BASELINE in scores
+        against = compared.differences(BASELINE) if has_baseline and compared.is_enough else None
+        stpp: dict[str, str] = {}
+        difference: dict[str, str] = {}
+        for column in TABLES[number].columns:
+            if column not in scores:
+                continue
+            score = scores[column]
+            lost = " (count not reached)" if score.threshold and not score.is_matched else ""
+            stpp[column] = f"{score.summary('stpp').mean:.3f}{lost}"
+            if not has_baseline or column == BASELINE:
+                continue
+            if against is not None:
+                difference[column] = difference_text(against[column], sign="+")
+            else:
+                found = score.difference("stpp", scores[BASELINE])
+                difference[column] = f"{found.mean:+.3f} ± {found.standard_error:.3f}"
+        rows[f"STPP ↑, {reference.title}"] = stpp
+        rows[f"− {BASELINE}, {reference.title}"] = difference
+    return Measured(rows, needs=[EQS_NEED])
 
 
-def _measure_accuracy(inputs: PaperInputs, progress: Progress) -> OurFigures:
-    if inputs.folder is None or inputs.weights is None:
-        return OurFigures(
+def measure_event_frames(
+    scenes: Sequence[RealScene], config: PaperConfig, progress: Progress
+) -> Measured:
+    """Table 1, event frames: MSE, SSIM and, where its weights are, LPIPS."""
+    missing = {name: load_metric(name).missing() for name in EVENT_FRAMES.values()}
+    metrics = ["stpp", *(name for name, reason in missing.items() if reason is None)]
+    report = _run(scenes, metrics, config, progress)
+    rows = {
+        f"event frames: {title}": _means(report, name)
+        for title, name in EVENT_FRAMES.items()
+        if name in metrics
+    }
+    notes = [f"recordings: {', '.join(scene.scene for scene in scenes)}", OWN_MODELS]
+    needs = [f"{name}: {reason}" for name, reason in missing.items() if reason is not None]
+    return Measured(rows, notes, [*needs, *_reasons(report.skipped)])
+
+
+def measure_eqs(config: PaperConfig, progress: Progress) -> Measured:
+    """Table 2, first row: EQS against the recording of the same scene."""
+    if config.rvt_weights is None or not config.sources:
+        return Measured(
             needs=[
-                "anything; --folder DIR with recorded and simulated streams per class, and "
-                "--weights FILE of N-ImageNet's classifier (texvent bench classify says where it "
-                "comes from)"
+                "EQS; --rvt-weights FILE (docs/metrics.md says where it comes from) and a "
+                "recording, such as texvent data pull slider_depth"
             ]
         )
-    return accuracy_figures(
-        inputs.folder, inputs.weights, classes=inputs.classes, progress=progress
+    eqs = load_eqs(config.rvt_weights)
+    scenes = [open_scene(source) for source in config.sources]
+    report = _run(scenes, [eqs], config, progress)
+    notes = [
+        f"EQS against recordings of the same scene ({', '.join(one.scene for one in scenes)}); the "
+        "paper compares with other recordings of the same class",
+        OWN_MODELS,
+    ]
+    return Measured({"EQS ↑": _means(report, "eqs")}, notes, _reasons(report.skipped))
+
+
+def measure_times(progress: Progress) -> Measured:
+    """Table 2, second row: seconds per pair of 346x260 frames, interpolation included."""
+    generator = ProceduralGenerator(
+        ProceduralConfig(duration=TIMED_PAIRS / 24), size=SENSORS["davis346"].size
     )
+    frames = list(generator.generate(PROMPT))
+    levels = np.stack([np.rint(frame.luma).astype(np.uint8) for frame in frames])
+    video = Video(levels, [frame.t_us for frame in frames])
+    found: dict[str, str] = {}
+    needs: list[str] = []
+    for column, entry in ENTRIES.items():
+        progress(f"time: {entry.name}")
+        try:
+            found[column] = f"{_seconds_per_pair(video, entry):.4f}"
+        except TexventError as error:
+            needs.append(f"{column}: {error}")
+    notes = [
+        f"time: best of {REPEATS} runs over {TIMED_PAIRS} pairs of 346x260 frames of a scene of "
+        "the embedded generator on this machine's processor, interpolation included; the paper "
+        "used an H100. The programs themselves, installed by package name, are timed by "
+        "lab/src/texvent_lab/measure/speed",
+    ]
+    return Measured({"time, s": found}, notes, needs)
+
+
+def _seconds_per_pair(video: Video, entry: Entry) -> float:
+    settings = entry.settings(0)
+    simulate_video(video, settings, None)  # kernels are compiled and loaded
+    seconds = []
+    for _ in range(REPEATS):
+        start = time.perf_counter()
+        simulate_video(video, settings, None)
+        seconds.append(time.perf_counter() - start)
+    return min(seconds) / (len(video) - 1)
+
+
+def measure_images(config: PaperConfig, network: Reconstructor, progress: Progress) -> Measured:
+    """Tables 1 and 8: images that a network makes of the events, against the true frames."""
+    recordings = config.whole_recordings()
+    plan = ReconstructionPlan(entries=tuple(ENTRIES.values()), is_rate_matched=config.match_rate)
+    scorer = ReconstructionScorer(reconstructor=network, measures=load_measures(), plan=plan)
+    report = run_reconstruction(recordings, scorer, progress=progress)
+    prefix = "images: " if config.table == 1 else ""
+    rows = {
+        f"{prefix}{title}": {
+            column: f"{pool_scores(row.scores for row in rows).mean(measure):.3f}"
+            for column, entry in ENTRIES.items()
+            if (rows := report.rows_of(entry.name))
+        }
+        for title, measure in IMAGE_ROWS.items()
+        if measure not in report.absent
+    }
+    notes = [
+        f"images by {report.network} from {', '.join(one.name for one in recordings)}",
+        OWN_MODELS,
+    ]
+    return Measured(rows, notes, _reasons({**report.absent, **report.skipped}))
+
+
+def measure_noise(config: PaperConfig, network: Reconstructor, progress: Progress) -> Measured:
+    """Table 7: images from perturbed events against those from the unperturbed ones."""
+    recordings = config.whole_recordings()
+    measures = load_measures()
+    scorer = ReconstructionScorer(
+        reconstructor=network, measures=measures, plan=ReconstructionPlan(entries=())
+    )
+    curves = []
+    for recording in recordings:
+        progress(f"{recording.name}: noise curve")
+        curves.append(noise_curve(recording, scorer))
+    pooled = dict(zip(TABLES[7].columns, map(pool_scores, zip(*curves, strict=True)), strict=True))
+    rows = {
+        title: {column: f"{one.mean(measure):.4f}" for column, one in pooled.items()}
+        for title, measure in IMAGE_ROWS.items()
+        if measure not in measures.absent
+    }
+    notes = [
+        f"{network.name} on {', '.join(one.name for one in recordings)}; a perturbed event "
+        "is moved to a random place, which the paper leaves open, and images are compared with "
+        "those from the unperturbed events"
+    ]
+    return Measured(rows, notes, _reasons(measures.absent))
+
+
+def measure_accuracy(config: PaperConfig, progress: Progress) -> Measured:
+    """Table 9: top-1 and top-5 of folders of streams by N-ImageNet's protocol.
+
+    A random run of 30,000 events of each file, scaled to 224x224, as a binary event image per
+    polarity, through the published ResNet-34.
+
+    Raises:
+        InputError: no sub-folder has a column's name, or one has other classes than the network.
+    """
+    if config.folder is None or config.weights is None:
+        return Measured(
+            needs=[
+                "anything; --folder DIR with recorded and simulated streams per class, and "
+                "--weights FILE of N-ImageNet's classifier, ResNet34 on binary event images "
+                "(reshape_then_flat_pol), which the project 82magnolia/n_imagenet on GitHub links"
+            ]
+        )
+    named = {one.name.lower(): one for one in config.folder.iterdir() if one.is_dir()}
+    rows: dict[str, dict[str, str]] = {title: {} for title in TABLES[9].rows}
+    absent = [column.lower() for column in TABLES[9].columns if column.lower() not in named]
+    if len(absent) == len(TABLES[9].columns):
+        raise InputError(
+            f"{config.folder} has no sub-folder of Table 9's columns; name them {', '.join(absent)}"
+        )
+    for column in TABLES[9].columns:
+        if column.lower() in named:
+            progress(f"classifying {named[column.lower()]}")
+            for title, share in zip(rows, _accuracies(named[column.lower()], config.weights),
+                                    strict=True):  # fmt: skip
+                rows[title][column] = f"{share:.4f}"
+    needs = [f"folders {', '.join(absent)} in {config.folder}"] if absent else []
+    return Measured(rows, needs=needs)
+
+
+def _accuracies(folder: Path, weights: Path) -> tuple[float, float]:
+    """Top-1 and top-5 accuracy of the streams of a folder per class."""
+    from texvent_lab.train.run import evaluate  # brings torch
+
+    data = ClassData(
+        recordings=folder.parent,
+        validation_split=folder.name,
+        sensor="640x480",
+        slice_events=30_000,
+        image_size="224x224",
+    )
+    # On the CPU: an accuracy must not depend on the machine.
+    training = ClassificationConfig(data=data, network=CLASSIFIER)
+    scores = evaluate(training, weights, Hardware(device="cpu")).scores
+    return scores["accuracy"], scores.get("top-5 accuracy", 1.0)
+
+
+def _run(
+    scenes: Sequence[RealScene],
+    metrics: Sequence[str | Metric],
+    config: PaperConfig,
+    progress: Progress,
+) -> FidelityReport:
+    entries = [replace(entry, is_rate_matched=config.match_rate) for entry in ENTRIES.values()]
+    return run_real(scenes, entries, metrics, jobs=config.jobs, progress=progress)
+
+
+def _means(report: FidelityReport, metric: str) -> dict[str, str]:
+    """Mean over recordings and their spans, per column."""
+    found: dict[str, str] = {}
+    for column, entry in ENTRIES.items():
+        scores = [one for one in report.scores if one.entry == entry.name]
+        if scores:
+            found[column] = f"{np.mean([one.summary(metric).mean for one in scores]):.3f}"
+    return found
+
+
+def _reasons(skipped: Mapping[str, str]) -> list[str]:
+    return [f"{name}: {why}" for name, why in skipped.items()]

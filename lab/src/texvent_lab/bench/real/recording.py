@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 
@@ -19,7 +19,10 @@ from texvent.errors import InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.files import open_events
+from texvent.options.fields import option_names
+from texvent.settings.resolution import Settings, apply_options
 from texvent.video import MICROSECONDS, Frame, FrameStream, Video
+from texvent_lab.bench.fidelity.entries import Entry, simulate_video
 
 ECD_EVENTS, ECD_FRAMES = "events.txt", "images.txt"
 
@@ -63,9 +66,7 @@ class FrameRecording:
         return None if span is None else (_us(span[0]), _us(span[1]))
 
 
-def open_recording(
-    path: Path, *, frames: str | None = None, size: tuple[int, int] | None = None
-) -> FrameRecording:
+def open_recording(path: Path, *, frames: str | None = None) -> FrameRecording:
     """A recording from the files it is usually kept in.
 
     Args:
@@ -73,9 +74,7 @@ def open_recording(
             images, a DSEC sequence, an AEDAT4 file with frames, or any event file if `frames` is
             given.
         frames: the frames, where they lie elsewhere: a video file or image folder on the clock of
-            the events.
-        size: sensor size (width, height), for event formats that do not store it; default: that of
-            the frames.
+            the events. Events without a stored size have that of the frames.
 
     Raises:
         InputError: there is no such recording, or it holds no frames.
@@ -92,7 +91,7 @@ def open_recording(
                 "--frames"
             )
     video = open_frames(frames or str(path), CaptureConfig())
-    events = open_events(_events_of(path), size=size or video.size)
+    events = open_events(_events_of(path), size=video.size)
     return FrameRecording(name=path.resolve().stem, frames=video, events=events)
 
 
@@ -113,12 +112,13 @@ SEGMENT_US, EDGE_US = 100_000, 50_000
 MOST_SEGMENTS = 20
 FIT_SECONDS = 0.6
 DISPLAY_GAMMA, LINEAR_GAMMA = 2.2, 1.0
+MAX_INTERMEDIATE, SEED = 16, 0
 WITH_FRAMES = ("slider_depth", "davis346")
 """Data sets that hold frames and events."""
 
 
 class RecordingPart(NamedTuple):
-    """Which part of a recording is used, and how its clocks fit."""
+    """Part of a recording that is used, and offset of its clocks."""
 
     start_s: float = 0.0
     """Skipped at the start of the frames, s."""
@@ -134,18 +134,44 @@ class RecordingPart(NamedTuple):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class RealScene:
-    """Frames and events of one sensor on one clock, in memory, with what is fitted and scored."""
+    """Frames and events of one sensor on one clock, in memory; see `Truth`."""
 
-    name: str
+    scene: str
     video: Video
     """Frames, moved by the offset."""
     events: EventStream
     fit: TimeSpan
-    """Where δ is fitted."""
+    """Span in which δ is fitted."""
     scored: tuple[TimeSpan, ...]
-    """What is scored, span by span."""
+    """Spans that are scored."""
     frames_gamma: float
     offset_us: int
+
+    target: ClassVar[str] = "recorded"
+    """In place of the oracle's kind of pixels."""
+
+    @property
+    def references(self) -> list[EventStream]:
+        """See `Truth`."""
+        return [self.recorded(span) for span in self.scored]
+
+    @property
+    def fit_count(self) -> int:
+        """See `Truth`."""
+        return len(self.recorded(self.fit))
+
+    def count(self, entry: Entry, threshold: float | None) -> int:
+        """See `Truth`."""
+        return len(self._simulate(entry, self.fit, threshold))
+
+    def simulate(self, entry: Entry, threshold: float | None) -> list[EventStream]:
+        """See `Truth`."""
+        events = self._simulate(entry, self.whole, threshold)
+        return [events.cut(*span) for span in self.scored]
+
+    def _simulate(self, entry: Entry, span: TimeSpan, threshold: float | None) -> EventStream:
+        settings = adapt_settings(entry.settings(SEED), self.frames_gamma)
+        return simulate_video(self.frames_around(span), settings, threshold).cut(*span)
 
     @property
     def whole(self) -> TimeSpan:
@@ -162,6 +188,19 @@ class RealScene:
         first = max(int(np.searchsorted(times, span.start_us - WARM_UP_US, "right")) - 1, 0)
         last = int(np.searchsorted(times, span.stop_us, "left"))
         return Video(self.video.pixels[first : last + 1], self.video.times_us[first : last + 1])
+
+
+def adapt_settings(settings: Settings, gamma: float) -> Settings:
+    """Settings that know how the frames are coded, and ask for at most 16 frames in between.
+
+    Args:
+        settings: of a run.
+        gamma: exponent that makes the frames linear.
+    """
+    options: dict[str, Any] = {"max_intermediate": MAX_INTERMEDIATE}
+    if "gamma" in option_names(type(settings.simulate)):
+        options["gamma"] = gamma
+    return apply_options(settings, options, where="the recording")
 
 
 WHOLE = RecordingPart()
@@ -191,7 +230,7 @@ def open_scene(source: str, part: RecordingPart = WHOLE) -> RealScene:
     events = _used_events(recording, times_us[0], times_us[-1])
     fit, scored = _spans(source, times_us, events)
     return RealScene(
-        name=recording.name if source not in DATA_SETS else source,
+        scene=recording.name if source not in DATA_SETS else source,
         video=Video(np.stack([frame.pixels for frame in frames]), times_us),
         events=events,
         fit=fit,
@@ -202,7 +241,7 @@ def open_scene(source: str, part: RecordingPart = WHOLE) -> RealScene:
 
 
 def locate_source(source: str) -> tuple[Path, int]:
-    """Where a recording lies, and the frozen offset of its frames, µs.
+    """Path of a recording, and the frozen offset of its frames, µs.
 
     Raises:
         InputError: it is not there, or not pulled.

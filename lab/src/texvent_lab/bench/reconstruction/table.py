@@ -9,11 +9,10 @@ from typing import Any
 from texvent.metrics.compare import plain_values
 from texvent_lab.bench.document import describe_environment, markdown_table, without_tags
 from texvent_lab.bench.fidelity.comparison import Comparison
-from texvent_lab.bench.reconstruction.noise_robustness import NoiseScore
 from texvent_lab.bench.reconstruction.run import RECORDED, ReconstructionReport, ReconstructionRow
 from texvent_lab.bench.reconstruction.scores import ImageScores, pool_scores
 
-SCHEMA = "texvent-reconstruction-1"
+SCHEMA = "texvent-reconstruction-2"
 """Name of the document's layout; docs/reconstruction.md describes it."""
 COLUMNS = {"mse": "MSE ↓", "psnr": "PSNR, dB ↑", "ssim": "SSIM ↑", "lpips": "LPIPS ↓"}
 DIGITS = {"mse": 4, "psnr": 2, "ssim": 3, "lpips": 3}
@@ -25,13 +24,8 @@ MARK_NOTE = (
 )
 
 
-def reconstruction_tables(report: ReconstructionReport, noise: Sequence[NoiseScore] = ()) -> str:
-    """All tables of a run, with what could not be measured.
-
-    Args:
-        report: what was found.
-        noise: the noise curves, if any were measured.
-    """
+def reconstruction_tables(report: ReconstructionReport) -> str:
+    """All tables of a run, with what could not be measured."""
     parts = []
     recordings = list(dict.fromkeys(row.recording for row in report.rows))
     for recording in recordings:
@@ -41,9 +35,6 @@ def reconstruction_tables(report: ReconstructionReport, noise: Sequence[NoiseSco
     if len(recordings) > 1:
         parts.append(f"### {ALL}, {report.network} (each image counts the same)\n")
         parts.append(_table([_pooled(report.rows_of(source)) for source in report.sources()]))
-    for recording in dict.fromkeys(one.recording for one in noise):
-        parts.append(f"### noise in the recorded events of {recording}, {report.network}\n")
-        parts.append(_noise_table([one for one in noise if one.recording == recording]))
     if len(report.sources()) > 2:
         parts.append(MARK_NOTE)
     missing = {**report.absent, **report.skipped}
@@ -51,9 +42,7 @@ def reconstruction_tables(report: ReconstructionReport, noise: Sequence[NoiseSco
     return without_tags("\n".join(parts))
 
 
-def reconstruction_document(
-    report: ReconstructionReport, noise: Sequence[NoiseScore] = ()
-) -> dict[str, Any]:
+def reconstruction_document(report: ReconstructionReport) -> dict[str, Any]:
     """The result as plain values, ready for JSON; undefined and infinite ones are None."""
     plan = report.plan
     comparisons = {
@@ -63,11 +52,7 @@ def reconstruction_document(
     document = {
         "schema": SCHEMA,
         "environment": describe_environment(),
-        "network": {
-            "name": report.network,
-            "sha256": report.sha256,
-            "is_published": report.is_published,
-        },
+        "network": {"name": report.network, "sha256": report.sha256},
         "span_us": plan.span_us,
         "skip": plan.skip,
         "is_rate_matched": plan.is_rate_matched,
@@ -87,16 +72,6 @@ def reconstruction_document(
                 },
             }
             for row in report.rows
-        ],
-        "noise": [
-            {
-                "recording": one.recording,
-                "kind": one.level.kind,
-                "amount": one.level.amount,
-                "against_clean": _score_values(one.against_clean),
-                "against_frames": _score_values(one.against_frames),
-            }
-            for one in noise
         ],
         "absent": report.absent,
         "skipped": report.skipped,
@@ -153,19 +128,6 @@ def _table(rows: Sequence[ReconstructionRow]) -> str:
         means = [" ".join(cell).rstrip() for cell in zip(_means(row.scores), marks, strict=True)]
         lines.append([row.source, number, threshold, *means])
     return markdown_table(["events", "number", "δ", *(COLUMNS[one] for one in measures)], lines)
-
-
-def _noise_table(points: Sequence[NoiseScore]) -> str:
-    measures = list(points[0].against_clean.values)
-    titles = [COLUMNS[name] for name in measures]
-    lines = []
-    for point in points:
-        amount = point.level.amount
-        is_share = point.level.kind == "scattered"
-        name = f"{amount:.0%} of the events scattered" if is_share else f"{amount:g} Hz per pixel"
-        lines.append([name, *_means(point.against_clean), *_means(point.against_frames)])
-    against = [f"{title}, {what}" for what in ("to clean", "true") for title in titles]
-    return markdown_table(["noise", *against], lines)
 
 
 def _means(scores: ImageScores) -> list[str]:

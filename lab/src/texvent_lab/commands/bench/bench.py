@@ -17,10 +17,9 @@ from texvent.io.atomic import check_output
 from texvent_lab.bench.document import write_document
 
 BENCHMARKS: Mapping[str, str] = {
-    "classify": "how many streams does N-ImageNet's classifier recognise?",
     "digits": "do networks trained on simulated events read recorded ones?",
     "fidelity": "which simulator comes closest to true events of exact scenes?",
-    "page": "a result of fidelity, real or digits as a page with its charts",
+    "page": "a result of fidelity, real, digits or selftest as a page",
     "paper": "the paper's tables, ablations E1-E12, or a folder of configs",
     "real": "which simulator comes closest to a real sensor?",
     "reconstruction": "whose events give a network the best images?",
@@ -50,7 +49,7 @@ def _usage() -> str:
 
 @dataclass(frozen=True, kw_only=True)
 class ResultOptions:
-    """Where the result goes."""
+    """Output of the result."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
 
@@ -61,18 +60,14 @@ class ResultOptions:
     quiet: bool = False
     """No progress; only the result."""
 
-    def check(self, *more: Path | None) -> None:
-        """Refuse files that exist already, before anything is computed.
-
-        Args:
-            more: files that the command writes in addition to `out`.
+    def check(self) -> None:
+        """Refuse a file that exists already, before anything is computed.
 
         Raises:
-            OutputError: a file cannot be written.
+            OutputError: it cannot be written.
         """
-        for path in (self.out, *more):
-            if path is not None:
-                check_output(path, overwrite=self.overwrite)
+        if self.out is not None:
+            check_output(self.out, overwrite=self.overwrite)
 
     def progress(self, line: str) -> None:
         """Show a step on the terminal, unless `quiet`."""

@@ -5,29 +5,26 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, Literal
+from typing import Any, Literal
 
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.io.atomic import atomic_file
 from texvent.runtime.cache_folder import cache_folder
-from texvent_lab.bench.digits.arms import ARMS
-from texvent_lab.bench.digits.page import page_files, page_paths
 from texvent_lab.bench.digits.plan import DigitsPlan
+from texvent_lab.bench.digits.results import digits_table
 from texvent_lab.bench.digits.run import run_digits
-from texvent_lab.bench.digits.tables import summary_text
 from texvent_lab.commands.bench.bench import ResultOptions
 
 DESCRIPTION = """\
 Small networks learn digits from simulated events of MNIST's test images and are tested on
-recordings of a real sensor, N-MNIST. docs/digits.md explains the tables. Needs texvent-lab[train].
+recordings of a real sensor, N-MNIST. docs/digits.md explains the table. Needs texvent-lab[train].
 
 --mnist is a folder with t10k-images-idx3-ubyte.gz and t10k-labels-idx1-ubyte.gz, from the MNIST
 page of Y. LeCun, C. Cortes and C. Burges. --nmnist is the unpacked N-MNIST of G. Orchard et al.
-(Train and Test), or a folder or .zip file with NUMBER.bin files and labels.csv.
+(Train and Test).
 
-Every step is kept in --work, so a run that was stopped goes on."""
+Sets and predictions are kept in --work, so a run that was stopped goes on."""
 QUICK: Mapping[str, Any] = {
     "arms": (
         "texvent accurate",
@@ -37,69 +34,37 @@ QUICK: Mapping[str, Any] = {
         "v2e noisy",
         "frame difference",
     ),
-    "ways": ("exact",),
-    "choices": ("matched",),
-    "digits": 2000,
-    "held_out": 200,
-    "seeds": 3,
-    "other_seeds": 1,
+    "ways": ("exact", "frames"),
     "folds": 5,
-    "shots": (),
 }
-"""What --quick covers."""
+"""Plan of --quick."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class DigitsOptions:
-    """What to run."""
-
-    main_options: ClassVar[tuple[str, ...]] = (
-        "mnist", "nmnist", "quick", "arms", "choices", "ways", "digits", "seeds", "jobs", "out",
-        "overwrite",
-    )  # fmt: skip
+    """Data, simulators and networks."""
 
     mnist: Path = REQUIRED
     """Folder of MNIST's test images and labels."""
     nmnist: Path = REQUIRED
-    """N-MNIST's folder, or a folder or .zip file with NUMBER.bin files and labels.csv."""
+    """N-MNIST's folder."""
     quick: bool = False
-    """Six arms and three networks each: minutes on two cores."""
+    """Six arms with true frames: minutes on two cores."""
     arms: str | None = None
     """Names of arms, separated by commas; default: all."""
-    choices: str = "matched,default,random"
-    """How thresholds are chosen: fitted to the counts of pairs, the presets' own, drawn per sheet
-    of digits."""
-    ways: str = "exact,flow"
-    """What simulators get: true frames, 1,020 per second (exact), or 60 per second and what the
-    pipeline interpolates (flow)."""
+    ways: str | None = None
+    """Frames of simulators, separated by commas: true ones, 1,020 per second (exact), 60 per second
+    and what the pipeline interpolates (flow), or those alone (frames); default: all."""
     digits: int = 2000
     """Digits that are simulated for training."""
     seeds: int = 3
-    """Networks per set with matched thresholds."""
-    other_seeds: int = 2
-    """Networks per set with other thresholds, and per fold of recordings."""
-    few_shot: bool = True
-    """Also train on 1, 3, 10 and 30 recordings per class, with simulated ones and without."""
+    """Networks per set and per fold of recordings."""
     precision: Literal["float32", "bfloat16"] = "float32"
     """Number type of the networks' computation; bfloat16 is faster on processors that have it."""
     work: Path | None = None
     """Folder that keeps the results of steps; default: texvent's cache."""
     jobs: int = 2
     """Processes to use."""
-
-    def plan_options(self) -> dict[str, Any]:
-        """What these options ask for; `DigitsPlan` takes them."""
-        if self.quick:
-            return dict(QUICK)
-        return {
-            "arms": tuple(self.arms.split(",")) if self.arms else tuple(one.name for one in ARMS),
-            "choices": tuple(self.choices.split(",")),
-            "ways": tuple(self.ways.split(",")),
-            "digits": self.digits,
-            "seeds": self.seeds,
-            "other_seeds": self.other_seeds,
-            **({} if self.few_shot else {"shots": ()}),
-        }
 
 
 def run(arguments: Sequence[str]) -> None:
@@ -110,19 +75,20 @@ def run(arguments: Sequence[str]) -> None:
         prog="texvent bench digits",
         description=DESCRIPTION,
     )
-    work = options.work or cache_folder("digits")
+    output.check()
+    chosen = dict(QUICK) if options.quick else {}
+    for name in ("arms", "ways"):
+        names = getattr(options, name)
+        chosen |= {name: tuple(names.split(","))} if names else {}
     plan = DigitsPlan(
         mnist=options.mnist,
         nmnist=options.nmnist,
-        work=work,
+        work=options.work or cache_folder("digits"),
+        digits=options.digits,
+        seeds=options.seeds,
         precision=options.precision,
-        **options.plan_options(),
+        **chosen,
     )
-    output.check(*page_paths(output.out))
     report = run_digits(plan, jobs=options.jobs, progress=output.progress)
     output.write(report.document)
-    if output.out is not None:
-        for name, content in page_files(report, output.out.name).items():
-            with atomic_file(output.out.parent / name, overwrite=output.overwrite) as part:
-                part.write_bytes(content)
-    write_out(summary_text(report))
+    write_out(digits_table(report))

@@ -8,14 +8,14 @@ from dataclasses import dataclass, replace
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent_lab.bench.fidelity.entries import choose_entries
-from texvent_lab.bench.fidelity.run import FULL, FidelityPlan, run_fidelity
 from texvent_lab.bench.fidelity.table import fidelity_tables
+from texvent_lab.bench.oracle.run import FULL, FidelityPlan, run_fidelity
 from texvent_lab.commands.bench.bench import ResultOptions
 
 
 @dataclass(frozen=True, kw_only=True)
 class FidelityOptions:
-    """What to run."""
+    """Scenes and simulators."""
 
     full: bool = False
     """Every scene, ideal and noisy pixels, eight seeds: an hour instead of minutes."""

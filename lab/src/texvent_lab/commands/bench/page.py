@@ -1,4 +1,4 @@
-"""`texvent bench page`: a result of `bench fidelity`, `real` or `digits` as a page with plots."""
+"""`texvent bench page`: a stored result as a page with its chart."""
 
 from __future__ import annotations
 
@@ -11,30 +11,25 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.io.atomic import atomic_file, check_output
-from texvent_lab.bench.digits import page as digits_page
-from texvent_lab.bench.digits import results as digits_results
-from texvent_lab.bench.document import read_document, result_name
-from texvent_lab.bench.fidelity.page import page_files
-from texvent_lab.bench.fidelity.results import read_report
-from texvent_lab.bench.fidelity.table import BASELINE, check_baseline
+from texvent_lab.bench.document import read_document
+from texvent_lab.bench.fidelity.table import BASELINE
+from texvent_lab.bench.page import page_files, page_name
 
 
 @dataclass(frozen=True, kw_only=True)
 class PageOptions:
-    """Which result, and where the page goes."""
+    """Result and folder of the page."""
 
     positional: ClassVar[tuple[str, ...]] = ("result",)
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
 
     result: Path = REQUIRED
-    """JSON file that --out of `texvent bench fidelity`, `real` or `digits` wrote, as it is or
-    compressed (.json.gz)."""
+    """JSON file that --out of `texvent bench fidelity`, `real`, `digits` or `selftest` wrote, as it
+    is or compressed (.json.gz)."""
     baseline: str = BASELINE
     """Row that the others are compared with, pair by pair; of fidelity and real."""
     out: Path | None = None
-    """Folder of the page and its charts; default: that of the result."""
-    charts: bool = True
-    """Draw the charts; --no-charts writes the tables alone."""
+    """Folder of the page and its chart; default: that of the result."""
     overwrite: bool = False
     """Replace files that exist already."""
 
@@ -45,27 +40,16 @@ def run(arguments: Sequence[str]) -> None:
         arguments,
         {"options": PageOptions()},
         prog="texvent bench page",
-        description="A result of bench fidelity, real or digits as a Markdown page with its tables "
-        "and charts, named after the result.",
+        description="A result of bench fidelity, real, digits or selftest as a Markdown page with "
+        "its tables and chart, named after the result.",
     )
     folder = options.out or options.result.parent
-    name = result_name(options.result.name)
-    check_output(folder / f"{name}.md", overwrite=options.overwrite)
-    files = _page_files(options)
+    page = folder / f"{page_name(options.result.name)}.md"
+    check_output(page, overwrite=options.overwrite)
+    files = page_files(
+        read_document(options.result), options.result.name, baseline=options.baseline
+    )
     for file, content in files.items():
         with atomic_file(folder / file, overwrite=options.overwrite) as part:
             part.write_bytes(content)
     write_out("".join(f"{folder / file}\n" for file in files))
-
-
-def _page_files(options: PageOptions) -> dict[str, bytes]:
-    document = read_document(options.result)
-    if document.get("schema") == digits_results.SCHEMA:
-        return digits_page.page_files(
-            digits_results.read_report(document), options.result.name, has_charts=options.charts
-        )
-    report = read_report(document)
-    check_baseline(options.baseline, [score.entry for score in report.scores])
-    return page_files(
-        report, options.result.name, baseline=options.baseline, has_charts=options.charts
-    )

@@ -10,16 +10,10 @@ from typing import ClassVar
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent_lab.bench.fidelity.entries import Entry, choose_entries
-from texvent_lab.bench.fidelity.table import (
-    BASELINE,
-    check_baseline,
-    fidelity_tables,
-    motion_table,
-)
-from texvent_lab.bench.paper.config_entry import ConfigEntry
+from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, choose_entries
+from texvent_lab.bench.fidelity.table import BASELINE, check_baseline, fidelity_tables
 from texvent_lab.bench.real.recording import WITH_FRAMES, RecordingPart, open_scene
-from texvent_lab.bench.real.run import INTERPOLATIONS, RealPlan, real_entries, run_real
+from texvent_lab.bench.real.run import INTERPOLATIONS, real_entries, run_real
 from texvent_lab.commands.bench.bench import ResultOptions
 
 DESCRIPTION = """\
@@ -32,7 +26,7 @@ explains the tables."""
 
 @dataclass(frozen=True, kw_only=True)
 class RealOptions:
-    """What to run."""
+    """Recordings and simulators."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("sources",)
     positional: ClassVar[tuple[str, ...]] = ("sources",)
@@ -83,15 +77,9 @@ def run(arguments: Sequence[str]) -> None:
     check_baseline(options.baseline, [entry.name for entry in entries])
     part = RecordingPart(options.start, options.seconds, options.offset_us, options.frames_gamma)
     scenes = [open_scene(source, part) for source in options.sources]
-    report = run_real(
-        scenes,
-        RealPlan(entries=entries),
-        jobs=options.jobs,
-        progress=output.progress,
-    )
+    report = run_real(scenes, entries, jobs=options.jobs, progress=output.progress)
     output.write(report.document)
     write_out(fidelity_tables(report, baseline=options.baseline))
-    write_out(f"\n{motion_table(report)}")
 
 
 def _choose_entries(options: RealOptions) -> list[Entry]:

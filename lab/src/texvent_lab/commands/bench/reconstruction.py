@@ -4,27 +4,22 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from pathlib import Path
 from typing import ClassVar
 
 from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import ConfigError
-from texvent.io.atomic import atomic_file
-from texvent.metrics.image_measures import load_measures
-from texvent.sensor import parse_sensor
 from texvent_lab.bench.fidelity.entries import choose_entries
 from texvent_lab.bench.real.recording import FrameRecording, locate_source, open_recording
-from texvent_lab.bench.reconstruction.noise_robustness import NoiseScore, noise_curve
 from texvent_lab.bench.reconstruction.run import (
     ReconstructionPlan,
     ReconstructionScorer,
     run_reconstruction,
 )
-from texvent_lab.bench.reconstruction.scores import ReconstructionGrid
 from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent_lab.commands.bench.bench import ResultOptions
+from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import ReconstructConfig, load_reconstructor
 
 DESCRIPTION = """\
@@ -34,27 +29,23 @@ those that each simulator makes of the frames. All are compared with the frames 
 A recording is a pulled data set (slider_depth, davis346), a folder of the Event-Camera Dataset, an
 EVREAL folder with images, an AEDAT4 file with frames, or an event file with --frames. The
 network's weights must be yours: docs/reconstruction.md says where they come from."""
-GRID_PARTS = (0.2, 0.4, 0.6, 0.8)
-"""Where in the scored part the images of --image are taken."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class ReconstructionOptions:
-    """What to run."""
+    """Recordings and simulators."""
 
     input_texts: ClassVar[tuple[str, ...]] = ("recordings", "frames")
     positional: ClassVar[tuple[str, ...]] = ("recordings",)
     main_options: ClassVar[tuple[str, ...]] = (
-        "network", "weights", "simulators", "interpolations", "match_rate", "time", "noise", "out",
-        "image", "overwrite",
+        "network", "weights", "simulators", "interpolations", "match_rate", "time", "out",
+        "overwrite",
     )  # fmt: skip
 
     recordings: tuple[str, ...] = ("slider_depth",)
     """Names of pulled data sets, or paths of recordings."""
     frames: str | None = None
     """Frames of a recording that is an event file alone: a video or image folder on its clock."""
-    sensor: str | None = None
-    """Sensor size, for event formats that do not store it; default: that of the frames."""
     simulators: str | None = None
     """Names of simulators, separated by commas, a preset after a colon (physical:davis346);
     default: texvent, physical, esim, v2e."""
@@ -70,15 +61,11 @@ class ReconstructionOptions:
     skip_frames: int | None = None
     """Do not score this many images at the start, and score all others; default: 10, but 0 where
     a part is named."""
-    noise: bool = False
-    """Also add noise to the recorded events step by step: the paper's Table 7."""
     seed: int = 0
-    """Of the simulators and of the noise."""
-    image: Path | None = None
-    """PNG file with the images of the first recording, a row per source of events."""
+    """Of the simulators."""
 
     def plan(self) -> ReconstructionPlan:
-        """What these options ask for.
+        """The plan of these options.
 
         Raises:
             ConfigError: a value is out of range, or something named does not exist.
@@ -107,9 +94,8 @@ class ReconstructionOptions:
                 f"frames belong to one recording; {len(self.recordings)} are given: run them one "
                 "by one"
             )
-        size = parse_sensor(self.sensor) if self.sensor else None
         return [
-            open_recording(locate_source(source)[0], frames=self.frames, size=size)
+            open_recording(locate_source(source)[0], frames=self.frames)
             for source in self.recordings
         ]
 
@@ -126,30 +112,11 @@ def run(arguments: Sequence[str]) -> None:
         prog="texvent bench reconstruction",
         description=DESCRIPTION,
     )
-    output.check(options.image)
+    output.check()
     plan = options.plan()
     reconstructor = load_reconstructor(network.network, network.weights, device=network.device)
     recordings = options.open_recordings()
     scorer = ReconstructionScorer(reconstructor=reconstructor, measures=load_measures(), plan=plan)
-    if options.image is not None:
-        grid = ReconstructionGrid(recordings[0], _instants(recordings[0], plan))
-        scorer = replace(scorer, on_image=grid)
     report = run_reconstruction(recordings, scorer, progress=output.progress)
-    noise: list[NoiseScore] = []
-    for recording in recordings if options.noise else ():
-        output.progress(f"{recording.name}: noise")
-        noise += noise_curve(recording, scorer)
-    output.write(lambda: reconstruction_document(report, noise))
-    if options.image is not None:
-        with atomic_file(options.image, overwrite=output.overwrite) as part:
-            part.write_bytes(grid.png())
-    write_out(reconstruction_tables(report, noise))
-
-
-def _instants(recording: FrameRecording, plan: ReconstructionPlan) -> list[int]:
-    """Times spread over the part that is scored, µs."""
-    span, skip = plan.scored_part(recording)
-    times = [frame.t_us for frame in recording.frames][1 + skip :]
-    first, last = span or (times[0], times[-1])
-    last = min(last, times[-1])
-    return [round(first + part * (last - first)) for part in GRID_PARTS]
+    output.write(lambda: reconstruction_document(report))
+    write_out(reconstruction_tables(report))

@@ -1,4 +1,4 @@
-"""Choose a benchmark; see the package."""
+"""Choose a step; see the package."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from texvent_lab.measure.prompts import public, score, sheet
 
 
 def main() -> int:
-    """Run a benchmark; returns the exit code."""
+    """Run a step; returns the exit code."""
     chosen = _parser().parse_args()
     try:
         chosen.run(chosen)
@@ -28,8 +28,6 @@ def _parser() -> argparse.ArgumentParser:
     one.add_argument("prompts", type=Path, help=".csv with columns id, prompt, and perhaps style")
     one.add_argument("-o", "--out", type=Path, required=True, help="folder")
     one.add_argument("--jobs", type=int, default=1, help="processes")
-    one.add_argument("--no-events", action="store_true", help="stills and reports only: faster")
-    one.add_argument("--again", action="store_true", help="draw what is there anew")
     one.set_defaults(run=sheet.run)
     one = commands.add_parser("public", help="draw the prompts of VBench, Movie Gen and COCO")
     one.add_argument("--vbench", type=Path, required=True, help="all_dimension.txt")
@@ -37,13 +35,8 @@ def _parser() -> argparse.ArgumentParser:
     one.add_argument("--coco", type=Path, required=True, help="captions_val2017.json")
     one.add_argument("-o", "--out", type=Path, required=True, help="folder")
     one.set_defaults(run=public.run)
-    one = commands.add_parser("mosaic", help="all prompts of a sheet as one small image")
-    one.add_argument("folder", type=Path, help="what sheet has made")
-    one.add_argument("-o", "--out", type=Path, required=True, help=".jpg")
-    one.set_defaults(run=sheet.write_mosaic)
     one = commands.add_parser("score", help="the table of a grader's sheet")
     one.add_argument("grades", type=Path, help=".csv; columns: " + ", ".join(score.COLUMNS))
-    one.add_argument("--json", type=Path, help="write the figures here")
     one.set_defaults(run=score.run)
     return parser
 

@@ -15,7 +15,6 @@ second draw of the test half, for a later version, takes the next ones, of other
 from __future__ import annotations
 
 import argparse
-import csv
 import hashlib
 import json
 from collections.abc import Sequence
@@ -23,7 +22,7 @@ from io import StringIO
 from pathlib import Path
 
 from texvent.errors import InputError
-from texvent.io.atomic import atomic_file
+from texvent_lab.measure.prompts.score import read_csv, write_csv
 from texvent_lab.measure.prompts.sheet import Prompt
 
 STYLES = {"short": "V", "detailed": "M", "caption": "K"}
@@ -49,11 +48,12 @@ def run(options: argparse.Namespace) -> None:
         "detailed": [one for one in _lines(options.moviegen) if _is_detailed(one)],
         "caption": _captions(options.coco),
     }
-    known = read_digests(_DIGESTS)
+    known = {row["id"]: row["sha256"] for row in read_csv(_DIGESTS, ("id", "sha256"))}
     options.out.mkdir(parents=True, exist_ok=True)
     for name in DRAWS:
         prompts = [one for style in STYLES for one in draw(texts[style], style, name)]
-        write_prompts(options.out / f"{name}.csv", prompts)
+        rows = [[one.id, one.style, one.prompt] for one in prompts]
+        write_csv(options.out / f"{name}.csv", [["id", "style", "prompt"], *rows])
         same = sum(known.get(one.id) == digest(one.prompt) for one in prompts)
         print(f"{name}: {len(prompts)} prompts, {same} of them those that were graded")
 
@@ -83,35 +83,18 @@ def draw(texts: Sequence[str], style: str, name: str) -> list[Prompt]:
 
 
 def half_of(text: str) -> str:
-    """Which half a prompt belongs to: by the digest of its subject."""
+    """Half of a prompt, by the digest of its subject."""
     return HALVES[int(digest(f"half {subject_of(text)}"), 16) % 2]
 
 
 def subject_of(text: str) -> str:
-    """What stands before the first comma."""
+    """Text before the first comma."""
     return text.split(",")[0].lower()
 
 
 def digest(text: str) -> str:
     """SHA-256 of a text, in hexadecimal digits."""
     return hashlib.sha256(text.encode()).hexdigest()
-
-
-def read_digests(path: Path) -> dict[str, str]:
-    """Digest of each prompt that was graded, by its id."""
-    with path.open(encoding="utf-8", newline="") as file:
-        return {row["id"]: row["sha256"] for row in csv.DictReader(file)}
-
-
-def write_prompts(path: Path, prompts: Sequence[Prompt]) -> None:
-    """A file that `sheet` reads."""
-    with (
-        atomic_file(path, overwrite=True) as part,
-        part.open("w", encoding="utf-8", newline="") as file,
-    ):
-        writer = csv.writer(file)
-        writer.writerow(["id", "style", "prompt"])
-        writer.writerows([one.id, one.style, one.prompt] for one in prompts)
 
 
 def _is_detailed(text: str) -> bool:

@@ -15,7 +15,6 @@ from __future__ import annotations
 
 import argparse
 import csv
-import json
 import math
 import statistics
 from collections.abc import Mapping, Sequence
@@ -24,14 +23,23 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import InputError, shown
+from texvent.io.atomic import atomic_file
+from texvent_lab.bench.document import markdown_table
 
+COLUMNS = (
+    "id", "nouns_asked", "nouns_shown", "motion", "silently_wrong", "fully_right",
+    "fully_reported", "stand_in", "grade", "remark",
+)  # fmt: skip
+MOTIONS = ("yes", "partly", "no", "none")
+FLAGS = ("silently_wrong", "fully_right", "fully_reported", "stand_in")
+YES, NO = ("yes", "y", "1", "true", "x"), ("no", "n", "0", "false", "")
 Z95 = 1.959964
 """Standard normal quantile of .975."""
 
 
 @dataclass(frozen=True)
 class Share:
-    """How many of how many.
+    """A number of successes and of trials.
 
     Example:
         >>> str(Share(8, 10)), str(Share(0, 0))
@@ -56,16 +64,6 @@ class Share:
         half = math.sqrt(share * (1 - share) * weight + weight**2 / 4) / (1 + weight)
         return max(0.0, middle - half), min(1.0, middle + half)
 
-    @property
-    def tables(self) -> dict[str, float | int | list[float] | None]:
-        """Plain values, ready for JSON."""
-        return {
-            "count": self.count,
-            "of": self.of,
-            "share": round(self.value, 4) if self.of else None,
-            "interval": [round(end, 4) for end in self.interval] if self.of else None,
-        }
-
     def __str__(self) -> str:
         if not self.of:
             return "-"
@@ -76,21 +74,6 @@ class Share:
         )
 
 
-COLUMNS = (
-    "id", "nouns_asked", "nouns_shown", "motion", "silently_wrong", "fully_right",
-    "fully_reported", "stand_in", "grade", "remark",
-)  # fmt: skip
-MOTIONS = ("yes", "partly", "no", "none")
-_YES, _NO = ("yes", "y", "1", "true", "x"), ("no", "n", "0", "false", "")
-TARGETS = {
-    "nouns shown": "≥ 75 %",
-    "motion right": "≥ 75 %",
-    "silently wrong": "≤ 5 %",
-    "fully right or fully reported": "≥ 80 %",
-    "stand-in": "≤ 5 %",
-}
-
-
 def run(options: argparse.Namespace) -> None:
     """Print the table, for all prompts and for each style."""
     rows = read_grades(options.grades)
@@ -98,29 +81,15 @@ def run(options: argparse.Namespace) -> None:
     parts = {"all": rows, **{one: [row for row in rows if row["style"] == one] for one in styles}}
     sums = {name: sum_grades(part) for name, part in parts.items()}
     print(as_markdown(sums))
-    if options.json is not None:
-        plain = {
-            name: {key: _plain(value) for key, value in one.items()} for name, one in sums.items()
-        }
-        options.json.write_text(json.dumps(plain, indent=1) + "\n", encoding="utf-8")
 
 
 def read_grades(path: Path) -> list[dict[str, Any]]:
     """The rows of a grader's sheet.
 
     Raises:
-        InputError: a column is missing, or a cell is none of what is allowed.
+        InputError: a column is missing, or a cell is none of the allowed ones.
     """
-    try:
-        with path.open(encoding="utf-8-sig", newline="") as file:
-            rows = list(csv.DictReader(file))
-    except OSError as error:
-        raise InputError(f"cannot read {path}: {error.strerror}") from error
-    if not rows:
-        raise InputError(f"{path} has no rows")
-    missing = [name for name in COLUMNS if name not in rows[0] and name != "remark"]
-    if missing:
-        raise InputError(f"{path} lacks the columns {', '.join(missing)}")
+    rows = read_csv(path, [name for name in COLUMNS if name != "remark"])
     return [_read_row(row, f"{path} line {number}") for number, row in enumerate(rows, 2)]
 
 
@@ -134,10 +103,7 @@ def _read_row(row: Mapping[str, str | None], where: str) -> dict[str, Any]:
         raise InputError(
             f"{where}: motion is {shown(motion)}; it must be one of {', '.join(MOTIONS)}"
         )
-    flags = {
-        name: _flag(cells[name], name, where)
-        for name in ("silently_wrong", "fully_right", "fully_reported", "stand_in")
-    }
+    flags = {name: _flag(cells[name], name, where) for name in FLAGS}
     grade = _number(cells["grade"], "grade", where)
     if not 0 <= grade <= 5:
         raise InputError(f"{where}: grade is {grade:g}; it must lie within 0 and 5")
@@ -158,9 +124,9 @@ def _number(text: str, name: str, where: str) -> float:
 
 
 def _flag(text: str, name: str, where: str) -> bool:
-    if text.lower() not in (*_YES, *_NO):
+    if text.lower() not in (*YES, *NO):
         raise InputError(f"{where}: {name} is {shown(text)}; it must be yes or no")
-    return text.lower() in _YES
+    return text.lower() in YES
 
 
 def sum_grades(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
@@ -198,21 +164,36 @@ def sum_grades(rows: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
 
 def as_markdown(sums: Mapping[str, Mapping[str, Any]]) -> str:
     """A table with a column for each part; shares with Wilson's interval at 95 %."""
-    lines = [
-        f"| | {' | '.join(sums)} | target |",
-        f"|---|{'---|' * len(sums)}---|",
-    ]
-    for name in next(iter(sums.values())):
-        cells = (_cell(one[name]) for one in sums.values())
-        lines.append(f"| {name} | {' | '.join(cells)} | {TARGETS.get(name, '')} |")
-    return "\n".join(lines)
+    names = next(iter(sums.values()))
+    rows = [(name, *(_cell(one[name]) for one in sums.values())) for name in names]
+    return markdown_table(("", *sums), rows)
 
 
 def _cell(value: Any) -> str:
     return f"{value:.2f}" if isinstance(value, float) else str(value)
 
 
-def _plain(value: Any) -> Any:
-    if isinstance(value, Share):
-        return value.tables
-    return None if isinstance(value, float) and math.isnan(value) else value
+def read_csv(path: Path, columns: Sequence[str]) -> list[dict[str, Any]]:
+    """Rows of a table with a line of titles.
+
+    Raises:
+        InputError: it cannot be read, has no row, or lacks a column.
+    """
+    try:
+        with path.open(encoding="utf-8-sig", newline="") as file:
+            rows: list[dict[str, Any]] = list(csv.DictReader(file))
+    except OSError as error:
+        raise InputError(f"cannot read {path}: {error.strerror}") from error
+    missing = [name for name in columns if not rows or name not in rows[0]]
+    if missing:
+        raise InputError(f"{path} needs the columns {', '.join(columns)}, and at least one row")
+    return rows
+
+
+def write_csv(path: Path, rows: Sequence[Sequence[str]]) -> None:
+    """Write a table, over one that is there."""
+    with (
+        atomic_file(path, overwrite=True) as part,
+        part.open("w", encoding="utf-8", newline="") as file,
+    ):
+        csv.writer(file).writerows(rows)

@@ -1,7 +1,6 @@
-"""How fast texvent is: kernels, the whole pipeline by stage, peers, start-up, memory, GPU.
+"""Speed of texvent: kernels, whole runs, other programs, start-up.
 
     python -m texvent_lab.measure.speed [--quick] [--json FILE]
 
-`docs/speed.md` says what is measured and shows the committed figures;
-`docs/results/speed.schema.json` describes the JSON.
+docs/speed.md describes the figures.
 """

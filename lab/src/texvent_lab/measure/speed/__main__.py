@@ -1,32 +1,59 @@
-"""Measure and print; see the package."""
+"""Measure, print the tables, write the JSON; see the package."""
 
 from __future__ import annotations
 
 import argparse
+import os
+import time
 from pathlib import Path
+from typing import Any
 
-from texvent_lab.bench.document import write_document
-from texvent_lab.measure.speed.measure import Options, measure
+from texvent_lab.bench.document import describe_environment, read_document, write_document
+from texvent_lab.measure.speed.kernels import FULL, QUICK, measure_kernels
+from texvent_lab.measure.speed.peers import run_on_one_core
+from texvent_lab.measure.speed.runs import measure_runs, measure_startup
 from texvent_lab.measure.speed.tables import as_markdown
 
 
 def main() -> None:
-    """Measure, print the tables, write the JSON."""
+    """Measure what the options ask for, or show a result."""
     parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.speed")
     parser.add_argument("--quick", action="store_true", help="fewer repeats: under a minute")
     parser.add_argument("--json", type=Path, help="write the figures here")
-    parser.add_argument(
-        "--heavy-clip", type=Path, help=".npz with gray [N, H, W] and t_us [N]; else embedded"
-    )
     parser.add_argument("--video", type=Path, help="real video; else a short excerpt")
+    parser.add_argument("--show", type=Path, help="the tables of a stored result")
     chosen = parser.parse_args()
-    for path in (chosen.heavy_clip, chosen.video):
-        if path is not None and not path.is_file():
-            parser.error(f"no such file: {path}")
-    document = measure(Options(chosen.quick, chosen.heavy_clip, chosen.video))
+    if chosen.video is not None and not chosen.video.is_file():
+        parser.error(f"no such file: {chosen.video}")
+    if chosen.show is not None:
+        document = read_document(chosen.show)
+    else:
+        document = measure(quick=chosen.quick, video=chosen.video)
     if chosen.json is not None:
         write_document(chosen.json, document, overwrite=True)
     print(as_markdown(document))
+
+
+def measure(*, quick: bool, video: Path | None) -> dict[str, Any]:
+    """All figures, ready for JSON.
+
+    Args:
+        quick: fewer repeats.
+        video: real video; None: an excerpt that the tests have.
+    """
+    started, load = time.perf_counter(), os.getloadavg()[0]
+    return {
+        "schema_version": 2,
+        "quick": quick,
+        "environment": describe_environment(),
+        "load_at_start": round(load, 2),
+        "kernels": measure_kernels(QUICK if quick else FULL),
+        "runs": measure_runs(video, pairs=4 if quick else 20),
+        "peers": run_on_one_core(quick=quick, video=video),
+        "startup": measure_startup(quick=quick),
+        "load_at_end": round(os.getloadavg()[0], 2),
+        "seconds": round(time.perf_counter() - started, 1),
+    }
 
 
 if __name__ == "__main__":

@@ -10,36 +10,25 @@ from typing import TYPE_CHECKING, Any, Literal
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
 from texvent.sensor import as_size
-from texvent_lab.train.schedule import Schedule
+from texvent_lab.train.schedule import TrainingConfig
 
 if TYPE_CHECKING:
     from texvent_lab.train.task import Task
 
-SOURCE_KINDS = "folder, specification and recordings"
-"""Of samples."""
-BELONGS_TO: Mapping[str, tuple[str, ...]] = {
-    "variant": ("folder", "specification"),
-    "sensor": ("recordings",),
-    "flip_polarity": ("recordings",),
-}
-"""Option → the kinds of samples that have it."""
-
 
 @dataclass(frozen=True, kw_only=True)
 class Source:
-    """Labelled samples, of one of folder, specification and recordings."""
+    """Labelled samples: a data set, or folders of recordings."""
 
     folder: Path | None = None
     """A data set that texvent dataset made."""
-    specification: Path | None = None
-    """Of a data set, simulated again whenever a sample is read; its filters are not applied."""
     recordings: Path | None = None
     """Recordings of any format that texvent reads: a folder of splits, each a folder of classes,
     each a folder of files."""
     split: str = "train"
     """Trained on."""
     variant: str | None = None
-    """Of a data set; None: all of a folder, the only one of a specification."""
+    """Of a data set; None: all of them, mixed."""
     sensor: str | None = None
     """Of recordings whose files do not say it, such as "34x34"."""
     flip_polarity: bool = False
@@ -49,38 +38,19 @@ class Source:
 
     def __post_init__(self) -> None:
         check_range("per_class", self.per_class, 1)
-        if len(self._given) > 1:
-            raise ConfigError(f"{' and '.join(self._given)} are given; give one of {SOURCE_KINDS}")
-        for name, kinds in BELONGS_TO.items():
-            if getattr(self, name) and self._given and self._given[0] not in kinds:
-                raise ConfigError(
-                    f"{name} belongs to {' or '.join(kinds)}, not to {self._given[0]}; leave it out"
-                )
+        if self.folder is not None and self.recordings is not None:
+            raise ConfigError("folder and recordings are given; give one of them")
+        if self.folder is not None and (self.sensor or self.flip_polarity):
+            raise ConfigError("sensor and flip_polarity belong to recordings, not to folder")
+        if self.recordings is not None and self.variant is not None:
+            raise ConfigError("variant belongs to folder, not to recordings")
         if self.sensor is not None:
             as_size(self.sensor)
 
     @property
-    def kind(self) -> str:
-        """Which of the three it is.
-
-        Raises:
-            ConfigError: none of them.
-        """
-        if not self._given:
-            raise ConfigError(
-                f"there are no samples to train on; give one of {SOURCE_KINDS} in [data]"
-            )
-        return self._given[0]
-
-    @property
     def is_given(self) -> bool:
         """True if there are samples."""
-        return bool(self._given)
-
-    @property
-    def _given(self) -> list[str]:
-        names = ("folder", "specification", "recordings")
-        return [name for name in names if getattr(self, name) is not None]
+        return self.folder is not None or self.recordings is not None
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -136,11 +106,9 @@ class Augmentation:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ClassificationConfig:
+class ClassificationConfig(TrainingConfig):
     """A classifier of recordings."""
 
-    seed: int = 0
-    """Of the initial weights, the order of samples and their augmentation."""
     start_from: Path | None = None
     """Weights that training begins with, of the same network; its last layer begins anew where
     they are of other classes. None: random ones."""
@@ -149,17 +117,16 @@ class ClassificationConfig:
     """More samples to train on, of the same classes."""
     network: ClassNetwork = field(default_factory=ClassNetwork)
     augmentation: Augmentation = field(default_factory=Augmentation)
-    schedule: Schedule = field(default_factory=Schedule)
 
     def __post_init__(self) -> None:
-        check_range("seed", self.seed, 0, 2**63 - 1)
+        super().__post_init__()
         if self.extra != Source() and not self.extra.is_given:
             raise ConfigError(
-                f"[extra] has no samples; give one of {SOURCE_KINDS} in it, or leave it out"
+                "[extra] has no samples; give folder or recordings in it, or leave it out"
             )
 
     def make_task(self) -> Task:
-        """The task; this imports torch."""
+        """See `TrainingConfig`."""
         from texvent_lab.train.classification.task import ClassificationTask
 
         return ClassificationTask(self)

@@ -2,23 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import InputError, shown
+from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.transform.edits import flip, reverse_time, shift, start_at_zero
 from texvent_lab.train.classification.config import Augmentation, ClassificationConfig, Source
-from texvent_lab.train.classification.sources import (
-    DataSetSamples,
-    RecordedSamples,
-    SpecifiedSamples,
-)
+from texvent_lab.train.classification.sources import DataSetSamples, RecordedSamples
 
 
 def augment(
@@ -82,13 +78,6 @@ class LabelledSamples(Protocol):
     def title(self, number: int) -> str:
         """What to call a sample in messages."""
         ...
-
-
-KINDS: Mapping[str, Callable[[Source, str], LabelledSamples]] = {
-    "folder": DataSetSamples,
-    "specification": SpecifiedSamples,
-    "recordings": RecordedSamples,
-}
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -188,7 +177,13 @@ def open_training(config: ClassificationConfig, validation: ChosenSamples) -> Ch
 
 
 def _open(source: Source, split: str) -> LabelledSamples:
-    samples = KINDS[source.kind](source, split)
+    samples: LabelledSamples
+    if source.folder is not None:
+        samples = DataSetSamples(source, split)
+    elif source.recordings is not None:
+        samples = RecordedSamples(source, split)
+    else:
+        raise ConfigError("there are no samples to train on; give folder or recordings in [data]")
     unlabelled = [number for number in range(len(samples)) if samples.class_number(number) < 0]
     if unlabelled:
         raise InputError(

@@ -5,10 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from texvent.batch.identity import digest
-from texvent.dataset.generation.sample import simulate_sample
 from texvent.dataset.loading.stored_samples import open
-from texvent.dataset.simulated_clips import SimulatedClips
-from texvent.dataset.specification.specification import Filters
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.files import event_extensions, load
@@ -50,42 +47,6 @@ class DataSetSamples:
     def title(self, number: int) -> str:
         """See `LabelledSamples`."""
         return f"sample {self._samples.index.key[number]}"
-
-
-class SpecifiedSamples:
-    """A split of a specification; see `LabelledSamples`."""
-
-    def __init__(self, source: Source, split: str) -> None:
-        """Read the specification; nothing is simulated yet.
-
-        Raises:
-            InputError, ConfigError: as `SimulatedClips`.
-        """
-        self.name = f"split {split} of {source.specification}"
-        self._clips = SimulatedClips(
-            source.specification or Path(), split=split, variant=source.variant
-        )
-        self.labels, self.identity = self._clips.labels, self._clips.recipe.identity
-
-    def __len__(self) -> int:
-        """Number of samples."""
-        return len(self._clips)
-
-    def class_number(self, number: int) -> int:
-        """See `LabelledSamples`."""
-        return self._clips.class_number(number)
-
-    def events(self, number: int) -> EventStream:
-        """See `LabelledSamples`."""
-        return simulate_sample(self._clips.simulation(number), Filters(min_events=0)).events
-
-    def sizes(self) -> dict[str, SensorSize]:
-        """Of the first sample."""
-        return {self.title(0): self._clips.simulation(0).video.size}
-
-    def title(self, number: int) -> str:
-        """See `LabelledSamples`."""
-        return f"sample {number} of {self.name}"
 
 
 class RecordedSamples:
@@ -130,7 +91,11 @@ class RecordedSamples:
 
     def events(self, number: int) -> EventStream:
         """See `LabelledSamples`."""
-        events = load(self._files[number][1], size=self._size)
+        path = self._files[number][1]
+        try:
+            events = load(path)
+        except InputError:  # it stores no size
+            events = load(path, size=self._size)
         if not self._is_flipped:
             return events
         return EventStream(events.x, events.y, events.t, 1 - events.p, events.size)

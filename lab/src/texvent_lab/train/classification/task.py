@@ -114,16 +114,15 @@ class ClassificationTask:
         """See `Task`."""
         return _cross_entropy(network(batch[IMAGE].to(device)), batch[CLASS].to(device))
 
-    def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
-        """Accuracies with their standard errors, and mean cross entropy."""
-        return self.scores(self.predict(network, device, workers=workers))
-
-    def predict(self, network: Any, device: Any, *, workers: int) -> dict[str, list[Any]]:
-        """See `PredictingTask`.
+    def validate(
+        self, network: Any, device: Any, *, workers: int
+    ) -> tuple[dict[str, float], dict[str, list[Any]]]:
+        """Accuracies with their standard errors and mean cross entropy; predictions.
 
         Returns:
-            `sample`; `class` and `predicted`, places in the list of classes; `rank`: how many
-            classes are likelier than the right one; `loss`: cross entropy.
+            Columns of the predictions: `sample`; `class` and `predicted`, places in the list of
+            classes; `rank`: how many classes are likelier than the right one; `loss`: cross
+            entropy.
         """
         samples = self._validation
         found: dict[str, list[Any]] = {"predicted": [], "rank": [], "loss": []}
@@ -133,10 +132,10 @@ class ClassificationTask:
             found["rank"] += _ranks(scores, classes).tolist()
             found["loss"] += _cross_entropy(scores, classes, reduction="none").tolist()
         titles = [samples.title(place) for place in range(len(samples))]
-        return {"sample": titles, "class": samples.class_number.tolist(), **found}
+        columns = {"sample": titles, "class": samples.class_number.tolist(), **found}
+        return self._scores(columns), columns
 
-    def scores(self, predictions: Mapping[str, Sequence[Any]]) -> dict[str, float]:
-        """See `PredictingTask`."""
+    def _scores(self, predictions: Mapping[str, Sequence[Any]]) -> dict[str, float]:
         ranks = np.array(predictions["rank"])
         shares = {"accuracy": float((ranks < 1).mean())}
         if len(self._classes) > TOP:

@@ -7,9 +7,8 @@ from typing import TYPE_CHECKING, Literal
 
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
-from texvent.metrics.lpips import LpipsNet
-from texvent_lab.train.schedule import Schedule
-from texvent_lab.train.sequences.config import SequenceData
+from texvent_lab.train.schedule import Schedule, TrainingConfig
+from texvent_lab.train.sequences import SequenceData
 
 if TYPE_CHECKING:
     from texvent_lab.train.task import Task
@@ -31,9 +30,8 @@ class ReconstructionLoss:
     """How far images are from the true ones, and from themselves a window before: a sum."""
 
     lpips: float = 1.0
-    """Weight of LPIPS; 0: none, and its weights file is not needed."""
-    lpips_net: LpipsNet = "alex"
-    """Network of LPIPS; the published networks were trained with vgg."""
+    """Weight of LPIPS (AlexNet; the published networks were trained with VGG); 0: none, and its
+    weights file is not needed."""
     l1: float = 0.0
     """Weight of the mean absolute difference."""
     ssim: float = 0.0
@@ -46,7 +44,6 @@ class ReconstructionLoss:
     """How fast a pixel counts less where the true images differ, per squared intensity."""
 
     def __post_init__(self) -> None:
-        check_choices(self)
         for name in ("lpips", "l1", "ssim", "consistency"):
             check_range(name, getattr(self, name), 0.0, 1e6)
         if not (self.lpips or self.l1 or self.ssim):
@@ -85,11 +82,9 @@ class ReconstructionAugmentation:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ReconstructionConfig:
+class ReconstructionConfig(TrainingConfig):
     """A network that turns events into images."""
 
-    seed: int = 0
-    """Of the initial weights, the order of samples and their augmentation."""
     data: SequenceData = field(default_factory=lambda: SequenceData(length=40, crop=112))
     network: ReconstructionNetwork = field(default_factory=ReconstructionNetwork)
     loss: ReconstructionLoss = field(default_factory=ReconstructionLoss)
@@ -102,11 +97,11 @@ class ReconstructionConfig:
     )
 
     def __post_init__(self) -> None:
-        check_range("seed", self.seed, 0, 2**63 - 1)
+        super().__post_init__()
         check_range("score_every", self.score_every, 1, 1_000_000)
 
     def make_task(self) -> Task:
-        """The task; this imports torch."""
+        """See `TrainingConfig`."""
         from texvent_lab.train.reconstruction.task import ReconstructionTask
 
         return ReconstructionTask(self)

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from texvent.dataset.samples import Target
 from texvent.errors import ConfigError
 from texvent.extending import require
-from texvent.metrics.image_measures import Float64Array, load_measures
+from texvent.metrics.image_measures import Float64Array
 from texvent.metrics.lpips import find_lpips_weights, read_lpips_weights
 from texvent.networks.weight_files import STATE, Tensor
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.networks.layers import make_seeded
-from texvent_lab.reconstruct.checkpoint import Checkpoint
+from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import Intensity, Reconstructor
 from texvent_lab.reconstruct.recurrent_network import PublishedNetwork, RecurrentNetwork
 from texvent_lab.registries import RECONSTRUCTORS
@@ -31,9 +31,9 @@ from texvent_lab.train.reconstruction.losses import (
     draw_pauses,
 )
 from texvent_lab.train.schedule import EXTRA
-from texvent_lab.train.sequences.clips import WindowedClips
-from texvent_lab.train.sequences.truth import FLOW, crop_randomly, flip_randomly
+from texvent_lab.train.sequences import WindowedClips
 from texvent_lab.train.task import Batches, Score
+from texvent_lab.train.truth import FLOW, crop_randomly, flip_randomly
 
 
 def new_network(published: PublishedNetwork, seed: int) -> RecurrentNetwork:
@@ -70,7 +70,7 @@ class ReconstructionTask:
         options = self._config.loss
         weights = None
         if options.lpips:
-            weights = read_lpips_weights(find_lpips_weights(options.lpips_net))
+            weights = read_lpips_weights(find_lpips_weights())
         return SequenceLoss(options, weights)
 
     def make_network(self) -> Any:
@@ -112,12 +112,14 @@ class ReconstructionTask:
         flow = batch[FLOW].to(device) if FLOW in batch else None
         return self._loss.to(device)(images, batch[IMAGES].to(device), flow)
 
-    def validate(self, network: Any, device: Any, *, workers: int) -> dict[str, float]:
+    def validate(
+        self, network: Any, device: Any, *, workers: int
+    ) -> tuple[dict[str, float], dict[str, list[Any]]]:
         """Means over windows of whole clips, by the path that `texvent reconstruct` takes."""
         del workers
         torch, measures = require("torch", extra=EXTRA), load_measures().chosen
-        checkpoint = Checkpoint(self._tensors(network), {}, sha256="")
-        reconstructor = Reconstructor(self._published, checkpoint, device=str(device))
+        same = self._published.network.from_tensors(self._tensors(network), {})
+        reconstructor = Reconstructor(self._published, same, device=str(device))
         values: dict[str, list[float]] = {one.name: [] for one in measures}
         with torch.autocast(device.type, enabled=False):
             for number in range(len(self._validation)):
@@ -131,7 +133,7 @@ class ReconstructionTask:
                             values[one.name].append(one.compare(*_as_scored(image, frame)))
         # Small images have no LPIPS.
         defined = {name: [x for x in values[name] if not np.isnan(x)] for name in values}
-        return {name: float(np.mean(numbers)) for name, numbers in defined.items() if numbers}
+        return {name: float(np.mean(numbers)) for name, numbers in defined.items() if numbers}, {}
 
     def published(self, network: Any) -> Mapping[str, Any]:
         """See `Task`."""

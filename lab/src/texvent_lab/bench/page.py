@@ -1,0 +1,122 @@
+"""A stored result as a Markdown page with a chart."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from texvent.errors import FileFormatError, one_line
+from texvent_lab.bench.digits import results as digits
+from texvent_lab.bench.document import COMPRESSED, read_records, without_tags
+from texvent_lab.bench.fidelity.results import FidelityReport, read_report
+from texvent_lab.bench.fidelity.table import BASELINE, check_baseline, fidelity_tables
+from texvent_lab.bench.selftest import SCHEMA as SELFTEST_SCHEMA
+from texvent_lab.bench.selftest import SelftestRow, selftest_chart, selftest_table
+from texvent_lab.bench.summary import summarise
+from texvent_lab.charts import COLOURS, Dot, DotPanel, dot_chart
+
+TRACK_COLOURS = {
+    "frames": "#4c78a8",
+    "true frames": "#59a14f",
+    "frames, sensor known": "#9ab8dc",
+    "true frames, sensor known": "#a8d3a2",
+    "recorded": "#8c8c96",
+}
+"""Track → colour of its entries."""
+
+
+def page_name(file_name: str) -> str:
+    """Name of a result's page and chart: that of its file without .json or .json.gz."""
+    return file_name.removesuffix(COMPRESSED).removesuffix(".json")
+
+
+def page_files(
+    document: Mapping[str, Any], file_name: str, *, baseline: str = BASELINE
+) -> dict[str, bytes]:
+    """The page of a result and its chart, with file names after the result's.
+
+    Args:
+        document: result of `bench fidelity`, `real`, `digits` or `selftest`.
+        file_name: of the result.
+        baseline: of fidelity and real, entry that the others are compared with, pair by pair.
+
+    Raises:
+        FileFormatError: it is another document.
+        ConfigError: the baseline is no entry.
+    """
+    try:
+        title, described, chart, tables = _content(document, baseline)
+        facts = _facts(document)
+    except (AttributeError, IndexError, KeyError, StopIteration, TypeError, ValueError) as error:
+        raise FileFormatError(f"{file_name} is no result ({one_line(error)})") from error
+    name = page_name(file_name)
+    link = f"[{described}](../{described}) describes the measurement."
+    parts = [f"# {title}", link, facts, f"![Chart of the scores]({name}.svg)", tables]
+    page = without_tags("\n\n".join(part.rstrip() for part in parts) + "\n")
+    return {f"{name}.md": page.encode(), f"{name}.svg": chart}
+
+
+def _content(document: Mapping[str, Any], baseline: str) -> tuple[str, str, bytes, str]:
+    """Title, page of the documentation, chart and tables."""
+    if document.get("schema") == SELFTEST_SCHEMA:
+        rows = read_records(SelftestRow, document["rows"])
+        title = "Self-test of the metrics"
+        return title, "metrics.md", selftest_chart(rows), selftest_table(rows)
+    if document.get("schema") == digits.SCHEMA:
+        found = digits.read_report(document)
+        title = "Trained on simulated events, tested on recorded ones"
+        return title, "digits.md", digits_chart(found), digits.digits_table(found)
+    report = read_report(document)
+    check_baseline(baseline, [score.entry for score in report.scores])
+    kind, described = (
+        ("true", "benchmark.md") if report.score_seeds else ("recorded", "real-data.md")
+    )
+    tables = fidelity_tables(report, baseline=baseline)
+    return f"Simulators against {kind} events", described, score_chart(report), tables
+
+
+def score_chart(report: FidelityReport) -> bytes:
+    """STPP of every entry with its standard error, between null and floor: a panel per scene."""
+    panels = []
+    for one in report.references:
+        dots = []
+        for score in report.ranked(one.scene, one.target):
+            found = score.summary("stpp")
+            dots.append(Dot(score.entry, score.track, found.mean, found.standard_error))
+        bounds = {"null": one.null["stpp"], "floor": one.floor["stpp"]}
+        lines = {name: summarise(values).mean for name, values in bounds.items()}
+        panels.append(DotPanel(f"{one.title}: STPP", dots, lines))
+    return dot_chart(panels, TRACK_COLOURS, least=0)
+
+
+def digits_chart(report: digits.DigitsReport) -> bytes:
+    """Accuracy on recordings: a panel per representation, a row per arm, a colour per frames."""
+    panels = []
+    for kind, ceiling in report.ceiling.items():
+        dots = []
+        for one in report.scores:
+            if one.representation == kind:
+                found = summarise(one.accuracy)
+                way = digits.WAY_TITLES[one.way]
+                dots.append(Dot(one.arm, way, found.mean, found.standard_error))
+        lines = {"trained on recordings": summarise(ceiling).mean}
+        panels.append(DotPanel(digits.REPRESENTATION_TITLES[kind], dots, lines))
+    colours = dict(zip(digits.WAY_TITLES.values(), COLOURS, strict=False))
+    return dot_chart(panels, colours)
+
+
+def _facts(document: Mapping[str, Any]) -> str:
+    """Machine, protocol and seeds of a result, a line each."""
+    facts = {**document["environment"], **document.get("protocol", {})}
+    for name in ("fit_seeds", "score_seeds", "texture_seed", "recording_seeds", "seconds"):
+        facts |= {name.replace("_", " "): document[name]} if document.get(name) else {}
+    lines = []
+    for name, value in facts.items():
+        if isinstance(value, Mapping):
+            value = ", ".join(f"{key} {one}" for key, one in value.items())
+        elif isinstance(value, list):
+            value = ", ".join(map(str, value))
+        elif isinstance(value, float):
+            value = f"{value:.6g}"
+        lines.append(f"- {name}: {value}")
+    return "\n".join(lines)

@@ -1,1 +1,0 @@
-"""The self-test of the metrics: which perturbation does each one see?"""

@@ -1,1 +1,0 @@
-"""Events from a video model's latents, without its frames. Experimental; see docs/latents.md."""

@@ -1,1 +1,0 @@
-"""Depth from events: E2Depth trained with exact depth, and scored."""

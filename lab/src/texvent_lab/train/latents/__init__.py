@@ -1,1 +1,0 @@
-"""A head on a video autoencoder's latents, trained on scenes. Experimental; see docs/latents.md."""

@@ -1,0 +1,79 @@
+"""Pages of results: their own files and stored ones, hostile text, and documents of other kinds."""
+
+import json
+import xml.etree.ElementTree as ElementTree
+from dataclasses import replace
+from pathlib import Path
+
+import pytest
+
+from texvent.cli.app import main
+from texvent.errors import FileFormatError
+from texvent_lab.bench.document import read_document
+from texvent_lab.bench.page import page_files
+
+from .synthetic_report import synthetic_report
+
+RESULTS = Path(__file__).parents[3] / "docs" / "results"
+STORED = ("fidelity", "real-slider_depth", "real-davis346", "digits", "digits-all", "selftest")
+
+
+@pytest.mark.parametrize("name", STORED)
+def test_every_stored_result_has_a_page_with_its_chart(name):
+    files = page_files(read_document(RESULTS / f"{name}.json.gz"), f"{name}.json.gz")
+    page = files[f"{name}.md"].decode()
+    assert f"({name}.svg)" in page
+    assert "commit: " in page
+    ElementTree.fromstring(files[f"{name}.svg"])
+
+
+def test_text_of_a_result_is_no_html_in_page_or_chart():
+    hostile = '</text></script><script>alert(1)</script>"><img src=x onerror=alert(1)>\u2028| x'
+    report = synthetic_report()
+    report = replace(
+        report,
+        references=[replace(one, scene=hostile) for one in report.references],
+        scores=[replace(one, scene=hostile, entry=hostile) for one in report.scores],
+    )
+    for name, content in page_files(report.document(), "result.json").items():
+        text = content.decode()
+        assert "<script" not in text, name
+        assert "<img" not in text, name
+        if name.endswith(".svg"):
+            ElementTree.fromstring(text)
+
+
+def test_a_chart_shows_every_entry():
+    report = synthetic_report()
+    chart = page_files(report.document(), "result.json")["result.svg"]
+    words = " ".join(one.text or "" for one in ElementTree.fromstring(chart).iter())
+    assert all(one.entry in words for one in report.scores)
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"schema": "other"}, {"scores": [{}]}, {"scores": 3}, {"references": []}],
+    ids=["schema", "empty score", "no list", "no reference"],
+)
+def test_another_document_is_refused(change):
+    with pytest.raises(FileFormatError, match=r"schema|no result"):
+        page_files({**synthetic_report().document(), **change}, "result.json")
+
+
+def test_a_result_is_written_and_becomes_a_page(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    chosen = ["--scenes", "static", "--simulators", "esim", "--interpolations", "none"]
+    assert main(["bench", "fidelity", *chosen, "-o", "r.json", "--jobs", "1", "-q"]) == 0
+    shown = capsys.readouterr()
+    assert "### static, noisy pixels" in shown.out
+    assert not shown.err
+    document = json.loads((tmp_path / "r.json").read_text())
+    # Nothing moves, so a model without noise has no event to place.
+    assert document["scores"][0]["default_ratio"] == 0
+    assert main(["bench", "page", "r.json"]) == 0
+    assert capsys.readouterr().out.split() == ["r.md", "r.svg"]
+    assert "| esim, none | " in (tmp_path / "r.md").read_text()
+    assert main(["bench", "page", "r.json", "--overwrite", "--baseline", "esim, flow"]) != 0
+    assert "allowed: esim, none" in capsys.readouterr().err
+    assert main(["bench", "page", "r.json"]) != 0
+    assert "exists already" in capsys.readouterr().err
