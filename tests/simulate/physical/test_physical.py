@@ -94,28 +94,6 @@ def test_a_change_in_the_refractory_period_is_lost(kernels):
     assert len(lost) == 1
 
 
-def test_unfired_change_decays_at_its_rate(kernels):
-    # Jumps of 0.15 that are 0.1 s apart; at 5 per second 0.15 becomes 0.0910 in between.
-    values = [intensity(v) for v in (4, 4.15, 4.15, 4.3)]
-    times = [0, 1, 100_001, 100_002]
-    decaying = run(clean(residual_decay_hz=5.0), frames_of(values, times))
-    assert len(decaying) == 1  # 0.0910 + 0.15 > 0.2
-    assert len(run(clean(residual_decay_hz=12.0), frames_of(values, times))) == 0
-    assert len(run(clean(), frames_of(values, times))) == 1
-
-
-def test_a_fall_decays_until_the_leak_fires(kernels):
-    # Thresholds 0.1 and 0.9, leak 2 per second, decay r = 5 per second: -0.6 exp(-rt) +
-    # 2 / r · (1 - exp(-rt)) reaches 0.1 where exp(-rt) = 0.3. Without decay after 0.35 s.
-    options = {"contrast_threshold": 0.3, "on_off_ratio": 1 / 9, "residual_decay_hz": 5.0}
-    simulator = clean(leak_rate_hz=20.0, leak_rate_decades=0.0, **options)
-    values = [intensity(4)] + [intensity(3.4)] * 300
-    events = run(simulator, frames_of(values, [0, *range(1, 300_000, 1000)]))
-    # From 0 on it takes until exp(-rt) = 0.75.
-    assert events.t == pytest.approx([-2e5 * math.log(left) for left in (0.3, 0.225)], abs=500)
-    assert events.p.all()
-
-
 # Everything at once.
 
 
@@ -159,14 +137,12 @@ CONFIGS = st.builds(
     on_off_ratio=st.floats(0.6, 1.6),
     threshold_sigma=st.sampled_from([0.0, 0.05]),
     initial_phase=st.sampled_from(["zero", "random"]),
-    residual_decay_hz=st.sampled_from([0.0, 3.0]),
     cutoff_hz=st.sampled_from([0.0, 5.0, 250.0]),
     refractory_period_us=st.sampled_from([0, 1, 300, 60_000]),
     leak_rate_hz=st.sampled_from([0.0, 0.1, 30.0]),
     noise_scale=st.sampled_from([0.0, 1.0, 300.0]),
-    noise_resets=st.booleans(),
     hot_pixel_fraction=st.sampled_from([0.0, 0.2]),
-    rate_limit_hz=st.sampled_from([0.0, 2000.0]),
+    scan_period_ns=st.sampled_from([0, 30_000_000]),
 )
 
 

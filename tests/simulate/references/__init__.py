@@ -33,7 +33,6 @@ KERNELS = {
         "voltmeter:find_first_passages"
     ),
     "texvent.simulate.physical.pixels:advance_pixels": "physical:advance_pixels",
-    "texvent.simulate.physical.readout:serve_rows": "row_arbiter:serve_rows",
     "texvent.simulate.v2ce.simulator:sample_events": "ldati:sample_events",
 }
 """Kernel → its definition, in a module of this folder or, for the whole Texvent model, of ours."""

@@ -14,7 +14,7 @@ from typing import Any, Literal
 
 from texvent.simulate.physical.config import DAVIS346_NOISE, PhysicalConfig
 
-Basis = Literal["data sheet", "paper", "software", "measured here", "unmeasured"]
+Basis = Literal["data sheet", "paper", "measured here", "unmeasured"]
 """Origin of a value; unmeasured is the model's default."""
 
 
@@ -53,40 +53,19 @@ CAMERAS: Mapping[str, Camera] = {
                 "Lmin (Prophesee, Event-based vision sensor characteristics), so ln 1.25",
             ),
             Constant("on_off_ratio", 1.0, "data sheet", "one threshold is stated for ON and OFF"),
-            Constant(
-                "rate_limit_window_us",
-                200,
-                "software",
-                "OpenEB 5.1, gen41_erc.cpp: reference period of the event rate controller",
-            ),
         ),
     ),
-    "genx320": Camera(
-        "Prophesee GenX320",
-        (
-            Constant(
-                "rate_limit_window_us",
-                100,
-                "software",
-                "OpenEB 5.1, genx320_erc.h: reference period of the event rate controller",
-            ),
-        ),
-    ),
+    "genx320": Camera("Prophesee GenX320", ()),
     "gen3.1": Camera("Prophesee Gen3.1 VGA (PPS3MVCD)", ()),
     "dvxplorer": Camera(
         "iniVation DVXplorer (Samsung S5K231Y)",
         (
             Constant(
-                "arbiter",
-                "scan",
-                "measured here",
-                "two recordings of 320×240: columns come by one after the other, whatever the load",
-            ),
-            Constant(
                 "scan_period_ns",
                 197_150,
                 "measured here",
-                "the same; dv-processing states 5,000 Hz by default (VARIABLE_5000)",
+                "two recordings of 320×240: columns come by one after the other, whatever the "
+                "load; dv-processing states 5,000 Hz by default (VARIABLE_5000)",
             ),
         ),
     ),
@@ -135,7 +114,7 @@ CAMERAS: Mapping[str, Camera] = {
 """Preset → what is known of the camera."""
 
 
-NOT_OF_A_CAMERA = ("gamma", "initial_phase", "noise_resets", "sensor_seed", "threshold_map")
+NOT_OF_A_CAMERA = ("gamma", "initial_phase", "sensor_seed", "threshold_map")
 """Options that are no constants of a camera: they belong to the frames, the run or the model."""
 
 

@@ -220,8 +220,6 @@ class EventRules(NamedTuple):
 
     refractory_us: int
     """Refractory period, µs."""
-    resets_by_noise: bool
-    """Whether noise events reset their pixels too."""
     first_pixel: int
     """Flat index of the first pixel of this part of the sensor."""
     low: int
@@ -457,7 +455,7 @@ def _fire(
     Returns:
         How many events there are now.
     """
-    refractory_us, resets_by_noise, first, low, _, duration_us = rules
+    refractory_us, first, low, _, duration_us = rules
     events, count, made = out
     for n in range(firing.size):
         k = firing[n]
@@ -471,9 +469,8 @@ def _fire(
             is_on = noise_times[lane_of[N_NEXT_NOISE, j]] & 1 == 1
             lane_of[N_NEXT_NOISE, j] += 1
             _skip_noise(lanes, lane_of, noise_times, j, -NEVER)
-        if not by_noise or resets_by_noise:
-            # Held in reset for the refractory period.
-            lanes[L_LEVEL, j], lanes[L_SINCE, j] = np.nan, float(after + refractory_us)
+        # Held in reset for the refractory period.
+        lanes[L_LEVEL, j], lanes[L_SINCE, j] = np.nan, float(after + refractory_us)
         lanes[L_NOW, j], stepping[n] = event, j
         kind = np.uint64(is_on) << _1 | (_NOISE if is_noise else np.uint64(0))
         pixel = np.uint64(first + lane_of[N_PIXEL, j])

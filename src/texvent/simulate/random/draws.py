@@ -47,8 +47,6 @@ class Purpose(IntEnum):
     FIRST_PASSAGE = 9
     PHASE = 10
     NOISE_RATE = 11
-    READOUT = 12
-    RATE_LIMIT = 13
     VOXEL = 14
     NOISE_PLACE = 15
 
