@@ -33,10 +33,8 @@ TEXVENT = {
     "decay, one event": {"residual_decay_hz": 3.0, "multi_event": False},
     "steps": {"preset": "paper", "reset": "step"},
     "random times": {"timestamp_rule": "random"},
-    "hyperbolic times": {"timestamp_rule": "hyperbolic"},
-    "many events": {"multi_event": True, "timestamp_rule": "even", "contrast_threshold": 0.06},
-    "times at the end": {"timestamp_rule": "end", "timestamp_scale": 0.5},
-    "scaled times": {"preset": "paper", "timestamp_scale": 0.5},
+    "many events": {"multi_event": True, "contrast_threshold": 0.06},
+    "times at the end": {"timestamp_rule": "end"},
 }
 ESIM = {
     "default": {},

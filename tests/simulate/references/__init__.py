@@ -23,7 +23,8 @@ KERNELS = {
     "texvent.simulate.crossing.trigger_levels:look_up": "trigger_levels:look_up",
     "texvent.simulate.random.poisson_noise:draw_arrivals": "poisson_arrivals:draw_arrivals",
     "texvent.simulate.texvent.noise:place_noise": "noise_blocks:place_noise",
-    "texvent.simulate.texvent.pixels:SparsePixels": "dense_pixels:DensePixels",
+    "texvent.simulate.texvent.pixels:SparsePixels": "texvent:TexventPixels",
+    "texvent.simulate.texvent.pixels:ShakenPixels": "texvent:TexventPixels",
     "texvent.simulate.esim.pixels:look_up": "trigger_levels:look_up",
     "texvent.simulate.esim.pixels:cross_thresholds": "esim:cross_thresholds",
     "texvent.simulate.esim.pixels:cross_segments": "segments:cross_segments",
@@ -35,7 +36,7 @@ KERNELS = {
     "texvent.simulate.physical.pixels:advance_pixels": "physical:advance_pixels",
     "texvent.simulate.v2ce.simulator:sample_events": "ldati:sample_events",
 }
-"""Kernel → its definition, in a module of this folder or, for the whole Texvent model, of ours."""
+"""Kernel → its definition, in a module of this folder."""
 
 
 @contextmanager
@@ -45,8 +46,7 @@ def definitions() -> Iterator[None]:
         for kernel, definition in KERNELS.items():
             module, name = kernel.split(":")
             home, function = definition.split(":")
-            package = "texvent.simulate.texvent" if home == "dense_pixels" else __name__
-            found = getattr(importlib.import_module(f"{package}.{home}"), function)
+            found = getattr(importlib.import_module(f"{__name__}.{home}"), function)
             patch.setattr(importlib.import_module(module), name, found)
         yield
 

@@ -1,8 +1,7 @@
 """Memory of the pixels of the Texvent model between frames, and their trigger levels.
 
-The definition of the model is float64 NumPy on whole frames (`dense_pixels`). The fast form must
-return the same events, bit for bit, without a logarithm per pixel. It can, because an event needs
-only this state and these levels.
+By definition every pixel of every frame is compared in float64. This form returns the same events,
+bit for bit, without a logarithm per pixel, because an event needs only this state and these levels.
 
 **State.** One array per pixel, `reference`: the intensity R that the pixel compares with, in the
 type of the frames (uint8, uint16 or float32 luma; once frames of two types have come, float32,

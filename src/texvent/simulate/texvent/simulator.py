@@ -13,13 +13,12 @@ from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.packets import FrameInterval, UnsortedEvents, make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.streaming import Backend, SteppingSimulator
-from texvent.simulate.texvent.config import TexventConfig
+from texvent.simulate.texvent.config import PRESETS, TexventConfig
 from texvent.video import Frame, StreamChecker, check_intensity
 
 if TYPE_CHECKING:
-    from texvent.simulate.texvent.dense_pixels import DensePixels
     from texvent.simulate.texvent.fused import FusedPass
-    from texvent.simulate.texvent.pixels import SparsePixels
+    from texvent.simulate.texvent.pixels import ShakenPixels, SparsePixels
 
 __all__ = ["TexventConfig", "TexventSimulator"]
 
@@ -42,20 +41,7 @@ class TexventSimulator(SteppingSimulator):
 
     config_type: ClassVar[type] = TexventConfig
     bytes_per_pixel: ClassVar[int] = 30
-    presets: ClassVar[Mapping[str, TexventConfig]] = {
-        # Chosen by measurement against true and recorded events (docs/benchmark.md).
-        "accurate": TexventConfig(),
-        "paper": TexventConfig(
-            balance=30.0,
-            cache="local",
-            reset="current",
-            multi_event=False,
-            residual_decay_hz=0.0,
-            noise_rate_hz=0.1,
-            noise_intensity=80.0,
-            timestamp_rule="eq7",
-        ),
-    }
+    presets: ClassVar[Mapping[str, TexventConfig]] = PRESETS
     frame_bound_presets: ClassVar[frozenset[str]] = frozenset({"paper"})
     has_gpu: ClassVar[bool] = True
 
@@ -116,7 +102,7 @@ class TexventSimulator(SteppingSimulator):
     def reset(self) -> None:
         """Forget all frames: the next one is the first."""
         self._checker = StreamChecker()
-        self._pixels: DensePixels | SparsePixels | None = None
+        self._pixels: ShakenPixels | SparsePixels | None = None
         self._last: Frame | None = None
         self._fused: FusedPass | None = None
         self._on_gpu: Any = None
@@ -188,13 +174,9 @@ class TexventSimulator(SteppingSimulator):
         self._last = frame
         return packet
 
-    def _begin(self, frame: Frame, where: str) -> DensePixels | SparsePixels:
+    def _begin(self, frame: Frame, where: str) -> ShakenPixels | SparsePixels:
         """Pixels whose references are those of a frame."""
-        # Both bring Numba.
-        if self.config.noise == "gaussian":
-            from texvent.simulate.texvent.dense_pixels import DensePixels
+        from texvent.simulate.texvent.pixels import ShakenPixels, SparsePixels  # brings Numba
 
-            return DensePixels(self.config, frame, where)
-        from texvent.simulate.texvent.pixels import SparsePixels
-
-        return SparsePixels(self.config, frame, where)
+        kind = ShakenPixels if self.config.noise == "gaussian" else SparsePixels
+        return kind(self.config, frame, where)

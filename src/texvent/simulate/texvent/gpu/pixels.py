@@ -24,8 +24,8 @@ from texvent.simulate.gpu.launch import (
 )
 from texvent.simulate.gpu.passes import GpuPixels
 from texvent.simulate.random.draws import frame_keys
+from texvent.simulate.texvent.brightness_cache import CacheSchedule
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.event_frame import CacheSchedule
 from texvent.simulate.texvent.gpu import rules, scan_triton
 
 
