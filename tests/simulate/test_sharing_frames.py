@@ -47,7 +47,6 @@ MODELS = [
     # Leak fires pixels whose light rests, in blocks that would be skipped else.
     (PhysicalSimulator, PhysicalConfig(leak_rate_hz=20.0, noise_scale=0.0, initial_phase="zero")),
     (V2eSimulator, V2eConfig(leak_rate_hz=20.0, shot_noise_rate_hz=20.0)),
-    (V2eSimulator, V2eConfig(photoreceptor_noise=True, shot_noise_rate_hz=20.0)),
     (SenpiSimulator, SenpiSimulator.presets["default"]),
     (VoltmeterSimulator, VoltmeterSimulator.presets["davis240"]),
 ]

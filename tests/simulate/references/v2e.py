@@ -45,8 +45,6 @@ def apply_low_pass(
     if mismatch.leak.size:
         leak, elapsed_us = mismatch.leak.astype(np.float64), light.elapsed_us
         start, stop = start + leak * elapsed_us[0], stop + leak * elapsed_us[1]
-    if state.noise[0].size:
-        start, stop = start + state.noise[0], stop + state.noise[1]
     pixel = np.flatnonzero((stop >= mismatch.threshold_on) | (-stop >= mismatch.threshold_off))
     return CrossingPixels(pixel, start[pixel], stop[pixel])
 
@@ -60,7 +58,7 @@ def emit_and_reset(
 ) -> UnsortedEvents:
     """Fire at every threshold that was crossed, and move the references by as many.
 
-    Events to which leak and noise of the photoreceptor contributed at least half are noise.
+    Events to which leak contributed at least half are noise.
 
     Args:
         crossing: the pixels that have reached a threshold.
@@ -86,14 +84,11 @@ def emit_and_reset(
     steps, fired = crossings.steps, pixel[crossings.steps != 0]
     moved = steps * np.where(steps > 0, on, off)
     state.reference[pixel] += moved
-    by_noise = np.zeros(len(pixel))
+    leaked = np.zeros(len(pixel))
     if mismatch.leak.size:
-        by_noise += mismatch.leak[pixel].astype(np.float64) * (stop_us - last.interval_us[pixel])
-    if last.noise.size:
-        by_noise += state.noise[1][pixel] - last.noise[pixel]
-        last.noise[fired] = state.noise[1][fired]
+        leaked = mismatch.leak[pixel].astype(np.float64) * (stop_us - last.interval_us[pixel])
     last.interval_us[fired] = stop_us
-    is_noise = by_noise * np.sign(steps) >= 0.5 * np.abs(moved)
+    is_noise = leaked * np.sign(steps) >= 0.5 * np.abs(moved)
     # Every step is an event here, and events come by pixel.
     label = np.repeat(np.where(is_noise, NOISE, SIGNAL).astype(np.uint8), np.abs(steps))
     fired = UnsortedEvents(crossings.pixel, crossings.t, crossings.p, label)

@@ -9,7 +9,6 @@ from texvent.simulate.senpi.simulator import (
     SenpiConfig,
     SenpiSimulator,
     photons,
-    shot_noise_rate_hz,
 )
 from texvent.video import Frame
 
@@ -100,29 +99,6 @@ def test_hot_pixels_are_few_and_busy():
     hot = counts > 0
     assert abs(hot.sum() - 96) < 4 * math.sqrt(96)
     assert counts[hot].mean() == pytest.approx(500, rel=0.03)
-
-
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_shot_noise_has_the_rate_of_its_tails(fps):
-    # N = 58.8 at 1 level, dark 2: variance of ln N (N + 4) / N²; of a difference twice that.
-    config = with_only(shot_noise=True, noise_rate_hz=20.0)
-    frames = static(1.0, fps=fps, seconds=0.25, shape=(40, 60))
-    mean = 15_000 / 255
-    tail = 0.5 * math.erfc(0.2 / 2 / math.sqrt((mean + 4) / mean**2))
-    expected = (2 * tail / 0.041667 + 20.0) * 0.25 * 40 * 60
-    events = run(SenpiSimulator(config), frames)
-    assert abs(len(events) - expected) < 4 * math.sqrt(expected)
-    assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
-
-
-def test_shot_noise_spares_bright_pixels():
-    electrons, threshold = np.array([[58.8, 15_000.0]]), np.full((1, 2), 0.2)
-    dark, bright = shot_noise_rate_hz(electrons, threshold)[0]
-    assert dark > 1.0
-    assert bright < 1e-12
-    # N = 100, dark 2: variance (100 + 4) / 100².
-    some = shot_noise_rate_hz(np.full(1, 100.0), np.full(1, 0.2))
-    assert some[0] == pytest.approx(math.erfc(0.2 / 2 / math.sqrt(0.0104)) / 2 / 41_667e-6)
 
 
 @pytest.mark.parametrize("fps", [24, 1000])

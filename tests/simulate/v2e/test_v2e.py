@@ -6,7 +6,7 @@ import pytest
 from tests.simulate.references.v2e import lin_log
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.v2e.pixels import photoreceptor_noise_rms, relative_intensity
+from texvent.simulate.v2e.pixels import relative_intensity
 from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
 
 from ..pixel_frames import curve, frames_of, run, static
@@ -129,25 +129,6 @@ def test_leak_before_a_noise_event_makes_no_light_noise(kernels):
     events = run(simulator, frames_of(values, range(0, 2_100_000, 100_000)))
     assert events.label.tolist() == [NOISE, SIGNAL]
     assert events.t[1] == pytest.approx(1_200_000 + 0.2 / 0.26 * 1e6, abs=1)
-
-
-def test_photoreceptor_noise_comes_near_its_rate_and_alternates():
-    config = with_only(shot_noise_rate_hz=20.0, cutoff_hz=100.0, photoreceptor_noise=True)
-    # The fit is for continuous time: coarser frames miss excursions (docs/simulators.md).
-    frames = static(235.0, fps=20_000, seconds=0.1, shape=(16, 20))
-    events = run(V2eSimulator(config), frames)
-    assert len(events) / (0.1 * 16 * 20) == pytest.approx(20.0, rel=0.25)
-    assert (events.label == NOISE).all()
-    order = np.lexsort((events.t, events.x, events.y))
-    pixel = (events.y.astype(int) * 20 + events.x)[order]
-    flips = np.diff(events.p[order].astype(int))[np.diff(pixel) == 0] != 0
-    assert flips.mean() > 0.8
-
-
-def test_photoreceptor_noise_level_is_the_published_fit():
-    # At an ON rate of a tenth of the bandwidth, x = -1.
-    exponent = 0.0026 - 0.036 + 0.1949 + 0.321
-    assert photoreceptor_noise_rms(20.0, 100.0, 0.2) == pytest.approx(0.2 / 10**exponent)
 
 
 def test_a_change_kept_back_by_the_refractory_period_fires_later(kernels):

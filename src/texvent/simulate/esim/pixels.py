@@ -40,8 +40,6 @@ from texvent.simulate.random.mismatch import (
     LOWEST_THRESHOLD,
     Thresholds,
     draw_threshold_pair_at,
-    sensor_thresholds,
-    thresholds_at,
 )
 from texvent.simulate.streaming import IntensityArray
 
@@ -61,12 +59,11 @@ class BandEvents(NamedTuple):
 class EsimPixels:
     """All pixels of a sensor."""
 
-    def __init__(self, config: EsimConfig, seed: int, luma: IntensityArray) -> None:
+    def __init__(self, config: EsimConfig, luma: IntensityArray) -> None:
         """Begin with the first frame.
 
         Args:
             config: options.
-            seed: of thresholds that never change.
             luma: of the first frame, [H, W], 0..255 scale, uint8 or float32.
         """
         self._config = config
@@ -85,11 +82,11 @@ class EsimPixels:
         )
         # Of `ReferenceLevels`; made from the references when a pair is fused.
         self._level: Float64Array | None = None
-        self._is_redrawn = config.threshold_sigma > 0 and config.threshold_redraw == "frame"
-        # Thresholds are drawn for every frame, none below the floor.
-        self._fixed = FLOOR
-        if not self._is_redrawn:
-            self._fixed = sensor_thresholds(luma.shape, seed, config)
+        # Drawn thresholds are never below the floor.
+        self._lowest = FLOOR
+        if config.threshold_sigma == 0:
+            on, off = config.contrast_threshold_on, config.contrast_threshold_off
+            self._lowest = Thresholds(np.array([float(on)]), np.array([float(off)]))
         self._triggers: TriggerLevels | None = self._find_triggers(luma, of_luma)
 
     def advance(self, luma: IntensityArray, interval: FrameInterval) -> SortedEvents:
@@ -106,7 +103,7 @@ class EsimPixels:
             RefractoryPeriod(self._config.refractory_period_us, is_level_lost=True),
             self._shape,
         )
-        triggers.set(pixel, self._references.reference, thresholds_at(pixel, self._fixed))
+        triggers.set(pixel, self._references.reference, self._lowest)
         self._triggers = triggers
         self._level = None
         return events
@@ -165,7 +162,7 @@ class EsimPixels:
     ) -> TriggerLevels:
         """Trigger levels of all pixels; arguments as for `TriggerLevels.set_all`."""
         triggers = TriggerLevels(luma, BrightnessCurve(WHITE, -self._config.balance))
-        triggers.set_all(self._references.reference, self._fixed, of_luma=of_luma)
+        triggers.set_all(self._references.reference, self._lowest, of_luma=of_luma)
         return triggers
 
     def _log_intensity(self, luma: IntensityArray) -> Float64Array:
@@ -173,10 +170,10 @@ class EsimPixels:
 
     def _thresholds(self, pixel: Int64Array, key: np.uint64) -> Thresholds:
         """Thresholds of some pixels in this interval."""
-        if self._is_redrawn:
-            y, x = np.divmod(pixel, self._shape[1])
-            return Thresholds(*draw_threshold_pair_at(y, x, key, self._config))
-        return thresholds_at(pixel, self._fixed)
+        if self._config.threshold_sigma == 0:
+            return self._lowest
+        y, x = np.divmod(pixel, self._shape[1])
+        return Thresholds(*draw_threshold_pair_at(y, x, key, self._config))
 
 
 def _split_by_segment(band: BandEvents, segments: int) -> list[UnsortedEvents]:

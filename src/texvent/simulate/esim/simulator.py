@@ -10,11 +10,11 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import Any, ClassVar
 
 import numpy as np
 
-from texvent.config import check_choices, check_range
+from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.packets import FrameInterval, SortedEvents, make_packet
@@ -42,10 +42,8 @@ class EsimConfig:
     contrast_threshold_off: float = 0.2
     """Fall of ln(I/255 + log eps) that fires an OFF event."""
     threshold_sigma: float = 0.0
-    """Standard deviation of both thresholds, log units; drawn thresholds are at least 0.01."""
-    threshold_redraw: Literal["frame", "never"] = "frame"
-    """With a threshold sigma: draw thresholds again for every pixel and frame, as ESIM describes
-    it (frame), or once per pixel, as mismatch between pixels (never)."""
+    """Standard deviation of both thresholds, log units; they are drawn again for every pixel and
+    frame, as ESIM describes it, and are at least 0.01."""
     log_eps: float = 1e-3
     """Added to intensities on the 0..1 scale before the logarithm, above 0."""
     refractory_period_us: int = 0
@@ -55,7 +53,6 @@ class EsimConfig:
         check_nominal_thresholds(self)
         check_range("log_eps", self.log_eps, 1e-9, 1.0)
         check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
-        check_choices(self)
 
     @property
     def contrast_threshold(self) -> float:
@@ -159,7 +156,7 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
     def _begin(self, intensity: IntensityArray) -> None:
         from texvent.simulate.esim.pixels import EsimPixels  # brings Numba
 
-        self._pixels = EsimPixels(self.config, self._seed, intensity)
+        self._pixels = EsimPixels(self.config, intensity)
 
     def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> SortedEvents:
         return self._pixels.advance(intensity, interval)

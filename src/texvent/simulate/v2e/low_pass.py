@@ -46,15 +46,13 @@ class LowPassInput(NamedTuple):
 class V2ePixelState(NamedTuple):
     """State of the pixels.
 
-    The change that fires it is brightness + noise − reference + leak · time since the first frame.
+    The change that fires it is brightness − reference + leak · time since the first frame.
     """
 
     brightness: Float64Array
     """[n] after the low-pass, log units; a kernel moves it to the end of the interval."""
     reference: Float64Array
     """[n] brightness at the last event, less what had leaked until then, log units."""
-    noise: tuple[Float64Array, Float64Array]
-    """[n] noise of the photoreceptor at the start and at the end, log units; [0] without."""
     quiescent_until_us: Float64Array
     """[blocks] time after the first frame, µs, up to which no pixel of a block fires if its luma
     does not change; only the fast kernel reads it."""
@@ -75,18 +73,10 @@ class CrossingPixels(NamedTuple):
     """[m] change at the end."""
 
 
-def new_state(brightness: Float64Array, *, has_noise: bool) -> V2ePixelState:
-    """The state of pixels whose reference is the brightness of the first frame.
-
-    Args:
-        brightness: [n] log units.
-        has_noise: whether the photoreceptors make noise.
-    """
-    noise = np.zeros(brightness.size if has_noise else 0)
+def new_state(brightness: Float64Array) -> V2ePixelState:
+    """The state of pixels whose reference is the brightness of the first frame, [n] log units."""
     blocks = -(-brightness.size // BLOCK)
-    return V2ePixelState(
-        brightness, brightness.copy(), (noise, noise.copy()), np.full(blocks, -np.inf)
-    )
+    return V2ePixelState(brightness, brightness.copy(), np.full(blocks, -np.inf))
 
 
 Float32Array = NDArray[np.float32]
@@ -116,7 +106,6 @@ def apply_low_pass(
             take_scratch("start of crossing pixels", size, np.float64),
             take_scratch("stop of crossing pixels", size, np.float64),
         )
-        noise_start, noise_stop = state.noise
         # Numba leaves out branches for arguments that are None, but not for their fields.
         found = _apply_low_pass(
             (light.before[part], read_only(light.now[part])),
@@ -126,7 +115,6 @@ def apply_low_pass(
             V2ePixelState(
                 state.brightness[part],
                 state.reference[part],
-                (noise_start[part], noise_stop[part]),
                 state.quiescent_until_us[blocks],
             ),
             room,
@@ -158,8 +146,7 @@ def _apply_low_pass(
 ) -> int:
     """Fill in the crossing pixels; return how many there are."""
     (before, now), (linear_below, angle, start_us, stop_us) = luma, constants
-    (on, off, leak), (brightness, reference, noise, quiescent_until_us) = mismatch, state
-    noise_start, noise_stop = noise
+    (on, off, leak), (brightness, reference, quiescent_until_us) = mismatch, state
     size = now.size
     pixel, start_change, stop_change = room
     local = np.empty(BLOCK + WORD, np.uint64)
@@ -168,7 +155,7 @@ def _apply_low_pass(
     marks = words.view(np.uint8)
     for first in range(0, size, BLOCK):
         last = min(first + BLOCK, size)
-        is_static = noise_start.size == 0 and is_equal(before[first:last], now[first:last])
+        is_static = is_equal(before[first:last], now[first:last])
         if is_static and stop_us <= quiescent_until_us[first // BLOCK]:
             continue
         before[first:last] = now[first:last]
@@ -177,9 +164,6 @@ def _apply_low_pass(
         if leak.size > 0:
             _add(start, leak[first:last], start_us)
             _add(stop, leak[first:last], stop_us)
-        if noise_start.size > 0:
-            _add(start, noise_start[first:last], 1.0)
-            _add(stop, noise_stop[first:last], 1.0)
         _mark(stop, on[first:last], off[first:last], marks)
         crossing = list_marked(words[: -(-(last - first) // WORD)], marks, local)
         for k in range(crossing):

@@ -1,4 +1,4 @@
-"""ESIM on the GPU: its options as numbers and maps, and threshold crossings as Triton kernels.
+"""ESIM on the GPU: its options as numbers, and threshold crossings as Triton kernels.
 
 As with Texvent, a program owns a block of pixels and goes through all intervals of a call, once to
 count the events and once to write them.
@@ -38,10 +38,6 @@ class EsimRules(NamedTuple):
     """[3] float64, because Triton rounds a plain number to float32."""
     logs: Tensor
     """[256] float64: log intensity of a byte."""
-    threshold_on: Tensor
-    """[B, area] float64 thresholds of every pixel, or None where all have the nominal one."""
-    threshold_off: Tensor
-    """[B, area] alike."""
     rests: Tensor
     """[1] int64, time after an event in which the pixel cannot fire, µs; None without one."""
 
@@ -80,7 +76,8 @@ def scan_ramp(
     Source: as `crossing.ramp`, whose events these are.
     """
     clip, at, inside, home, pixels = own_pixels(frames, ALIGN, BLOCK)
-    threshold_on, threshold_off = _thresholds_of(rules, home, inside)
+    threshold_on = tl.load(rules.numbers + _THRESHOLD_ON)
+    threshold_off = tl.load(rules.numbers + _THRESHOLD_OFF)
     intensity = read(frames.previous + home, inside)
     before = log_intensity(intensity, rules)
     level = tl.load(state.level + home, mask=inside, other=0.0)
@@ -178,7 +175,8 @@ def stamp_crossings(
         BLOCK: records that a program takes at a time.
     """
     segment = tl.program_id(0).to(tl.int64)
-    clip = segment // frames.intervals
+    threshold_on = tl.load(rules.numbers + _THRESHOLD_ON)
+    threshold_off = tl.load(rules.numbers + _THRESHOLD_OFF)
     start = tl.load(ends + segment) + tl.program_id(1) * BLOCK
     stop = tl.load(ends + segment + 1)
     for begin in range(start, stop, tl.num_programs(1) * BLOCK):
@@ -190,7 +188,6 @@ def stamp_crossings(
         before = log_intensity(read_before(frames, segment, pixel, inside), rules)
         now = log_intensity(read_now(frames, segment, pixel, inside), rules)
         is_on = now > level
-        threshold_on, threshold_off = _thresholds_of(rules, clip * frames.area + pixel, inside)
         threshold = tl.where(is_on, threshold_on, threshold_off)
         first, last = _towards(is_on, before - level, now - level)
         share = crossing_share(first, last, order * threshold)
@@ -207,18 +204,6 @@ def log_intensity(intensity: tl.tensor, rules: tl.tuple) -> tl.tensor:
         share = intensity.to(tl.float64) / _WHITE
         brightness = tl.log(share + tl.load(rules.numbers + _LOG_EPS))
     return brightness
-
-
-@triton.jit
-def _thresholds_of(rules: tl.tuple, at: tl.tensor, inside: tl.tensor) -> tl.tuple:
-    """ON and OFF thresholds of pixels: from the sensor's maps, or the same for all."""
-    if rules.threshold_on is not None:
-        on = tl.load(rules.threshold_on + at, mask=inside, other=1.0)
-        off = tl.load(rules.threshold_off + at, mask=inside, other=1.0)
-    else:
-        on = tl.load(rules.numbers + _THRESHOLD_ON)
-        off = tl.load(rules.numbers + _THRESHOLD_OFF)
-    return on, off
 
 
 @triton.jit

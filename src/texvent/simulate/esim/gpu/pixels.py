@@ -30,7 +30,7 @@ from texvent.simulate.gpu.launch import (
     to_device,
 )
 from texvent.simulate.gpu.passes import GpuPixels
-from texvent.simulate.random.mismatch import LONG_AGO_US, draw_threshold_pair, sensor_key
+from texvent.simulate.random.mismatch import LONG_AGO_US
 
 
 class EsimPixels(GpuPixels[EsimConfig]):
@@ -46,10 +46,10 @@ class EsimPixels(GpuPixels[EsimConfig]):
         Raises:
             ConfigError: thresholds that are drawn for every frame.
         """
-        if config.threshold_sigma > 0 and config.threshold_redraw == "frame":
+        if config.threshold_sigma > 0:
             raise ConfigError(
-                "threshold_redraw 'frame' draws two normal numbers for every pixel and frame, "
-                "which backend gpu does not do; use threshold_redraw 'never', or backend cpu"
+                f"threshold_sigma {config.threshold_sigma:g} draws two normal numbers for every "
+                "pixel and frame, which backend gpu does not do; use 0, or backend cpu"
             )
         super().__init__(config, seeds, RAMP_LAUNCH)
 
@@ -63,13 +63,6 @@ class EsimPixels(GpuPixels[EsimConfig]):
             torch.zeros(shape, dtype=torch.float64, device=device),
             torch.full(shape, LONG_AGO_US, dtype=torch.int64, device=device) if rests else None,
         )
-        maps: tuple[Tensor, Tensor] = (None, None)
-        if config.threshold_sigma > 0:
-            pairs = [
-                draw_threshold_pair(shape[1:], sensor_key(seed), config) for seed in self._seeds
-            ]
-            on, off = (to_device(np.stack(one), device) for one in zip(*pairs, strict=True))
-            maps = on, off
         numbers = np.empty(3)
         numbers[THRESHOLD_ON] = config.contrast_threshold_on
         numbers[THRESHOLD_OFF] = config.contrast_threshold_off
@@ -78,7 +71,6 @@ class EsimPixels(GpuPixels[EsimConfig]):
         self._rules = EsimRules(
             to_device(numbers, device),
             to_device(logs, device),
-            *maps,
             to_device(np.array([config.refractory_period_us]), device) if rests else None,
         )
 
