@@ -94,7 +94,6 @@ def test_options_of_a_pixel_model_are_those_of_its_dataclass(simulator):
         ("texvent", "residual_decay_hz", 0.0, 1e6),
         ("v2e", "leak_rate_decades", 0.0, 1.0),
         ("v2e", "refractory_period_us", 0, 10**9),
-        ("voltmeter", "k4", -0.01, 0.01),
         ("esim", "log_eps", 1e-9, 1.0),
     ],
 )

@@ -34,7 +34,7 @@ NOISY: dict[str, dict[str, Any]] = {
     },
     "v2e": {"shot_noise_rate_hz": RATE_HZ / V2E_SHARE, "leak_rate_hz": 0.0, "threshold_sigma": 0.0},
     "senpi": {"noise_rate_hz": RATE_HZ, "refractory_period_us": 0},
-    "voltmeter": {"k4": RATE_HZ * 1e-6, "k5": 0.0},
+    "voltmeter": {"constants": f"5.265 20 1e-4 {RATE_HZ * 1e-6} 0 1e-5"},
 }
 """Options with which a dark pixel at rest fires at `RATE_HZ`. ESIM has no noise, and V2CE's is in
 its network."""
@@ -44,7 +44,7 @@ CLEAN: dict[str, dict[str, Any]] = {
     "esim": {},
     "v2e": {"preset": "peer-common"},
     "senpi": {"preset": "peer-common"},
-    "voltmeter": {"k3": 0.0, "k4": 0.0, "k5": 0.0, "k6": 0.0},
+    "voltmeter": {"constants": "5.265 20 0 0 0 0"},
 }
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 

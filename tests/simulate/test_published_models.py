@@ -139,7 +139,7 @@ SYMMETRIC = {
     "v2e": (V2eSimulator.presets["peer-common"], 0.0),
     "senpi": (SenpiSimulator.presets["peer-common"], 0.0),
     # Without noise: ΔL / (mean L + k2) changes its sign exactly where L + k2 is inverted.
-    "voltmeter": (VoltmeterConfig(k1=5.0, k3=0.0, k4=0.0, k5=0.0, k6=0.0), 20.0),
+    "voltmeter": (VoltmeterConfig(constants="5 20 0 0 0 0"), 20.0),
 }
 
 
@@ -177,7 +177,7 @@ def test_the_seed_decides_everything_random(name, seed):
         "esim": {"threshold_sigma": 0.03},
         "v2e": {"shot_noise_rate_hz": 50.0},
         "senpi": {"noise_rate_hz": 50.0},
-        "voltmeter": {"k6": 1e-3},
+        "voltmeter": {"constants": "5.265 20 1e-4 1e-7 5e-9 1e-3"},
     }
     config = dataclasses.replace(preset, **noisy.get(name, {}))
     frames = moving_texture()

@@ -16,8 +16,10 @@ from texvent.simulate.voltmeter.first_passage import (
     CERTAIN,
     DRAWS_PER_PASSAGE,
     FIRST_DRAW,
-    LONGEST_US,
     MOST_DISPLACEMENT,
+)
+from texvent.simulate.voltmeter.voltage import (
+    LONGEST_US,
     FirstPassageInput,
     Float64Array,
     Voltage,

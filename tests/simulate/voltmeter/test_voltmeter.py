@@ -1,4 +1,3 @@
-import dataclasses
 import math
 
 import numpy as np
@@ -10,20 +9,20 @@ from tests.simulate.references.voltmeter import (
 )
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.voltmeter.first_passage import Constants
-from texvent.simulate.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
+from texvent.simulate.voltmeter.simulator import Constants, VoltmeterConfig, VoltmeterSimulator
 from texvent.video import Frame
 
 from ..pixel_frames import curve, frames_of, run, static
 
-QUIET = VoltmeterConfig(k3=0.0, k4=0.0, k5=0.0, k6=0.0, initial_phase="zero")
+QUIET = VoltmeterConfig(constants="5.265 20 0 0 0 0", initial_phase="zero")
 ABOVE_99_9_PERCENT = 1.95
 """Kolmogorov-Smirnov distance times √n that a true sample exceeds once in a thousand."""
 
 
-def with_only(**options) -> VoltmeterConfig:
+def with_only(*, initial_phase="zero", **constants) -> VoltmeterConfig:
     """Nothing but these constants: no other noise, no other drift."""
-    return dataclasses.replace(QUIET, **options)
+    text = str(QUIET.k._replace(**constants))
+    return VoltmeterConfig(constants=text, initial_phase=initial_phase)
 
 
 def column(*values: float) -> np.ndarray:
@@ -115,7 +114,7 @@ def test_a_static_scene_has_the_rate_of_its_drift_at_any_frame_rate(preset, fps)
     config = VoltmeterSimulator.presets[preset]
     frames = static(250.0, fps=fps, seconds=1.0, shape=(40, 50))
     events = run(VoltmeterSimulator(config), frames)
-    expected = (config.k4 + config.k5 * 250) * 1e6 * 40 * 50
+    expected = (config.k.k4 + config.k.k5 * 250) * 1e6 * 40 * 50
     assert abs(len(events) - expected) < 4 * math.sqrt(expected)
     assert (events.label == NOISE).all()
     # Never in unison: pixels start anywhere on the way to their first event.
@@ -123,7 +122,7 @@ def test_a_static_scene_has_the_rate_of_its_drift_at_any_frame_rate(preset, fps)
 
 
 def test_pixels_that_start_at_zero_leak_in_unison(kernels):
-    config = dataclasses.replace(VoltmeterConfig(k3=0.0, k6=0.0), initial_phase="zero")
+    config = with_only(k4=1e-7, k5=5e-9)
     frames = static(250.0, fps=24, seconds=1.0, shape=(3, 4))
     events = run(VoltmeterSimulator(config), frames)
     assert len(events) == 12
