@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from types import ModuleType
@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from texvent._require import require
 from texvent.config import InterpolateConfig
 from texvent.errors import FileFormatError, InputError
-from texvent.networks.weight_files import check_finite
 from texvent.pairs.instants import check_between, matching_levels, position
 from texvent.video import UINT16_PER_LEVEL, Frame
 
@@ -112,26 +111,6 @@ def choose_device() -> str:
         MissingDependencyError: torch is not installed.
     """
     return "cuda" if import_torch().cuda.is_available() else "cpu"
-
-
-def load_strictly(network: Any, tensors: Mapping[str, Tensor], path: Path, hint: str) -> None:
-    """Fill a network with the tensors of a file.
-
-    Args:
-        network: a torch module; it may be on the device "meta".
-        tensors: name → tensor, float32.
-        path: of the file, for messages.
-        hint: where to get the right file.
-
-    Raises:
-        FileFormatError: a tensor is missing, unknown, of another shape, or not finite.
-    """
-    try:
-        network.load_state_dict(tensors, strict=True, assign=True)
-    except RuntimeError as error:
-        problem = str(error).splitlines()[1].strip().rstrip(". ")
-        raise FileFormatError(f"{path} holds another network: {problem[:300]}; {hint}") from error
-    check_finite(tensors, path)
 
 
 def image_tensors(first: Frame, second: Frame) -> tuple[Tensor, Tensor]:

@@ -8,9 +8,14 @@ from typing import TYPE_CHECKING
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError
-from texvent.interpolate.networks import EXTRA, import_torch, load_strictly
+from texvent.interpolate.networks import EXTRA, import_torch
 from texvent.io.atomic import atomic_file
-from texvent.networks.weight_files import describe_file, named_tensors, read_mapping
+from texvent.networks.weight_files import (
+    describe_file,
+    load_strictly,
+    named_tensors,
+    read_mapping,
+)
 from texvent.runtime.cache_folder import cache_folder
 
 if TYPE_CHECKING:

@@ -11,8 +11,8 @@ from pathlib import Path
 from typing import Any
 
 from texvent.errors import FileFormatError
-from texvent.interpolate.networks import EXTRA, Tensor, import_torch, load_strictly
-from texvent.networks.weight_files import named_tensors, read_mapping
+from texvent.interpolate.networks import EXTRA, Tensor, import_torch
+from texvent.networks.weight_files import load_strictly, named_tensors, read_mapping
 
 torch: Any = import_torch()
 nn: Any = torch.nn
