@@ -181,9 +181,7 @@ def attack(simulator: str, interpolators: list[str], groups: list[str]) -> None:
         for dtype in ("uint8", "float32"):
             # Kernels are compiled without a limit of time.
             clip = frames(0, dtype=dtype)
-            texvent.simulate(
-                clip, fps=100, simulator=simulator, interpolate=interpolator, backend="cpu"
-            )
+            texvent.simulate(clip, fps=100, simulator=simulator, interpolate=interpolator)
         for group in groups:
             for name, (source, given) in makers[group]():
                 chosen = {

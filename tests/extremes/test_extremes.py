@@ -91,7 +91,7 @@ def peak():
     status = open("/proc/self/status").read()
     return int(status.split("VmHWM:")[1].split()[0]) * 1024
 def run(frames):
-    parts = {"simulator": sys.argv[1], "interpolate": sys.argv[2], "backend": "cpu"}
+    parts = {"simulator": sys.argv[1], "interpolate": sys.argv[2]}
     for _ in texvent.simulate(frames, fps=100, as_packets=True, progress=False, **parts):
         pass
 run(clip(64))

@@ -30,14 +30,11 @@ TOOL = Path(triton.__file__).parent / "backends" / "nvidia" / "bin" / "cuobjdump
 PAPER = TexventSimulator.presets["paper"]
 RANDOM = {"noise": "random", "timestamp_rule": "random"}
 DECAYING = {"residual_decay_hz": 3.0}
-RESTING = {"threshold_sigma": 0.1, "threshold_redraw": "never", "refractory_period_us": 5}
+RESTING = {"refractory_period_us": 5}
 CONFIGS: dict[str, Any] = {
     "paper": PAPER,
     "random": replace(PAPER, **RANDOM),
-    **{
-        name: TexventConfig(**DECAYING, timestamp_rule=name)
-        for name in ("linear", "hyperbolic", "even")
-    },
+    "linear": TexventConfig(**DECAYING, timestamp_rule="linear"),
     "end": TexventConfig(cache="global", reset="step", timestamp_rule="end"),
     "esim": EsimConfig(),
     "resting esim": EsimConfig(**RESTING),

@@ -38,24 +38,23 @@ PAPER = TexventSimulator.presets["paper"]
 TEXVENT = {
     "paper": {"noise_rate_hz": 5.0},
     "other noise": {"noise": "random", "noise_rate_hz": 9.0, "noise_on_fraction": 0.3},
-    "dark": {"noise_rate_hz": 9.0, "noise_intensity": 120.5, "timestamp_scale": 0.6},
+    "dark": {"noise_rate_hz": 9.0, "noise_intensity": 120.5},
     "no cache": {"noise": "none", "cache": "none", "timestamp_rule": "random"},
-    "current": {"cache": "global", "timestamp_rule": "hyperbolic"},
+    "current": {"cache": "global"},
     "default": {
         "noise": "none", "cache": "global", "reset": "step", "multi_event": True,
         "timestamp_rule": "linear", "residual_decay_hz": 3.0,
     },
-    "even": {
-        "cache": "global", "multi_event": True, "timestamp_rule": "even", "noise_rate_hz": 5.0,
+    "many": {
+        "cache": "global", "multi_event": True, "timestamp_rule": "random", "noise_rate_hz": 5.0,
     },
     "steps": {"noise": "none", "cache": "global", "reset": "step", "timestamp_rule": "eq7"},
     "end": {"noise": "none", "balance": 5.0, "contrast_threshold": 0.3, "timestamp_rule": "end"},
 }  # fmt: skip
-FEW: dict[str, Any] = {"log_eps": 0.1, "threshold_redraw": "never"}
+FEW: dict[str, Any] = {"log_eps": 0.1}
 """Few crossings per pixel, each of which costs the interpreter time."""
 ESIM = {
     "esim": {},
-    "esim with mismatch": {"contrast_threshold_on": 0.3, "threshold_sigma": 0.05},
     "esim at rest": {"refractory_period_us": 400, "contrast_threshold_off": 0.4},
 }
 
@@ -249,8 +248,8 @@ def test_frames_and_times_that_cannot_be_used_are_refused(frames, times_us, mess
     [
         (TexventConfig(noise="gaussian"), "noise 'gaussian'"),
         (TexventConfig(balance=0.0), "balance is 0"),
-        (EsimConfig(threshold_sigma=0.1), "threshold_redraw 'frame'"),
-        (PhysicalConfig(), "'physical' has no backend gpu"),
+        (EsimConfig(threshold_sigma=0.1), "threshold_sigma 0.1"),
+        (PhysicalConfig(), "'physical' does not run on a GPU"),
     ],
 )
 def test_what_only_the_cpu_does_is_refused_by_name(config, message):

@@ -46,7 +46,7 @@ EXTRAS = {
     "rife": ("torch", "RIFE interpolation"),
     "v2ce": ("torch", "the V2CE simulator"),
     "plot": ("matplotlib", "events.plot()"),
-    "gpu": ("triton", "texvent and esim on a GPU: --backend gpu"),
+    "gpu": ("triton", "texvent and esim on a GPU, from Python"),
     "assets": ("trimesh", "OBJ and PLY models in --assets folders"),
     "exr": ("OpenEXR", "OpenEXR frames and passes of a renderer"),
     "bags": ("rosbags", "ROS bags and mcap"),

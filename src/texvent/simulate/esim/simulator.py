@@ -10,7 +10,7 @@ from __future__ import annotations
 import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -23,7 +23,7 @@ from texvent.simulate.random.mismatch import (
     check_nominal_thresholds,
     smaller_threshold,
 )
-from texvent.simulate.streaming import Backend, IntensityArray, StreamingSimulator
+from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.video import Frame
 
 WHITE = 255.0
@@ -91,8 +91,6 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         "peer-common": EsimConfig(),
     }
 
-    has_gpu: ClassVar[bool] = True
-
     @property
     def contrast_threshold(self) -> float:
         """The smaller threshold, log units."""
@@ -103,45 +101,10 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         """`255 · log_eps`: with it, Eq. 4's logarithm is the model's own."""
         return self.config.balance
 
-    def __init__(
-        self, config: EsimConfig | None = None, *, seed: int = 0, backend: Backend = "cpu"
-    ) -> None:
-        """Prepare a simulator that has seen no frame.
-
-        Args:
-            config: options; default: the first preset.
-            seed: of drawn thresholds, 0..2⁶³−1.
-            backend: "cpu", or "gpu" for kernels on a GPU, with the same events as nearly as
-                `texvent.simulate.gpu` says.
-
-        Raises:
-            ConfigError: the seed is out of range, or the backend is "gpu" and there is no GPU, or
-                an option that only the CPU has.
-        """
-        self._backend = backend
-        super().__init__(config, seed=seed)
-
-    def reset(self) -> None:
-        """Forget all frames: the next one is the first."""
-        super().reset()
-        self._on_gpu: Any = None
-        if self._backend == "gpu":
-            from texvent.simulate.gpu.frames import FrameSteps  # brings torch
-
-            self._on_gpu = FrameSteps(self.config, self._seed)
-
-    def step(self, frame: Frame) -> EventStream:
-        """Events in `[t of the frame before, t of this frame)`; see `StreamingSimulator.step`."""
-        if self._on_gpu is None:
-            return super().step(frame)
-        self._enter(frame)
-        packet: EventStream = self._on_gpu.step(frame)
-        return packet
-
     def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
         """Events between two frames; see `simulate.protocol.Simulator.advance`."""
         bounds = None
-        if pair.first is not None and self._on_gpu is None and self.config.threshold_sigma == 0:
+        if pair.first is not None and self.config.threshold_sigma == 0:
             bounds = self._pixels.find_bounds(pair)
         if bounds is None:
             yield from super().advance(pair)

@@ -238,7 +238,7 @@ def _make_pixels(config: object, seeds: Sequence[int]) -> GpuPixels[Any]:
     if isinstance(config, EsimConfig):
         return EsimPixels(config, seeds)
     model = type(config).__name__.removesuffix("Config").lower()
-    raise ConfigError(f"simulator {model!r} has no backend gpu; texvent and esim have one")
+    raise ConfigError(f"simulator {model!r} does not run on a GPU; texvent and esim do")
 
 
 def _seeds_of(seed: int | Sequence[int], clips: int | None) -> tuple[int, ...]:

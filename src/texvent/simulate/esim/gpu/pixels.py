@@ -49,7 +49,7 @@ class EsimPixels(GpuPixels[EsimConfig]):
         if config.threshold_sigma > 0:
             raise ConfigError(
                 f"threshold_sigma {config.threshold_sigma:g} draws two normal numbers for every "
-                "pixel and frame, which backend gpu does not do; use 0, or backend cpu"
+                "pixel and frame, which is not done on a GPU; use 0"
             )
         super().__init__(config, seeds, RAMP_LAUNCH)
 

@@ -44,13 +44,13 @@ class TexventPixels(GpuPixels[TexventConfig]):
         """
         if config.noise == "gaussian":
             raise ConfigError(
-                "noise 'gaussian' draws a normal number for every pixel and frame, which backend "
-                "gpu does not do; use noise 'adaptive', 'random' or 'none', or backend cpu"
+                "noise 'gaussian' draws a normal number for every pixel and frame, which is not "
+                "done on a GPU; use noise 'adaptive', 'random' or 'none'"
             )
         if config.balance <= 0:
             raise ConfigError(
-                "balance is 0, and backend gpu does not look for black pixels, which then have no "
-                "logarithm; use a balance above 0, or backend cpu"
+                "balance is 0, and black pixels, which then have no logarithm, are not looked for "
+                "on a GPU; use a balance above 0"
             )
         self._tracks_intensity = rules.tracks_intensity(config)
         super().__init__(
