@@ -133,21 +133,6 @@ def test_only_pixels_outside_their_levels_are_looked_at(kernels, dtype):
     assert now.tolist() == [90, 120, 130]
 
 
-def test_levels_by_luma_are_those_of_each_pixel(kernels):
-    first = np.arange(256, dtype=np.uint8).reshape(4, 64)
-    of_luma = log_intensity(np.arange(256, dtype=np.uint8), 1e-3)
-    thresholds = Thresholds(np.array([0.2]), np.array([0.3]))
-    one, other = (TriggerLevels(first, BrightnessCurve(255.0, -0.255)) for _ in range(2))
-    one.set_all(of_luma, thresholds)
-    other.set_all(of_luma, thresholds, of_luma=of_luma)
-    for shift in (1, 20, 60, 200):
-        moved = np.roll(first, shift)
-        found = [levels.find_outside_levels(moved).pixel.tolist() for levels in (one, other)]
-        assert found[0] == found[1]
-        change = of_luma[moved.ravel()] - of_luma
-        assert found[0] == np.flatnonzero((change >= 0.2) | (change <= -0.3)).tolist()
-
-
 def test_a_pixel_that_always_fires_is_always_looked_at(kernels):
     first = np.full((1, 3), 9, np.uint8)
     levels = TriggerLevels(first, BrightnessCurve(1.0, 0.0))

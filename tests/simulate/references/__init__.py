@@ -20,14 +20,11 @@ KERNELS = {
         "trigger_levels:find_outside_levels"
     ),
     "texvent.simulate.crossing.trigger_levels:set_levels": "trigger_levels:set_levels",
-    "texvent.simulate.crossing.trigger_levels:look_up": "trigger_levels:look_up",
     "texvent.simulate.random.poisson_noise:draw_arrivals": "poisson_arrivals:draw_arrivals",
     "texvent.simulate.texvent.noise:place_noise": "noise_blocks:place_noise",
     "texvent.simulate.texvent.pixels:SparsePixels": "texvent:TexventPixels",
     "texvent.simulate.texvent.pixels:ShakenPixels": "texvent:TexventPixels",
-    "texvent.simulate.esim.pixels:look_up": "trigger_levels:look_up",
     "texvent.simulate.esim.pixels:cross_thresholds": "esim:cross_thresholds",
-    "texvent.simulate.esim.pixels:cross_segments": "segments:cross_segments",
     "texvent.simulate.v2e.pixels:apply_low_pass": "v2e:apply_low_pass",
     "texvent.simulate.v2e.pixels:emit_and_reset": "v2e:emit_and_reset",
     "texvent.simulate.voltmeter.first_passage:find_first_passages": (

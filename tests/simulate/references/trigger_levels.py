@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -65,16 +63,3 @@ def set_levels(
         is_empty = lowest > highest
         lowest, highest = np.where(is_empty, 255.0, lowest), np.where(is_empty, 0.0, highest)
     low[pixel], high[pixel] = lowest, highest
-
-
-def look_up(table: NDArray[Any], luma: NDArray[np.uint8]) -> NDArray[Any]:
-    """What a table has for each pixel.
-
-    Args:
-        table: [256] float64 or uint8.
-        luma: [n].
-
-    Returns:
-        [n] of the table's type.
-    """
-    return np.asarray(table[luma])

@@ -126,25 +126,13 @@ class TriggerLevels:
         """
         set_levels(pixel, reference, thresholds, self._curve, self._low, self._high)
 
-    def set_all(
-        self,
-        reference: Float64Array,
-        thresholds: Thresholds,
-        *,
-        of_luma: Float64Array | None = None,
-    ) -> None:
+    def set_all(self, reference: Float64Array, thresholds: Thresholds) -> None:
         """Set the levels of all pixels.
 
         Args:
             reference: [H · W] log units.
             thresholds: of all pixels.
-            of_luma: [256] reference by luma, where it is that of the 8-bit luma seen last.
         """
-        if of_luma is not None and thresholds.on.size == 1:
-            low, high = np.empty(256, np.uint8), np.empty(256, np.uint8)
-            set_levels(np.arange(256), of_luma, thresholds, self._curve, low, high)
-            self._low, self._high = look_up(low, self._seen), look_up(high, self._seen)
-            return
         # Some at a time: one list of all is larger than most frames.
         for first in range(0, self._seen.size, PIXELS_AT_A_TIME):
             pixel = np.arange(first, min(first + PIXELS_AT_A_TIME, self._seen.size))
@@ -180,27 +168,6 @@ def find_outside_levels(luma: Luma, seen: Luma, low: Luma, high: Luma) -> Outsid
         count = _find_outside_levels(read_only(luma), seen, low, high, found)
     pixel, before, now = found
     return OutsidePixels(pixel[:count], before[:count], now[:count])
-
-
-def look_up(table: NDArray[Any], luma: NDArray[np.uint8]) -> NDArray[Any]:
-    """Entries of a table for the luma of each pixel, without NumPy's 64-bit copy of the luma.
-
-    Args:
-        table: [256] float64 or uint8.
-        luma: [n].
-
-    Returns:
-        [n] of the table's type.
-    """
-    found = np.empty(luma.size, table.dtype)
-    _look_up(read_only(table), read_only(luma), found)
-    return found
-
-
-@jit
-def _look_up(table: NDArray[Any], luma: NDArray[np.uint8], found: NDArray[Any]) -> None:
-    for i in range(luma.size):
-        found[i] = table[luma[i]]
 
 
 @jit

@@ -7,7 +7,6 @@ which runs it on video frames. docs/simulators.md gives the equations and the de
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
@@ -17,7 +16,7 @@ import numpy as np
 from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
-from texvent.simulate.packets import FrameInterval, SortedEvents, make_packet
+from texvent.simulate.packets import FrameInterval, SortedEvents
 from texvent.simulate.random.mismatch import (
     Float64Array,
     check_nominal_thresholds,
@@ -111,10 +110,9 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
             return
         segments = self._pixels.fuse(pair, bounds)
         self._enter(pair.second)
-        spans = itertools.pairwise(pair.edges_us.tolist())
-        for frame, span_us, fired in zip(pair.undrawn_frames, spans, segments, strict=True):
-            interval = FrameInterval(*span_us, np.uint64(0))
-            yield frame, make_packet(fired, interval, pair.second.size)
+        for frame, fired in zip(pair.undrawn_frames, segments, strict=True):
+            x, y, t, p, label = fired
+            yield frame, EventStream.unchecked(x, y, t, p, size=pair.second.size, label=label)
 
     def _begin(self, intensity: IntensityArray) -> None:
         from texvent.simulate.esim.pixels import EsimPixels  # brings Numba
