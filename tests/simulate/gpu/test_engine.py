@@ -247,7 +247,6 @@ def test_frames_and_times_that_cannot_be_used_are_refused(frames, times_us, mess
     ("config", "message"),
     [
         (TexventConfig(noise="gaussian"), "noise 'gaussian'"),
-        (TexventConfig(balance=0.0), "balance is 0"),
         (EsimConfig(threshold_sigma=0.1), "threshold_sigma 0.1"),
         (PhysicalConfig(), "'physical' does not run on a GPU"),
     ],

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.kernels.elementary import cosine_of_turns, natural_log
 from texvent.simulate.packets import FrameInterval, UnsortedEvents
-from texvent.simulate.random.draws import draw_halves, draw_uniforms
+from texvent.simulate.random.draws import HALF_UNIT, draw_uniforms, draw_words
 from texvent.simulate.voltmeter.first_passage import (
     CERTAIN,
     DRAWS_PER_PASSAGE,
@@ -138,7 +138,9 @@ def _draw_passages(
     probability = probability_along_drift(speed, sigma, along, against)
     is_along = draw_uniforms(key, y, x, order) < probability
     distance = np.where(is_along, along, against)
-    turns, chance = draw_halves(key, y, x, order + 2)
+    words = draw_words(key, y, x, order + 2)
+    turns = (words >> np.uint64(32)).astype(np.float64) * HALF_UNIT
+    chance = (words & np.uint64(0xFFFF_FFFF)).astype(np.float64) * HALF_UNIT
     cosine = cosine_of_turns(turns)
     square = -2.0 * natural_log(1.0 - draw_uniforms(key, y, x, order + 1)) * (cosine * cosine)
     wait = np.minimum(first_passage_time(distance, speed, sigma, square, chance), LONGEST_US)

@@ -264,11 +264,6 @@ def test_step_fails_on_bad_frames_and_can_go_on(pixels, t_us, message, kernels):
     assert EventStream.concat(packets).equals(undisturbed)
 
 
-def test_no_balance_is_allowed_without_black_pixels(kernels):
-    frames = [pixel(level, 1000 * k) for k, level in enumerate((10, 13))]
-    assert len(simulate(frames, balance=0.0)) == 1
-
-
 def test_step_fails_if_gaussian_noise_would_fire_every_time(kernels):
     config = paper(noise="gaussian", noise_rate_hz=30.0)
     simulator = TexventSimulator(config)

@@ -5,9 +5,10 @@ import pytest
 
 from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
+from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.noise import QUIET
 from texvent.simulate.texvent.pixel_memory import FiredPixels
-from texvent.simulate.texvent.timestamps import Timing, timestamp_events
+from texvent.simulate.texvent.timestamps import timestamp_events
 
 THRESHOLD = 0.2
 RULES = ("eq7", "random", "linear", "end")
@@ -18,9 +19,11 @@ def times(rule, changes, *, before=0.0, multi_event=False, stop_us=10_000) -> li
     change = np.array(changes, np.float64)
     starts, references = np.full(change.size, before), np.zeros(change.size)
     fired = FiredPixels(np.arange(change.size), change, starts, change, references)
-    timing = Timing(rule, THRESHOLD, multi_event, noise_at_rest=True)
+    config = TexventConfig(
+        timestamp_rule=rule, contrast_threshold=THRESHOLD, multi_event=multi_event
+    )
     span = FrameInterval(0, stop_us, frame_key(0, 0))
-    x, _, t, _, _ = timestamp_events([fired], QUIET, timing, span, (1, change.size))
+    x, _, t, _, _ = timestamp_events([fired], QUIET, config, span, (1, change.size))
     return t[np.lexsort((t, x))].tolist()
 
 

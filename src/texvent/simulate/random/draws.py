@@ -103,15 +103,6 @@ def draw_uniforms(key: np.uint64, y: ArrayLike, x: ArrayLike, draw: ArrayLike) -
     return np.asarray((words >> np.uint64(11)).astype(np.float64) * UNIT)
 
 
-def draw_halves(
-    key: np.uint64, y: ArrayLike, x: ArrayLike, draw: ArrayLike
-) -> tuple[Float64Array, Float64Array]:
-    """Two uniform numbers in [0, 1), multiples of 2⁻³²; arguments as for `draw_words`."""
-    words = draw_words(key, y, x, draw)
-    high, low = words >> np.uint64(32), words & np.uint64(MASK_64 >> 32)
-    return high.astype(np.float64) * HALF_UNIT, low.astype(np.float64) * HALF_UNIT
-
-
 def draw_normals(key: np.uint64, y: ArrayLike, x: ArrayLike, draw: ArrayLike) -> Float64Array:
     """Normal numbers, mean 0, sd 1, by the Box-Muller transform of draws `draw` and `draw + 1`.
 

@@ -61,7 +61,7 @@ class TexventConfig:
 
     def __post_init__(self) -> None:
         check_range("contrast_threshold", self.contrast_threshold, 1e-4, 10.0)
-        check_range("balance", self.balance, 0.0, 1e6)
+        check_range("balance", self.balance, 1e-6, 1e6)
         check_range("residual_decay_hz", self.residual_decay_hz, 0.0, 1e6)
         check_range("noise_rate_hz", self.noise_rate_hz, 0.0, 1e4)
         check_range("noise_scale", self.noise_scale, 0.0, 1e3)

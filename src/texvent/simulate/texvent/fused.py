@@ -37,7 +37,6 @@ from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.noise import draw_noise
 from texvent.simulate.texvent.pixel_memory import FiredPixels, Memory
-from texvent.simulate.texvent.pixels import timing_of
 from texvent.simulate.texvent.timestamps import timestamp_events
 from texvent.video import Frame
 
@@ -59,7 +58,6 @@ class FusedPass:
         """
         self._config, self._seed = config, seed
         self._keeps_start = config.timestamp_rule == "linear" or config.cache == "none"
-        self._timing = timing_of(config)
         self._scratch: Float64Array = np.empty(0)
 
     def find_bounds(self, pair: FramePair, memory: Memory | None) -> LumaBounds | None:
@@ -100,7 +98,7 @@ class FusedPass:
             span = FrameInterval(*span_us, frame_key(self._seed, span_us[1]))
             luma_of = functools.partial(warp_pixels, motion, part)
             noise = draw_noise(self._config, span, size.width * size.height, luma_of)
-            x, y, t, p, label = timestamp_events(fired[part], noise, self._timing, span, size.shape)
+            x, y, t, p, label = timestamp_events(fired[part], noise, self._config, span, size.shape)
             yield frame, EventStream.unchecked(x, y, t, p, size=size, label=label)
 
     def _levels(self, pair: FramePair, memory: Memory | None) -> ReferenceLevels:

@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.brightness import Float64Array, balanced_log, check_balance
+from texvent.brightness import Float64Array, balanced_log
 from texvent.events import NOISE, EventStream
 from texvent.runtime.read_only import read_only
 from texvent.simulate.packets import FrameInterval
@@ -36,7 +36,7 @@ from texvent.simulate.texvent.pixel_memory import (
     update_reference,
 )
 from texvent.simulate.texvent.scan import detect_events
-from texvent.simulate.texvent.timestamps import Timing, timestamp_events
+from texvent.simulate.texvent.timestamps import timestamp_events
 from texvent.video import Frame, bad_intensity, check_intensity
 
 Int64Array = NDArray[np.int64]
@@ -54,7 +54,6 @@ class SparsePixels:
             where: what messages call it.
         """
         check_intensity(frame.pixels, where)
-        check_balance(frame.luma, config.balance)
         self._config = config
         self._schedule = CacheSchedule(config.cache, config.residual_decay_hz)
         self._schedule.pass_frame(frame.t_us, is_source=frame.is_source)
@@ -69,7 +68,6 @@ class SparsePixels:
             has_line=config.timestamp_rule == "linear",
         )
         self._rule_that_renews = self._rule._replace(is_renewed=True)
-        self._timing = timing_of(config)
 
     def advance(self, frame: Frame, span: FrameInterval, where: str) -> EventStream:
         """Events until this frame.
@@ -81,7 +79,6 @@ class SparsePixels:
 
         Raises:
             InputError: an intensity is NaN, infinite or negative; the pixels are then as they were.
-            ConfigError: the balance is 0 and a pixel is black; the same.
         """
         intensity = self._read(frame, where)
         share = self._schedule.share_after(frame.t_us, is_source=frame.is_source)
@@ -90,7 +87,7 @@ class SparsePixels:
             raise bad_intensity(frame.pixels, where)
         self._schedule.pass_frame(frame.t_us, is_source=frame.is_source)
         noise = self._draw_noise(intensity, span)
-        x, y, t, p, label = timestamp_events([fired], noise, self._timing, span, frame.size.shape)
+        x, y, t, p, label = timestamp_events([fired], noise, self._config, span, frame.size.shape)
         return EventStream.unchecked(x, y, t, p, size=frame.size, label=label)
 
     def ensure_reference(self) -> Memory:
@@ -128,8 +125,6 @@ class SparsePixels:
         if frame.pixels.ndim != 2 or frame.pixels.dtype != np.float32:
             # The kernels look at float32 luma themselves.
             check_intensity(frame.pixels, where)
-        if self._config.balance == 0:
-            check_balance(frame.luma, 0.0)
         intensity = _native_intensity(frame)
         if intensity.dtype == self._memory.reference.dtype:
             return intensity
@@ -154,7 +149,7 @@ class ShakenPixels:
     def __init__(self, config: TexventConfig, frame: Frame, where: str) -> None:
         """Begin with the first frame; arguments as for `SparsePixels`."""
         check_intensity(frame.pixels, where)
-        self._config, self._timing = config, timing_of(config)
+        self._config = config
         self._schedule = CacheSchedule(config.cache, config.residual_decay_hz)
         self._t_us, self._is_source = frame.t_us, frame.is_source
         self._brightness = balanced_log(frame.luma, config.balance).reshape(-1)
@@ -180,7 +175,7 @@ class ShakenPixels:
             reference += share * (before - reference)
         pixel, change = self._compare(shaken)
         fired = FiredPixels(pixel, change, before[pixel], shaken[pixel], reference[pixel])
-        x, y, t, p, label = timestamp_events([fired], QUIET, self._timing, span, shape)
+        x, y, t, p, label = timestamp_events([fired], QUIET, config, span, shape)
         signal, change = self._compare(now)
         label[is_background(y.astype(np.int64) * shape[1] + x, signal)] = NOISE
         if config.reset == "current":
@@ -197,16 +192,6 @@ class ShakenPixels:
         change = brightness - self._reference
         pixel = np.flatnonzero(np.abs(change) >= self._config.contrast_threshold)
         return pixel, change[pixel]
-
-
-def timing_of(config: TexventConfig) -> Timing:
-    """Timing rules of a configuration."""
-    return Timing(
-        config.timestamp_rule,
-        config.contrast_threshold,
-        config.multi_event,
-        config.noise == "adaptive",
-    )
 
 
 def _native_intensity(frame: Frame) -> Intensity:

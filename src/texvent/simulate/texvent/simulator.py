@@ -136,7 +136,6 @@ class TexventSimulator(SteppingSimulator):
         Raises:
             InputError: another size than before, a time that does not increase, an intensity that
                 is NaN, infinite or negative, or Gaussian noise of one event per frame or more.
-            ConfigError: the balance is 0 and a pixel is black.
         """
         where = self._checker.check_order(frame)
         if self._last is None:

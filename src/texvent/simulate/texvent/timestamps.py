@@ -20,23 +20,11 @@ from texvent.simulate.kernels.radix_sort import key_bits, sort_keys, unpack_keys
 from texvent.simulate.packets import FrameInterval, SortedEvents
 from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.draws_cpu import allow_wrap_around, draw_uniform
-from texvent.simulate.texvent.config import TimestampRule
+from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.noise import NoisePlaces
 from texvent.simulate.texvent.pixel_memory import FiredPixels
 
 Float64Array = NDArray[np.float64]
-
-
-class Timing(NamedTuple):
-    """Rules for the times (Eq. 7) and the number of events."""
-
-    timestamp_rule: TimestampRule
-    threshold: float
-    """δ, log units."""
-    multi_event: bool
-    """Whether a pixel fires floor(Δ / δ) times."""
-    noise_at_rest: bool
-    """Whether noise is dropped where the pixel fired (Eq. 6)."""
 
 
 Uint64Array = NDArray[np.uint64]
@@ -52,27 +40,37 @@ _INFINITY_BITS = int(np.array(np.inf).view(np.int64))
 
 
 class _Rule(NamedTuple):
-    """`Timing` and the sensor, in numbers."""
+    """The options that decide times (Eq. 7) and numbers of events, and the sensor."""
 
     timestamp_rule: int
     threshold: float
+    """δ, log units."""
     multi_event: bool
+    """Whether a pixel fires floor(Δ / δ) times."""
     noise_at_rest: bool
+    """Whether noise is dropped where the pixel fired (Eq. 6)."""
     width: int
     low: int
     """Bits of a key below its time."""
 
     @classmethod
     @functools.lru_cache(maxsize=16)
-    def of(cls, timing: Timing, width: int, low: int) -> _Rule:
+    def of(cls, config: TexventConfig, width: int, low: int) -> _Rule:
         """The same numbers for every packet of a simulator."""
-        return cls(_STAMPS.index(timing.timestamp_rule), *timing[1:], width, low)
+        return cls(
+            _STAMPS.index(config.timestamp_rule),
+            config.contrast_threshold,
+            config.multi_event,
+            config.noise == "adaptive",
+            width,
+            low,
+        )
 
 
 def timestamp_events(
     bands: Sequence[FiredPixels],
     noise: NoisePlaces,
-    timing: Timing,
+    config: TexventConfig,
     span: FrameInterval,
     shape: tuple[int, int],
 ) -> SortedEvents:
@@ -81,7 +79,7 @@ def timestamp_events(
     Args:
         bands: the pixels that fired, of bands that follow each other, at least one.
         noise: noise events.
-        timing: the rules.
+        config: options.
         span: the sub-interval.
         shape: (height, width).
 
@@ -89,7 +87,7 @@ def timestamp_events(
         InputError: the sub-interval is too long for a sensor of this size.
     """
     low = key_bits(span.duration_us, shape)
-    rule, bits = _Rule.of(timing, shape[1], low), low + span.duration_us.bit_length()
+    rule, bits = _Rule.of(config, shape[1], low), low + span.duration_us.bit_length()
     with allow_wrap_around():
         if len(bands) == 1:
             return SortedEvents(*_stamp_events(bands[0], noise, rule, span, bits))

@@ -40,17 +40,12 @@ class TexventPixels(GpuPixels[TexventConfig]):
             seeds: one per clip.
 
         Raises:
-            ConfigError: Gaussian noise, or a balance of 0.
+            ConfigError: Gaussian noise.
         """
         if config.noise == "gaussian":
             raise ConfigError(
                 "noise 'gaussian' draws a normal number for every pixel and frame, which is not "
                 "done on a GPU; use noise 'adaptive', 'random' or 'none'"
-            )
-        if config.balance <= 0:
-            raise ConfigError(
-                "balance is 0, and black pixels, which then have no logarithm, are not looked for "
-                "on a GPU; use a balance above 0"
             )
         self._tracks_intensity = rules.tracks_intensity(config)
         super().__init__(
