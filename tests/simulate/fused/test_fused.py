@@ -28,10 +28,7 @@ TEXVENT = {
     "without noise": {"noise": "none"},
     "noise anywhere": {"noise": "random"},
     "global cache": {"preset": "paper", "cache": "global"},
-    "no cache": {"preset": "paper", "cache": "none"},
     "decay": {"residual_decay_hz": 3.0},
-    "decay, one event": {"residual_decay_hz": 3.0, "multi_event": False},
-    "steps": {"preset": "paper", "reset": "step"},
     "random times": {"timestamp_rule": "random"},
     "many events": {"multi_event": True, "contrast_threshold": 0.06},
     "times at the end": {"timestamp_rule": "end"},
@@ -203,6 +200,7 @@ def test_an_undrawn_frame_releases_the_source_frames_once_it_is_drawn():
         ({"interpolate": "blend"}, False),
         ({"interpolate": "none", "simulator": "esim"}, False),
         ({"noise": "gaussian"}, False),
+        ({"cache": "none"}, False),
         ({"simulator": "esim", "threshold_sigma": 0.03}, False),
     ],
 )

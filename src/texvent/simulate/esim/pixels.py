@@ -22,7 +22,6 @@ from texvent.simulate.esim.crossings import (
 )
 from texvent.simulate.esim.simulator import WHITE, EsimConfig, log_intensity
 from texvent.simulate.fused.bounds import (
-    RESET_BY_THRESHOLD,
     CrossingCandidates,
     Float64Array,
     Int64Array,
@@ -136,7 +135,7 @@ class EsimPixels:
         up, down = trigger_factors(config.contrast_threshold_on, config.contrast_threshold_off)
         if self._level is None:
             self._level = WHITE * np.exp(self._references.reference.reshape(self._shape))
-        return ReferenceLevels(self._level, config.balance, up, down, RESET_BY_THRESHOLD)
+        return ReferenceLevels(self._level, config.balance, up, down, is_step=True)
 
     def _split_by_segment(self, found: CrossingCandidates, *, segments: int) -> list[SegmentPixels]:
         """The candidates of every segment."""

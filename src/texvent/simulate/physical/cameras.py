@@ -1,12 +1,10 @@
 """Cameras that people have: their constants with sources, and the presets made of them.
 
-An option that is not listed for a camera keeps the model's default and counts as unmeasured;
-`camera_table` names the basis of each.
+An option that is not listed for a camera keeps the model's default: it is unmeasured.
 """
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,8 +12,8 @@ from typing import Any, Literal
 
 from texvent.simulate.physical.config import DAVIS346_NOISE, PhysicalConfig
 
-Basis = Literal["data sheet", "paper", "measured here", "unmeasured"]
-"""Origin of a value; unmeasured is the model's default."""
+Basis = Literal["data sheet", "paper", "measured here"]
+"""Origin of a value."""
 
 
 @dataclass(frozen=True)
@@ -112,30 +110,6 @@ CAMERAS: Mapping[str, Camera] = {
     ),
 }
 """Preset → what is known of the camera."""
-
-
-NOT_OF_A_CAMERA = ("gamma", "initial_phase", "sensor_seed", "threshold_map")
-"""Options that are no constants of a camera: they belong to the frames, the run or the model."""
-
-
-def camera_table(name: str) -> tuple[Constant, ...]:
-    """Every constant of a camera's preset, in the order of the options, with its source.
-
-    What has no source has the model's default and the basis "unmeasured".
-
-    Example:
-        >>> {one.option: one.value for one in camera_table("evk4")}["contrast_threshold"]
-        0.2231
-        >>> {one.option: one.basis for one in camera_table("evk4")}["cutoff_hz"]
-        'unmeasured'
-    """
-    known = {one.option: one for one in CAMERAS[name].constants}
-    defaults = dataclasses.asdict(PhysicalConfig())
-    return tuple(
-        known.get(option) or Constant(option, default, "unmeasured", "")
-        for option, default in defaults.items()
-        if option not in NOT_OF_A_CAMERA
-    )
 
 
 def _camera_preset(name: str) -> PhysicalConfig:

@@ -79,6 +79,12 @@ class TexventConfig:
         """Whether noise events are added to the others (Eq. 6), not only to the brightness."""
         return self.noise in ("adaptive", "random") and self.noise_rate_hz * self.noise_scale > 0
 
+    @property
+    def is_fusible(self) -> bool:
+        """Whether a pair can be computed without drawing its frames; ablations are not."""
+        is_usual = self.reset == "current" or self.multi_event
+        return is_usual and self.cache != "none" and self.noise != "gaussian"
+
     def expected_noise(self, duration_s: float) -> float:
         """λ1 · λ2: noise events per pixel in a sub-interval of so many seconds."""
         return self.noise_rate_hz * (self.noise_scale * duration_s)

@@ -96,9 +96,7 @@ class TexventSimulator(SteppingSimulator):
 
     def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
         """Events between two frames; see `simulate.protocol.Simulator.advance`."""
-        is_drawn = (
-            pair.first is None or self.config.noise == "gaussian" or pair.motion.flows is None
-        )
+        is_drawn = pair.first is None or not self.config.is_fusible or pair.motion.flows is None
         if is_drawn:
             yield from super().advance(pair)
             return
