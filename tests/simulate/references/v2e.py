@@ -33,7 +33,7 @@ def apply_low_pass(
     """
     if light.table is None:
         luma = light.now.astype(np.float64)
-        now, relative = lin_log(luma, light.linear_below), relative_intensity(luma)
+        now, relative = lin_log(luma), relative_intensity(luma)
     else:
         now, relative = light.table[0][light.now], light.table[1][light.now]
     light.before[:] = light.now

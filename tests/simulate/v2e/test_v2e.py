@@ -22,7 +22,7 @@ def with_only(**options) -> V2eConfig:
 def test_brightness_is_linear_below_20_and_logarithmic_above():
     levels = np.array([0.0, 10.0, 20.0, 21.0, 255.0])
     expected = [0, math.log(20) / 2, math.log(20), math.log(21), math.log(255)]
-    assert lin_log(levels, 20.0) == pytest.approx(expected, rel=1e-15)
+    assert lin_log(levels) == pytest.approx(expected, rel=1e-15)
 
 
 def test_a_ramp_of_the_logarithm_fires_at_each_threshold(kernels):
@@ -156,7 +156,7 @@ def test_moving_light_is_labelled_signal(kernels):
 def test_eq4_counts_as_steeply_as_the_model_at_black():
     simulator = V2eSimulator(with_only(contrast_threshold_on=0.3, contrast_threshold_off=0.25))
     assert simulator.contrast_threshold == 0.25
-    slope = (lin_log(np.array([[1.0]]), 20.0) - lin_log(np.array([[0.0]]), 20.0))[0, 0]
+    slope = (lin_log(np.array([[1.0]])) - lin_log(np.array([[0.0]])))[0, 0]
     assert 1 / simulator.balance == pytest.approx(slope)
 
 

@@ -15,6 +15,7 @@ from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.kernels.active_pixels import WORD, is_equal, list_marked
 from texvent.simulate.kernels.elementary_cpu import natural_log
 from texvent.simulate.random.mismatch import PixelMismatch
+from texvent.simulate.v2e.simulator import LINEAR_BELOW
 
 Float64Array: TypeAlias = NDArray[np.float64]
 
@@ -35,8 +36,6 @@ class LowPassInput(NamedTuple):
     """[n] luma at the end, of the same type."""
     table: Float64Array | None
     """[2, 256] for uint8: brightness of every level, and its (I + 20) / 275; else None."""
-    linear_below: float
-    """Intensity up to which brightness is linear."""
     angle: float
     """2π · bandwidth at white · length of the interval; infinite for an unlimited bandwidth."""
     elapsed_us: tuple[float, float]
@@ -110,7 +109,7 @@ def apply_low_pass(
         found = _apply_low_pass(
             (light.before[part], read_only(light.now[part])),
             light.table,
-            (light.linear_below, light.angle, *light.elapsed_us),
+            (light.angle, *light.elapsed_us),
             mismatch.part(part),
             V2ePixelState(
                 state.brightness[part],
@@ -139,13 +138,13 @@ def apply_low_pass(
 def _apply_low_pass(
     luma: tuple[NDArray[Any], NDArray[Any]],
     table: Float64Array | None,
-    constants: tuple[float, float, float, float],
+    constants: tuple[float, float, float],
     mismatch: PixelMismatch,
     state: V2ePixelState,
     room: CrossingPixels,
 ) -> int:
     """Fill in the crossing pixels; return how many there are."""
-    (before, now), (linear_below, angle, start_us, stop_us) = luma, constants
+    (before, now), (angle, start_us, stop_us) = luma, constants
     (on, off, leak), (brightness, reference, quiescent_until_us) = mismatch, state
     size = now.size
     pixel, start_change, stop_change = room
@@ -159,7 +158,7 @@ def _apply_low_pass(
         if is_static and stop_us <= quiescent_until_us[first // BLOCK]:
             continue
         before[first:last] = now[first:last]
-        _read_luma(now[first:last], table, (linear_below, angle), stop, weight)
+        _read_luma(now[first:last], table, angle, stop, weight)
         unsettled = _move(brightness[first:last], reference[first:last], weight, start, stop)
         if leak.size > 0:
             _add(start, leak[first:last], start_us)
@@ -183,23 +182,22 @@ def _apply_low_pass(
 def _read_luma(
     luma: NDArray[Any],
     table: Float64Array | None,
-    constants: tuple[float, float],
+    angle: float,
     brightness: Float64Array,
     weight: Float64Array,
 ) -> None:
     """Fill in brightness, and how far the low-pass moves towards it."""
-    linear_below, angle = constants
     if table is not None:
         for j in range(luma.size):
             brightness[j] = table[0, luma[j]]
         for j in range(luma.size):
             weight[j] = min(table[1, luma[j]] * angle, 1.0)
     else:
-        slope = math.log(linear_below) / linear_below
+        slope = math.log(LINEAR_BELOW) / LINEAR_BELOW
         for j in range(luma.size):
             level = np.float64(luma[j])
-            log = natural_log(max(level, linear_below))
-            brightness[j] = level * slope if level <= linear_below else log
+            log = natural_log(max(level, LINEAR_BELOW))
+            brightness[j] = level * slope if level <= LINEAR_BELOW else log
         for j in range(luma.size):
             weight[j] = min((np.float64(luma[j]) + DARK_OFFSET) / WHITE_LEVEL * angle, 1.0)
 

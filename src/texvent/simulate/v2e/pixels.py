@@ -66,9 +66,9 @@ class V2ePixels:
         self._on_fraction = more_on / (more_on + more_off)
         self._shot_noise = PoissonNoise(config.shot_noise_rate_hz / 2 * (more_on + more_off))
         levels = np.arange(256.0)
-        self._table = np.stack([lin_log(levels, LINEAR_BELOW), relative_intensity(levels)])
+        self._table = np.stack([lin_log(levels), relative_intensity(levels)])
         flat = intensity.reshape(-1).astype(np.float64)
-        brightness = lin_log(flat, LINEAR_BELOW)
+        brightness = lin_log(flat)
         self._state = new_state(brightness)
         self._seen = intensity.reshape(-1).copy()
         self._start_us = first_us
@@ -112,7 +112,7 @@ class V2ePixels:
         start_us, stop_us = interval.start_us - self._start_us, interval.stop_us - self._start_us
         elapsed_us = float(start_us), float(stop_us)
         return apply_low_pass(
-            LowPassInput(self._seen, luma, table, LINEAR_BELOW, angle, elapsed_us),
+            LowPassInput(self._seen, luma, table, angle, elapsed_us),
             self._mismatch,
             self._state,
         )
@@ -137,23 +137,22 @@ class V2ePixels:
         self._last.interval_us[pixel] = interval.stop_us
 
 
-def lin_log(intensity: Float64Array, linear_below: float) -> Float64Array:
+def lin_log(intensity: Float64Array) -> Float64Array:
     """Brightness, linear in the dark and logarithmic above.
 
     Args:
         intensity: 0..255 scale, any shape.
-        linear_below: intensity I₀ where the straight line from 0 meets the logarithm.
 
     Returns:
-        `I · ln(I₀) / I₀` up to I₀ and `ln(I)` above, log units.
+        `I · ln(I₀) / I₀` up to I₀ = 20, where the line meets the logarithm, and `ln(I)` above.
 
     Example:
-        >>> lin_log(np.array([0.0, 10.0, 20.0, 40.0]), 20.0).round(4).tolist()
+        >>> lin_log(np.array([0.0, 10.0, 20.0, 40.0])).round(4).tolist()
         [0.0, 1.4979, 2.9957, 3.6889]
     """
-    slope = math.log(linear_below) / linear_below
-    log = natural_log(np.maximum(intensity, linear_below))
-    return np.where(intensity <= linear_below, intensity * slope, log)
+    slope = math.log(LINEAR_BELOW) / LINEAR_BELOW
+    log = natural_log(np.maximum(intensity, LINEAR_BELOW))
+    return np.where(intensity <= LINEAR_BELOW, intensity * slope, log)
 
 
 def relative_intensity(intensity: NDArray[Any]) -> Float64Array:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -18,7 +17,6 @@ from texvent.simulate.esim.gpu.crossings_triton import (
     State,
 )
 from texvent.simulate.esim.simulator import EsimConfig, log_intensity
-from texvent.simulate.gpu.intervals import Float64Array, Int64Array, Span
 from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
 from texvent.simulate.gpu.launch import (
     EXTRA,
@@ -36,12 +34,11 @@ from texvent.simulate.random.mismatch import LONG_AGO_US
 class EsimPixels(GpuPixels[EsimConfig]):
     """The pixels of a batch of clips under ESIM."""
 
-    def __init__(self, config: EsimConfig, seeds: Sequence[int]) -> None:
+    def __init__(self, config: EsimConfig) -> None:
         """Pixels that have seen no frame.
 
         Args:
             config: the options.
-            seeds: one per clip.
 
         Raises:
             ConfigError: thresholds that are drawn for every frame.
@@ -51,7 +48,7 @@ class EsimPixels(GpuPixels[EsimConfig]):
                 f"threshold_sigma {config.threshold_sigma:g} draws two normal numbers for every "
                 "pixel and frame, which is not done on a GPU; use 0"
             )
-        super().__init__(config, seeds, RAMP_LAUNCH)
+        super().__init__(config, RAMP_LAUNCH)
 
     def begin(self, frames: Tensor) -> None:
         """See `GpuPixels`."""
@@ -73,17 +70,6 @@ class EsimPixels(GpuPixels[EsimConfig]):
             to_device(logs, device),
             to_device(np.array([config.refractory_period_us]), device) if rests else None,
         )
-
-    def keys(self, span: Span) -> Int64Array:
-        """Nothing is drawn per interval; [B, T]."""
-        return np.zeros_like(span.start_us)
-
-    def shares(self, span: Span) -> Float64Array:
-        """References begin at the first frame and are never forgotten; [B, T]."""
-        shares = np.zeros(span.start_us.shape)
-        if span.is_new:
-            shares[:, 0] = 1.0
-        return shares
 
     def _scan(self, call: Call) -> tuple[Any, Any, Any]:
         return crossings_triton.scan_ramp, self._rules, self._state
