@@ -27,13 +27,13 @@ from texvent.simulate.physical.circuit import (
     PhotoreceptorInput,
     brightness_and_cutoff,
 )
-from texvent.simulate.physical.lanes import (
+from texvent.simulate.physical.lane_steps import (
     FEWEST_PER_LOG,
     LEAK_SHARE,
     MOST_PER_LOG,
-    SETTLED,
     STRAIGHT,
 )
+from texvent.simulate.physical.lanes import SETTLED
 from texvent.simulate.random.mismatch import PixelMismatch
 
 

@@ -10,16 +10,8 @@ import numpy as np
 
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.crossing.ramp import RefractoryPeriod
-from texvent.simulate.crossing.trigger_levels import (
-    BrightnessCurve,
-    TriggerLevels,
-    trigger_factors,
-)
-from texvent.simulate.esim.crossings import (
-    CrossingState,
-    RampPixels,
-    cross_thresholds,
-)
+from texvent.simulate.crossing.trigger_levels import BrightnessCurve, TriggerLevels, trigger_factors
+from texvent.simulate.esim.crossings import CrossingState, RampPixels, cross_thresholds
 from texvent.simulate.esim.simulator import WHITE, EsimConfig, log_intensity
 from texvent.simulate.fused.bounds import (
     CrossingCandidates,
@@ -141,11 +133,9 @@ class EsimPixels:
         """The candidates of every segment."""
         pixel, segment, before, now = found.take(np.argsort(found.segment, kind="stable"))
         cuts = np.searchsorted(segment, np.arange(segments + 1)).tolist()
-        columns = pixel, self._log_intensity(before), self._log_intensity(now)
-        return [
-            SegmentPixels(*(column[slice(*cut)] for column in columns))
-            for cut in itertools.pairwise(cuts)
-        ]
+        before, now = self._log_intensity(before), self._log_intensity(now)
+        parts = itertools.starmap(slice, itertools.pairwise(cuts))
+        return [SegmentPixels(pixel[part], before[part], now[part]) for part in parts]
 
     def _find_triggers(self, luma: IntensityArray) -> TriggerLevels:
         """Trigger levels of all pixels, which have seen this luma last, [H, W]."""

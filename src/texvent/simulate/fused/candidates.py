@@ -15,14 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.pairs.motion_interpolation import MotionInterpolation
-from texvent.pairs.warp_cpu import (
-    POINTS,
-    Room,
-    WarpPair,
-    make_room,
-    take_points,
-    warp_points,
-)
+from texvent.pairs.warp_cpu import POINTS, Room, WarpPair, make_room, take_points, warp_points
 from texvent.runtime.jit import jit
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.simulate.crossing.trigger_levels import MARGIN

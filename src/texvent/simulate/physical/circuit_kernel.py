@@ -28,12 +28,11 @@ from texvent.simulate.physical.circuit import (
     Optics,
     PhotoreceptorInput,
 )
+from texvent.simulate.physical.lane_steps import EventRules, advance_lanes
 from texvent.simulate.physical.lanes import (
     LANES,
     SETTLED,
-    EventRules,
     PixelBlock,
-    advance_lanes,
     load_lanes,
     new_block,
     new_work,

@@ -23,11 +23,7 @@ from texvent.simulate.fused.bounds import (
     LumaBounds,
     ReferenceLevels,
 )
-from texvent.simulate.fused.candidates import (
-    find_bounds,
-    map_candidates,
-    warp_pixels,
-)
+from texvent.simulate.fused.candidates import find_bounds, map_candidates, warp_pixels
 from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.config import TexventConfig

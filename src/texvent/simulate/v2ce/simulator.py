@@ -152,7 +152,9 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
     def _predict(self) -> Float32Array:
         """Voxel grids of the recent pairs, [N, 2, 10, H, W]."""
         recent = np.stack(self._recent)
-        return self._network.predict(np.stack([recent[:-1], recent[1:]], axis=1))
+        pairs = np.stack([recent[:-1], recent[1:]], axis=1)
+        grids: Float32Array = self._network.predict(pairs)
+        return grids
 
 
 def check_weights_path(path: Path | None) -> Path:

@@ -14,10 +14,7 @@ from typing import ClassVar
 
 from texvent.config import check_range
 from texvent.simulate.packets import FrameInterval, SortedEvents
-from texvent.simulate.random.mismatch import (
-    check_nominal_thresholds,
-    smaller_threshold,
-)
+from texvent.simulate.random.mismatch import check_nominal_thresholds, smaller_threshold
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 
 LINEAR_BELOW = 20.0
