@@ -133,9 +133,9 @@ class EsimPixels:
         """The candidates of every segment."""
         pixel, segment, before, now = found.take(np.argsort(found.segment, kind="stable"))
         cuts = np.searchsorted(segment, np.arange(segments + 1)).tolist()
-        before, now = self._log_intensity(before), self._log_intensity(now)
+        start, stop = self._log_intensity(before), self._log_intensity(now)
         parts = itertools.starmap(slice, itertools.pairwise(cuts))
-        return [SegmentPixels(pixel[part], before[part], now[part]) for part in parts]
+        return [SegmentPixels(pixel[part], start[part], stop[part]) for part in parts]
 
     def _find_triggers(self, luma: IntensityArray) -> TriggerLevels:
         """Trigger levels of all pixels, which have seen this luma last, [H, W]."""
