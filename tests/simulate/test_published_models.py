@@ -9,7 +9,6 @@ import pytest
 from tests.simulate.references import in_both_forms
 
 from texvent.errors import InputError
-from texvent.options.fields import option_help, option_names
 from texvent.simulate.esim.simulator import EsimSimulator
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.senpi.simulator import SenpiSimulator
@@ -39,12 +38,6 @@ TWO_PRESETS = [
 def model(request):
     name, preset = request.param
     return lambda **options: MODELS[name](MODELS[name].presets[preset], **options)
-
-
-@pytest.mark.parametrize("name", MODELS)
-def test_every_option_has_a_help_text(name):
-    config_type = MODELS[name].config_type
-    assert set(option_help(config_type)) == set(option_names(config_type))
 
 
 @pytest.mark.parametrize("model", EVERY_PRESET, indirect=True, ids="-".join)

@@ -6,7 +6,7 @@ import pytest
 from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator, log_intensity
 from texvent.video import Frame
 
-from ..pixel_frames import curve, frames_of, run, static
+from ..pixel_frames import curve, frames_of, run
 
 
 def on_log_scale(value: float) -> float:
@@ -102,12 +102,6 @@ def test_drawn_thresholds_have_the_stated_mean_and_sd_and_are_new_in_every_frame
     assert maps[0].mean() == pytest.approx(0.2, abs=4 * 0.03 / 60)
     assert maps[0].std() == pytest.approx(0.03, rel=4 / math.sqrt(2 * 3600))
     assert not np.array_equal(*maps)
-
-
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_a_static_scene_gives_nothing(kernels, fps):
-    frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
-    assert len(run(EsimSimulator(), frames)) == 0
 
 
 def test_eq4_counts_with_the_smaller_threshold_and_the_models_logarithm():

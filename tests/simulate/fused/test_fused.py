@@ -119,12 +119,6 @@ def test_texvent_events_are_those_of_the_drawn_frames(name):
 
 
 @pytest.mark.parametrize("interpolate", INTERPOLATE)
-@pytest.mark.parametrize("name", ["the paper's", "default"])
-def test_any_interpolator_gives_the_same_events(name, interpolate):
-    assert assert_equal(panning(3), **NOISY, interpolate=interpolate, **TEXVENT[name]) > 200
-
-
-@pytest.mark.parametrize("interpolate", INTERPOLATE)
 @pytest.mark.parametrize("name", ESIM)
 def test_esim_events_are_those_of_the_drawn_frames(name, interpolate):
     options = {"simulator": "esim", "max_intermediate": 9, **ESIM[name]}

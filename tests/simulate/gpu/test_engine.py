@@ -11,7 +11,6 @@ import pytest
 
 from texvent.errors import ConfigError, InputError
 from texvent.events import NOISE
-from texvent.represent.voxel_grid import voxel_zhu
 from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator
 from texvent.simulate.physical.simulator import PhysicalConfig
 from texvent.simulate.texvent.noise import NOISE_BLOCK
@@ -176,20 +175,6 @@ def test_a_batch_lies_in_one_piece_clip_by_clip_in_order(device):
             assert (inside < times_us[clip, interval + 1]).all()
 
 
-def test_voxel_grids_of_a_clip_can_be_trained_on(device):
-    clips, times_us = random_clips(np.uint8), random_times()
-    events = GpuSimulator(TexventConfig(noise="none")).step(
-        torch.from_numpy(clips).to(device), times_us
-    )
-    grid = voxel_zhu(events.clip(1), bins=4)
-    assert grid.device.type == device
-    expected = voxel_zhu(events.stream(1), bins=4)
-    assert np.allclose(grid.cpu().numpy(), expected, atol=1e-5)
-    weight = torch.ones((), device=device, requires_grad=True)
-    (grid * weight).square().sum().backward()
-    assert float(weight.grad) > 0
-
-
 def test_no_clip_hears_of_another(device):
     clips, times_us = random_clips(np.uint8), random_times()
     config = TexventConfig(noise_rate_hz=5.0)
@@ -200,15 +185,6 @@ def test_no_clip_hears_of_another(device):
             times_us[clip:clip + 1], device=device,
         )[0]  # fmt: skip
         assert alone.equals(together[clip])
-
-
-def test_after_a_reset_the_next_frame_is_the_first(device):
-    clips, times_us = random_clips(np.uint8), random_times()
-    frames = torch.from_numpy(clips).to(device)
-    simulator = GpuSimulator()
-    first = simulator.step(frames, times_us).stream(0)
-    simulator.reset()
-    assert simulator.step(frames, times_us).stream(0).equals(first)
 
 
 def test_a_bad_intensity_is_refused_and_changes_nothing(device):

@@ -12,7 +12,7 @@ from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Frame
 
-from ..pixel_frames import curve, frames_of, moving_texture, run, static
+from ..pixel_frames import curve, frames_of, moving_texture, run
 from .physical_pixels import clean, intensity
 
 # One pixel, closed forms.
@@ -51,11 +51,6 @@ def test_a_sinusoid_fires_at_its_levels(kernels):
     expected = up + down + back[:1]
     assert events.t[:7] == pytest.approx([t * 1e6 for t in expected], abs=6)
     assert events.p[:7].tolist() == [1, 1, 0, 0, 0, 0, 1]
-
-
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_a_static_scene_without_noise_gives_nothing(kernels, fps):
-    assert len(run(clean(), static(90.0, fps=fps, seconds=0.2, shape=(3, 4)))) == 0
 
 
 def test_gamma_makes_video_linear(kernels):

@@ -80,17 +80,6 @@ def test_noise_memorises_the_present_voltage(kernels):
     assert (events.label == NOISE).all()
 
 
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_noise_has_its_rate_per_second_at_any_frame_rate(fps):
-    config = with_only(noise_rate_hz=5.0)
-    frames = static(90.0, fps=fps, seconds=0.5, shape=(60, 80))
-    events = run(SenpiSimulator(config, seed=3), frames)
-    expected = 5.0 * 0.5 * 60 * 80
-    assert abs(len(events) - expected) < 4 * math.sqrt(expected)
-    assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
-    assert (events.label == NOISE).all()
-
-
 def test_hot_pixels_are_few_and_busy():
     config = with_only(hot_pixel_fraction=0.02, hot_pixel_rate_hz=500.0)
     events = run(SenpiSimulator(config), static(90.0, fps=24, seconds=1.0, shape=(60, 80)))
@@ -99,12 +88,6 @@ def test_hot_pixels_are_few_and_busy():
     hot = counts > 0
     assert abs(hot.sum() - 96) < 4 * math.sqrt(96)
     assert counts[hot].mean() == pytest.approx(500, rel=0.03)
-
-
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_a_static_scene_without_noise_gives_nothing(kernels, fps):
-    frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
-    assert len(run(SenpiSimulator(CLEAN), frames)) == 0
 
 
 def test_mismatch_shifts_the_change_that_fires(kernels):

@@ -189,17 +189,6 @@ def test_bit_depths_of_the_same_picture_give_the_same_events(kernels):
     assert all(result.equals(results[0]) for result in results)
 
 
-def test_colour_is_reduced_to_luma(kernels):
-    grey = [np.full((2, 2), level, np.float32) for level in (50, 90)]
-    colour = [np.repeat(picture[..., None], 3, axis=2) for picture in grey]
-    both = [
-        simulate([Frame(one, 1000 * k) for k, one in enumerate(pictures)])
-        for pictures in (grey, colour)
-    ]
-    assert len(both[0]) == 4
-    assert both[0].equals(both[1])
-
-
 def test_the_first_frame_after_reset_gives_an_empty_stream(kernels):
     simulator = TexventSimulator(paper(noise_rate_hz=1e4))
     frames = [pixel(10, 0), pixel(200, 100)]
@@ -230,16 +219,6 @@ def test_the_paper_preset_is_the_publication(kernels):
     assert not config.multi_event
     simulator = TexventSimulator(TexventConfig(contrast_threshold=0.3, balance=10.0))
     assert (simulator.contrast_threshold, simulator.balance) == (0.3, 10.0)
-
-
-def test_all_seeds_are_ordinary():
-    frames = [Frame(np.full((40, 40), 20, np.uint8), t) for t in (0, SECOND)]
-    options = {"noise": "adaptive", "noise_rate_hz": 1.0}
-    runs = [simulate(frames, seed=seed, **options) for seed in (0, 1, 2**63 - 1)]
-    again = simulate(frames, seed=0, **options)
-    assert runs[0].equals(again)
-    assert not runs[0].equals(runs[1])
-    assert all(1400 < len(run) < 1800 for run in runs)
 
 
 @pytest.mark.parametrize(

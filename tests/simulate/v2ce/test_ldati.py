@@ -98,19 +98,6 @@ def test_lone_events_come_back_exactly(data):
     assert np.abs(again - voxel).max() < 1e-5
 
 
-@given(st.data())
-@CHECKED
-def test_every_pixel_keeps_the_number_of_its_events(data):
-    count = data.draw(st.integers(1, 60))
-    t = data.draw(arrays(np.int64, count, elements=st.integers(0, WHOLE_US - 1)))
-    x, p = (data.draw(arrays(np.int64, count, elements=st.integers(0, 1))) for _ in range(2))
-    voxel = voxelise(t, x, 0 * x, p, (1, 2))
-    events = events_of(voxel, 0, WHOLE_US)
-    assert np.bincount(events.x * 2 + events.p, minlength=4).tolist() == (
-        np.bincount(x * 2 + p, minlength=4).tolist()
-    )
-
-
 voxels = arrays(
     np.float64,
     st.tuples(st.just(2), st.integers(2, 11), st.integers(1, 3), st.integers(1, 3)),
@@ -135,20 +122,6 @@ def test_a_pixel_fires_its_sum_rounded_to_either_side(voxel):
     total, wanted = counts.sum(1), voxel.sum(1)
     assert (total > wanted - 1 - 1e-4).all()
     assert (total < wanted + 1 + 1e-4).all()
-
-
-@given(voxels, st.integers(0, 2**63 - 1))
-@CHECKED
-def test_times_lie_in_their_sub_intervals(voxel, seed):
-    length = voxel.shape[1] - 1
-    stop_us = length * 1000
-    events = events_of(voxel, 0, stop_us, seed=seed)
-    counts = infer_counts(voxel).counts
-    # Rounding down to µs can take a time in the last 1e-9 of a sub-interval no further than that.
-    fired = np.zeros_like(counts)
-    np.add.at(fired, (1 - events.p.astype(int), events.t // 1000, events.y, events.x), 1)
-    assert np.array_equal(fired, counts)
-    assert (np.diff(events.t) >= 0).all()
 
 
 @pytest.mark.parametrize(
@@ -196,24 +169,6 @@ def test_several_events_of_a_pixel_spread_as_its_neighbours_say():
     assert middle.mean() == pytest.approx(0.5 + 1 / 12, abs=4 * 0.29 / math.sqrt(400))
     last = events.t[events.t >= 2_000_000] / 1e6 - 2
     assert last.mean() == pytest.approx(0.5, abs=4 * 0.29 / math.sqrt(800))
-
-
-def test_the_seed_decides_the_times_and_not_the_counts():
-    voxel = np.full((2, 10, 4, 4), 3.0)
-    first, again, other = (events_of(voxel, 0, 33_333, seed=seed) for seed in (0, 0, 1))
-    assert first.equals(again)
-    assert not first.equals(other)
-    assert np.array_equal(np.bincount(first.x), np.bincount(other.x))
-
-
-def test_a_pixel_draws_alike_in_any_window():
-    random = np.random.default_rng(4)
-    voxel = random.uniform(0, 4, (2, 10, 6, 8))
-    whole = events_of(voxel, 0, 33_333)
-    part = events_of(voxel[:, :, :4, :5], 0, 33_333)
-    inside = whole[(whole.x < 5) & (whole.y < 4)]
-    for name in "xytp":
-        assert np.array_equal(getattr(inside, name), getattr(part, name))
 
 
 def test_more_events_than_a_draw_can_number_fail_clearly():

@@ -140,13 +140,6 @@ def test_a_change_kept_back_by_the_refractory_period_fires_later(kernels):
     assert events.t == pytest.approx([10_000, 40_000, 70_000, 100_000, 140_500], abs=1)
 
 
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_a_static_scene_without_noise_gives_nothing(kernels, fps):
-    config = with_only(threshold_sigma=0.05, cutoff_hz=30.0, refractory_period_us=500)
-    frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
-    assert len(run(V2eSimulator(config), frames)) == 0
-
-
 def test_moving_light_is_labelled_signal(kernels):
     config = with_only(leak_rate_hz=0.1)
     frames = frames_of([40, 80], [0, 41_667])

@@ -121,14 +121,6 @@ def test_a_static_scene_has_the_rate_of_its_drift_at_any_frame_rate(preset, fps)
     assert events.t.mean() == pytest.approx(500_000, abs=4e6 / math.sqrt(12 * expected))
 
 
-def test_pixels_that_start_at_zero_leak_in_unison(kernels):
-    config = with_only(k4=1e-7, k5=5e-9)
-    frames = static(250.0, fps=24, seconds=1.0, shape=(3, 4))
-    events = run(VoltmeterSimulator(config), frames)
-    assert len(events) == 12
-    assert np.ptp(events.t) == 0
-
-
 @pytest.mark.parametrize("frame_us", [400_000, 2000, 100])
 def test_intervals_with_drift_are_inverse_gaussian_at_any_frame_rate(frame_us):
     # Mean 1 / μ = 1 ms, shape 1 / σ² = 10 ms; OFF first is a matter of exp(−20).
@@ -201,12 +193,6 @@ def test_pure_noise_fires_both_polarities_alike(kernels):
     # The gap between events is heavy-tailed, but each polarity is a fair coin.
     assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
     assert (events.label == NOISE).all()
-
-
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_a_static_scene_without_noise_gives_nothing(kernels, fps):
-    frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
-    assert len(run(VoltmeterSimulator(QUIET), frames)) == 0
 
 
 def test_eq4_counts_with_the_gain_and_the_dark_offset():
