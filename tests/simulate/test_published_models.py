@@ -128,6 +128,7 @@ def test_bad_frames_fail_once_and_clearly(model):
 
 
 SYMMETRIC = {
+    "physical": (dataclasses.replace(PhysicalSimulator.presets["clean"], gamma=1.0), 10.0),
     "esim": (EsimSimulator.presets["default"], 0.255),
     "v2e": (V2eSimulator.presets["peer-common"], 0.0),
     "senpi": (SenpiSimulator.presets["peer-common"], 0.0),

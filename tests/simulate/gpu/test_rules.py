@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 from texvent.errors import InputError
 from texvent.simulate.gpu.intervals import Clock
-from texvent.simulate.gpu.launch import alignment
 from texvent.simulate.texvent.gpu.rules import byte_brightness, byte_trigger_levels
 
 
@@ -58,9 +57,3 @@ def test_a_time_that_does_not_increase_is_named_with_its_clip():
     clock.advance()
     with pytest.raises(InputError, match="clip 1: 5 µs does not come after 5 µs"):
         clock.read(1, [[6], [5]], None)
-
-
-def test_alignment_is_what_all_strides_share():
-    assert alignment(1280 * 720, 32 * 1280 * 720) == 16
-    assert alignment(346 * 260) == 8
-    assert alignment(35, 70) == 1

@@ -1,7 +1,5 @@
 """The physical model: ideal pixels against closed forms, and any options at all."""
 
-import math
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -12,7 +10,7 @@ from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Frame
 
-from ..pixel_frames import curve, frames_of, moving_texture, run
+from ..pixel_frames import frames_of, moving_texture, run
 from .physical_pixels import clean, intensity
 
 # One pixel, closed forms.
@@ -38,19 +36,6 @@ def test_a_step_fires_once_per_threshold(kernels):
     events = run(clean(), frames)
     assert events.t.tolist() == [1000] * 4
     assert events.p.all()
-
-
-def test_a_sinusoid_fires_at_its_levels(kernels):
-    amplitude = 0.51
-    frames = curve(lambda s: intensity(4 + amplitude * math.sin(math.tau * s)), fps=1000, seconds=1)
-    events = run(clean(), frames)
-    up = [math.asin(level / amplitude) / math.tau for level in (0.2, 0.4)]
-    down = [0.5 - math.asin(level / amplitude) / math.tau for level in (0.2, 0.0, -0.2, -0.4)]
-    back = [1 + math.asin(level / amplitude) / math.tau for level in (-0.2, 0.0)]
-    # The last one is the end of the clip, and the clip does not contain its end.
-    expected = up + down + back[:1]
-    assert events.t[:7] == pytest.approx([t * 1e6 for t in expected], abs=6)
-    assert events.p[:7].tolist() == [1, 1, 0, 0, 0, 0, 1]
 
 
 def test_gamma_makes_video_linear(kernels):
@@ -158,34 +143,6 @@ def test_backends_agree_and_packets_are_sound_for_any_options(config, seed, scen
         return packets
 
     assert all(one.equals(two) for one, two in zip(*in_both_forms(packets_of), strict=True))
-
-
-def events_of_pixels(events) -> list:
-    """The events of each pixel on its own."""
-    return [
-        events[(events.y == y) & (events.x == x)]
-        for y in range(events.size.height)
-        for x in range(events.size.width)
-    ]
-
-
-@settings(max_examples=30)
-@given(st.integers(0, 2**32))
-def test_inverted_contrast_swaps_on_and_off(scene):
-    logs = np.random.default_rng(scene).uniform(-1, 1, (5, 3, 4))
-    events, inverted = (
-        run(
-            clean(),
-            [Frame(80 * np.exp(s * log) - 10, i * 10_000) for i, log in enumerate(logs)],
-        )
-        for s in (1, -1)
-    )
-    assert len(events) == len(inverted)
-    by_pixel = [events_of_pixels(e) for e in (events, inverted)]
-    for here, there in zip(*by_pixel, strict=True):
-        # Frames are float32, so a crossing may move by a microsecond.
-        assert here.t == pytest.approx(there.t, abs=2)
-        assert here.p.tolist() == (1 - there.p).tolist()
 
 
 def test_eq4_counts_in_the_gamma_coded_scale():

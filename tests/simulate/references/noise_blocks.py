@@ -15,18 +15,7 @@ from texvent.simulate.texvent.noise import (
 
 
 def place_noise(key: np.uint64, mean: float, on_fraction: float, pixels: int) -> NoisePlaces:
-    """Where, when and of what polarity noise fires in one sub-interval, before any mask.
-
-    Args:
-        key: of the draws.
-        mean: expected number of events per pixel.
-        on_fraction: probability of ON.
-        pixels: number of pixels of the frame.
-
-    Equation: (6), section 3.2.2: Poisson(λ1 λ2).
-    Deviation: drawn per block of `NOISE_BLOCK` pixels and spread uniformly over its pixels, which
-        is the same distribution as a Poisson number per pixel.
-    """
+    """As `texvent.noise.place_noise`."""
     blocks = np.arange(-(-pixels // NOISE_BLOCK))
     y, x = blocks >> 16, blocks & 0xFFFF
     chance = draw_uniforms(key, y, x, Purpose.NOISE_COUNT.draw())

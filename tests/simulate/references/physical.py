@@ -45,24 +45,7 @@ def advance_pixels(
     refractory_us: int,
     span_us: tuple[int, int],
 ) -> SortedEvents:
-    """Every event between two frames; moves the state to the end of the interval.
-
-    The output of a photoreceptor is a first-order low-pass of the brightness. The change since the
-    last reset grows with it and with the leak. Where it reaches the ON threshold or falls to minus
-    the OFF threshold, the pixel fires and is reset. A noise event fires at its own time. A pixel
-    that fired is held in reset for the refractory period: its change is zero until its release.
-
-    Args:
-        light: over the interval; `before` is overwritten with `now`.
-        mismatch: thresholds and leak rates.
-        state: at the start; changed in place.
-        noise: noise events, by pixel and then by time.
-        refractory_us: how long an event holds its pixel in reset, µs.
-        span_us: start (included) and stop (excluded), µs.
-
-    Returns:
-        The events in the order of a packet; times rounded down, never the stop itself.
-    """
+    """As `physical.circuit_kernel.advance_pixels`."""
     brightness, cutoff = _convert(light.before, light)
     brightness_stop, cutoff_stop = _convert(light.now, light)
     rise = brightness_stop - brightness

@@ -20,14 +20,7 @@ MOST_LOG = 80.0
 
 
 def find_outside_levels(luma: Luma, seen: Luma, low: Luma, high: Luma) -> OutsidePixels:
-    """Pixels that may fire: those not between their two levels.
-
-    Args:
-        luma: [n].
-        seen: luma of the frame before, [n], of the same type as `luma`; becomes `luma`.
-        low: lowest luma at which each pixel cannot fire, [n], of the same type.
-        high: highest such luma, [n]; below `low` where a pixel may fire at any luma.
-    """
+    """As `crossing.trigger_levels.find_outside_levels`."""
     pixel = np.flatnonzero((luma < low) | (luma > high))
     before, now = seen[pixel], luma[pixel]
     seen[:] = luma
@@ -42,16 +35,7 @@ def set_levels(
     low: Luma,
     high: Luma,
 ) -> None:
-    """Set the trigger levels of some pixels, between which they cannot fire.
-
-    Args:
-        pixel: flat index, [n].
-        reference: brightness that all pixels compare with, log units.
-        thresholds: of the chosen pixels.
-        curve: brightness and intensity.
-        low: lowest luma at which a pixel cannot fire, of all pixels; changed in place.
-        high: highest such luma, of all pixels; changed in place.
-    """
+    """As `crossing.trigger_levels.set_levels`."""
     centre = reference[pixel]
     ends = centre - thresholds.off, centre + thresholds.on
     off, on = (curve.scale * np.exp(np.minimum(end, MOST_LOG)) + curve.offset for end in ends)

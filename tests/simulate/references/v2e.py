@@ -22,15 +22,7 @@ from texvent.simulate.v2e.pixels import lin_log, relative_intensity
 def apply_low_pass(
     light: LowPassInput, mismatch: PixelMismatch, state: V2ePixelState
 ) -> CrossingPixels:
-    """Move the brightness through the low-pass, and find the pixels that reach a threshold.
-
-    Args:
-        light: the frames; `before` is overwritten with `now`.
-        mismatch: thresholds and leak.
-        state: at the start; its brightness is moved to the end.
-
-    Source: v2e (Hu, Liu and Delbruck, CVPRW 2021), section 4.2.
-    """
+    """As `v2e.low_pass.apply_low_pass`."""
     if light.table is None:
         luma = light.now.astype(np.float64)
         now, relative = lin_log(luma), relative_intensity(luma)
@@ -56,20 +48,7 @@ def emit_and_reset(
     noise: UnsortedEvents,
     rules: EmissionRules,
 ) -> UnsortedEvents:
-    """Fire at every threshold that was crossed, and move the references by as many.
-
-    Events to which leak contributed at least half are noise.
-
-    Args:
-        crossing: the pixels that have reached a threshold.
-        circuits: thresholds and leak, and the state, whose references are moved.
-        last: the last events; brought up to date here.
-        noise: further events of the interval.
-        rules: where in time, and the refractory period. What it holds back may fire later.
-
-    Returns:
-        All events, `noise` among them.
-    """
+    """As `v2e.emit_and_reset.emit_and_reset`."""
     (pixel, start, stop), (mismatch, state), stop_us = crossing, circuits, rules.interval.stop_us
     on, off = (
         thresholds[pixel].astype(np.float64)

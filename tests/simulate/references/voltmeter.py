@@ -60,24 +60,7 @@ class _Draw(NamedTuple):
 def find_first_passages(
     light: FirstPassageInput, voltage: Voltage, interval: FrameInterval, first_us: int
 ) -> UnsortedEvents:
-    """Alternate between choosing a polarity and sampling a time, until the interval ends.
-
-    Where the luma does not change, a first passage beyond the end is remembered, and its pixel
-    needs no further draw until then. A change of luma before that ends it: the displacement is then
-    the share of the distance that the elapsed time makes up.
-
-    Args:
-        light: over the interval; `before` is overwritten with `now`.
-        voltage: of every pixel at the start; brought up to date here.
-        interval: where in time; its key decides the draws.
-        first_us: time of the first frame, µs.
-
-    Returns:
-        The events by pixel, then in time; times rounded down.
-
-    Source: Lin et al., "DVS-Voltmeter: stochastic process-based event simulator for dynamic
-        vision sensors", ECCV 2022, Algorithm 1.
-    """
+    """As `voltmeter.first_passage.find_first_passages`."""
     start, stop = float(interval.start_us - first_us), float(interval.stop_us - first_us)
     before, now = (luma.reshape(-1).astype(np.float64) for luma in (light.before, light.now))
     light.before[:] = light.now

@@ -67,13 +67,6 @@ def test_sequences_follow_one_another_and_the_last_reaches_back(model):
     assert simulator._network.seen == [pytest.approx(one) for one in expected]
 
 
-def test_a_clip_shorter_than_a_sequence_is_one_sequence(model):
-    simulator, frames = model(), ramp(4)
-    found = list(advance_through(simulator, frames))
-    assert [len(one) for one in simulator._network.seen] == [3]
-    assert [frame for frame, _ in found] == frames
-
-
 def test_every_packet_is_the_voxel_grid_of_its_own_pair(model):
     frames = ramp(8)
     found = dict(
@@ -117,18 +110,6 @@ def test_a_single_step_answers_from_the_last_pairs(model):
     assert simulator._network.seen == [pytest.approx(one) for one in expected]
     for before, frame, packet in zip(frames, frames[1:], packets[1:], strict=False):
         assert before.t_us <= packet.t.min() <= packet.t.max() < frame.t_us
-
-
-def test_static_frames_give_nothing(model):
-    frames = [Frame(np.full((3, 4), 90, np.uint8), 1000 * i) for i in range(5)]
-    assert len(answers(model(), frames)) == 0
-
-
-def test_brighter_is_on_and_darker_is_off(model):
-    levels = [np.array([[50, 200]], np.uint8), np.array([[200, 50]], np.uint8)]
-    events = answers(model(), [Frame(level, 1000 * i) for i, level in enumerate(levels)])
-    assert set(events.p[events.x == 0].tolist()) == {1}
-    assert set(events.p[events.x == 1].tolist()) == {0}
 
 
 def test_frames_are_scaled_as_in_training():

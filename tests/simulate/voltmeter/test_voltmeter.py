@@ -12,7 +12,7 @@ from texvent.events import NOISE, SIGNAL
 from texvent.simulate.voltmeter.simulator import Constants, VoltmeterConfig, VoltmeterSimulator
 from texvent.video import Frame
 
-from ..pixel_frames import curve, frames_of, run, static
+from ..pixel_frames import frames_of, run, static
 
 QUIET = VoltmeterConfig(constants="5.265 20 0 0 0 0", initial_phase="zero")
 ABOVE_99_9_PERCENT = 1.95
@@ -83,20 +83,6 @@ def test_without_noise_the_residual_is_carried_over(kernels):
     way = np.cumsum([0.0] + [5.265 * 5 / (level + 22.5) for level in levels[:-1]])
     expected = np.interp([1.0, 2.0, 3.0], way, np.arange(17) * 1000)
     assert events.t == pytest.approx(expected, abs=1)
-
-
-def test_without_noise_a_sinusoid_fires_at_its_levels(kernels):
-    # ln(L + k2) swings by ±0.45 about its mean: ±2.37 thresholds, levels −2..2.
-    frames = curve(
-        lambda s: 100 * math.exp(0.45 * math.sin(math.tau * s)) - 20, fps=1000, seconds=1.2
-    )
-    events = run(VoltmeterSimulator(QUIET), frames)
-    assert events.p.tolist() == [1, 1, 0, 0, 0, 0, 1, 1, 1, 1]
-    levels = [math.asin(n / (5.265 * 0.45)) / math.tau for n in (-1, 0, 1, 2)]
-    rising, falling = [t + 1 for t in levels], [0.5 - t for t in (levels[2], levels[1], levels[0])]
-    assert events.t[:2] == pytest.approx([t * 1e6 for t in levels[2:]], abs=20)
-    assert events.t[2:5] == pytest.approx([t * 1e6 for t in falling], abs=20)
-    assert events.t[6:] == pytest.approx([t * 1e6 for t in rising], abs=20)
 
 
 @pytest.mark.parametrize("fps", [24, 1000])
