@@ -19,12 +19,13 @@ MOST_LOG = 80.0
 """Brightness whose intensity float32 still holds; no frame is as bright."""
 
 
-def find_outside_levels(luma: Luma, seen: Luma, low: Luma, high: Luma) -> OutsidePixels:
-    """As `crossing.trigger_levels.find_outside_levels`."""
+def find_outside_levels(luma: Luma, seen: Luma, low: Luma, high: Luma, found: OutsidePixels) -> int:
+    """As `crossing.trigger_levels._find_outside_levels`."""
     pixel = np.flatnonzero((luma < low) | (luma > high))
-    before, now = seen[pixel], luma[pixel]
+    for column, values in zip(found, (pixel, seen[pixel], luma[pixel]), strict=True):
+        column[: pixel.size] = values
     seen[:] = luma
-    return OutsidePixels(pixel, before, now)
+    return pixel.size
 
 
 def set_levels(
@@ -35,7 +36,7 @@ def set_levels(
     low: Luma,
     high: Luma,
 ) -> None:
-    """As `crossing.trigger_levels.set_levels`."""
+    """As `crossing.trigger_levels._set_levels`."""
     centre = reference[pixel]
     ends = centre - thresholds.off, centre + thresholds.on
     off, on = (curve.scale * np.exp(np.minimum(end, MOST_LOG)) + curve.offset for end in ends)

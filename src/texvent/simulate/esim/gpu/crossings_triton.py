@@ -38,17 +38,6 @@ class EsimRules(NamedTuple):
     """[3] float64, because Triton rounds a plain number to float32."""
     logs: Tensor
     """[256] float64: log intensity of a byte."""
-    rests: Tensor
-    """[1] int64, time after an event in which the pixel cannot fire, µs; None without one."""
-
-
-class State(NamedTuple):
-    """State of the pixels."""
-
-    level: Tensor
-    """[B, area] float64, reference log intensity."""
-    fired_us: Tensor
-    """[B, area] int64, time of its last event, µs; None without a refractory period."""
 
 
 _THRESHOLD_ON = tl.constexpr(THRESHOLD_ON)
@@ -62,7 +51,7 @@ def scan_ramp(
     frames: tl.tuple,
     intervals: tl.tuple,
     rules: tl.tuple,
-    state: tl.tuple,
+    reference: tl.tensor,
     tally: tl.tuple,
     records: tl.tuple,
     ALIGN: tl.constexpr,
@@ -71,7 +60,7 @@ def scan_ramp(
     """Find every threshold that a straight line of log intensity crosses in every interval.
 
     Arguments as for `texvent.gpu.scan_triton.scan_levels`, but `rules` are `EsimRules`, and
-    `state`, a `State`, is brought up to date in pass 2.
+    `reference` is a log intensity, float64.
 
     Source: as `crossing.ramp`, whose events these are.
     """
@@ -80,10 +69,7 @@ def scan_ramp(
     threshold_off = tl.load(rules.numbers + _THRESHOLD_OFF)
     intensity = read(frames.previous + home, inside)
     before = log_intensity(intensity, rules)
-    level = tl.load(state.level + home, mask=inside, other=0.0)
-    fired_us = tl.zeros([BLOCK], tl.int64)
-    if state.fired_us is not None:
-        fired_us = tl.load(state.fired_us + home, mask=inside, other=0)
+    level = tl.load(reference + home, mask=inside, other=0.0)
     bad = count_bad(intensity, inside)
     for interval in range(frames.intervals):
         segment = clip * frames.intervals + interval
@@ -93,15 +79,21 @@ def scan_ramp(
             level = before
         is_on = now > level
         threshold = tl.where(is_on, threshold_on, threshold_off)
-        first, last = _towards(is_on, before - level, now - level)
+        size = tl.where(inside, tl.abs(now - level), 0.0)
         cell = find_cell(tally, segment)
         place = tl.full([], 0, tl.int64)
         if records is not None:
             place = tl.load(cell)
-        line = tl.where(inside, first, 0.0), tl.where(inside, last, 0.0), threshold
-        place, passed, fired_us = _cross(
-            line, place, fired_us, (intervals, segment, rules, at, level), records
-        )
+        order = 1
+        passed = tl.zeros([BLOCK], tl.int32)
+        reached = size >= threshold
+        while tl.max(reached.to(tl.int32)) > 0:
+            if records is not None:
+                write_events(records, place, reached, (at, order, level))
+            place += tl.sum(reached.to(tl.int32))
+            passed += reached.to(tl.int32)
+            order += 1
+            reached = size >= order * threshold
         if records is None:
             tl.store(cell, place)
             bad += count_bad(intensity, inside)
@@ -111,46 +103,7 @@ def scan_ramp(
     if records is None:
         tl.atomic_add(tally.bad, tl.sum(bad))
     else:
-        tl.store(state.level + home, level, mask=inside)
-        if state.fired_us is not None:
-            tl.store(state.fired_us + home, fired_us, mask=inside)
-
-
-@triton.jit
-def _cross(
-    line: tl.tuple, place: tl.tensor, fired_us: tl.tensor, where: tl.tuple, records: tl.tuple
-) -> tl.tuple:
-    """Follow lines over their thresholds.
-
-    Args:
-        line: change at the start and at the end, and the distance of thresholds, log units.
-        place: where the events go among the records.
-        fired_us: when each pixel fired last; not looked at without a refractory period.
-        where: intervals, segment, rules, pixels and their reference levels.
-        records: `kernel_types.Records`, or None to count only.
-
-    Returns:
-        `place` behind the events, how many thresholds each line passed, and `fired_us` after.
-    """
-    first, last, threshold = line
-    intervals, segment, rules, at, level = where
-    order = 1
-    passed = tl.zeros(last.shape, tl.int32)
-    reached = last >= threshold
-    while tl.max(reached.to(tl.int32)) > 0:
-        fires = reached
-        if rules.rests is not None:
-            share = crossing_share(first, last, order * threshold)
-            t = place_in(intervals, segment, share) - tl.load(intervals.origin_us + segment)
-            fires = reached & (t - fired_us >= tl.load(rules.rests))
-            fired_us = tl.where(fires, t, fired_us)
-        if records is not None:
-            write_events(records, place, fires, (at, order, level))
-        place += tl.sum(fires.to(tl.int32))
-        passed += reached.to(tl.int32)
-        order += 1
-        reached = last >= order * threshold
-    return place, passed, fired_us
+        tl.store(reference + home, level, mask=inside)
 
 
 @triton.jit
@@ -189,7 +142,8 @@ def stamp_crossings(
         now = log_intensity(read_now(frames, segment, pixel, inside), rules)
         is_on = now > level
         threshold = tl.where(is_on, threshold_on, threshold_off)
-        first, last = _towards(is_on, before - level, now - level)
+        first = tl.where(is_on, before - level, level - before)
+        last = tl.abs(now - level)
         share = crossing_share(first, last, order * threshold)
         t = place_in(intervals, segment, share)
         tl.store(words + at, pack_event(t, pixel, is_on, 0, frames.area), mask=inside)
@@ -204,12 +158,6 @@ def log_intensity(intensity: tl.tensor, rules: tl.tuple) -> tl.tensor:
         share = intensity.to(tl.float64) / _WHITE
         brightness = tl.log(share + tl.load(rules.numbers + _LOG_EPS))
     return brightness
-
-
-@triton.jit
-def _towards(is_on: tl.tensor, start: tl.tensor, stop: tl.tensor) -> tl.tuple:
-    """Both changes counted in the direction in which the pixel may fire."""
-    return tl.where(is_on, start, -start), tl.where(is_on, stop, -stop)
 
 
 @triton.jit

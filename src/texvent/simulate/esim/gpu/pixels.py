@@ -14,7 +14,6 @@ from texvent.simulate.esim.gpu.crossings_triton import (
     THRESHOLD_OFF,
     THRESHOLD_ON,
     EsimRules,
-    State,
 )
 from texvent.simulate.esim.simulator import EsimConfig, log_intensity
 from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
@@ -28,7 +27,6 @@ from texvent.simulate.gpu.launch import (
     to_device,
 )
 from texvent.simulate.gpu.passes import GpuPixels
-from texvent.simulate.random.mismatch import LONG_AGO_US
 
 
 class EsimPixels(GpuPixels[EsimConfig]):
@@ -41,8 +39,13 @@ class EsimPixels(GpuPixels[EsimConfig]):
             config: the options.
 
         Raises:
-            ConfigError: thresholds that are drawn for every frame.
+            ConfigError: thresholds that are drawn for every frame, or a refractory period.
         """
+        if config.refractory_period_us > 0:
+            raise ConfigError(
+                f"refractory_period_us is {config.refractory_period_us}, which is not kept on a "
+                "GPU; use 0"
+            )
         if config.threshold_sigma > 0:
             raise ConfigError(
                 f"threshold_sigma {config.threshold_sigma:g} draws two normal numbers for every "
@@ -53,13 +56,9 @@ class EsimPixels(GpuPixels[EsimConfig]):
     def begin(self, frames: Tensor) -> None:
         """See `GpuPixels`."""
         torch = require("torch", extra=EXTRA)
-        config, device, shape = self.config, frames.device, frames.shape
-        rests = config.refractory_period_us > 0
-        self._state = State(
-            # What it holds does not matter: the first interval begins at its own start.
-            torch.zeros(shape, dtype=torch.float64, device=device),
-            torch.full(shape, LONG_AGO_US, dtype=torch.int64, device=device) if rests else None,
-        )
+        config, device = self.config, frames.device
+        # What it holds does not matter: the first interval begins at its own start.
+        self._reference = torch.zeros(frames.shape, dtype=torch.float64, device=device)
         numbers = np.empty(3)
         numbers[THRESHOLD_ON] = config.contrast_threshold_on
         numbers[THRESHOLD_OFF] = config.contrast_threshold_off
@@ -68,15 +67,14 @@ class EsimPixels(GpuPixels[EsimConfig]):
         self._rules = EsimRules(
             to_device(numbers, device),
             to_device(logs, device),
-            to_device(np.array([config.refractory_period_us]), device) if rests else None,
         )
 
     def _scan(self, call: Call) -> tuple[Any, Any, Any]:
-        return crossings_triton.scan_ramp, self._rules, self._state
+        return crossings_triton.scan_ramp, self._rules, self._reference
 
     def records(self, count: int) -> Records:
         """See `GpuPixels`."""
-        return make_records(count, self._state.level, has_order=True)
+        return make_records(count, self._reference, has_order=True)
 
     def timestamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
         """Give every record its time; see `crossings_triton.stamp_crossings`."""
