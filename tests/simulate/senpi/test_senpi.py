@@ -80,16 +80,6 @@ def test_noise_memorises_the_present_voltage(kernels):
     assert (events.label == NOISE).all()
 
 
-def test_hot_pixels_are_few_and_busy():
-    config = with_only(hot_pixel_fraction=0.02, hot_pixel_rate_hz=500.0)
-    events = run(SenpiSimulator(config), static(90.0, fps=24, seconds=1.0, shape=(60, 80)))
-    counts = np.zeros((60, 80), int)
-    np.add.at(counts, (events.y, events.x), 1)
-    hot = counts > 0
-    assert abs(hot.sum() - 96) < 4 * math.sqrt(96)
-    assert counts[hot].mean() == pytest.approx(500, rel=0.03)
-
-
 def test_mismatch_shifts_the_change_that_fires(kernels):
     config = with_only(threshold_sigma=0.03)
     shape = (40, 50)

@@ -17,13 +17,10 @@ import numpy as np
 
 from texvent.config import check_range
 from texvent.simulate.packets import FrameInterval, UnsortedEvents
-from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.mismatch import (
     LONG_AGO_US,
     Float64Array,
     check_nominal_thresholds,
-    draw_chosen,
-    sensor_key,
     sensor_thresholds,
     smaller_threshold,
     thresholds_at,
@@ -53,18 +50,12 @@ class SenpiConfig:
     """Standard deviation of both thresholds between pixels, log units; none is below 0.01."""
     noise_rate_hz: float = 1.2
     """Noise events per pixel and second; SENPI's 0.05 per frame, at 24 frames per second."""
-    hot_pixel_fraction: float = 0.0
-    """Share of hot pixels, 0..1."""
-    hot_pixel_rate_hz: float = 10.0
-    """Noise events per second of a hot pixel."""
     refractory_period_us: int = 50
     """Time after an event in which a change cannot fire the pixel."""
 
     def __post_init__(self) -> None:
         check_nominal_thresholds(self)
         check_range("noise_rate_hz", self.noise_rate_hz, 0.0, 1e4)
-        check_range("hot_pixel_fraction", self.hot_pixel_fraction, 0.0, 1.0)
-        check_range("hot_pixel_rate_hz", self.hot_pixel_rate_hz, 0.0, 1e4)
         check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
 
 
@@ -117,11 +108,8 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         from texvent.simulate.crossing.trigger_levels import BrightnessCurve, TriggerLevels
         from texvent.simulate.random.poisson_noise import PoissonNoise
 
-        config = self.config
-        key, shape = sensor_key(self._seed), intensity.shape
-        self._thresholds = sensor_thresholds(shape, self._seed, config)
-        is_hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_pixel_fraction)
-        self._noise = PoissonNoise(np.where(is_hot, config.hot_pixel_rate_hz, config.noise_rate_hz))
+        self._thresholds = sensor_thresholds(intensity.shape, self._seed, self.config)
+        self._noise = PoissonNoise(np.full(intensity.shape, self.config.noise_rate_hz))
         self._reference = np.log(photons(intensity)).reshape(-1)
         self._fired_us = np.full(intensity.size, LONG_AGO_US)
         # Below the darkest level all voltages are equal, so one that is lower is never reached.
