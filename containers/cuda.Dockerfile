@@ -1,6 +1,6 @@
 # texvent with torch and Triton for an NVIDIA GPU. From the root of the repository:
 #   docker build -f containers/cuda.Dockerfile -t texvent-cuda .
-#   docker run --rm --gpus all -v texvent-cache:/cache -v "$PWD:/work" texvent-cuda simulate clip.mp4 --backend gpu -o clip.h5
+#   docker run --rm --gpus all -v texvent-cache:/cache -v "$PWD:/work" texvent-cuda simulate clip.mp4 --interpolate rife -o clip.h5
 # The host needs NVIDIA's driver and container toolkit. CUDA's libraries come with torch's wheels.
 FROM python:3.13-slim-trixie@sha256:9d2e5553305c7c7b0097999bb17187c69b921ccd6bc9d40e4bb5ebe652c00285 AS build
 WORKDIR /source

@@ -1,9 +1,14 @@
 """Tables of the constants of cameras and their sources, made from the presets of `physical`."""
 
-from collections.abc import Iterable, Iterator
+import dataclasses
+from collections.abc import Iterable, Iterator, Mapping
+from typing import Any
 
-from texvent.simulate.physical.cameras import CAMERAS, Constant, camera_table
+from texvent.simulate.physical.cameras import CAMERAS
+from texvent.simulate.physical.config import PhysicalConfig
 
+NOT_OF_A_CAMERA = ("gamma", "initial_phase", "sensor_seed", "threshold_map")
+"""Options of the frames, the run or the model."""
 MARK = "<!-- cameras: "
 """Begins the line of the page that the tables take the place of."""
 
@@ -18,8 +23,12 @@ def with_tables(page: str) -> str:
 def camera_tables() -> Iterator[str]:
     """Lines of Markdown: constants of every camera, then the source of each measured one."""
     yield from ("\\* not measured: the model's default.", "")
-    columns = [camera_table(name) for name in CAMERAS]
-    rows = ([f"`{same[0].option}`", *map(_cell, same)] for same in zip(*columns, strict=True))
+    known = [{one.option: one.value for one in camera.constants} for camera in CAMERAS.values()]
+    rows = (
+        [f"`{field.name}`", *(_cell(field, values) for values in known)]
+        for field in dataclasses.fields(PhysicalConfig)
+        if field.name not in NOT_OF_A_CAMERA
+    )
     yield from _table(["option", *(f"`{name}`" for name in CAMERAS)], rows)
     yield ""
     sources = (
@@ -36,7 +45,7 @@ def _table(head: Iterable[str], rows: Iterable[Iterable[str]]) -> list[str]:
     return [f"| {' | '.join(line)} |" for line in lines]
 
 
-def _cell(constant: Constant) -> str:
-    value = constant.value if isinstance(constant.value, str) else f"{constant.value:.6g}"
-    value = "curve" if constant.option == "noise_curve" else value
-    return f"{value}\\*" if constant.basis == "unmeasured" else value
+def _cell(field: dataclasses.Field[Any], known: Mapping[str, float | str]) -> str:
+    value = known.get(field.name, field.default)
+    text = "curve" if field.name == "noise_curve" else f"{value:.6g}"
+    return text if field.name in known else f"{text}\\*"

@@ -12,8 +12,6 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import ConfigError
-
 LUMA_WEIGHTS = (0.299, 0.587, 0.114)
 """Red, green, blue weights of ITU-R BT.601: what OpenCV, v2e and ESIM use for grey input."""
 LUMA_ROWS = 16
@@ -49,39 +47,15 @@ def balanced_log(intensity: NDArray[Any], balance: float) -> Float64Array:
 
     Args:
         intensity: luma on the 0..255 scale, [H, W], uint8 or float.
-        balance: α, on the same scale.
+        balance: α, on the same scale, above 0.
 
     Returns:
         [H, W] float64, log units.
 
-    Raises:
-        ConfigError: α + I is zero somewhere, so the logarithm does not exist.
-
     Equation: (5), section 3.2.2; supplement 9.1.
     """
     if intensity.dtype == np.uint8:
-        check_balance(intensity, balance)
-        with np.errstate(divide="ignore"):
-            table = np.log(balance + np.arange(256, dtype=np.float64))
+        table = np.log(balance + np.arange(256, dtype=np.float64))
         return np.asarray(table[intensity])
-    shifted = intensity + np.float64(balance)
-    if balance <= 0 and not shifted.all():
-        _refuse_zero(balance)
-    return np.asarray(np.log(shifted, dtype=np.float64))
+    return np.asarray(np.log(intensity + np.float64(balance), dtype=np.float64))
 
-
-def check_balance(intensity: NDArray[Any], balance: float) -> None:
-    """Refuse black pixels where nothing is added to them.
-
-    Raises:
-        ConfigError: the balance is 0 and an intensity is, too.
-    """
-    if balance <= 0 and not intensity.all():
-        _refuse_zero(balance)
-
-
-def _refuse_zero(balance: float) -> None:
-    raise ConfigError(
-        f"balance is {balance:g} and a pixel has intensity 0, so ln(balance + I) does not exist; "
-        "use a balance above 0, or raise the black level of the frames"
-    )

@@ -106,9 +106,6 @@ class RunConfig:
     seed: int = 0
     """Seed of everything random. The same seed and options give the same events, on any machine
     and with any number of threads."""
-    backend: Literal["cpu", "gpu"] = "cpu"
-    """Where the pixels are simulated: on the CPU, or on a GPU (for texvent and esim, with
-    texvent[gpu]). The events are the same."""
     keep_events: Literal["all", "signal", "noise"] = "all"
     """Which events to keep: all, only those that a brightness change fired, or only noise."""
     label_noise: bool = False

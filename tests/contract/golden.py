@@ -51,7 +51,6 @@ SIMULATORS: dict[str, list[dict[str, Any]]] = {
         {},
         {"refractory_period_us": 3000},
         {"threshold_sigma": 0.05},
-        {"threshold_sigma": 0.05, "threshold_redraw": "never"},
     ],
     "physical": [{}, {"preset": "clean"}, {"sensor": "davis346"}],
     "v2e": [{}, {"preset": "noisy"}],
@@ -100,7 +99,6 @@ def event_cases() -> Iterator[tuple[str, Any]]:
         for options in variants:
             for interpolate in INTERPOLATIONS:
                 yield _frames_case(simulator=simulator, interpolate=interpolate, **options)
-        yield _frames_case(simulator=simulator, interpolate="flow", backend="cpu")
         for dtype in ("uint16", "float32"):
             for interpolate in ("none", "flow"):
                 yield _frames_case(simulator=simulator, interpolate=interpolate, dtype=dtype)

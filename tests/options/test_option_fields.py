@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import pytest
 
+from texvent._registry import SIMULATORS
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
 from texvent.options.fields import option_help, option_names
 
@@ -23,6 +24,14 @@ def test_help_is_the_text_under_the_field_on_one_line():
     assert option_help(Example) == {"rate": "A rate, in two lines.", "size": "A size."}
 
 
-@pytest.mark.parametrize("config_type", [RunConfig, CaptureConfig, InterpolateConfig])
+@pytest.mark.parametrize(
+    "config_type",
+    [
+        RunConfig,
+        CaptureConfig,
+        InterpolateConfig,
+        *(SIMULATORS.load(name).config_type for name in SIMULATORS.builtin),
+    ],
+)
 def test_every_option_has_help(config_type):
     assert set(option_help(config_type)) == set(option_names(config_type))

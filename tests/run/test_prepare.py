@@ -8,7 +8,7 @@ import pytest
 import texvent
 from texvent.cli.app import main
 from texvent.dataset.samples import SimulatedSamples
-from texvent.errors import ConfigError, InputError
+from texvent.errors import InputError, MissingDependencyError
 from texvent.generate.procedural import ProceduralGenerator
 from texvent.generate.videos.stored_video import write_video
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source, prepare_video
@@ -17,7 +17,6 @@ from texvent_lab.bench.fidelity.entries import simulate_video
 
 PROMPT = "a red ball bounces"
 SMALL = {"sensor": "48x36", "duration": 0.2}
-IMPOSSIBLE = {**SMALL, "backend": "gpu", "simulator": "v2e"}
 
 
 @pytest.fixture
@@ -41,10 +40,10 @@ def of_samples(folder, options):
     SimulatedSamples(prompts=[PROMPT], simulation=options).make(0)
 
 
-@pytest.mark.parametrize("enter", [of_api, of_samples])
-def test_an_impossible_backend_is_refused_before_a_generator_starts(tmp_path, prompts, enter):
-    with pytest.raises(ConfigError, match="simulator v2e has no backend gpu"):
-        enter(tmp_path, IMPOSSIBLE)
+def test_missing_weights_are_named_before_a_generator_starts(tmp_path, prompts):
+    options = {**SMALL, "simulator": "v2ce", "weights": str(tmp_path / "none.pt")}
+    with pytest.raises((InputError, MissingDependencyError), match=r"no such|none\.pt|torch"):
+        prepare_prompt(PROMPT, resolve("generate", options))
     assert prompts == []
 
 

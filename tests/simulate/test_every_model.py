@@ -13,10 +13,8 @@ import pytest
 
 import texvent
 from texvent._registry import SIMULATORS
-from texvent.cli.app import main
 from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
-from texvent.io.files import save
 
 from .pixel_frames import moving_texture, run
 
@@ -34,7 +32,7 @@ NOISY: dict[str, dict[str, Any]] = {
     },
     "v2e": {"shot_noise_rate_hz": RATE_HZ / V2E_SHARE, "leak_rate_hz": 0.0, "threshold_sigma": 0.0},
     "senpi": {"noise_rate_hz": RATE_HZ, "refractory_period_us": 0},
-    "voltmeter": {"k4": RATE_HZ * 1e-6, "k5": 0.0},
+    "voltmeter": {"constants": f"5.265 20 1e-4 {RATE_HZ * 1e-6} 0 1e-5"},
 }
 """Options with which a dark pixel at rest fires at `RATE_HZ`. ESIM has no noise, and V2CE's is in
 its network."""
@@ -44,7 +42,7 @@ CLEAN: dict[str, dict[str, Any]] = {
     "esim": {},
     "v2e": {"preset": "peer-common"},
     "senpi": {"preset": "peer-common"},
-    "voltmeter": {"k3": 0.0, "k4": 0.0, "k5": 0.0, "k6": 0.0},
+    "voltmeter": {"constants": "5.265 20 0 0 0 0"},
 }
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 
@@ -131,24 +129,3 @@ def test_signal_and_noise_alone_are_the_parts_of_the_whole(model):
     assert (len(noise) > 0) == (model in NOISY)
     assert both[both.label == SIGNAL].equals(signal)
     assert both[both.label == NOISE].equals(noise)
-
-
-@pytest.mark.parametrize("name", ["e.h5", "e.npz"])
-def test_labels_are_stored_and_read_back(name, tmp_path):
-    events = texture(simulator="physical", **NOISY["physical"])
-    back = texvent.load(save(tmp_path / name, events))
-    assert back.label is not None
-    assert np.array_equal(back.label, events.label)
-    assert back.equals(events)
-
-
-def test_the_command_line_stores_labels_only_if_asked(tmp_path):
-    words = ["simulate", str(CLIP), "--simulator", "v2e", "--interpolate", "none", "--stop", "0.2"]
-    words += ["--previews", "none", "-q"]
-    asked, unasked = tmp_path / "asked.h5", tmp_path / "unasked.h5"
-    assert main([*words, "--label-noise", "-o", str(asked)]) == 0
-    assert main([*words, "-o", str(unasked)]) == 0
-    labelled, plain = texvent.load(asked), texvent.load(unasked)
-    assert labelled.label is not None
-    assert plain.label is None
-    assert labelled.without_label().equals(plain)

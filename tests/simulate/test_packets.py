@@ -44,11 +44,3 @@ def test_the_last_pixel_of_the_largest_sensor_survives_packing():
     packet = make_packet(fired, FrameInterval(0, 1_000_000, KEY), SensorSize(side, side))
     assert (packet.x[0], packet.y[0], packet.t[0]) == (65_534, 65_534, 999_999)
     assert (packet.p[0], packet.label[0]) == (1, 1)
-
-
-def test_no_event_is_an_empty_packet():
-    nothing = np.empty(0, np.int64)
-    events = UnsortedEvents.signal(nothing, nothing, nothing.astype(np.uint8))
-    packet = make_packet(events, FrameInterval(0, 10, KEY), SIZE)
-    assert len(packet) == 0
-    assert packet.size == SIZE

@@ -193,19 +193,6 @@ def test_v2e_times_differ_because_all_its_pixels_share_one_grid_of_times(clip):
 
 
 @needs_peers
-def test_v2e_crowds_events_at_the_start_of_each_interval_and_ours_does_not(clip):
-    def early_share(times):
-        start = np.array([frame.t_us for frame in clip])[np.searchsorted(edges, times, "left") - 1]
-        return float(np.mean((times - start) / 41_667 <= 1 / 8))
-
-    edges = [frame.t_us for frame in clip]
-    theirs = load_peer("v2e_common")["t"]
-    ours = EventStream.concat(packets_of(V2eSimulator, "peer-common", clip)).t
-    assert early_share(theirs) > 0.5
-    assert 0.06 < early_share(ours[ours > 0]) < 0.125
-
-
-@needs_peers
 @pytest.mark.parametrize(("preset", "name"), [("default", "v2e_default"), ("noisy", "v2e_noisy")])
 def test_v2e_with_noise_agrees_in_rate_and_polarity(clip, preset, name):
     # Other random thresholds and noise: single pixels cannot agree, distributions must.

@@ -46,9 +46,7 @@ MODELS = [
     (PhysicalSimulator, PRESETS["clean"]),
     # Leak fires pixels whose light rests, in blocks that would be skipped else.
     (PhysicalSimulator, PhysicalConfig(leak_rate_hz=20.0, noise_scale=0.0, initial_phase="zero")),
-    (PhysicalSimulator, PhysicalConfig(residual_decay_hz=5.0, leak_rate_hz=20.0)),
     (V2eSimulator, V2eConfig(leak_rate_hz=20.0, shot_noise_rate_hz=20.0)),
-    (V2eSimulator, V2eConfig(photoreceptor_noise=True, shot_noise_rate_hz=20.0)),
     (SenpiSimulator, SenpiSimulator.presets["default"]),
     (VoltmeterSimulator, VoltmeterSimulator.presets["davis240"]),
 ]

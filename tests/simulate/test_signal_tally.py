@@ -1,18 +1,14 @@
 """A run that loses its signal says so, why, and which option helps."""
 
 import warnings
-from fractions import Fraction
-from pathlib import Path
 
 import numpy as np
 import pytest
 
 import texvent
-from texvent.cli.app import main
 from texvent.events import EventStream
-from texvent.generate.videos.stored_video import write_stream
 from texvent.simulate.signal_tally import SignalTally
-from texvent.video import Frame, Video
+from texvent.video import Frame
 
 FPS = 120
 
@@ -86,22 +82,3 @@ def test_events_without_a_label_count_as_signal():
     tally = SignalTally()
     tally.count(EventStream.from_columns([1, 1], [1, 1], [1, 2], [0, 1], size=(4, 4)))
     assert (tally.signal, tally.noise) == (2, 0)
-
-
-def test_commands_warn_and_name_flags(tmp_path, monkeypatch, capsys):
-    monkeypatch.chdir(tmp_path)
-    clips = Path("clips")
-    clips.mkdir()
-    frames = np.rint(drifting()).astype(np.uint8)
-    times = [k * 1_000_000 // FPS for k in range(len(frames))]
-    write_stream(Video(frames, times, fps=Fraction(FPS)), clips / "slow.avi", overwrite=False)
-    options = ["--interpolate", "none", "--previews", "none", "--noise-rate-hz", "20"]
-    options += ["--noise-intensity", "255", "-o"]
-    advice = "; give --cache global\n"
-    assert main(["simulate", "clips/slow.avi", "--cache", "local", *options, "a.h5"]) == 0
-    said = capsys.readouterr().err
-    assert advice in said
-    assert main(["batch", "clips", "--cache", "local", *options, "many"]) == 0
-    assert advice in capsys.readouterr().err
-    assert main(["simulate", "clips/slow.avi", "--cache", "global", *options, "b.h5"]) == 0
-    assert "warning" not in capsys.readouterr().err

@@ -19,7 +19,7 @@ from texvent.simulate.voltmeter.simulator import VoltmeterConfig
         PhysicalConfig(contrast_threshold=0.3, on_off_ratio=1.3),
         EsimConfig(contrast_threshold_on=0.2, contrast_threshold_off=0.45),
         V2eConfig(contrast_threshold_on=0.9, contrast_threshold_off=0.1),
-        VoltmeterConfig(k1=1 / 0.3),
+        VoltmeterConfig(constants=f"{1 / 0.3} 20 0 0 0 0"),
     ],
 )
 def test_one_number_reads_and_writes_the_threshold_of_every_model(config):

@@ -30,7 +30,6 @@ class RunOptions(TypedDict, total=False):
     preset: str | None
     sensor: SensorName | None
     seed: int | None
-    backend: Literal["cpu", "gpu"] | None
     keep_events: Literal["all", "signal", "noise"] | None
     label_noise: bool | None
     target_rate: float | None
@@ -63,8 +62,7 @@ class SimulatorOptions(TypedDict, total=False):
     noise_scale: float | None
     noise_intensity: float | None
     noise_on_fraction: float | None
-    timestamp_rule: Literal["eq7", "random", "linear", "hyperbolic", "even", "end"] | None
-    timestamp_scale: float | None
+    timestamp_rule: Literal["eq7", "random", "linear", "end"] | None
     gamma: float | None
     on_off_ratio: float | None
     threshold_sigma: float | None
@@ -77,32 +75,17 @@ class SimulatorOptions(TypedDict, total=False):
     leak_rate_decades: float | None
     noise_curve: str | None
     noise_decades: float | None
-    noise_resets: bool | None
     hot_pixel_fraction: float | None
     hot_pixel_rate_hz: float | None
     sensor_seed: int | None
-    arbiter: Literal["none", "rows", "scan"] | None
-    arbiter_row_ns: int | None
-    arbiter_event_ns: int | None
     scan_period_ns: int | None
-    rate_limit_hz: float | None
-    rate_limit_window_us: int | None
     contrast_threshold_on: float | None
     contrast_threshold_off: float | None
-    threshold_redraw: Literal["frame", "never"] | None
     log_eps: float | None
     shot_noise_rate_hz: float | None
-    photoreceptor_noise: bool | None
-    shot_noise: bool | None
     weights: str | Path | None
     sequence_length: int | None
-    rounding: Literal["published", "stochastic"] | None
-    k1: float | None
-    k2: float | None
-    k3: float | None
-    k4: float | None
-    k5: float | None
-    k6: float | None
+    constants: str | None
 
 
 class CaptureOptions(TypedDict, total=False):

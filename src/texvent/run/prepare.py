@@ -22,7 +22,6 @@ from texvent.scenes.spec.scene import Scene
 from texvent.sensor import SensorSize
 from texvent.settings.provenance import describe_weights
 from texvent.settings.resolution import Settings
-from texvent.simulate.build import build_simulator
 from texvent.video import FrameStream
 
 UNMEASURED = 200
@@ -33,16 +32,13 @@ def check_run(settings: Settings) -> None:
     """Refuse a run that cannot be, before any work.
 
     Raises:
-        ConfigError: the simulator has no such backend.
         InputError: weights of the simulator or the interpolator are not here, or the sensor's
             pixels do not fit into memory.
-        MissingDependencyError: the backend or a network needs a package.
+        MissingDependencyError: a network needs a package.
     """
     describe_weights(settings)
     if settings.size is not None:
         check_memory(settings, settings.size)
-    if settings.run.backend == "gpu":
-        build_simulator(settings.run, settings.simulate)
 
 
 def estimate_bytes(settings: Settings, size: SensorSize) -> int:

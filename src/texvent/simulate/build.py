@@ -9,7 +9,7 @@ import numpy as np
 
 from texvent._registry import SIMULATORS
 from texvent.config import RunConfig
-from texvent.errors import ConfigError, TexventError
+from texvent.errors import TexventError
 from texvent.events import EventStream
 from texvent.simulate.protocol import Simulator
 from texvent.simulate.streaming import SteppingSimulator
@@ -41,22 +41,14 @@ def build_simulator(run: RunConfig, config: Any) -> Simulator:
     """The simulator of a run, before its first frame.
 
     Args:
-        run: its simulator, seed and backend.
+        run: its simulator and seed.
         config: the simulator's options.
 
     Raises:
-        ConfigError: there is no such simulator, or it does not run on a GPU.
+        ConfigError: there is no such simulator.
         TexventError: a simulator of another package cannot be loaded.
     """
-    kind = SIMULATORS.load(run.simulator)
-    named: dict[str, Any] = {}
-    if run.backend == "gpu":
-        if not getattr(kind, "has_gpu", False):
-            raise ConfigError(
-                f"simulator {run.simulator} has no backend gpu; use texvent or esim, or backend cpu"
-            )
-        named["backend"] = "gpu"
-    return with_advance(kind(config, seed=run.seed, **named))
+    return with_advance(SIMULATORS.load(run.simulator)(config, seed=run.seed))
 
 
 def with_advance(simulator: Any) -> Simulator:

@@ -29,8 +29,8 @@ def contrast_threshold_of(config: Any) -> float:
         return float(config.contrast_threshold)
     if "contrast_threshold_on" in names:
         return math.sqrt(float(config.contrast_threshold_on * config.contrast_threshold_off))
-    if "k1" in names:
-        return 1.0 / float(config.k1)
+    if "constants" in names:
+        return 1.0 / float(config.k.k1)
     raise _no_threshold(config)
 
 
@@ -50,6 +50,7 @@ def with_contrast_threshold(
     """
     options: Any = config
     names = option_names(type(options))
+    changes: dict[str, Any]
     if "contrast_threshold" in names:
         changes = {"contrast_threshold": threshold}
         if on_off_ratio is not None and "on_off_ratio" in names:
@@ -60,8 +61,8 @@ def with_contrast_threshold(
             "contrast_threshold_on": threshold * math.sqrt(ratio),
             "contrast_threshold_off": threshold / math.sqrt(ratio),
         }
-    elif "k1" in names:
-        changes = {"k1": 1.0 / threshold}
+    elif "constants" in names:
+        changes = {"constants": str(options.k._replace(k1=1.0 / threshold))}
     else:
         raise _no_threshold(config)
     changed: Config = dataclasses.replace(options, **changes)

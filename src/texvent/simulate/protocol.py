@@ -13,9 +13,8 @@ from texvent.video import Frame
 class Simulator(Protocol):
     """A pixel model: pairs of source frames in, packets of events out.
 
-    Built as `Simulator(config, seed=seed)`, with `backend=` only where the user named one; the
-    first frame decides the size. Random draws are keyed by (seed, frame, y, x), so neither threads
-    nor chunk sizes nor backends change an event.
+    Built as `Simulator(config, seed=seed)`; the first frame decides the size. Random draws are
+    keyed by (seed, frame, y, x), so neither threads nor chunk sizes change an event.
 
     `stepping.SteppingSimulator` brings `advance` and `finish` to a model that has `step`. A model
     may also declare `default_interpolate`, the interpolation it was made for. One whose weights are

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import abc
 from collections.abc import Iterator, Mapping
-from typing import Any, ClassVar, Generic, Literal, TypeAlias, TypeVar
+from typing import Any, ClassVar, Generic, TypeVar
 
 from numpy.typing import NDArray
 
@@ -34,8 +34,6 @@ class SteppingSimulator(abc.ABC):
 
 
 Config = TypeVar("Config")
-Backend: TypeAlias = Literal["cpu", "gpu"]
-"""Device of a model that runs on both."""
 IntensityArray = NDArray[Any]
 """Luma on the 0..255 scale, [H, W], uint8 or float32."""
 

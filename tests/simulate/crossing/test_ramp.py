@@ -1,5 +1,3 @@
-import math
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -94,26 +92,3 @@ def test_backends_agree_and_crossings_are_sound(start, stop, on, off, rest, dura
         assert (left < on).all()
         assert (-left < off).all()
         assert len(found.t) == np.abs(found.steps).sum()
-
-
-@pytest.mark.parametrize(
-    "rest", [RefractoryPeriod(0, True), RefractoryPeriod(10, True), RefractoryPeriod(10, False)]
-)
-def test_backends_agree_on_many_crossings_of_many_pixels(rest):
-    """Up to 150 events of a pixel, more pixels than a compiled kernel looks at together."""
-    found = []
-    for by in (esim, crossings):
-        rng = np.random.default_rng(0)
-        ramp = Ramp(np.arange(1500), *rng.normal(0, 0.7, (2, 1500)), *np.full((2, 1500), 0.02))
-        levels = CrossingState(np.zeros(1500), np.full(1500, NEVER))
-        candidates = RampPixels(*ramp[:3], None, Thresholds(*ramp[3:]))
-        events = by.cross_thresholds(candidates, levels, (0, 5000), rest, (30, 50))
-        found.append((*events, *levels))
-    assert all(np.array_equal(*pair) for pair in zip(*found, strict=True))
-    assert len(found[0][0]) > 20_000
-
-
-def test_a_crossing_far_in_time_is_exact():
-    late = 10**15
-    found, _ = cross(one(0.0, 0.3), span=(late, late + 900))
-    assert found.t.tolist() == [late + math.floor(0.2 / 0.3 * 900)]

@@ -6,7 +6,7 @@ import pytest
 from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator, log_intensity
 from texvent.video import Frame
 
-from ..pixel_frames import curve, frames_of, run, static
+from ..pixel_frames import curve, frames_of, run
 
 
 def on_log_scale(value: float) -> float:
@@ -86,46 +86,22 @@ def test_the_reference_steps_over_lost_crossings(kernels):
     assert len(events) == 1
 
 
-def test_thresholds_fixed_per_pixel_have_the_stated_mean_and_sd(kernels):
-    config = EsimConfig(threshold_sigma=0.03, threshold_redraw="never")
-    simulator = EsimSimulator(config, seed=5)
+def test_drawn_thresholds_have_the_stated_mean_and_sd_and_are_new_in_every_frame(kernels):
     shape = (60, 60)
-    first = np.full(shape, on_log_scale(-3))
-    second = np.full(shape, on_log_scale(-2.5))
-    events = run(simulator, [Frame(first, 0), Frame(second, 500_000)])
-    earliest = np.full(shape, np.iinfo(np.int64).max)
-    np.minimum.at(earliest, (events.y, events.x), events.t)
-    thresholds = earliest * 1e-6  # the ramp rises by 1 per second
-    assert thresholds.mean() == pytest.approx(0.2, abs=4 * 0.03 / 60)
-    assert thresholds.std() == pytest.approx(0.03, rel=4 / math.sqrt(2 * 3600))
-
-
-def test_thresholds_drawn_per_frame_change_from_frame_toFrame(kernels):
-    def first_times(redraw):
-        config = EsimConfig(threshold_sigma=0.03, threshold_redraw=redraw)
-        simulator = EsimSimulator(config)
-        low, high = np.full((4, 5), on_log_scale(-3)), np.full((4, 5), on_log_scale(-2.75))
-        simulator.step(Frame(low, 0))
-        up = simulator.step(Frame(high, 1_000_000))
-        simulator.reset()
-        simulator.step(Frame(high, 0))
-        simulator.step(Frame(high, 1_000_000))
-        simulator.step(Frame(low, 2_000_000))
-        simulator.reset()
-        simulator.step(Frame(low, 0))
-        simulator.step(Frame(low, 1_000_000))
-        return up, simulator.step(Frame(high, 2_000_000))
-
-    early, late = first_times("never")
-    assert np.array_equal(early.t, late.t - 1_000_000)
-    early, late = first_times("frame")
-    assert not np.array_equal(early.t, late.t - 1_000_000)
-
-
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_a_static_scene_gives_nothing(kernels, fps):
-    frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
-    assert len(run(EsimSimulator(), frames)) == 0
+    low, high = np.full(shape, on_log_scale(-3)), np.full(shape, on_log_scale(-2.5))
+    maps = []
+    for first_us in (0, 1_000_000):
+        frames = [Frame(low, 0)] + [Frame(low, first_us)] * (first_us > 0)
+        events = run(
+            EsimSimulator(EsimConfig(threshold_sigma=0.03), seed=5),
+            [*frames, Frame(high, first_us + 500_000)],
+        )
+        earliest = np.full(shape, np.iinfo(np.int64).max)
+        np.minimum.at(earliest, (events.y, events.x), events.t - first_us)
+        maps.append(earliest * 1e-6)  # the ramp rises by 1 per second
+    assert maps[0].mean() == pytest.approx(0.2, abs=4 * 0.03 / 60)
+    assert maps[0].std() == pytest.approx(0.03, rel=4 / math.sqrt(2 * 3600))
+    assert not np.array_equal(*maps)
 
 
 def test_eq4_counts_with_the_smaller_threshold_and_the_models_logarithm():

@@ -14,10 +14,6 @@ from texvent.pairs.warp_cpu import prepare_pair
 from texvent.runtime.read_only import read_only
 from texvent.simulate.fused import candidates
 from texvent.simulate.fused.bounds import (
-    PREVIOUS_FRAME,
-    RESET_BY_THRESHOLD,
-    RESET_BY_THRESHOLD_ONCE,
-    RESET_TO_CURRENT,
     PairArrays,
     PreparedPair,
     ReferenceLevels,
@@ -44,8 +40,8 @@ def pair_of(*arrays):
     return PairArrays(*map(read_only, arrays))
 
 
-def own_levels(rule, balance=30.0, up=UP):
-    return ReferenceLevels(np.empty((0, 0)), balance, up, 1 / up, rule)
+def own_levels(*, is_step=False, balance=30.0, up=UP):
+    return ReferenceLevels(np.empty((0, 0)), balance, up, 1 / up, is_step)
 
 
 def at_rest(first, second):
@@ -70,7 +66,7 @@ def moving(shape, speed, seed=0):
 def test_a_pixel_is_listed_where_it_passes_a_level_and_its_reference_goes_along(find):
     # α + I: 50, 70, 90, 110; ln steps .336, .251, .201: with δ = .3 the first fires (A := 70), then
     # ln(90/70) = .251 does not, and ln(110/70) = .452 does.
-    levels = own_levels(RESET_TO_CURRENT, up=math.exp(0.3))
+    levels = own_levels(up=math.exp(0.3))
     found = find(at_rest(20, 80), THIRDS, levels)
     assert found.segment.tolist() == [0, 2]
     np.testing.assert_allclose(found.before, [20, 60], rtol=1e-6)
@@ -81,26 +77,21 @@ def test_a_pixel_is_listed_where_it_passes_a_level_and_its_reference_goes_along(
 def test_a_reference_that_steps_stays_behind(find):
     # The same, A := 50 · e^.3 = 67.5, and ln(90/67.5) = .288 does not fire, ln(110/67.5) = .488
     # does. Falling levels are the mirror image.
-    levels = own_levels(RESET_BY_THRESHOLD_ONCE, up=math.exp(0.3))
+    levels = own_levels(is_step=True, up=math.exp(0.3))
     assert find(at_rest(20, 80), THIRDS, levels).segment.tolist() == [0, 2]
     # 110, 90, 70, 50: .2007, .452 (fires, A := 81.5), .488 (fires).
     assert find(at_rest(80, 20), THIRDS, levels).segment.tolist() == [1, 2]
 
 
 @kernels
-def test_a_reference_that_follows_every_picture_sees_single_steps_only(find):
-    levels = own_levels(PREVIOUS_FRAME, up=math.exp(0.3))
-    assert find(at_rest(20, 80), THIRDS, levels).segment.tolist() == [0]
-
-
-@kernels
 def test_where_it_is_open_whether_a_pixel_fires_all_its_later_pictures_are_listed(find):
     # The change is δ but for rounding, so the finishing pass must see everything from there on.
-    levels = own_levels(RESET_TO_CURRENT, up=60 / 50)
+    levels = own_levels(up=60 / 50)
     arrays = pair_of(np.float32([[20]]), np.float32([[30]]), STILL, STILL)
     assert find(arrays, np.array([0.99999]), levels).segment.tolist() == [1]
-    for rule in (RESET_TO_CURRENT, RESET_BY_THRESHOLD_ONCE, RESET_BY_THRESHOLD):
-        late = find(at_rest(20, 30), np.array([1.0, 0.5, 0.3]), own_levels(rule, up=60 / 50))
+    for is_step in (False, True):
+        levels = own_levels(is_step=is_step, up=60 / 50)
+        late = find(at_rest(20, 30), np.array([1.0, 0.5, 0.3]), levels)
         assert late.segment.tolist() == [0, 1, 2, 3]
 
 
@@ -111,12 +102,10 @@ def test_compiled_kernel_lists_what_the_definition_lists(shape, speed):
     spread = np.random.default_rng(1).normal(0, 0.1, shape)
     kept = (arrays.earlier + 30.0) * np.exp(spread)
     places = (np.array([]), np.array([0.2, 0.5, 0.6]))
-    for positions, rule, reference in itertools.product(
-        places,
-        (PREVIOUS_FRAME, RESET_TO_CURRENT, RESET_BY_THRESHOLD_ONCE, RESET_BY_THRESHOLD),
-        (np.empty((0, 0)), kept),
+    for positions, is_step, reference in itertools.product(
+        places, (False, True), (np.empty((0, 0)), kept)
     ):
-        levels = ReferenceLevels(reference, 30.0, math.exp(0.1), math.exp(-0.15), rule)
+        levels = ReferenceLevels(reference, 30.0, math.exp(0.1), math.exp(-0.15), is_step)
         got = find_candidates(arrays, positions, levels)
         wanted = definition.find_candidates(arrays, positions, levels)
         for one, other in zip(got, wanted, strict=True):
@@ -124,7 +113,7 @@ def test_compiled_kernel_lists_what_the_definition_lists(shape, speed):
 
 
 def test_rows_can_be_searched_in_bands():
-    arrays, positions, levels = moving((30, 20), 2.0), np.array([0.5]), own_levels(RESET_TO_CURRENT)
+    arrays, positions, levels = moving((30, 20), 2.0), np.array([0.5]), own_levels()
     prepared = PreparedPair(prepare_pair(*arrays), bound_cells(arrays))
     bands = [
         candidates.find_in_rows(arrays, positions, levels, prepared, rows)
@@ -145,13 +134,12 @@ def test_pixels_that_cannot_fire_are_not_followed():
     active = np.empty(32, np.int64)
     for arrays in (pair_of(ramp, ramp + 1, slow, -slow), pair_of(flat, flat, fast, -fast)):
         bounds = bound_cells(arrays)
-        assert [
-            list_active(arrays, own_levels(RESET_TO_CURRENT), bounds, row, active)
-            for row in range(32)
-        ] == [0] * 32
+        assert [list_active(arrays, own_levels(), bounds, row, active) for row in range(32)] == [
+            0
+        ] * 32
     arrays = pair_of(ramp, ramp, fast, -fast)
     bounds = bound_cells(arrays)
-    assert list_active(arrays, own_levels(RESET_TO_CURRENT), bounds, 3, active) == 32
+    assert list_active(arrays, own_levels(), bounds, 3, active) == 32
 
 
 @pytest.mark.parametrize("shape", [(1, 5), (5, 1), (33, 40)])
@@ -165,8 +153,8 @@ def test_no_pixel_is_left_out_whose_trigger_level_a_sample_reaches(shape, speed)
     arrays = pair_of(image, image, forward, -forward)
     bounds, active = bound_cells(arrays), np.empty(shape[1], np.int64)
     for levels in (
-        ReferenceLevels((seen.max(axis=0) + 30.0) / UP, 30.0, UP, 1e-9, RESET_TO_CURRENT),
-        ReferenceLevels((seen.min(axis=0) + 30.0) * UP, 30.0, 1e9, 1 / UP, RESET_TO_CURRENT),
+        ReferenceLevels((seen.max(axis=0) + 30.0) / UP, 30.0, UP, 1e-9, False),
+        ReferenceLevels((seen.min(axis=0) + 30.0) * UP, 30.0, 1e9, 1 / UP, False),
     ):
         found = [list_active(arrays, levels, bounds, row, active) for row in range(shape[0])]
         assert found == [shape[1]] * shape[0]

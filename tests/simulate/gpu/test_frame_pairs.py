@@ -14,7 +14,7 @@ from texvent.errors import InputError
 from texvent.interpolate.count_policy import count_intermediate
 from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.pairs.instants import intermediate_times_us
-from texvent.simulate.gpu.frames import GpuPairs
+from texvent.simulate.gpu.pairs import GpuPairs
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Frame, Video
 

@@ -1,4 +1,4 @@
-"""What the host works out for the GPU kernels: byte tables, times, when references are renewed."""
+"""What the host works out for the GPU kernels: byte tables and times."""
 
 from __future__ import annotations
 
@@ -9,8 +9,6 @@ from hypothesis import strategies as st
 
 from texvent.errors import InputError
 from texvent.simulate.gpu.intervals import Clock
-from texvent.simulate.gpu.launch import alignment
-from texvent.simulate.texvent.event_frame import BrightnessCache
 from texvent.simulate.texvent.gpu.rules import byte_brightness, byte_trigger_levels
 
 
@@ -59,39 +57,3 @@ def test_a_time_that_does_not_increase_is_named_with_its_clip():
     clock.advance()
     with pytest.raises(InputError, match="clip 1: 5 µs does not come after 5 µs"):
         clock.read(1, [[6], [5]], None)
-
-
-@pytest.mark.torch
-@pytest.mark.parametrize(
-    ("cache", "decay_hz"), [("none", 0.0), ("local", 0.0), ("global", 0.0), ("global", 3.0)]
-)
-def test_references_are_renewed_as_the_brightness_cache_does(cache, decay_hz):
-    pytest.importorskip("triton")
-    from texvent.simulate.texvent.gpu.pixels import TexventPixels
-    from texvent.simulate.texvent.simulator import TexventConfig
-
-    config = TexventConfig(cache=cache, residual_decay_hz=decay_hz)
-    times_us = np.array([0, 40, 100, 250, 300, 700]) * 1000
-    flags = [True, False, True, True, False, True]
-    pixels, clock = TexventPixels(config, [0]), Clock(1)
-    shares = []
-    for part in (slice(0, 3), slice(3, 6)):
-        span = clock.read(3, times_us[part], flags[part])
-        shares += pixels.shares(span)[0].tolist()
-        pixels.advance(span)
-        clock.advance()
-    memory = BrightnessCache(np.zeros((1, 1)), policy=cache, decay_hz=decay_hz)
-    for index, share in enumerate(shares):
-        image = np.full((1, 1), 10.0 + index)
-        before = memory.calibrate(image, times_us[index], is_source=flags[index]).copy()
-        if index == 0:
-            assert share == 1  # the first interval has no reference yet
-        else:
-            assert before == pytest.approx(-5.0 + share * (15.0 + index))
-        memory._reference[...] = -5.0  # far from any brightness, so that every renewal shows
-
-
-def test_alignment_is_what_all_strides_share():
-    assert alignment(1280 * 720, 32 * 1280 * 720) == 16
-    assert alignment(346 * 260) == 8
-    assert alignment(35, 70) == 1

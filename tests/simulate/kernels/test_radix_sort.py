@@ -49,17 +49,6 @@ def test_backends_sort_events_alike(seed, count, shape, duration_us, is_by_pixel
     assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))
 
 
-@pytest.mark.parametrize("duration_us", [5000, 41_667, 100_000])
-def test_many_events_are_ordered_alike(duration_us):
-    """So many that all bits of the time are one digit, where there are at most 16."""
-    unordered = by_pixel(events(3, 70_000, (40, 50), duration_us, start_us=7))
-    span_us = (7, 7 + duration_us)
-    one, two = (
-        module.sort_events(unordered, span_us, (40, 50)) for module in (sorting, radix_sort)
-    )
-    assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))
-
-
 def test_every_pixel_of_an_odd_width_keeps_its_place():
     """Rows are found by a product with 1 / width, which must not miss at a row's ends."""
     shape = (3, 65_535)
@@ -70,13 +59,6 @@ def test_every_pixel_of_an_odd_width_keeps_its_place():
     )
     assert np.array_equal(columns.y, pixel // shape[1])
     assert np.array_equal(columns.x, pixel % shape[1])
-
-
-def test_sorting_changes_nothing_that_was_given():
-    given_events = events(1, 100, (10, 10), 50, start_us=0)
-    kept = [column.copy() for column in given_events]
-    radix_sort.sort_events(given_events, (0, 50), (10, 10))
-    assert all(np.array_equal(a, b) for a, b in zip(kept, given_events, strict=True))
 
 
 def test_an_interval_too_long_for_the_keys_is_refused():

@@ -18,12 +18,6 @@ def test_the_rate_is_constant_outside_the_points():
     assert curve.rate_at(np.array([[0.0, 255.0]])) == pytest.approx(np.array([[0.5, 0.004]]))
 
 
-def test_the_measured_curve_falls_from_dark_to_bright():
-    curve = parse_noise_curve(DAVIS346_NOISE)
-    assert curve.rate_at(np.array([1.0, 3.5, 57.5])) == pytest.approx([0.46, 0.77, 0.003])
-    assert (np.diff(curve.rates_hz[1:]) < 0).all()
-
-
 def test_a_curve_reads_back_what_it_writes():
     curve = parse_noise_curve(DAVIS346_NOISE)
     again = parse_noise_curve(str(curve))

@@ -4,9 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from tests.simulate.references import physical as reference
 
-from ..pixel_frames import curve, frames_of, moving_texture, run
+from ..pixel_frames import curve, frames_of, run
 from .physical_pixels import clean, intensity
 
 
@@ -55,23 +54,6 @@ def test_bandwidth_does_not_depend_on_the_frame_rate(kernels, fps):
     assert fast.t == pytest.approx(slow.t, abs=200)
 
 
-@pytest.mark.parametrize("frame_us", [1000, 5000, 41_667])
-@pytest.mark.parametrize("cutoff_hz", [30.0, 250.0])
-def test_few_pieces_are_as_good_as_many(frame_us, cutoff_hz, monkeypatch):
-    # Not back to 30, where the last threshold would lie at the end of an endless approach.
-    levels = [30.0, *[90.0] * 4, *[31.0] * 4]
-    frames = frames_of(levels, range(0, 9 * frame_us, frame_us))
-
-    def times():
-        simulator = clean(cutoff_hz=cutoff_hz, contrast_threshold=0.1)
-        return run(simulator, frames).t
-
-    few = times()
-    monkeypatch.setattr(reference, "FEWEST_PER_LOG", 200.0)
-    monkeypatch.setattr(reference, "MOST_PER_LOG", 200.0)
-    assert few == pytest.approx(times(), abs=0.01 * frame_us)
-
-
 @pytest.mark.parametrize("limit_hz", [0.0, 20.0])
 def test_dark_pixels_are_slower_than_bright_ones(kernels, limit_hz):
     def delay(level):
@@ -89,10 +71,3 @@ def test_dark_pixels_are_slower_than_bright_ones(kernels, limit_hz):
         cutoff_hz = 100 * (10 + end) / 265
         tau = 1e6 / (math.tau * min(cutoff_hz, limit_hz or cutoff_hz))
         assert delay(level) == pytest.approx(50 + tau * math.log(2), rel=0.01)
-
-
-def test_more_bandwidth_converges_to_no_limit():
-    frames = moving_texture(4)
-    limited = run(clean(cutoff_hz=1e5), frames)
-    unlimited = run(clean(), frames)
-    assert abs(len(limited) - len(unlimited)) <= 0.01 * len(unlimited)

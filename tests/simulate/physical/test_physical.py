@@ -1,7 +1,5 @@
 """The physical model: ideal pixels against closed forms, and any options at all."""
 
-import math
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -12,7 +10,7 @@ from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Frame
 
-from ..pixel_frames import curve, frames_of, moving_texture, run, static
+from ..pixel_frames import frames_of, moving_texture, run
 from .physical_pixels import clean, intensity
 
 # One pixel, closed forms.
@@ -38,24 +36,6 @@ def test_a_step_fires_once_per_threshold(kernels):
     events = run(clean(), frames)
     assert events.t.tolist() == [1000] * 4
     assert events.p.all()
-
-
-def test_a_sinusoid_fires_at_its_levels(kernels):
-    amplitude = 0.51
-    frames = curve(lambda s: intensity(4 + amplitude * math.sin(math.tau * s)), fps=1000, seconds=1)
-    events = run(clean(), frames)
-    up = [math.asin(level / amplitude) / math.tau for level in (0.2, 0.4)]
-    down = [0.5 - math.asin(level / amplitude) / math.tau for level in (0.2, 0.0, -0.2, -0.4)]
-    back = [1 + math.asin(level / amplitude) / math.tau for level in (-0.2, 0.0)]
-    # The last one is the end of the clip, and the clip does not contain its end.
-    expected = up + down + back[:1]
-    assert events.t[:7] == pytest.approx([t * 1e6 for t in expected], abs=6)
-    assert events.p[:7].tolist() == [1, 1, 0, 0, 0, 0, 1]
-
-
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_a_static_scene_without_noise_gives_nothing(kernels, fps):
-    assert len(run(clean(), static(90.0, fps=fps, seconds=0.2, shape=(3, 4)))) == 0
 
 
 def test_gamma_makes_video_linear(kernels):
@@ -92,28 +72,6 @@ def test_a_change_in_the_refractory_period_is_lost(kernels):
     lost = run(clean(refractory_period_us=1000), frames_of(values, times))
     assert len(kept) == 2
     assert len(lost) == 1
-
-
-def test_unfired_change_decays_at_its_rate(kernels):
-    # Jumps of 0.15 that are 0.1 s apart; at 5 per second 0.15 becomes 0.0910 in between.
-    values = [intensity(v) for v in (4, 4.15, 4.15, 4.3)]
-    times = [0, 1, 100_001, 100_002]
-    decaying = run(clean(residual_decay_hz=5.0), frames_of(values, times))
-    assert len(decaying) == 1  # 0.0910 + 0.15 > 0.2
-    assert len(run(clean(residual_decay_hz=12.0), frames_of(values, times))) == 0
-    assert len(run(clean(), frames_of(values, times))) == 1
-
-
-def test_a_fall_decays_until_the_leak_fires(kernels):
-    # Thresholds 0.1 and 0.9, leak 2 per second, decay r = 5 per second: -0.6 exp(-rt) +
-    # 2 / r · (1 - exp(-rt)) reaches 0.1 where exp(-rt) = 0.3. Without decay after 0.35 s.
-    options = {"contrast_threshold": 0.3, "on_off_ratio": 1 / 9, "residual_decay_hz": 5.0}
-    simulator = clean(leak_rate_hz=20.0, leak_rate_decades=0.0, **options)
-    values = [intensity(4)] + [intensity(3.4)] * 300
-    events = run(simulator, frames_of(values, [0, *range(1, 300_000, 1000)]))
-    # From 0 on it takes until exp(-rt) = 0.75.
-    assert events.t == pytest.approx([-2e5 * math.log(left) for left in (0.3, 0.225)], abs=500)
-    assert events.p.all()
 
 
 # Everything at once.
@@ -159,14 +117,12 @@ CONFIGS = st.builds(
     on_off_ratio=st.floats(0.6, 1.6),
     threshold_sigma=st.sampled_from([0.0, 0.05]),
     initial_phase=st.sampled_from(["zero", "random"]),
-    residual_decay_hz=st.sampled_from([0.0, 3.0]),
     cutoff_hz=st.sampled_from([0.0, 5.0, 250.0]),
     refractory_period_us=st.sampled_from([0, 1, 300, 60_000]),
     leak_rate_hz=st.sampled_from([0.0, 0.1, 30.0]),
     noise_scale=st.sampled_from([0.0, 1.0, 300.0]),
-    noise_resets=st.booleans(),
     hot_pixel_fraction=st.sampled_from([0.0, 0.2]),
-    rate_limit_hz=st.sampled_from([0.0, 2000.0]),
+    scan_period_ns=st.sampled_from([0, 30_000_000]),
 )
 
 
@@ -187,34 +143,6 @@ def test_backends_agree_and_packets_are_sound_for_any_options(config, seed, scen
         return packets
 
     assert all(one.equals(two) for one, two in zip(*in_both_forms(packets_of), strict=True))
-
-
-def events_of_pixels(events) -> list:
-    """The events of each pixel on its own."""
-    return [
-        events[(events.y == y) & (events.x == x)]
-        for y in range(events.size.height)
-        for x in range(events.size.width)
-    ]
-
-
-@settings(max_examples=30)
-@given(st.integers(0, 2**32))
-def test_inverted_contrast_swaps_on_and_off(scene):
-    logs = np.random.default_rng(scene).uniform(-1, 1, (5, 3, 4))
-    events, inverted = (
-        run(
-            clean(),
-            [Frame(80 * np.exp(s * log) - 10, i * 10_000) for i, log in enumerate(logs)],
-        )
-        for s in (1, -1)
-    )
-    assert len(events) == len(inverted)
-    by_pixel = [events_of_pixels(e) for e in (events, inverted)]
-    for here, there in zip(*by_pixel, strict=True):
-        # Frames are float32, so a crossing may move by a microsecond.
-        assert here.t == pytest.approx(there.t, abs=2)
-        assert here.p.tolist() == (1 - there.p).tolist()
 
 
 def test_eq4_counts_in_the_gamma_coded_scale():

@@ -1,77 +1,70 @@
-"""The event rate controller on made-up events."""
+"""A readout that scans the columns."""
 
 import itertools
-import math
 
 import numpy as np
-import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
-from texvent.sensor import SensorSize
-from texvent.simulate.packets import FrameInterval, UnsortedEvents
-from texvent.simulate.physical.readout import RateLimit
-from texvent.simulate.random.draws import frame_key
+from texvent.simulate.packets import UnsortedEvents
+from texvent.simulate.physical.config import PhysicalConfig
+from texvent.simulate.physical.readout import LOST, ColumnScan, scan_times_us
+from texvent.simulate.physical.simulator import PhysicalSimulator
+from texvent.video import Frame
 
-WIDTH = 20
-SIZE = SensorSize(WIDTH, WIDTH)
-
-
-def events_at(times, pixel=None) -> UnsortedEvents:
-    t = np.sort(np.asarray(times, np.int64))
-    pixel = np.arange(len(t)) % (WIDTH * WIDTH) if pixel is None else np.asarray(pixel, np.int64)
-    return UnsortedEvents.signal(pixel, t, (np.arange(len(t)) % 2).astype(np.uint8))
+EVENTS = st.lists(st.tuples(st.integers(0, 60), st.integers(0, 19)), max_size=60)
 
 
-def read_all(rate_hz: float, times, *, step_us: int, first_us: int = 0, stop_us: int) -> list:
-    """Packets of a rate limit that gets its events interval by interval."""
-    limit = RateLimit(rate_hz, 1000, first_us=first_us, width=WIDTH)
-    times = np.asarray(times)
-    packets = []
-    for start, stop in itertools.pairwise(range(first_us, stop_us + 1, step_us)):
-        interval = FrameInterval(start, stop, frame_key(0, stop - first_us))
-        inside = times[(times >= start) & (times < stop)]
-        packet = limit.read(events_at(inside), interval)
-        assert ((packet.t >= start) & (packet.t < stop)).all()
-        packets.append(packet)
-    return packets
+def columns(events) -> tuple[np.ndarray, np.ndarray]:
+    t, pixel = np.array(sorted(events), np.int64).reshape(-1, 2).T
+    return pixel.copy(), t.copy()
 
 
-def times_of(packets) -> list[int]:
-    return np.concatenate([packet.t for packet in packets]).tolist()
+def read_all(events, steps) -> list[tuple[int, ...]]:
+    """(t, pixel, p) of what a scan reads from events that it gets step by step."""
+    scan = ColumnScan(7300, first_us=0, width=5)
+    pixel, t = columns(events)
+    rows = []
+    for start, stop in itertools.pairwise(steps):
+        chosen = (t >= start) & (t < stop)
+        fired = UnsortedEvents.signal(pixel[chosen], t[chosen], (pixel[chosen] % 2).astype("u1"))
+        read = scan.read(fired, stop)
+        assert ((read.t >= start) & (read.t < stop)).all()
+        rows += list(zip(read.t.tolist(), read.pixel.tolist(), read.p.tolist(), strict=True))
+    return sorted(rows)
 
 
-@pytest.mark.parametrize("step_us", [500, 1000, 4000, 100_000])
-def test_a_steady_rate_above_the_limit_is_cut_to_it(step_us):
-    # 50,000 events in 0.1 s are 500,000 per second.
-    times = np.arange(0, 100_000, 2)
-    rules = 200_000.0
-    kept = len(times_of(read_all(rules, times, step_us=step_us, stop_us=100_000)))
-    # The first window of 1 ms passes whole: nothing was counted before it.
-    mean = 500 + 99 * 200
-    assert kept == pytest.approx(mean, abs=5 * math.sqrt(50_000 * 0.4 * 0.6))
+@given(EVENTS, st.lists(st.integers(1, 299), unique=True))
+def test_intervals_change_nothing(events, cuts):
+    assert read_all(events, [0, *sorted(cuts), 300]) == read_all(events, [0, 300])
 
 
-def test_a_rate_below_the_limit_passes_whole():
-    times = np.arange(0, 100_000, 10)
-    rules = 150_000.0
-    assert len(times_of(read_all(rules, times, step_us=3000, stop_us=100_000))) == len(
-        times[times < 99_000]
-    )
+def test_a_scan_reads_the_last_column_first_and_a_pixel_once():
+    # Columns 4, 3, .. 0 at 0, 2, .. 8 µs, then again 10 µs later.
+    pixel, t = np.array([4, 0, 3, 0, 5]), np.array([0, 0, 3, 7, 9])
+    assert scan_times_us(pixel, t, 5, 10_000, 0).tolist() == [0, 8, 12, LOST, 18]
 
 
-def test_a_silent_window_lifts_the_limit():
-    burst = np.arange(0, 1000, 2)
-    rules = 100_000.0
-    apart = read_all(rules, np.concatenate([burst, burst + 5000]), step_us=700, stop_us=7000)
-    joined = read_all(rules, np.concatenate([burst, burst + 1000]), step_us=700, stop_us=7000)
-    assert len(times_of(apart)) == 1000
-    assert len(times_of(joined)) == pytest.approx(600, abs=5 * math.sqrt(500 * 0.2 * 0.8))
+@given(EVENTS)
+def test_a_scan_delays_by_less_than_a_period(events):
+    pixel, t = columns(events)
+    read_us = scan_times_us(pixel, t, 5, 7300, 0)
+    kept = read_us != LOST
+    assert ((read_us >= t) & (read_us - t <= 8))[kept].all()
+    # The same column is read at whole numbers of periods.
+    phase = (read_us * 1000 - (4 - pixel % 5) * 1460) % 7300
+    assert ((phase == 0) | (phase > 7300 - 1000))[kept].all()
 
 
-def test_the_window_of_the_limit_does_not_care_where_frames_are():
-    times = np.arange(0, 20_000, 3)
-    rules = 100_000.0
-    rates = [
-        len(times_of(read_all(rules, times, step_us=step, stop_us=20_000)))
-        for step in (250, 1000, 20_000)
-    ]
-    assert max(rates) - min(rates) <= 10 * math.sqrt(20_000 / 3 * 0.3 * 0.7)
+def test_the_model_reads_its_events_by_the_scan():
+    frames = np.random.default_rng(3).integers(0, 255, (6, 20, 30)).astype(np.uint8)
+
+    def simulate(period_ns: int) -> list[tuple[int, ...]]:
+        simulator = PhysicalSimulator(PhysicalConfig(scan_period_ns=period_ns), seed=1)
+        packets = [simulator.step(Frame(frame, i * 2000)) for i, frame in enumerate(frames)]
+        return [row for one in packets for row in zip(one.t.tolist(), one.x.tolist(), strict=True)]
+
+    direct, read = simulate(0), simulate(30_000)
+    assert 0.3 * len(direct) < len(read) <= len(direct)
+    # Events with one time stamp share their column.
+    assert len(set(read)) == len({t for t, _ in read})

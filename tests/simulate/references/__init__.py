@@ -16,27 +16,24 @@ Result = TypeVar("Result")
 
 KERNELS = {
     "texvent.simulate.kernels.radix_sort:sort_events": "sorting:sort_events",
-    "texvent.simulate.crossing.trigger_levels:find_outside_levels": (
+    "texvent.simulate.crossing.trigger_levels:_find_outside_levels": (
         "trigger_levels:find_outside_levels"
     ),
-    "texvent.simulate.crossing.trigger_levels:set_levels": "trigger_levels:set_levels",
-    "texvent.simulate.crossing.trigger_levels:look_up": "trigger_levels:look_up",
+    "texvent.simulate.crossing.trigger_levels:_set_levels": "trigger_levels:set_levels",
     "texvent.simulate.random.poisson_noise:draw_arrivals": "poisson_arrivals:draw_arrivals",
     "texvent.simulate.texvent.noise:place_noise": "noise_blocks:place_noise",
-    "texvent.simulate.texvent.pixels:SparsePixels": "dense_pixels:DensePixels",
-    "texvent.simulate.esim.pixels:look_up": "trigger_levels:look_up",
+    "texvent.simulate.texvent.pixels:SparsePixels": "texvent:TexventPixels",
+    "texvent.simulate.texvent.pixels:ShakenPixels": "texvent:TexventPixels",
     "texvent.simulate.esim.pixels:cross_thresholds": "esim:cross_thresholds",
-    "texvent.simulate.esim.pixels:cross_segments": "segments:cross_segments",
     "texvent.simulate.v2e.pixels:apply_low_pass": "v2e:apply_low_pass",
     "texvent.simulate.v2e.pixels:emit_and_reset": "v2e:emit_and_reset",
     "texvent.simulate.voltmeter.first_passage:find_first_passages": (
         "voltmeter:find_first_passages"
     ),
     "texvent.simulate.physical.pixels:advance_pixels": "physical:advance_pixels",
-    "texvent.simulate.physical.readout:serve_rows": "row_arbiter:serve_rows",
     "texvent.simulate.v2ce.simulator:sample_events": "ldati:sample_events",
 }
-"""Kernel → its definition, in a module of this folder or, for the whole Texvent model, of ours."""
+"""Kernel → its definition, in a module of this folder."""
 
 
 @contextmanager
@@ -46,8 +43,7 @@ def definitions() -> Iterator[None]:
         for kernel, definition in KERNELS.items():
             module, name = kernel.split(":")
             home, function = definition.split(":")
-            package = "texvent.simulate.texvent" if home == "dense_pixels" else __name__
-            found = getattr(importlib.import_module(f"{package}.{home}"), function)
+            found = getattr(importlib.import_module(f"{__name__}.{home}"), function)
             patch.setattr(importlib.import_module(module), name, found)
         yield
 

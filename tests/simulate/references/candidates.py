@@ -8,9 +8,6 @@ from tests.pairs.reference import warp_between
 
 from texvent.simulate.crossing.trigger_levels import MARGIN
 from texvent.simulate.fused.bounds import (
-    PREVIOUS_FRAME,
-    RESET_BY_THRESHOLD,
-    RESET_TO_CURRENT,
     CrossingCandidates,
     Float64Array,
     PairArrays,
@@ -61,26 +58,23 @@ def _moved(
     levels: ReferenceLevels,
 ) -> tuple[Float64Array, NDArray[np.bool_]]:
     """Where references stand after an instant, and where that is unclear."""
-    if levels.rule == PREVIOUS_FRAME:
-        return shifted, np.zeros(level.shape, np.bool_)
     is_surely_up = shifted > level * (levels.up * (1.0 + MARGIN))
     is_surely_down = shifted < level * (levels.down * (1.0 - MARGIN))
     is_unclear = (is_up & ~is_surely_up) | (is_down & ~is_surely_down)
-    if levels.rule == RESET_TO_CURRENT:
+    if not levels.is_step:
         return np.where(is_surely_up | is_surely_down, shifted, level), is_unclear
     moved = level.copy()
     moved[is_surely_up] *= levels.up
     moved[is_surely_down] *= levels.down
-    if levels.rule == RESET_BY_THRESHOLD:
-        for is_sure, factor, sign in (
-            (is_surely_up, levels.up, 1.0),
-            (is_surely_down, levels.down, -1.0),
-        ):
-            left = is_sure
-            while left.any():
-                passed = sign * shifted > sign * moved * (factor * (1.0 + sign * MARGIN))
-                is_reached = sign * shifted >= sign * moved * (factor * (1.0 - sign * MARGIN))
-                is_unclear |= left & is_reached & ~passed
-                left = left & passed
-                moved[left] *= factor
+    for is_sure, factor, sign in (
+        (is_surely_up, levels.up, 1.0),
+        (is_surely_down, levels.down, -1.0),
+    ):
+        left = is_sure
+        while left.any():
+            passed = sign * shifted > sign * moved * (factor * (1.0 + sign * MARGIN))
+            is_reached = sign * shifted >= sign * moved * (factor * (1.0 - sign * MARGIN))
+            is_unclear |= left & is_reached & ~passed
+            left = left & passed
+            moved[left] *= factor
     return moved, is_unclear

@@ -19,18 +19,7 @@ def cross_thresholds(
     refractory: RefractoryPeriod,
     shape: tuple[int, int],
 ) -> SortedEvents:
-    """As `cross_ramp`, from the brightness at both ends; moves the references.
-
-    Args:
-        pixels: those that may fire, and their brightness at both ends.
-        references: what they compare with; changed in place.
-        span_us: as for `cross_ramp`.
-        refractory: as for `cross_ramp`.
-        shape: (height, width) of the sensor.
-
-    Returns:
-        The events in the order of a packet, all of them signal.
-    """
+    """As `esim.crossings.cross_thresholds`."""
     pixel, before, now, table, thresholds = pixels
     if table is not None:
         before, now = table[before], table[now]

@@ -11,30 +11,19 @@ from texvent.simulate.random.draws import draw_uniforms
 from texvent.simulate.v2ce.ldati import (
     JUST_BELOW_ONE,
     TOLERANCE,
-    Rounding,
     VoxelArray,
-    check_voxel,
-    rounding_draw,
     time_draw,
 )
 
 
-def sample_events(
-    voxel: VoxelArray,
-    interval: FrameInterval,
-    *,
-    rounding: Rounding = "published",
-) -> UnsortedEvents:
-    """Events of one voxel grid; arguments, errors and events as `ldati.sample_events`."""
-    check_voxel(voxel)
+def sample_events(voxel: VoxelArray, interval: FrameInterval) -> UnsortedEvents:
+    """Events of one voxel grid; arguments and events as `ldati.sample_events`."""
     _, nodes, height, width = voxel.shape
     length = nodes - 1
     rows: list[tuple[int, int, int]] = []
     for polarity, y, x in np.ndindex(2, height, width):
         column = [float(value) for value in voxel[polarity, :, y, x]]
-        chance = float(draw_uniforms(interval.key, y, x, rounding_draw(polarity)))
-        to_round = None if rounding == "published" else chance
-        counts, lone = place_column(column, to_round)
+        counts, lone = place_column(column)
         for i in range(length):
             for k in range(counts[i]):
                 if counts[i] == 1:
@@ -50,12 +39,11 @@ def sample_events(
     return UnsortedEvents.signal(pixel, t_us, p.astype(np.uint8))
 
 
-def place_column(column: list[float], chance: float | None) -> tuple[list[int], list[float]]:
+def place_column(column: list[float]) -> tuple[list[int], list[float]]:
     """Counts per sub-interval of one pixel and polarity, and the places of lone events.
 
     Args:
         column: events per node, B numbers.
-        chance: uniform number that rounds the remainder, or None for the published rounding.
 
     Returns:
         B − 1 counts, and B − 1 fractions in [0, 1).
@@ -68,15 +56,7 @@ def place_column(column: list[float], chance: float | None) -> tuple[list[int], 
         counts[i] = math.ceil(left - TOLERANCE)
         carry = lone[i] = counts[i] - left
     remainder = column[last + 1] - carry
-    whole = math.floor(remainder + TOLERANCE)
-    if chance is not None:
-        whole += chance < remainder - whole
-    else:
-        whole = max(whole, 0)
-    counts[last] += whole
-    if counts[last] < 0:
-        counts[last] = 0
-        counts[max(i for i in range(last + 1) if counts[i])] -= 1
+    counts[last] += max(math.floor(remainder + TOLERANCE), 0)
     return counts, [min(max(place, 0.0), JUST_BELOW_ONE) for place in lone]
 
 

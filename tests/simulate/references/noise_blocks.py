@@ -9,32 +9,23 @@ from texvent.simulate.texvent.noise import (
     NOISE_BLOCK,
     NOISE_PLACE_SHIFT,
     TIME_UNIT,
-    NoiseBlock,
     NoisePlaces,
+    poisson_cumulative,
 )
 
 
-def place_noise(noise: NoiseBlock, pixels: int) -> NoisePlaces:
-    """Where, when and of what polarity noise fires in one sub-interval, before any mask.
-
-    Args:
-        noise: key of the draws, numbers of events of a block, share of ON.
-        pixels: number of pixels of the frame.
-
-    Equation: (6), section 3.2.2: Poisson(λ1 λ2).
-    Deviation: drawn per block of `NOISE_BLOCK` pixels and spread uniformly over its pixels, which
-        is the same distribution as a Poisson number per pixel.
-    """
+def place_noise(key: np.uint64, mean: float, on_fraction: float, pixels: int) -> NoisePlaces:
+    """As `texvent.noise.place_noise`."""
     blocks = np.arange(-(-pixels // NOISE_BLOCK))
     y, x = blocks >> 16, blocks & 0xFFFF
-    chance = draw_uniforms(noise.key, y, x, Purpose.NOISE_COUNT.draw())
-    count = np.searchsorted(noise.cumulative, chance, side="right")
+    chance = draw_uniforms(key, y, x, Purpose.NOISE_COUNT.draw())
+    count = np.searchsorted(poisson_cumulative(mean * NOISE_BLOCK), chance, side="right")
     order = np.arange(int(count.sum())) - np.repeat(np.cumsum(count) - count, count)
     block, y, x = (np.repeat(column, count) for column in (blocks, y, x))
-    word = draw_words(noise.key, y, x, Purpose.NOISE_PLACE.draw(order))
+    word = draw_words(key, y, x, Purpose.NOISE_PLACE.draw(order))
     pixel = block * NOISE_BLOCK + (word >> np.uint64(NOISE_PLACE_SHIFT)).astype(np.int64)
     fraction = (word & np.uint64((1 << NOISE_PLACE_SHIFT) - 1)).astype(np.float64) * TIME_UNIT
-    is_on = draw_uniforms(noise.key, y, x, Purpose.NOISE_POLARITY.draw(order)) < noise.on_fraction
+    is_on = draw_uniforms(key, y, x, Purpose.NOISE_POLARITY.draw(order)) < on_fraction
     inside = np.flatnonzero(pixel < pixels)
     by_pixel = inside[np.argsort(pixel[inside] * 2 + is_on[inside], kind="stable")]
     return NoisePlaces(pixel[by_pixel], fraction[by_pixel], is_on[by_pixel].astype(np.uint8))

@@ -25,16 +25,15 @@ from texvent.simulate.physical.circuit import (
     Luma,
     NoiseEvents,
     PhotoreceptorInput,
-    ResetRules,
     brightness_and_cutoff,
 )
-from texvent.simulate.physical.lanes import (
+from texvent.simulate.physical.lane_steps import (
     FEWEST_PER_LOG,
     LEAK_SHARE,
     MOST_PER_LOG,
-    SETTLED,
     STRAIGHT,
 )
+from texvent.simulate.physical.lanes import SETTLED
 from texvent.simulate.random.mismatch import PixelMismatch
 
 
@@ -43,27 +42,10 @@ def advance_pixels(
     mismatch: PixelMismatch,
     state: CircuitState,
     noise: NoiseEvents,
-    rules: ResetRules,
+    refractory_us: int,
     span_us: tuple[int, int],
 ) -> SortedEvents:
-    """Every event between two frames; moves the state to the end of the interval.
-
-    The output of a photoreceptor is a first-order low-pass of the brightness. The change since the
-    last reset grows with it and with the leak. Where it reaches the ON threshold or falls to minus
-    the OFF threshold, the pixel fires and is reset. A noise event fires at its own time. A pixel
-    that fired is held in reset for the refractory period: its change is zero until its release.
-
-    Args:
-        light: over the interval; `before` is overwritten with `now`.
-        mismatch: thresholds and leak rates.
-        state: at the start; changed in place.
-        noise: noise events, by pixel and then by time.
-        rules: what an event does to its pixel.
-        span_us: start (included) and stop (excluded), µs.
-
-    Returns:
-        The events in the order of a packet; times rounded down, never the stop itself.
-    """
+    """As `physical.circuit_kernel.advance_pixels`."""
     brightness, cutoff = _convert(light.before, light)
     brightness_stop, cutoff_stop = _convert(light.now, light)
     rise = brightness_stop - brightness
@@ -82,7 +64,7 @@ def advance_pixels(
         lag = decay * lag + gain * rise
     else:
         lag[:] = 0.0
-    finder = _EventFinder(noise, rules, span_us)
+    finder = _EventFinder(noise, refractory_us, span_us)
     finished = finder.run(active, light)
     lag[finished.pixel] = finished.lag
     lag[np.abs(lag) < SETTLED] = 0.0
@@ -254,10 +236,10 @@ class _CircuitPixels:
 class _EventFinder:
     """Advances pixels through an interval and collects their events."""
 
-    def __init__(self, noise: NoiseEvents, rules: ResetRules, span_us: tuple[int, int]) -> None:
+    def __init__(self, noise: NoiseEvents, refractory_us: int, span_us: tuple[int, int]) -> None:
         self._noise_after = np.append((noise.t - span_us[0]).astype(np.float64), NEVER)
         self._noise_p = np.append(noise.p, np.uint8(0))
-        self._rules = rules
+        self._refractory_us = refractory_us
         self._span_us = span_us
         self._found: list[tuple[NDArray[np.int64], ...]] = []
 
@@ -338,8 +320,7 @@ class _EventFinder:
         t = np.minimum(start_us + after.astype(np.int64), stop_us - 1)
         self._found.append((active.pixel[fires], t[fires], p[fires].astype(np.int64), label[fires]))
         active.next_noise = active.next_noise + by_noise
-        resets = fires & (~by_noise | self._rules.by_noise)
         # Set when the pixel is released: at once without a refractory period.
-        active.level = np.where(resets, np.nan, active.level)
+        active.level = np.where(fires, np.nan, active.level)
         # The refractory period: the pixel is held in reset until then.
-        active.since = np.where(resets, after + self._rules.refractory_us, active.since)
+        active.since = np.where(fires, after + self._refractory_us, active.since)

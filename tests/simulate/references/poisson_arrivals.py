@@ -13,21 +13,7 @@ from texvent.simulate.random.poisson_noise import FIRST_DRAW, MOST_FRACTION, Arr
 def draw_arrivals(
     cumulative_hz: NDArray[np.float64], duration_s: float, key: np.uint64, stream: int
 ) -> Arrivals:
-    """Arrivals of a Poisson process of one rate per pixel.
-
-    The rates of a row are laid end to end on one line. Exponential gaps, `−ln(1 − u) / duration`,
-    give points on it: the stretch that a point falls on is its pixel, the place on the stretch is
-    its time. So the draws are per arrival, not per pixel.
-
-    Args:
-        cumulative_hz: rate of each pixel plus those of its row before it, 1/s, [H, W].
-        duration_s: length of the interval, s, above 0.
-        key: of `draws.frame_key`.
-        stream: 0..65535, a different one for each process of an interval.
-
-    Returns:
-        Poisson in number, uniform in time; independent between pixels and rows.
-    """
+    """As `random.poisson_noise.draw_arrivals`."""
     height, width = cumulative_hz.shape
     ends = cumulative_hz[:, -1]
     per_s = 1.0 / duration_s

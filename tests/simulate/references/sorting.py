@@ -10,13 +10,7 @@ from texvent.simulate.packets import SortedEvents, UnsortedEvents
 def sort_events(
     events: UnsortedEvents, span_us: tuple[int, int], shape: tuple[int, int]
 ) -> SortedEvents:
-    """Events in the order every packet has: by (t, y, x, p), then labels.
-
-    Args:
-        events: events of one interval, in any order.
-        span_us: start (included) and stop (excluded) of the interval, µs.
-        shape: (height, width) of the sensor.
-    """
+    """As `kernels.radix_sort.sort_events`."""
     (start_us, stop_us), pixels = span_us, shape[0] * shape[1]
     pixel, t, p, label = events
     if (stop_us - start_us) * pixels * 4 < 2**63:

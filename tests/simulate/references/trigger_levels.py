@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,19 +19,13 @@ MOST_LOG = 80.0
 """Brightness whose intensity float32 still holds; no frame is as bright."""
 
 
-def find_outside_levels(luma: Luma, seen: Luma, low: Luma, high: Luma) -> OutsidePixels:
-    """Pixels that may fire: those not between their two levels.
-
-    Args:
-        luma: [n].
-        seen: luma of the frame before, [n], of the same type as `luma`; becomes `luma`.
-        low: lowest luma at which each pixel cannot fire, [n], of the same type.
-        high: highest such luma, [n]; below `low` where a pixel may fire at any luma.
-    """
+def find_outside_levels(luma: Luma, seen: Luma, low: Luma, high: Luma, found: OutsidePixels) -> int:
+    """As `crossing.trigger_levels._find_outside_levels`."""
     pixel = np.flatnonzero((luma < low) | (luma > high))
-    before, now = seen[pixel], luma[pixel]
+    for column, values in zip(found, (pixel, seen[pixel], luma[pixel]), strict=True):
+        column[: pixel.size] = values
     seen[:] = luma
-    return OutsidePixels(pixel, before, now)
+    return pixel.size
 
 
 def set_levels(
@@ -44,16 +36,7 @@ def set_levels(
     low: Luma,
     high: Luma,
 ) -> None:
-    """Set the trigger levels of some pixels, between which they cannot fire.
-
-    Args:
-        pixel: flat index, [n].
-        reference: brightness that all pixels compare with, log units.
-        thresholds: of the chosen pixels.
-        curve: brightness and intensity.
-        low: lowest luma at which a pixel cannot fire, of all pixels; changed in place.
-        high: highest such luma, of all pixels; changed in place.
-    """
+    """As `crossing.trigger_levels._set_levels`."""
     centre = reference[pixel]
     ends = centre - thresholds.off, centre + thresholds.on
     off, on = (curve.scale * np.exp(np.minimum(end, MOST_LOG)) + curve.offset for end in ends)
@@ -65,16 +48,3 @@ def set_levels(
         is_empty = lowest > highest
         lowest, highest = np.where(is_empty, 255.0, lowest), np.where(is_empty, 0.0, highest)
     low[pixel], high[pixel] = lowest, highest
-
-
-def look_up(table: NDArray[Any], luma: NDArray[np.uint8]) -> NDArray[Any]:
-    """What a table has for each pixel.
-
-    Args:
-        table: [256] float64 or uint8.
-        luma: [n].
-
-    Returns:
-        [n] of the table's type.
-    """
-    return np.asarray(table[luma])

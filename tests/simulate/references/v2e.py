@@ -22,18 +22,10 @@ from texvent.simulate.v2e.pixels import lin_log, relative_intensity
 def apply_low_pass(
     light: LowPassInput, mismatch: PixelMismatch, state: V2ePixelState
 ) -> CrossingPixels:
-    """Move the brightness through the low-pass, and find the pixels that reach a threshold.
-
-    Args:
-        light: the frames; `before` is overwritten with `now`.
-        mismatch: thresholds and leak.
-        state: at the start; its brightness is moved to the end.
-
-    Source: v2e (Hu, Liu and Delbruck, CVPRW 2021), section 4.2.
-    """
+    """As `v2e.low_pass.apply_low_pass`."""
     if light.table is None:
         luma = light.now.astype(np.float64)
-        now, relative = lin_log(luma, light.linear_below), relative_intensity(luma)
+        now, relative = lin_log(luma), relative_intensity(luma)
     else:
         now, relative = light.table[0][light.now], light.table[1][light.now]
     light.before[:] = light.now
@@ -45,8 +37,6 @@ def apply_low_pass(
     if mismatch.leak.size:
         leak, elapsed_us = mismatch.leak.astype(np.float64), light.elapsed_us
         start, stop = start + leak * elapsed_us[0], stop + leak * elapsed_us[1]
-    if state.noise[0].size:
-        start, stop = start + state.noise[0], stop + state.noise[1]
     pixel = np.flatnonzero((stop >= mismatch.threshold_on) | (-stop >= mismatch.threshold_off))
     return CrossingPixels(pixel, start[pixel], stop[pixel])
 
@@ -58,20 +48,7 @@ def emit_and_reset(
     noise: UnsortedEvents,
     rules: EmissionRules,
 ) -> UnsortedEvents:
-    """Fire at every threshold that was crossed, and move the references by as many.
-
-    Events to which leak and noise of the photoreceptor contributed at least half are noise.
-
-    Args:
-        crossing: the pixels that have reached a threshold.
-        circuits: thresholds and leak, and the state, whose references are moved.
-        last: the last events; brought up to date here.
-        noise: further events of the interval.
-        rules: where in time, and the refractory period. What it holds back may fire later.
-
-    Returns:
-        All events, `noise` among them.
-    """
+    """As `v2e.emit_and_reset.emit_and_reset`."""
     (pixel, start, stop), (mismatch, state), stop_us = crossing, circuits, rules.interval.stop_us
     on, off = (
         thresholds[pixel].astype(np.float64)
@@ -86,14 +63,11 @@ def emit_and_reset(
     steps, fired = crossings.steps, pixel[crossings.steps != 0]
     moved = steps * np.where(steps > 0, on, off)
     state.reference[pixel] += moved
-    by_noise = np.zeros(len(pixel))
+    leaked = np.zeros(len(pixel))
     if mismatch.leak.size:
-        by_noise += mismatch.leak[pixel].astype(np.float64) * (stop_us - last.interval_us[pixel])
-    if last.noise.size:
-        by_noise += state.noise[1][pixel] - last.noise[pixel]
-        last.noise[fired] = state.noise[1][fired]
+        leaked = mismatch.leak[pixel].astype(np.float64) * (stop_us - last.interval_us[pixel])
     last.interval_us[fired] = stop_us
-    is_noise = by_noise * np.sign(steps) >= 0.5 * np.abs(moved)
+    is_noise = leaked * np.sign(steps) >= 0.5 * np.abs(moved)
     # Every step is an event here, and events come by pixel.
     label = np.repeat(np.where(is_noise, NOISE, SIGNAL).astype(np.uint8), np.abs(steps))
     fired = UnsortedEvents(crossings.pixel, crossings.t, crossings.p, label)

@@ -11,13 +11,15 @@ from numpy.typing import NDArray
 from texvent.events import NOISE, SIGNAL
 from texvent.simulate.kernels.elementary import cosine_of_turns, natural_log
 from texvent.simulate.packets import FrameInterval, UnsortedEvents
-from texvent.simulate.random.draws import draw_halves, draw_uniforms
+from texvent.simulate.random.draws import HALF_UNIT, draw_uniforms, draw_words
 from texvent.simulate.voltmeter.first_passage import (
     CERTAIN,
     DRAWS_PER_PASSAGE,
     FIRST_DRAW,
-    LONGEST_US,
     MOST_DISPLACEMENT,
+)
+from texvent.simulate.voltmeter.voltage import (
+    LONGEST_US,
     FirstPassageInput,
     Float64Array,
     Voltage,
@@ -58,24 +60,7 @@ class _Draw(NamedTuple):
 def find_first_passages(
     light: FirstPassageInput, voltage: Voltage, interval: FrameInterval, first_us: int
 ) -> UnsortedEvents:
-    """Alternate between choosing a polarity and sampling a time, until the interval ends.
-
-    Where the luma does not change, a first passage beyond the end is remembered, and its pixel
-    needs no further draw until then. A change of luma before that ends it: the displacement is then
-    the share of the distance that the elapsed time makes up.
-
-    Args:
-        light: over the interval; `before` is overwritten with `now`.
-        voltage: of every pixel at the start; brought up to date here.
-        interval: where in time; its key decides the draws.
-        first_us: time of the first frame, µs.
-
-    Returns:
-        The events by pixel, then in time; times rounded down.
-
-    Source: Lin et al., "DVS-Voltmeter: stochastic process-based event simulator for dynamic
-        vision sensors", ECCV 2022, Algorithm 1.
-    """
+    """As `voltmeter.first_passage.find_first_passages`."""
     start, stop = float(interval.start_us - first_us), float(interval.stop_us - first_us)
     before, now = (luma.reshape(-1).astype(np.float64) for luma in (light.before, light.now))
     light.before[:] = light.now
@@ -136,7 +121,9 @@ def _draw_passages(
     probability = probability_along_drift(speed, sigma, along, against)
     is_along = draw_uniforms(key, y, x, order) < probability
     distance = np.where(is_along, along, against)
-    turns, chance = draw_halves(key, y, x, order + 2)
+    words = draw_words(key, y, x, order + 2)
+    turns = (words >> np.uint64(32)).astype(np.float64) * HALF_UNIT
+    chance = (words & np.uint64(0xFFFF_FFFF)).astype(np.float64) * HALF_UNIT
     cosine = cosine_of_turns(turns)
     square = -2.0 * natural_log(1.0 - draw_uniforms(key, y, x, order + 1)) * (cosine * cosine)
     wait = np.minimum(first_passage_time(distance, speed, sigma, square, chance), LONGEST_US)

@@ -9,7 +9,6 @@ from texvent.simulate.senpi.simulator import (
     SenpiConfig,
     SenpiSimulator,
     photons,
-    shot_noise_rate_hz,
 )
 from texvent.video import Frame
 
@@ -79,56 +78,6 @@ def test_noise_memorises_the_present_voltage(kernels):
     values = [40 * math.exp(0.15 * k) for k in range(3)]
     events = run(simulator, frames_of(values, [0, 1_000_000, 2_000_000]))
     assert (events.label == NOISE).all()
-
-
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_noise_has_its_rate_per_second_at_any_frame_rate(fps):
-    config = with_only(noise_rate_hz=5.0)
-    frames = static(90.0, fps=fps, seconds=0.5, shape=(60, 80))
-    events = run(SenpiSimulator(config, seed=3), frames)
-    expected = 5.0 * 0.5 * 60 * 80
-    assert abs(len(events) - expected) < 4 * math.sqrt(expected)
-    assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
-    assert (events.label == NOISE).all()
-
-
-def test_hot_pixels_are_few_and_busy():
-    config = with_only(hot_pixel_fraction=0.02, hot_pixel_rate_hz=500.0)
-    events = run(SenpiSimulator(config), static(90.0, fps=24, seconds=1.0, shape=(60, 80)))
-    counts = np.zeros((60, 80), int)
-    np.add.at(counts, (events.y, events.x), 1)
-    hot = counts > 0
-    assert abs(hot.sum() - 96) < 4 * math.sqrt(96)
-    assert counts[hot].mean() == pytest.approx(500, rel=0.03)
-
-
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_shot_noise_has_the_rate_of_its_tails(fps):
-    # N = 58.8 at 1 level, dark 2: variance of ln N (N + 4) / N²; of a difference twice that.
-    config = with_only(shot_noise=True, noise_rate_hz=20.0)
-    frames = static(1.0, fps=fps, seconds=0.25, shape=(40, 60))
-    mean = 15_000 / 255
-    tail = 0.5 * math.erfc(0.2 / 2 / math.sqrt((mean + 4) / mean**2))
-    expected = (2 * tail / 0.041667 + 20.0) * 0.25 * 40 * 60
-    events = run(SenpiSimulator(config), frames)
-    assert abs(len(events) - expected) < 4 * math.sqrt(expected)
-    assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
-
-
-def test_shot_noise_spares_bright_pixels():
-    electrons, threshold = np.array([[58.8, 15_000.0]]), np.full((1, 2), 0.2)
-    dark, bright = shot_noise_rate_hz(electrons, threshold)[0]
-    assert dark > 1.0
-    assert bright < 1e-12
-    # N = 100, dark 2: variance (100 + 4) / 100².
-    some = shot_noise_rate_hz(np.full(1, 100.0), np.full(1, 0.2))
-    assert some[0] == pytest.approx(math.erfc(0.2 / 2 / math.sqrt(0.0104)) / 2 / 41_667e-6)
-
-
-@pytest.mark.parametrize("fps", [24, 1000])
-def test_a_static_scene_without_noise_gives_nothing(kernels, fps):
-    frames = static(90.0, fps=fps, seconds=0.1, shape=(3, 4))
-    assert len(run(SenpiSimulator(CLEAN), frames)) == 0
 
 
 def test_mismatch_shifts_the_change_that_fires(kernels):

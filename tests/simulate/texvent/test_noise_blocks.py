@@ -7,7 +7,6 @@ from tests.simulate.references import noise_blocks as noise_reference
 
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent import noise as noise_cpu
-from texvent.simulate.texvent.noise import NOISE_BLOCK, NoiseBlock, poisson_cumulative
 
 
 @settings(max_examples=60)
@@ -18,8 +17,10 @@ from texvent.simulate.texvent.noise import NOISE_BLOCK, NoiseBlock, poisson_cumu
     st.floats(0, 1),
 )
 def test_backends_place_noise_alike(seed, pixels, mean, on_fraction):
-    noise = NoiseBlock(frame_key(seed, 5), poisson_cumulative(mean * NOISE_BLOCK), on_fraction)
-    one, two = (module.place_noise(noise, pixels) for module in (noise_reference, noise_cpu))
+    one, two = (
+        module.place_noise(frame_key(seed, 5), mean, on_fraction, pixels)
+        for module in (noise_reference, noise_cpu)
+    )
     assert [column.dtype for column in one] == [column.dtype for column in two]
     assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))
     assert np.all(np.diff(one.pixel * 2 + one.p) >= 0)

@@ -10,7 +10,8 @@ from hypothesis.extra.numpy import arrays
 from tests.simulate.references import ldati as definition
 
 from texvent.errors import InputError
-from texvent.simulate.packets import FrameInterval
+from texvent.sensor import SensorSize
+from texvent.simulate.packets import FrameInterval, make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati
 from texvent.simulate.v2ce.ldati import (
@@ -18,15 +19,12 @@ from texvent.simulate.v2ce.ldati import (
     infer_counts,
     sample_density,
     sample_events,
-    voxel_to_events,
 )
 
 CHECKED = settings(max_examples=60)
 NINTH_US = 1_000_000
 """Sub-interval of ten nodes over nine seconds."""
 WHOLE_US = 9 * NINTH_US
-KEY = frame_key(0, 0)
-BOTH_ROUNDINGS = pytest.mark.parametrize("rounding", ["published", "stochastic"])
 
 
 def voxelise(t, x, y, p, shape, *, nodes=10, duration_us=WHOLE_US):
@@ -47,34 +45,39 @@ def column(*nodes):
     return voxel
 
 
-def on_counts(voxel, *, rounding="published"):
-    placed = infer_counts(voxel, KEY, rounding=rounding)
-    return placed.counts[0, :, 0, 0].tolist()
+def on_counts(voxel):
+    return infer_counts(voxel).counts[0, :, 0, 0].tolist()
+
+
+def events_of(voxel, start_us, stop_us, *, seed=0):
+    """Events of one voxel grid as a packet."""
+    interval = FrameInterval(start_us, stop_us, frame_key(seed, stop_us - start_us))
+    size = SensorSize(voxel.shape[3], voxel.shape[2])
+    return make_packet(sample_events(voxel, interval), interval, size)
 
 
 def test_one_event_gets_back_its_time_and_polarity():
     for p in (0, 1):
         voxel = voxelise([3_250_000], [1], [0], [p], (1, 2))
-        events = voxel_to_events(voxel, 500, 500 + WHOLE_US)
+        events = events_of(voxel, 500, 500 + WHOLE_US)
         assert (events.t.tolist(), events.x.tolist(), events.y.tolist()) == ([3_250_500], [1], [0])
         assert events.p.tolist() == [p]
 
 
 def test_the_first_node_is_the_first_instant_and_an_event_there_owes_nothing():
-    events = voxel_to_events(column(1, 1, 0, 0), 0, 3000)
+    events = events_of(column(1, 1, 0, 0), 0, 3000)
     assert events.t.tolist() == [0, 1000]
 
 
 def test_a_debt_is_paid_before_the_next_event_is_counted():
     # Events at 0.75 and 1.5: 0.25 | 0.75 + 0.5 | 0.5. Node 1 alone would say two events.
     assert on_counts(column(0.25, 1.25, 0.5, 0)) == [1, 1, 0]
-    assert voxel_to_events(column(0.25, 1.25, 0.5, 0), 0, 3000).t.tolist() == [750, 1500]
+    assert events_of(column(0.25, 1.25, 0.5, 0), 0, 3000).t.tolist() == [750, 1500]
 
 
-@BOTH_ROUNDINGS
 @given(st.data())
 @CHECKED
-def test_lone_events_come_back_exactly(rounding, data):
+def test_lone_events_come_back_exactly(data):
     nodes = data.draw(st.integers(2, 12))
     is_fired = data.draw(arrays(bool, (2, nodes - 1, 2, 2)))
     channel, i, y, x = np.nonzero(is_fired)
@@ -82,7 +85,7 @@ def test_lone_events_come_back_exactly(rounding, data):
     within = data.draw(arrays(np.int64, len(i), elements=st.integers(0, NINTH_US - 2)))
     t, stop_us = i * NINTH_US + within, (nodes - 1) * NINTH_US
     voxel = voxelise(t, x, y, 1 - channel, (2, 2), nodes=nodes, duration_us=stop_us)
-    events = voxel_to_events(voxel, 0, stop_us, rounding=rounding)
+    events = events_of(voxel, 0, stop_us)
     expected = sorted(zip(y, x, 1 - channel, t, strict=True))
     found = sorted(zip(events.y, events.x, events.p, events.t, strict=True))
     assert [row[:3] for row in found] == [row[:3] for row in expected]
@@ -95,20 +98,6 @@ def test_lone_events_come_back_exactly(rounding, data):
     assert np.abs(again - voxel).max() < 1e-5
 
 
-@BOTH_ROUNDINGS
-@given(st.data())
-@CHECKED
-def test_every_pixel_keeps_the_number_of_its_events(rounding, data):
-    count = data.draw(st.integers(1, 60))
-    t = data.draw(arrays(np.int64, count, elements=st.integers(0, WHOLE_US - 1)))
-    x, p = (data.draw(arrays(np.int64, count, elements=st.integers(0, 1))) for _ in range(2))
-    voxel = voxelise(t, x, 0 * x, p, (1, 2))
-    events = voxel_to_events(voxel, 0, WHOLE_US, rounding=rounding)
-    assert np.bincount(events.x * 2 + events.p, minlength=4).tolist() == (
-        np.bincount(x * 2 + p, minlength=4).tolist()
-    )
-
-
 voxels = arrays(
     np.float64,
     st.tuples(st.just(2), st.integers(2, 11), st.integers(1, 3), st.integers(1, 3)),
@@ -116,39 +105,23 @@ voxels = arrays(
 )
 
 
-@given(voxels, st.integers(1, 10**6), st.sampled_from(["published", "stochastic"]))
+@given(voxels, st.integers(1, 10**6))
 @CHECKED
-def test_the_reference_gives_equal_events(voxel, duration_us, rounding):
+def test_the_reference_gives_equal_events(voxel, duration_us):
     interval = FrameInterval(-7, duration_us - 7, frame_key(5, duration_us))
-    options = {"rounding": rounding}
-    fast, slow = (rule.sample_events(voxel, interval, **options) for rule in (ldati, definition))
+    fast, slow = (rule.sample_events(voxel, interval) for rule in (ldati, definition))
     rows = [sorted(zip(*(c.tolist() for c in one), strict=True)) for one in (fast, slow)]
     assert rows[0] == rows[1]
 
 
-@given(voxels, st.sampled_from(["published", "stochastic"]))
+@given(voxels)
 @CHECKED
-def test_a_pixel_fires_its_sum_rounded_to_either_side(voxel, rounding):
-    counts = infer_counts(voxel, KEY, rounding=rounding).counts
+def test_a_pixel_fires_its_sum_rounded_to_either_side(voxel):
+    counts = infer_counts(voxel).counts
     assert (counts >= 0).all()
     total, wanted = counts.sum(1), voxel.sum(1)
     assert (total > wanted - 1 - 1e-4).all()
     assert (total < wanted + 1 + 1e-4).all()
-
-
-@given(voxels, st.integers(0, 2**63 - 1))
-@CHECKED
-def test_times_lie_in_their_sub_intervals(voxel, seed):
-    length = voxel.shape[1] - 1
-    stop_us = length * 1000
-    events = voxel_to_events(voxel, 0, stop_us, seed=seed)
-    key = frame_key(seed, stop_us)
-    counts = infer_counts(voxel, key, rounding="published").counts
-    # Rounding down to µs can take a time in the last 1e-9 of a sub-interval no further than that.
-    fired = np.zeros_like(counts)
-    np.add.at(fired, (1 - events.p.astype(int), events.t // 1000, events.y, events.x), 1)
-    assert np.array_equal(fired, counts)
-    assert (np.diff(events.t) >= 0).all()
 
 
 @pytest.mark.parametrize(
@@ -164,28 +137,6 @@ def test_times_lie_in_their_sub_intervals(voxel, seed):
 )
 def test_what_is_not_whole_is_settled_at_the_end(nodes, published):
     assert on_counts(column(*nodes)) == published
-
-
-def test_stochastic_rounding_is_right_on_average():
-    random = np.random.default_rng(1)
-    nodes = np.maximum(random.normal(-0.4, 0.5, (2, 10)), 0)
-    voxel = np.broadcast_to(nodes[:, :, None, None], (2, 10, 100, 100))
-    total = infer_counts(voxel, KEY, rounding="stochastic").counts
-    mean = total.sum(1).mean((1, 2))
-    # A Bernoulli draw per pixel: standard deviation at most 1/2.
-    assert mean == pytest.approx(nodes.sum(1), abs=4 * 0.5 / 100)
-
-
-def test_the_published_rounding_is_biased_upwards_and_stochastic_is_not():
-    random = np.random.default_rng(2)
-    voxel = np.maximum(random.normal(-1.0, 0.6, (2, 10, 60, 60)), 0)
-    interval = FrameInterval(0, 33_333, KEY)
-    published, stochastic = (
-        len(sample_events(voxel, interval, rounding=rounding).t)
-        for rounding in ("published", "stochastic")
-    )
-    assert published > 1.2 * voxel.sum()
-    assert stochastic == pytest.approx(voxel.sum(), rel=0.03)
 
 
 def test_the_slope_follows_the_neighbours():
@@ -211,7 +162,7 @@ def test_times_have_the_distribution_of_the_slope(slope):
 
 def test_several_events_of_a_pixel_spread_as_its_neighbours_say():
     # Nodes of 0, 400, 800 events at τ = 0 each: the middle sub-interval has slope +1.
-    events = voxel_to_events(column(0, 400, 800, 0), 0, 3_000_000)
+    events = events_of(column(0, 400, 800, 0), 0, 3_000_000)
     middle = events.t[(events.t >= 1_000_000) & (events.t < 2_000_000)] / 1e6 - 1
     assert len(middle) == 400
     # Mean 1/2 + 1/12; standard deviation of one time below 0.29.
@@ -220,36 +171,6 @@ def test_several_events_of_a_pixel_spread_as_its_neighbours_say():
     assert last.mean() == pytest.approx(0.5, abs=4 * 0.29 / math.sqrt(800))
 
 
-def test_the_seed_decides_the_times_and_not_the_counts():
-    voxel = np.full((2, 10, 4, 4), 3.0)
-    first, again, other = (voxel_to_events(voxel, 0, 33_333, seed=seed) for seed in (0, 0, 1))
-    assert first.equals(again)
-    assert not first.equals(other)
-    assert np.array_equal(np.bincount(first.x), np.bincount(other.x))
-
-
-def test_a_pixel_draws_alike_in_any_window():
-    random = np.random.default_rng(4)
-    voxel = random.uniform(0, 4, (2, 10, 6, 8))
-    whole = voxel_to_events(voxel, 0, 33_333)
-    part = voxel_to_events(voxel[:, :, :4, :5], 0, 33_333)
-    inside = whole[(whole.x < 5) & (whole.y < 4)]
-    for name in "xytp":
-        assert np.array_equal(getattr(inside, name), getattr(part, name))
-
-
-@pytest.mark.parametrize(
-    ("voxel", "message"),
-    [
-        (np.zeros((10, 3, 4)), r"shape \[10, 3, 4\]"),
-        (np.zeros((3, 10, 3, 4)), r"ON and OFF"),
-        (np.zeros((2, 1, 3, 4)), r"nodes in time"),
-        (column(0, -1.0), "-1"),
-        (column(0, math.nan), "nan"),
-        (column(0, math.inf), "inf"),
-        (column(20_000, 0), "20000 events"),
-    ],
-)
-def test_what_is_no_voxel_grid_fails_once_and_clearly(voxel, message):
-    with pytest.raises(InputError, match=message):
-        voxel_to_events(voxel, 0, 1000)
+def test_more_events_than_a_draw_can_number_fail_clearly():
+    with pytest.raises(InputError, match="20000 events"):
+        events_of(column(20_000, 0), 0, 1000)

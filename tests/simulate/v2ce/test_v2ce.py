@@ -1,6 +1,5 @@
 """V2CE's sequences, options and errors; the network itself is in test_v2ce_network."""
 
-import copy
 import hashlib
 import sys
 from pathlib import Path
@@ -11,11 +10,10 @@ from tests.frame_pairs import advance_through
 
 import texvent
 from texvent.cli.app import main
-from texvent.errors import ConfigError, InputError
+from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.options.fields import option_help, option_names
 from texvent.pipeline import video_to_events
-from texvent.settings.resolution import base_settings, resolve
+from texvent.settings.resolution import resolve
 from texvent.simulate.packets import FrameInterval, make_packet
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.v2ce import ldati
@@ -69,13 +67,6 @@ def test_sequences_follow_one_another_and_the_last_reaches_back(model):
     assert simulator._network.seen == [pytest.approx(one) for one in expected]
 
 
-def test_a_clip_shorter_than_a_sequence_is_one_sequence(model):
-    simulator, frames = model(), ramp(4)
-    found = list(advance_through(simulator, frames))
-    assert [len(one) for one in simulator._network.seen] == [3]
-    assert [frame for frame, _ in found] == frames
-
-
 def test_every_packet_is_the_voxel_grid_of_its_own_pair(model):
     frames = ramp(8)
     found = dict(
@@ -121,73 +112,11 @@ def test_a_single_step_answers_from_the_last_pairs(model):
         assert before.t_us <= packet.t.min() <= packet.t.max() < frame.t_us
 
 
-def test_static_frames_give_nothing(model):
-    frames = [Frame(np.full((3, 4), 90, np.uint8), 1000 * i) for i in range(5)]
-    assert len(answers(model(), frames)) == 0
-
-
-def test_brighter_is_on_and_darker_is_off(model):
-    levels = [np.array([[50, 200]], np.uint8), np.array([[200, 50]], np.uint8)]
-    events = answers(model(), [Frame(level, 1000 * i) for i, level in enumerate(levels)])
-    assert set(events.p[events.x == 0].tolist()) == {1}
-    assert set(events.p[events.x == 1].tolist()) == {0}
-
-
-def test_shifting_the_clip_shifts_the_events(model):
-    events = answers(model(), moving_texture())
-    shifted = answers(model(), moving_texture(start_us=7_000_001))
-    assert np.array_equal(shifted.t, events.t + 7_000_001)
-    for column in "xyp":
-        assert np.array_equal(getattr(shifted, column), getattr(events, column))
-
-
-def test_the_seed_decides_everything_random(model):
-    frames = moving_texture()
-    events = answers(model(seed=0), frames)
-    assert answers(model(seed=0), frames).equals(events)
-    assert not answers(model(seed=1), frames).equals(events)
-
-
-def test_reset_forgets_everything(model):
-    simulator = model()
-    first = answers(simulator, moving_texture())
-    simulator.reset()
-    assert answers(simulator, moving_texture()).equals(first)
-
-
-def test_a_copied_simulator_goes_on_alike(model):
-    frames = moving_texture(8)
-    whole = model()
-    for frame in frames[:4]:
-        whole.step(frame)
-    twin = copy.deepcopy(whole)
-    for frame in frames[4:]:
-        assert whole.step(frame).equals(twin.step(frame))
-
-
-def test_bad_frames_fail_once_and_clearly(model):
-    good = Frame(np.full((2, 2), 9.0, np.float32), 1000)
-    for bad, message in (
-        (Frame(np.array([[np.nan, 1], [1, 1]], np.float32), 2000), "NaN"),
-        (Frame(np.zeros((2, 3), np.float32), 2000), "3x2"),
-        (Frame(np.zeros((2, 2), np.float32), 1000), "strictly increase"),
-    ):
-        with pytest.raises(InputError, match=message):
-            answers(model(), [good, bad])
-
-
 def test_frames_are_scaled_as_in_training():
     # Mean 0.153 and standard deviation 0.165 of full scale.
     assert normalise(np.array([[0, 255]], np.uint8)) == pytest.approx(
         np.array([[-0.153 / 0.165, 0.847 / 0.165]]), rel=1e-6
     )
-
-
-def test_every_option_has_a_help_text_and_a_name_of_its_own():
-    assert set(option_help(V2ceConfig)) == set(option_names(V2ceConfig))
-    settings = base_settings("simulate", simulator="v2ce")
-    names = [name for group in settings.groups().values() for name in option_names(type(group))]
-    assert len(names) == len(set(names))
 
 
 def test_the_frames_of_the_video_are_used_unless_asked_otherwise():

@@ -2,18 +2,19 @@
 
 import numpy as np
 
-from texvent.simulate.v2ce.network import BATCH_COUNTER, tensor_shapes
-
 BASE_CHANNELS = 2
 """Instead of 32; every name and relation of shapes stays."""
 
 
 def random_tensors(base_channels: int = BASE_CHANNELS, seed: int = 0) -> dict[str, np.ndarray]:
     """Name → float32 array of an untrained network whose output is neither 0 nor huge."""
+    from texvent.simulate.v2ce.network import V2ceUnet  # needs torch
+
     random = np.random.default_rng(seed)
     tensors = {}
-    for name, shape in tensor_shapes(base_channels).items():
-        if name.endswith(BATCH_COUNTER):
+    for name, tensor in V2ceUnet(base_channels).state_dict().items():
+        shape = tuple(tensor.shape)
+        if name.endswith("num_batches_tracked"):
             tensors[name] = np.zeros(shape, np.int64)
             continue
         if name.endswith("running_var"):

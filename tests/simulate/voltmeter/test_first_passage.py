@@ -11,12 +11,9 @@ from texvent.events import NOISE, SIGNAL
 from texvent.simulate.packets import FrameInterval, SortedEvents, UnsortedEvents
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.voltmeter import first_passage
-from texvent.simulate.voltmeter.first_passage import (
-    Constants,
-    FirstPassageInput,
-    find_first_passages,
-    new_voltage,
-)
+from texvent.simulate.voltmeter.first_passage import find_first_passages
+from texvent.simulate.voltmeter.simulator import Constants
+from texvent.simulate.voltmeter.voltage import FirstPassageInput, new_voltage
 
 SHAPE = (3, 4)
 # In thresholds per interval of 1000 µs; 0 and the smallest numbers are edge cases of the formulas.

@@ -28,8 +28,8 @@ from texvent.interpolate.rife.weights import write_rife_weights
 from texvent.sensor import SensorSize
 from texvent.simulate import gpu
 from texvent.simulate.esim.simulator import EsimConfig
-from texvent.simulate.gpu.frames import GpuPairs
 from texvent.simulate.gpu.launch import EXTRA
+from texvent.simulate.gpu.pairs import GpuPairs
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import Video
 from texvent_lab.bench.document import describe_environment, markdown_table, write_document

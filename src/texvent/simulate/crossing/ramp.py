@@ -15,10 +15,7 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.runtime.scratch import take_scratch
-from texvent.simulate.kernels.radix_sort import (
-    KEY_USES,
-    key_bits,
-)
+from texvent.simulate.kernels.radix_sort import KEY_USES, key_bits
 from texvent.simulate.packets import check_event_number
 from texvent.simulate.random.mismatch import Thresholds
 

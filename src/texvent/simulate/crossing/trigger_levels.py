@@ -114,7 +114,16 @@ class TriggerLevels:
             # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.
             self._seen, now = self._as_float(self._seen), self._as_float(now)
             self._low, self._high = self._as_float(self._low), self._as_float(self._high)
-        return find_outside_levels(now, self._seen, self._low, self._high)
+        # Room for all pixels; the system gives memory only to what is used.
+        size, kind = now.size + 1, now.dtype
+        found = OutsidePixels(
+            take_scratch("candidates", size, np.int64),
+            take_scratch("before " + kind.char, size, kind.type),
+            take_scratch("now " + kind.char, size, kind.type),
+        )
+        with allow_wrap_around():
+            count = _find_outside_levels(read_only(now), self._seen, self._low, self._high, found)
+        return OutsidePixels(*(column[:count] for column in found))
 
     def set(self, pixel: Int64Array, reference: Float64Array, thresholds: Thresholds) -> None:
         """Set the levels of some pixels from their references.
@@ -124,27 +133,16 @@ class TriggerLevels:
             reference: of all pixels, [H · W] log units.
             thresholds: of the chosen pixels.
         """
-        set_levels(pixel, reference, thresholds, self._curve, self._low, self._high)
+        with np.errstate(all="ignore"):
+            _set_levels(pixel, reference, thresholds, self._curve, self._low, self._high)
 
-    def set_all(
-        self,
-        reference: Float64Array,
-        thresholds: Thresholds,
-        *,
-        of_luma: Float64Array | None = None,
-    ) -> None:
+    def set_all(self, reference: Float64Array, thresholds: Thresholds) -> None:
         """Set the levels of all pixels.
 
         Args:
             reference: [H · W] log units.
             thresholds: of all pixels.
-            of_luma: [256] reference by luma, where it is that of the 8-bit luma seen last.
         """
-        if of_luma is not None and thresholds.on.size == 1:
-            low, high = np.empty(256, np.uint8), np.empty(256, np.uint8)
-            set_levels(np.arange(256), of_luma, thresholds, self._curve, low, high)
-            self._low, self._high = look_up(low, self._seen), look_up(high, self._seen)
-            return
         # Some at a time: one list of all is larger than most frames.
         for first in range(0, self._seen.size, PIXELS_AT_A_TIME):
             pixel = np.arange(first, min(first + PIXELS_AT_A_TIME, self._seen.size))
@@ -160,53 +158,22 @@ BLOCK = 128
 _0, _1 = np.uint64(0), np.uint64(1)
 
 
-def find_outside_levels(luma: Luma, seen: Luma, low: Luma, high: Luma) -> OutsidePixels:
-    """Pixels that may fire: those not between their two levels.
-
-    Args:
-        luma: [n].
-        seen: luma of the frame before, [n], of the same type as `luma`; becomes `luma`.
-        low: lowest luma at which each pixel cannot fire, [n], of the same type.
-        high: highest such luma, [n]; below `low` where a pixel may fire at any luma.
-    """
-    # Room for all pixels; the system gives memory only to what is used.
-    size, kind = luma.size + 1, luma.dtype
-    found = OutsidePixels(
-        take_scratch("candidates", size, np.int64),
-        take_scratch("before " + kind.char, size, kind.type),
-        take_scratch("now " + kind.char, size, kind.type),
-    )
-    with allow_wrap_around():
-        count = _find_outside_levels(read_only(luma), seen, low, high, found)
-    pixel, before, now = found
-    return OutsidePixels(pixel[:count], before[:count], now[:count])
-
-
-def look_up(table: NDArray[Any], luma: NDArray[np.uint8]) -> NDArray[Any]:
-    """Entries of a table for the luma of each pixel, without NumPy's 64-bit copy of the luma.
-
-    Args:
-        table: [256] float64 or uint8.
-        luma: [n].
-
-    Returns:
-        [n] of the table's type.
-    """
-    found = np.empty(luma.size, table.dtype)
-    _look_up(read_only(table), read_only(luma), found)
-    return found
-
-
-@jit
-def _look_up(table: NDArray[Any], luma: NDArray[np.uint8], found: NDArray[Any]) -> None:
-    for i in range(luma.size):
-        found[i] = table[luma[i]]
-
-
 @jit
 def _find_outside_levels(
     luma: Luma, seen: Luma, low: Luma, high: Luma, found: OutsidePixels
 ) -> int:
+    """List the pixels that are not between their two levels; `seen` becomes `luma`.
+
+    Args:
+        luma: [n].
+        seen: luma of the frame before, [n], of the same type as `luma`.
+        low: lowest luma at which each pixel cannot fire, [n], of the same type.
+        high: highest such luma, [n]; below `low` where a pixel may fire at any luma.
+        found: filled in.
+
+    Returns:
+        How many there are.
+    """
     pixel, before, now = found
     run, all_bits = _mark_outside(luma, low, high)
     # Places are counted in uint64, which need no check for counting from the end.
@@ -262,28 +229,6 @@ def _is_outside(luma: Any, low: Any, high: Any) -> Any:
     return np.uint8(luma < low) | np.uint8(luma > high)
 
 
-def set_levels(
-    pixel: NDArray[np.int64],
-    reference: Float64Array,
-    thresholds: Thresholds,
-    curve: BrightnessCurve,
-    low: Luma,
-    high: Luma,
-) -> None:
-    """Set the trigger levels of some pixels, between which they cannot fire.
-
-    Args:
-        pixel: flat index, [n].
-        reference: brightness that all pixels compare with, log units.
-        thresholds: of the chosen pixels.
-        curve: brightness and intensity.
-        low: lowest luma at which a pixel cannot fire, of all pixels; changed in place.
-        high: highest such luma, of all pixels; changed in place.
-    """
-    with np.errstate(all="ignore"):
-        _set_levels(pixel, reference, thresholds, curve, low, high)
-
-
 @jit(error_model="numpy")
 def _set_levels(
     pixel: NDArray[np.int64],
@@ -293,6 +238,7 @@ def _set_levels(
     low: Luma,
     high: Luma,
 ) -> None:
+    """Set the levels of some pixels, between which they cannot fire; `low`, `high` are of all."""
     on, off = thresholds
     scale, offset, darkest = curve
     darkest_level = scale * exponential(darkest - BRIGHTNESS_SLACK) + offset

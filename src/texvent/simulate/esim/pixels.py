@@ -2,31 +2,18 @@
 
 from __future__ import annotations
 
+import functools
 import itertools
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.crossing.ramp import RefractoryPeriod
-from texvent.simulate.crossing.trigger_levels import (
-    BrightnessCurve,
-    TriggerLevels,
-    look_up,
-    trigger_factors,
-)
-from texvent.simulate.esim.crossings import (
-    CrossingRules,
-    CrossingState,
-    RampPixels,
-    Segments,
-    cross_segments,
-    cross_thresholds,
-)
+from texvent.simulate.crossing.trigger_levels import BrightnessCurve, TriggerLevels, trigger_factors
+from texvent.simulate.esim.crossings import CrossingState, RampPixels, cross_thresholds
 from texvent.simulate.esim.simulator import WHITE, EsimConfig, log_intensity
 from texvent.simulate.fused.bounds import (
-    RESET_BY_THRESHOLD,
     CrossingCandidates,
     Float64Array,
     Int64Array,
@@ -34,14 +21,12 @@ from texvent.simulate.fused.bounds import (
     ReferenceLevels,
 )
 from texvent.simulate.fused.candidates import find_bounds, map_candidates
-from texvent.simulate.packets import FrameInterval, SortedEvents, UnsortedEvents
+from texvent.simulate.packets import FrameInterval, SortedEvents
 from texvent.simulate.random.mismatch import (
     LONG_AGO_US,
     LOWEST_THRESHOLD,
     Thresholds,
     draw_threshold_pair_at,
-    sensor_thresholds,
-    thresholds_at,
 )
 from texvent.simulate.streaming import IntensityArray
 
@@ -49,48 +34,42 @@ FLOOR = Thresholds(np.array([LOWEST_THRESHOLD]), np.array([LOWEST_THRESHOLD]))
 """The lowest thresholds that are ever drawn, for all pixels."""
 
 
-class BandEvents(NamedTuple):
-    """Events of a band of rows."""
+class SegmentPixels(NamedTuple):
+    """Candidates of one segment and band of rows; [n] each."""
 
-    fired: UnsortedEvents
-    """By pixel, then in time."""
-    segment: NDArray[np.int16]
-    """[n] the segment, from 0, of each event."""
+    pixel: Int64Array
+    """Flat index, ascending."""
+    before: Float64Array
+    """Brightness at the start of the segment, log units."""
+    now: Float64Array
+    """Brightness at its end."""
 
 
 class EsimPixels:
     """All pixels of a sensor."""
 
-    def __init__(self, config: EsimConfig, seed: int, luma: IntensityArray) -> None:
+    def __init__(self, config: EsimConfig, luma: IntensityArray) -> None:
         """Begin with the first frame.
 
         Args:
             config: options.
-            seed: of thresholds that never change.
             luma: of the first frame, [H, W], 0..255 scale, uint8 or float32.
         """
         self._config = config
         self._table = log_intensity(np.arange(256, dtype=np.uint8), config.log_eps)
-        of_luma = self._table if luma.dtype == np.uint8 else None
-        if of_luma is None:
-            reference = self._log_intensity(luma).reshape(-1)
-        else:
-            reference = look_up(of_luma, luma.reshape(-1))
+        reference = self._log_intensity(luma).reshape(-1)
         rested = reference.size if config.refractory_period_us else 0
         self._references = CrossingState(reference, np.full(rested, LONG_AGO_US))
         height, width = luma.shape
         self._shape = height, width
-        self._rules = CrossingRules(
-            config.contrast_threshold_on, config.contrast_threshold_off, config.refractory_period_us
-        )
         # Of `ReferenceLevels`; made from the references when a pair is fused.
         self._level: Float64Array | None = None
-        self._is_redrawn = config.threshold_sigma > 0 and config.threshold_redraw == "frame"
-        # Thresholds are drawn for every frame, none below the floor.
-        self._fixed = FLOOR
-        if not self._is_redrawn:
-            self._fixed = sensor_thresholds(luma.shape, seed, config)
-        self._triggers: TriggerLevels | None = self._find_triggers(luma, of_luma)
+        # Drawn thresholds are never below the floor.
+        self._lowest = FLOOR
+        if config.threshold_sigma == 0:
+            on, off = config.contrast_threshold_on, config.contrast_threshold_off
+            self._lowest = Thresholds(np.array([float(on)]), np.array([float(off)]))
+        self._triggers: TriggerLevels | None = self._find_triggers(luma)
 
     def advance(self, luma: IntensityArray, interval: FrameInterval) -> SortedEvents:
         """Events until a frame, [H, W], in the order of a packet."""
@@ -106,7 +85,7 @@ class EsimPixels:
             RefractoryPeriod(self._config.refractory_period_us, is_level_lost=True),
             self._shape,
         )
-        triggers.set(pixel, self._references.reference, thresholds_at(pixel, self._fixed))
+        triggers.set(pixel, self._references.reference, self._lowest)
         self._triggers = triggers
         self._level = None
         return events
@@ -115,57 +94,53 @@ class EsimPixels:
         """Luma bounds if the pair is better computed without drawing its frames, else None."""
         return find_bounds(pair.motion, self._levels)
 
-    def fuse(self, pair: FramePair, bounds: LumaBounds) -> list[UnsortedEvents]:
+    def fuse(self, pair: FramePair, bounds: LumaBounds) -> list[SortedEvents]:
         """Events of every segment of a pair, without drawing its frames.
 
         Args:
             pair: not the first of a stream, with flow.
             bounds: of `find_bounds`.
         """
-        edges_us, levels = pair.edges_us, self._levels()
-
-        def decide(found: CrossingCandidates) -> BandEvents:
-            return self._decide(found, levels.reference, edges_us)
-
-        bands = map_candidates(decide, pair.motion, levels=levels, bounds=bounds)
+        edges_us, levels = pair.edges_us.tolist(), self._levels()
+        split = functools.partial(self._split_by_segment, segments=len(edges_us) - 1)
+        bands = map_candidates(split, pair.motion, levels=levels, bounds=bounds)
         # Found again from the references when a frame is stepped.
         self._triggers, self._last_luma = None, pair.second.luma
-        parts = [_split_by_segment(band, len(edges_us) - 1) for band in bands]
-        return [UnsortedEvents.concat(fired) for fired in zip(*parts, strict=True)]
+        refractory = RefractoryPeriod(self._config.refractory_period_us, is_level_lost=True)
+        events, is_moved = [], np.zeros(levels.reference.size, np.bool_)
+        for parts, span_us in zip(
+            zip(*bands, strict=True), itertools.pairwise(edges_us), strict=True
+        ):
+            pixel, before, now = (np.concatenate(columns) for columns in zip(*parts, strict=True))
+            pixels = RampPixels(pixel, before, now, None, self._lowest)
+            events.append(
+                cross_thresholds(pixels, self._references, span_us, refractory, self._shape)
+            )
+            is_moved[pixel] = True
+        moved = np.flatnonzero(is_moved)
+        levels.reference.reshape(-1)[moved] = WHITE * np.exp(self._references.reference[moved])
+        return events
 
     def _levels(self) -> ReferenceLevels:
         """Reference levels of the pixels at the start of a pair."""
-        rules = self._rules
-        up, down = trigger_factors(rules.threshold_on, rules.threshold_off)
+        config = self._config
+        up, down = trigger_factors(config.contrast_threshold_on, config.contrast_threshold_off)
         if self._level is None:
             self._level = WHITE * np.exp(self._references.reference.reshape(self._shape))
-        return ReferenceLevels(self._level, self._config.balance, up, down, RESET_BY_THRESHOLD)
+        return ReferenceLevels(self._level, config.balance, up, down, is_step=True)
 
-    def _decide(
-        self, found: CrossingCandidates, level: Float64Array, edges_us: Int64Array
-    ) -> BandEvents:
-        """Events of the candidates of a band; moves their references and levels [H, W]."""
-        pixel, segment, before, now = found
-        segments = Segments(
-            pixel,
-            edges_us[segment],
-            edges_us[segment + 1],
-            self._log_intensity(before),
-            self._log_intensity(now),
-        )
-        crossings = cross_segments(segments, self._rules, self._references)
-        # Candidates come by pixel: the last one of each says where it is now.
-        moved = pixel[np.flatnonzero(np.diff(pixel, append=-1))]
-        level.reshape(-1)[moved] = WHITE * np.exp(self._references.reference[moved])
-        fired = UnsortedEvents.signal(pixel[crossings.row], crossings.t, crossings.p)
-        return BandEvents(fired, segment[crossings.row])
+    def _split_by_segment(self, found: CrossingCandidates, *, segments: int) -> list[SegmentPixels]:
+        """The candidates of every segment."""
+        pixel, segment, before, now = found.take(np.argsort(found.segment, kind="stable"))
+        cuts = np.searchsorted(segment, np.arange(segments + 1)).tolist()
+        start, stop = self._log_intensity(before), self._log_intensity(now)
+        parts = itertools.starmap(slice, itertools.pairwise(cuts))
+        return [SegmentPixels(pixel[part], start[part], stop[part]) for part in parts]
 
-    def _find_triggers(
-        self, luma: IntensityArray, of_luma: Float64Array | None = None
-    ) -> TriggerLevels:
-        """Trigger levels of all pixels; arguments as for `TriggerLevels.set_all`."""
+    def _find_triggers(self, luma: IntensityArray) -> TriggerLevels:
+        """Trigger levels of all pixels, which have seen this luma last, [H, W]."""
         triggers = TriggerLevels(luma, BrightnessCurve(WHITE, -self._config.balance))
-        triggers.set_all(self._references.reference, self._fixed, of_luma=of_luma)
+        triggers.set_all(self._references.reference, self._lowest)
         return triggers
 
     def _log_intensity(self, luma: IntensityArray) -> Float64Array:
@@ -173,17 +148,7 @@ class EsimPixels:
 
     def _thresholds(self, pixel: Int64Array, key: np.uint64) -> Thresholds:
         """Thresholds of some pixels in this interval."""
-        if self._is_redrawn:
-            y, x = np.divmod(pixel, self._shape[1])
-            return Thresholds(*draw_threshold_pair_at(y, x, key, self._config))
-        return thresholds_at(pixel, self._fixed)
-
-
-def _split_by_segment(band: BandEvents, segments: int) -> list[UnsortedEvents]:
-    """The events of each segment."""
-    fired, segment = band
-    order = np.argsort(segment, kind="stable")
-    cuts = np.searchsorted(segment[order], np.arange(segments + 1)).tolist()
-    pixel, t, p = fired.pixel[order], fired.t[order], fired.p[order]
-    rows = (slice(*cut) for cut in itertools.pairwise(cuts))
-    return [UnsortedEvents.signal(pixel[part], t[part], p[part]) for part in rows]
+        if self._config.threshold_sigma == 0:
+            return self._lowest
+        y, x = np.divmod(pixel, self._shape[1])
+        return Thresholds(*draw_threshold_pair_at(y, x, key, self._config))

@@ -7,23 +7,22 @@ which runs it on video frames. docs/simulators.md gives the equations and the de
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from typing import Any, ClassVar, Literal
+from typing import ClassVar
 
 import numpy as np
 
-from texvent.config import check_choices, check_range
+from texvent.config import check_range
 from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
-from texvent.simulate.packets import FrameInterval, SortedEvents, make_packet
+from texvent.simulate.packets import FrameInterval, SortedEvents
 from texvent.simulate.random.mismatch import (
     Float64Array,
     check_nominal_thresholds,
     smaller_threshold,
 )
-from texvent.simulate.streaming import Backend, IntensityArray, StreamingSimulator
+from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 from texvent.video import Frame
 
 WHITE = 255.0
@@ -42,10 +41,8 @@ class EsimConfig:
     contrast_threshold_off: float = 0.2
     """Fall of ln(I/255 + log eps) that fires an OFF event."""
     threshold_sigma: float = 0.0
-    """Standard deviation of both thresholds, log units; drawn thresholds are at least 0.01."""
-    threshold_redraw: Literal["frame", "never"] = "frame"
-    """With a threshold sigma: draw thresholds again for every pixel and frame, as ESIM describes
-    it (frame), or once per pixel, as mismatch between pixels (never)."""
+    """Standard deviation of both thresholds, log units; they are drawn again for every pixel and
+    frame, as ESIM describes it, and are at least 0.01."""
     log_eps: float = 1e-3
     """Added to intensities on the 0..1 scale before the logarithm, above 0."""
     refractory_period_us: int = 0
@@ -55,7 +52,6 @@ class EsimConfig:
         check_nominal_thresholds(self)
         check_range("log_eps", self.log_eps, 1e-9, 1.0)
         check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
-        check_choices(self)
 
     @property
     def contrast_threshold(self) -> float:
@@ -94,8 +90,6 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         "peer-common": EsimConfig(),
     }
 
-    has_gpu: ClassVar[bool] = True
-
     @property
     def contrast_threshold(self) -> float:
         """The smaller threshold, log units."""
@@ -106,60 +100,24 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
         """`255 · log_eps`: with it, Eq. 4's logarithm is the model's own."""
         return self.config.balance
 
-    def __init__(
-        self, config: EsimConfig | None = None, *, seed: int = 0, backend: Backend = "cpu"
-    ) -> None:
-        """Prepare a simulator that has seen no frame.
-
-        Args:
-            config: options; default: the first preset.
-            seed: of drawn thresholds, 0..2⁶³−1.
-            backend: "cpu", or "gpu" for kernels on a GPU, with the same events as nearly as
-                `texvent.simulate.gpu` says.
-
-        Raises:
-            ConfigError: the seed is out of range, or the backend is "gpu" and there is no GPU, or
-                an option that only the CPU has.
-        """
-        self._backend = backend
-        super().__init__(config, seed=seed)
-
-    def reset(self) -> None:
-        """Forget all frames: the next one is the first."""
-        super().reset()
-        self._on_gpu: Any = None
-        if self._backend == "gpu":
-            from texvent.simulate.gpu.frames import FrameSteps  # brings torch
-
-            self._on_gpu = FrameSteps(self.config, self._seed)
-
-    def step(self, frame: Frame) -> EventStream:
-        """Events in `[t of the frame before, t of this frame)`; see `StreamingSimulator.step`."""
-        if self._on_gpu is None:
-            return super().step(frame)
-        self._enter(frame)
-        packet: EventStream = self._on_gpu.step(frame)
-        return packet
-
     def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
         """Events between two frames; see `simulate.protocol.Simulator.advance`."""
         bounds = None
-        if pair.first is not None and self._on_gpu is None and self.config.threshold_sigma == 0:
+        if pair.first is not None and self.config.threshold_sigma == 0:
             bounds = self._pixels.find_bounds(pair)
         if bounds is None:
             yield from super().advance(pair)
             return
         segments = self._pixels.fuse(pair, bounds)
         self._enter(pair.second)
-        spans = itertools.pairwise(pair.edges_us.tolist())
-        for frame, span_us, fired in zip(pair.undrawn_frames, spans, segments, strict=True):
-            interval = FrameInterval(*span_us, np.uint64(0))
-            yield frame, make_packet(fired, interval, pair.second.size)
+        for frame, fired in zip(pair.undrawn_frames, segments, strict=True):
+            x, y, t, p, label = fired
+            yield frame, EventStream.unchecked(x, y, t, p, size=pair.second.size, label=label)
 
     def _begin(self, intensity: IntensityArray) -> None:
         from texvent.simulate.esim.pixels import EsimPixels  # brings Numba
 
-        self._pixels = EsimPixels(self.config, self._seed, intensity)
+        self._pixels = EsimPixels(self.config, intensity)
 
     def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> SortedEvents:
         return self._pixels.advance(intensity, interval)

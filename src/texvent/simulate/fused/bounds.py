@@ -38,10 +38,6 @@ Int64Array: TypeAlias = NDArray[np.int64]
 LumaBounds: TypeAlias = Float32Array
 """Darkest and brightest luma that each cell of a pair can reach; see `bound_cells`."""
 
-PREVIOUS_FRAME, RESET_TO_CURRENT, RESET_BY_THRESHOLD_ONCE, RESET_BY_THRESHOLD = range(4)
-"""Rules by which a reference moves: it becomes the level at every instant; where the pixel fires it
-becomes the level there; it moves by one threshold; it moves by as many as were passed."""
-
 
 class PairArrays(NamedTuple):
     """Two frames and the flow between them, read-only; see `MotionInterpolation`."""
@@ -88,8 +84,8 @@ class ReferenceLevels(NamedTuple):
     """e^θ_on."""
     down: float
     """e^−θ_off."""
-    rule: int
-    """One of the four rules above."""
+    is_step: bool
+    """Whether a reference moves by the thresholds passed; else to the level where it fires."""
 
 
 class CrossingCandidates(NamedTuple):

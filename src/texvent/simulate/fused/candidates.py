@@ -15,21 +15,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.pairs.motion_interpolation import MotionInterpolation
-from texvent.pairs.warp_cpu import (
-    POINTS,
-    Room,
-    WarpPair,
-    make_room,
-    take_points,
-    warp_points,
-)
+from texvent.pairs.warp_cpu import POINTS, Room, WarpPair, make_room, take_points, warp_points
 from texvent.runtime.jit import jit
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.simulate.crossing.trigger_levels import MARGIN
 from texvent.simulate.fused.bounds import (
-    PREVIOUS_FRAME,
-    RESET_BY_THRESHOLD,
-    RESET_TO_CURRENT,
     CrossingCandidates,
     Float32Array,
     Float64Array,
@@ -245,7 +235,7 @@ def _list_candidates(
 ) -> int:
     """List the candidates among some pixels behind those found; return how many there are."""
     earlier = arrays.earlier.reshape(-1)
-    reference, balance, up, down, rule = levels
+    reference, balance, up, down, is_step = levels
     references = reference.reshape(-1)
     (pixel, segment, befores, nows), found = out
     for k in range(active.size):
@@ -262,15 +252,12 @@ def _list_candidates(
                 pixel[found], segment[found] = i, j
                 befores[found], nows[found] = before, now
                 found += 1
-                level, is_unclear = _move(level, shifted, is_up, is_down, (up, down, rule))
+                level, is_unclear = _move(level, shifted, is_up, is_down, (up, down, is_step))
                 above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
                 is_open |= is_unclear
                 if is_open:
                     # From here on every instant is listed.
                     above = -np.inf
-            if rule == PREVIOUS_FRAME:
-                level = shifted
-                above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
             before = now
     return found
 
@@ -281,28 +268,26 @@ def _move(
     shifted: float,
     is_up: bool | np.bool_,
     is_down: bool | np.bool_,
-    moves: tuple[float, float, int],
+    moves: tuple[float, float, bool],
 ) -> tuple[float, bool | np.bool_]:
     """The reference after an instant, and whether it is unclear."""
-    up, down, rule = moves
-    if rule == PREVIOUS_FRAME:
-        return shifted, False
+    up, down, is_step = moves
     above, below = 1.0 + MARGIN, 1.0 - MARGIN
     is_surely_up = shifted > level * (up * above)
     is_surely_down = shifted < level * (down * below)
     is_unclear = (is_up and not is_surely_up) or (is_down and not is_surely_down)
-    if rule == RESET_TO_CURRENT:
+    if not is_step:
         return (shifted if is_surely_up or is_surely_down else level), is_unclear
     if is_surely_up:
         level *= up
-        while rule == RESET_BY_THRESHOLD and shifted > level * (up * above):
+        while shifted > level * (up * above):
             level *= up
-        is_unclear = rule == RESET_BY_THRESHOLD and shifted >= level * (up * below)
+        is_unclear = shifted >= level * (up * below)
     elif is_surely_down:
         level *= down
-        while rule == RESET_BY_THRESHOLD and shifted < level * (down * below):
+        while shifted < level * (down * below):
             level *= down
-        is_unclear = rule == RESET_BY_THRESHOLD and shifted <= level * (down * above)
+        is_unclear = shifted <= level * (down * above)
     return level, is_unclear
 
 

@@ -1,4 +1,4 @@
-"""The GPU backend: pixel models as Triton kernels, on batches of clips that stay on the device."""
+"""Pixel models as Triton kernels, on batches of clips that stay on the GPU."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     require("triton", extra="gpu")
     from texvent.simulate.gpu.engine import EventBatch, GpuSimulator
-    from texvent.simulate.gpu.frames import GpuPairs
+    from texvent.simulate.gpu.pairs import GpuPairs
 
     public = {"EventBatch": EventBatch, "GpuPairs": GpuPairs, "GpuSimulator": GpuSimulator}
     return public[name]

@@ -22,6 +22,7 @@ from texvent.simulate.gpu.kernel_types import Call, Frames, Intervals, NoiseRule
 from texvent.simulate.gpu.launch import EXTRA, alignment, check_device, on_device, to_device
 from texvent.simulate.gpu.ordering import order_events
 from texvent.simulate.gpu.passes import GpuPixels, run_passes
+from texvent.simulate.random.draws import frame_keys
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.gpu.noise import noise_rules
 from texvent.simulate.texvent.gpu.pixels import TexventPixels
@@ -90,6 +91,7 @@ class _Clips:
 
     size: SensorSize
     clock: Clock
+    seeds: tuple[int, ...]
     pixels: GpuPixels[Any]
     previous: Tensor
     """[B, H, W] the last frame of every clip; None before the first."""
@@ -121,7 +123,7 @@ class GpuSimulator:
         """
         self.config = config if config is not None else TexventConfig()
         self._seed = seed
-        _make_pixels(self.config, _seeds_of(seed, None))  # refuses what it cannot run
+        _make_pixels(self.config, len(_seeds_of(seed, None)))  # refuses what it cannot run
         self.reset()
 
     @property
@@ -175,9 +177,10 @@ class GpuSimulator:
         """State of clips like these, before their first frame."""
         check_device(frames.device)
         count, _, height, width = frames.shape
-        pixels = _make_pixels(self.config, _seeds_of(self._seed, count))
+        seeds = _seeds_of(self._seed, count)
+        pixels = _make_pixels(self.config, count)
         pixels.begin(frames[:, 0])
-        return _Clips(checked_size(width, height), Clock(count), pixels, None)
+        return _Clips(checked_size(width, height), Clock(count), seeds, pixels, None)
 
     def _advance(self, clips: _Clips, frames: Tensor, span: Span) -> EventBatch:
         frames = _rows_in_place(frames)
@@ -219,10 +222,14 @@ class GpuSimulator:
         rules, table = None, np.zeros_like(span.start_us)
         if isinstance(self.config, TexventConfig) and self.config.has_added_noise:
             rules, table = noise_rules(self.config, span, frames)
+        keys = [
+            frame_keys(seed, times_us)
+            for seed, times_us in zip(clips.seeds, span.stop_us, strict=True)
+        ]
         columns = (
             span.start_us,
             span.duration_us,
-            clips.pixels.keys(span),
+            np.stack(keys).view(np.int64),
             clips.pixels.shares(span).view(np.int64),
             np.broadcast_to(span.origins_us[:, None], span.start_us.shape),
             table,
@@ -232,13 +239,13 @@ class GpuSimulator:
         return Call(layout, Intervals(*plan), alignment(area, strides[0], strides[1])), rules
 
 
-def _make_pixels(config: object, seeds: Sequence[int]) -> GpuPixels[Any]:
+def _make_pixels(config: object, clips: int) -> GpuPixels[Any]:
     if isinstance(config, TexventConfig):
-        return TexventPixels(config, seeds)
+        return TexventPixels(config, clips)
     if isinstance(config, EsimConfig):
-        return EsimPixels(config, seeds)
+        return EsimPixels(config)
     model = type(config).__name__.removesuffix("Config").lower()
-    raise ConfigError(f"simulator {model!r} has no backend gpu; texvent and esim have one")
+    raise ConfigError(f"simulator {model!r} does not run on a GPU; texvent and esim do")
 
 
 def _seeds_of(seed: int | Sequence[int], clips: int | None) -> tuple[int, ...]:

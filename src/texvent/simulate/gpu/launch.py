@@ -33,27 +33,8 @@ def check_device(device: Any) -> None:
     if device.type == "cuda" or is_interpreted():
         return
     raise ConfigError(
-        f"backend gpu needs frames on a GPU; these are on {device.type!r}. Use backend cpu, or, to "
-        "try the GPU kernels slowly on a CPU, set TRITON_INTERPRET=1 before Python starts"
-    )
-
-
-def default_device() -> str:
-    """Device for frames from the host: the GPU, or the CPU under the interpreter.
-
-    Raises:
-        ConfigError: torch finds no GPU, and Triton's interpreter is off.
-        MissingDependencyError: torch or Triton is not installed.
-    """
-    can_interpret = is_interpreted()
-    torch = require("torch", extra=EXTRA)
-    if torch.cuda.is_available():
-        return "cuda"
-    if can_interpret:
-        return "cpu"
-    raise ConfigError(
-        "backend gpu needs a GPU, and torch finds none here; use backend cpu, or, to try the GPU "
-        "kernels slowly on a CPU, set TRITON_INTERPRET=1 before Python starts"
+        f"the frames are on {device.type!r}, they must be on a GPU; to try the kernels slowly on a "
+        "CPU, set TRITON_INTERPRET=1 before Python starts"
     )
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import abc
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
@@ -13,7 +12,7 @@ from numpy.typing import NDArray
 
 from texvent._require import require
 from texvent.errors import InputError
-from texvent.simulate.gpu.intervals import Float64Array, Int64Array, Span
+from texvent.simulate.gpu.intervals import Float64Array, Span
 from texvent.simulate.gpu.kernel_types import (
     PIXELS_PER_MARK,
     Call,
@@ -31,16 +30,14 @@ Config = TypeVar("Config")
 class GpuPixels(abc.ABC, Generic[Config]):
     """The pixels of a batch of clips under one model: options, state, and kernels to launch."""
 
-    def __init__(self, config: Config, seeds: Sequence[int], launch: LaunchSize) -> None:
+    def __init__(self, config: Config, launch: LaunchSize) -> None:
         """Pixels that have seen no frame.
 
         Args:
             config: the options.
-            seeds: one per clip.
             launch: size of the programs of `find_events` on a GPU.
         """
         self.config = config
-        self._seeds = tuple(seeds)
         self._launch = choose_launch_size(launch)
 
     @property
@@ -52,13 +49,15 @@ class GpuPixels(abc.ABC, Generic[Config]):
     def begin(self, frames: Tensor) -> None:
         """Make room for the state and put the options on the device of `frames`, [B, H, W]."""
 
-    @abc.abstractmethod
-    def keys(self, span: Span) -> Int64Array:
-        """Keys of the random draws of every interval, as bits, [B, T]."""
-
-    @abc.abstractmethod
     def shares(self, span: Span) -> Float64Array:
-        """Share by which references move to the frame before every interval, [B, T], 0..1."""
+        """Share by which references move to the frame before every interval, [B, T], 0..1.
+
+        By default they begin at the first frame and are never forgotten.
+        """
+        shares = np.zeros(span.start_us.shape)
+        if span.is_new:
+            shares[:, 0] = 1.0
+        return shares
 
     def advance(self, span: Span) -> None:
         """Update what is kept on the host after a call; nothing by default."""

@@ -1,12 +1,10 @@
 """Cameras that people have: their constants with sources, and the presets made of them.
 
-An option that is not listed for a camera keeps the model's default and counts as unmeasured;
-`camera_table` names the basis of each.
+An option that is not listed for a camera keeps the model's default: it is unmeasured.
 """
 
 from __future__ import annotations
 
-import dataclasses
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -14,8 +12,8 @@ from typing import Any, Literal
 
 from texvent.simulate.physical.config import DAVIS346_NOISE, PhysicalConfig
 
-Basis = Literal["data sheet", "paper", "software", "measured here", "unmeasured"]
-"""Origin of a value; unmeasured is the model's default."""
+Basis = Literal["data sheet", "paper", "measured here"]
+"""Origin of a value."""
 
 
 @dataclass(frozen=True)
@@ -53,40 +51,19 @@ CAMERAS: Mapping[str, Camera] = {
                 "Lmin (Prophesee, Event-based vision sensor characteristics), so ln 1.25",
             ),
             Constant("on_off_ratio", 1.0, "data sheet", "one threshold is stated for ON and OFF"),
-            Constant(
-                "rate_limit_window_us",
-                200,
-                "software",
-                "OpenEB 5.1, gen41_erc.cpp: reference period of the event rate controller",
-            ),
         ),
     ),
-    "genx320": Camera(
-        "Prophesee GenX320",
-        (
-            Constant(
-                "rate_limit_window_us",
-                100,
-                "software",
-                "OpenEB 5.1, genx320_erc.h: reference period of the event rate controller",
-            ),
-        ),
-    ),
+    "genx320": Camera("Prophesee GenX320", ()),
     "gen3.1": Camera("Prophesee Gen3.1 VGA (PPS3MVCD)", ()),
     "dvxplorer": Camera(
         "iniVation DVXplorer (Samsung S5K231Y)",
         (
             Constant(
-                "arbiter",
-                "scan",
-                "measured here",
-                "two recordings of 320×240: columns come by one after the other, whatever the load",
-            ),
-            Constant(
                 "scan_period_ns",
                 197_150,
                 "measured here",
-                "the same; dv-processing states 5,000 Hz by default (VARIABLE_5000)",
+                "two recordings of 320×240: columns come by one after the other, whatever the "
+                "load; dv-processing states 5,000 Hz by default (VARIABLE_5000)",
             ),
         ),
     ),
@@ -133,30 +110,6 @@ CAMERAS: Mapping[str, Camera] = {
     ),
 }
 """Preset → what is known of the camera."""
-
-
-NOT_OF_A_CAMERA = ("gamma", "initial_phase", "noise_resets", "sensor_seed", "threshold_map")
-"""Options that are no constants of a camera: they belong to the frames, the run or the model."""
-
-
-def camera_table(name: str) -> tuple[Constant, ...]:
-    """Every constant of a camera's preset, in the order of the options, with its source.
-
-    What has no source has the model's default and the basis "unmeasured".
-
-    Example:
-        >>> {one.option: one.value for one in camera_table("evk4")}["contrast_threshold"]
-        0.2231
-        >>> {one.option: one.basis for one in camera_table("evk4")}["cutoff_hz"]
-        'unmeasured'
-    """
-    known = {one.option: one for one in CAMERAS[name].constants}
-    defaults = dataclasses.asdict(PhysicalConfig())
-    return tuple(
-        known.get(option) or Constant(option, default, "unmeasured", "")
-        for option, default in defaults.items()
-        if option not in NOT_OF_A_CAMERA
-    )
 
 
 def _camera_preset(name: str) -> PhysicalConfig:

@@ -64,15 +64,6 @@ class PhotoreceptorInput(NamedTuple):
     """(height, width) of the sensor."""
 
 
-class ResetRules(NamedTuple):
-    """Effects of an event on its pixel, besides the reset."""
-
-    refractory_us: int
-    """The refractory period: how long the pixel is held in reset, and change is lost; 0 is none."""
-    by_noise: bool
-    """Whether noise events reset their pixels too."""
-
-
 class CircuitState(NamedTuple):
     """State of the pixels; a kernel changes it in place.
 

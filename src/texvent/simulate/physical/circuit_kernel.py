@@ -27,14 +27,12 @@ from texvent.simulate.physical.circuit import (
     NoiseEvents,
     Optics,
     PhotoreceptorInput,
-    ResetRules,
 )
+from texvent.simulate.physical.lane_steps import EventRules, advance_lanes
 from texvent.simulate.physical.lanes import (
     LANES,
     SETTLED,
-    EventRules,
     PixelBlock,
-    advance_lanes,
     load_lanes,
     new_block,
     new_work,
@@ -53,7 +51,7 @@ def advance_pixels(
     mismatch: PixelMismatch,
     state: CircuitState,
     noise: NoiseEvents,
-    rules: ResetRules,
+    refractory_us: int,
     span_us: tuple[int, int],
 ) -> SortedEvents:
     """Every event between two frames; moves the state to the end of the interval.
@@ -68,7 +66,7 @@ def advance_pixels(
         mismatch: thresholds and leak rates.
         state: at the start; changed in place.
         noise: noise events, by pixel and then by time.
-        rules: what an event does to its pixel.
+        refractory_us: how long an event holds its pixel in reset, µs; 0 is none.
         span_us: start (included) and stop (excluded), µs.
 
     Returns:
@@ -97,7 +95,7 @@ def advance_pixels(
                     state.quiescent_until_us[first // BLOCK : -(-last // BLOCK)],
                 ),
                 (noise.pixel[noisy] - first, noise_times),
-                EventRules(*rules, first, low, span_us[0], span_us[1] - span_us[0]),
+                EventRules(refractory_us, first, low, span_us[0], span_us[1] - span_us[0]),
             )
         return keys
 

@@ -102,8 +102,6 @@ class PhysicalConfig:
     """Change of each pixel at the first frame: anywhere between its
     thresholds, as in a sensor that was on before, for frames without grain (random), or just reset
     (zero); leak then begins to fire after 1 / leak_rate_hz."""
-    residual_decay_hz: float = 0.0
-    """Rate at which a pixel forgets change that has not fired yet, per second; 0 is never."""
     cutoff_hz: float = 250.0
     """Bandwidth of the photoreceptor at white; proportionally less at lower intensity. 0 is
     unlimited."""
@@ -125,8 +123,6 @@ class PhysicalConfig:
     """Standard deviation of log10 of the noise rate between pixels."""
     noise_on_fraction: float = 0.53
     """Share of ON among noise events, 0..1."""
-    noise_resets: bool = True
-    """A noise event resets its pixel, as any event does."""
     hot_pixel_fraction: float = 0.0
     """Share of pixels that fire all the time, 0..1."""
     hot_pixel_rate_hz: float = 20.0
@@ -134,22 +130,9 @@ class PhysicalConfig:
     sensor_seed: int | None = None
     """Seed of everything fixed to a pixel (thresholds, noise and leak rates, hot pixels); without
     it, the run's seed. Set it to record many clips with one sensor."""
-    arbiter: Literal["none", "rows", "scan"] = "none"
-    """Readout of the pixels: all at once (none), row by row in the order in which rows ask (rows,
-    as in a DAVIS or Prophesee's sensors), or a scan of the columns (scan, as in a DVXplorer).
-    Events that a pixel fires while another of its events waits are lost."""
-    arbiter_row_ns: int = 300
-    """Readout time of a row, ns (--arbiter rows)."""
-    arbiter_event_ns: int = 80
-    """Additional readout time per event of the row, ns."""
-    scan_period_ns: int = 197_150
-    """Time from one scan to the next, ns (--arbiter scan); columns follow each other evenly."""
-    rate_limit_hz: float = 0.0
-    """Events per second of the whole sensor above which events are dropped at random; 0 is
-    never."""
-    rate_limit_window_us: int = 1000
-    """Window of the rate limit: what was counted in one decides how many are dropped in the
-    next."""
+    scan_period_ns: int = 0
+    """Period of a readout that scans the columns evenly, ns, as a DVXplorer has it; events that a
+    pixel fires while one waits are lost. 0 reads every event at once."""
 
     def __post_init__(self) -> None:
         for name, (low, high) in RANGES.items():
@@ -176,7 +159,6 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "contrast_threshold": (LOWEST_THRESHOLD, 10.0),
     "on_off_ratio": (0.1, 10.0),
     "threshold_sigma": (0.0, 10.0),
-    "residual_decay_hz": (0.0, 1e6),
     "cutoff_hz": (0.0, 1e6),
     "cutoff_limit_hz": (0.0, 1e6),
     "refractory_period_us": (0, 10**9),
@@ -187,10 +169,6 @@ RANGES: Mapping[str, tuple[float, float]] = {
     "noise_on_fraction": (0.0, 1.0),
     "hot_pixel_fraction": (0.0, 1.0),
     "hot_pixel_rate_hz": (0.0, 1e5),
-    "arbiter_row_ns": (0, 10**9),
-    "arbiter_event_ns": (0, 10**9),
-    "scan_period_ns": (1, 10**9),
-    "rate_limit_hz": (0.0, 1e12),
-    "rate_limit_window_us": (1, 10**6),
+    "scan_period_ns": (0, 10**9),
 }
 """Lowest and highest value of every numeric option."""

@@ -12,12 +12,11 @@ from texvent.simulate.physical.circuit import (
     InputFrames,
     NoiseEvents,
     PhotoreceptorInput,
-    ResetRules,
     new_state,
 )
 from texvent.simulate.physical.circuit_kernel import advance_pixels
 from texvent.simulate.physical.config import PhysicalConfig, parse_noise_curve
-from texvent.simulate.physical.readout import Arbiter, RateLimit
+from texvent.simulate.physical.readout import ColumnScan
 from texvent.simulate.physical.threshold_map import read_threshold_map
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.random.mismatch import (
@@ -56,16 +55,9 @@ class PhysicalPixels:
         self._config = config
         key = sensor_key(seed if config.sensor_seed is None else config.sensor_seed)
         self._draw_sensor(shape, key)
-        self._arbiter = self._rate_limit = None
-        if config.arbiter != "none":
-            self._arbiter = Arbiter(config, first_us=first_us, shape=shape)
-        if config.rate_limit_hz > 0:
-            self._rate_limit = RateLimit(
-                config.rate_limit_hz,
-                config.rate_limit_window_us,
-                first_us=first_us,
-                width=shape[1],
-            )
+        self._scan = None
+        if config.scan_period_ns > 0:
+            self._scan = ColumnScan(config.scan_period_ns, first_us=first_us, width=shape[1])
         self._frames = InputFrames(
             intensity,
             gamma=config.gamma,
@@ -89,17 +81,17 @@ class PhysicalPixels:
         check_event_number(self._leak_hz * interval.duration_s)
         light = self._frames.until(intensity)
         noise = self._draw_noise(light, interval)
-        rules = ResetRules(self._config.refractory_period_us, self._config.noise_resets)
         fired = advance_pixels(
-            light, self._mismatch, self._state, noise, rules, (interval.start_us, interval.stop_us)
+            light,
+            self._mismatch,
+            self._state,
+            noise,
+            self._config.refractory_period_us,
+            (interval.start_us, interval.stop_us),
         )
-        self._decay_residual(interval)
-        if self._arbiter is None and self._rate_limit is None:
+        if self._scan is None:
             return fired
-        read = fired.unsorted(intensity.shape[1])
-        if self._arbiter is not None:
-            read = self._arbiter.read(read, interval.stop_us)
-        return read if self._rate_limit is None else self._rate_limit.read(read, interval)
+        return self._scan.read(fired.unsorted(intensity.shape[1]), interval.stop_us)
 
     def _draw_sensor(self, shape: tuple[int, ...], key: np.uint64) -> None:
         """Draw mismatch: thresholds, leak, noise factors, hot pixels."""
@@ -138,17 +130,6 @@ class PhysicalPixels:
             noise = UnsortedEvents.concat((noise, hot))
         order = np.lexsort((noise.p, noise.t, noise.pixel))
         return NoiseEvents(noise.pixel[order], noise.t[order], noise.p[order])
-
-    def _decay_residual(self, interval: FrameInterval) -> None:
-        """Let change that has not fired decay, whether leak or light caused it."""
-        if self._config.residual_decay_hz > 0:
-            kept = math.exp(-self._config.residual_decay_hz * interval.duration_s)
-            state, stop_us = self._state, interval.stop_us
-            state.level[:] += (1.0 - kept) * (state.output - state.level)
-            age = np.rint(kept * (stop_us - state.since_us)).astype(np.int64)
-            is_free = state.since_us <= stop_us
-            state.since_us[is_free] = stop_us - age[is_free]
-            state.quiescent_until_us[:] = stop_us
 
 
 def _factors_of_mean_1(

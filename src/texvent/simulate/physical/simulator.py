@@ -8,7 +8,7 @@ Per frame interval, for every pixel:
 3. the change since the last reset, leak included, fires where and when it crosses a threshold of
    the pixel; every event resets the pixel;
 4. noise events come at a rate that depends on intensity, and reset the pixel too;
-5. with options for it, an arbiter or a scan lets events wait, and their rate is limited.
+5. with `scan_period_ns`, events wait for a scan of the columns.
 
 Rates are per second and the low-pass is integrated exactly, so neither the frame rate nor the
 number of intermediate frames changes what is simulated.

@@ -47,8 +47,6 @@ class Purpose(IntEnum):
     FIRST_PASSAGE = 9
     PHASE = 10
     NOISE_RATE = 11
-    READOUT = 12
-    RATE_LIMIT = 13
     VOXEL = 14
     NOISE_PLACE = 15
 
@@ -103,15 +101,6 @@ def draw_uniforms(key: np.uint64, y: ArrayLike, x: ArrayLike, draw: ArrayLike) -
     """Uniform numbers in [0, 1), multiples of 2⁻⁵³; arguments as for `draw_words`."""
     words = draw_words(key, y, x, draw)
     return np.asarray((words >> np.uint64(11)).astype(np.float64) * UNIT)
-
-
-def draw_halves(
-    key: np.uint64, y: ArrayLike, x: ArrayLike, draw: ArrayLike
-) -> tuple[Float64Array, Float64Array]:
-    """Two uniform numbers in [0, 1), multiples of 2⁻³²; arguments as for `draw_words`."""
-    words = draw_words(key, y, x, draw)
-    high, low = words >> np.uint64(32), words & np.uint64(MASK_64 >> 32)
-    return high.astype(np.float64) * HALF_UNIT, low.astype(np.float64) * HALF_UNIT
 
 
 def draw_normals(key: np.uint64, y: ArrayLike, x: ArrayLike, draw: ArrayLike) -> Float64Array:

@@ -62,7 +62,7 @@ def draw_uniform_at(key: np.uint64, place: np.uint64, draw: int) -> float:
 
 @jit(inline="always")
 def draw_halves_at(key: np.uint64, place: np.uint64, draw: int) -> tuple[float, float]:
-    """Two uniform numbers in [0, 1) of one word; see `draws.draw_halves`."""
+    """Two uniform numbers in [0, 1), multiples of 2⁻³², of one word."""
     word = draw_word_at(key, place, draw)
     return np.float64(word >> _32) * _HALF_UNIT, np.float64(word & _LOW_HALF) * _HALF_UNIT
 

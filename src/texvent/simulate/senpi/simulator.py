@@ -17,13 +17,10 @@ import numpy as np
 
 from texvent.config import check_range
 from texvent.simulate.packets import FrameInterval, UnsortedEvents
-from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.mismatch import (
     LONG_AGO_US,
     Float64Array,
     check_nominal_thresholds,
-    draw_chosen,
-    sensor_key,
     sensor_thresholds,
     smaller_threshold,
     thresholds_at,
@@ -33,10 +30,6 @@ from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 WHITE = 255.0
 WELL_CAPACITY = 15_000.0
 """Photons of a white pixel."""
-DARK_ELECTRONS = 2.0
-"""Rms of the dark noise, electrons."""
-EXPOSURE_US = 41_667
-"""Time between independent samples of the photon number: how often shot noise can fire."""
 FULL_SCALE = 0.9616
 """SENPI's threshold of 0.1 in its unit of ln(15000): 0.96158 in natural-log units."""
 
@@ -57,20 +50,12 @@ class SenpiConfig:
     """Standard deviation of both thresholds between pixels, log units; none is below 0.01."""
     noise_rate_hz: float = 1.2
     """Noise events per pixel and second; SENPI's 0.05 per frame, at 24 frames per second."""
-    hot_pixel_fraction: float = 0.0
-    """Share of hot pixels, 0..1."""
-    hot_pixel_rate_hz: float = 10.0
-    """Noise events per second of a hot pixel."""
-    shot_noise: bool = False
-    """Add the noise events of photon statistics and of 2 electrons (rms) of dark noise."""
     refractory_period_us: int = 50
     """Time after an event in which a change cannot fire the pixel."""
 
     def __post_init__(self) -> None:
         check_nominal_thresholds(self)
         check_range("noise_rate_hz", self.noise_rate_hz, 0.0, 1e4)
-        check_range("hot_pixel_fraction", self.hot_pixel_fraction, 0.0, 1.0)
-        check_range("hot_pixel_rate_hz", self.hot_pixel_rate_hz, 0.0, 1e4)
         check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
 
 
@@ -123,12 +108,8 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         from texvent.simulate.crossing.trigger_levels import BrightnessCurve, TriggerLevels
         from texvent.simulate.random.poisson_noise import PoissonNoise
 
-        config = self.config
-        key, shape = sensor_key(self._seed), intensity.shape
-        self._thresholds = sensor_thresholds(shape, self._seed, config)
-        is_hot = draw_chosen(shape, key, Purpose.HOT_PIXEL, fraction=config.hot_pixel_fraction)
-        self._rate_hz = np.where(is_hot, config.hot_pixel_rate_hz, config.noise_rate_hz)
-        self._noise = PoissonNoise(self._rate_hz)
+        self._thresholds = sensor_thresholds(intensity.shape, self._seed, self.config)
+        self._noise = PoissonNoise(np.full(intensity.shape, self.config.noise_rate_hz))
         self._reference = np.log(photons(intensity)).reshape(-1)
         self._fired_us = np.full(intensity.size, LONG_AGO_US)
         # Below the darkest level all voltages are equal, so one that is lower is never reached.
@@ -138,7 +119,7 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
         self._levels.set_all(self._reference, self._thresholds)
 
     def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
-        noise = self._draw_noise(intensity, interval)
+        noise = self._noise.draw(interval)
         # A pixel's last event counts: noise is in order of time, and a change fires at the end.
         self._fired_us[noise.pixel] = noise.t
         fired = self._compare(intensity, interval)
@@ -163,20 +144,6 @@ class SenpiSimulator(StreamingSimulator[SenpiConfig]):
     def _voltage(self, intensity: IntensityArray) -> Float64Array:
         return np.asarray(np.log(photons(intensity)))
 
-    def _draw_noise(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
-        if not self.config.shot_noise:
-            return self._noise.draw(interval)
-        from texvent.simulate.random.poisson_noise import PoissonNoise  # brings Numba
-
-        electrons = photons(intensity)
-        on, off = (
-            shot_noise_rate_hz(electrons.reshape(-1), threshold).reshape(electrons.shape)
-            for threshold in self._thresholds
-        )
-        total = self._rate_hz + on + off
-        on_fraction = (self._rate_hz / 2 + on) / np.maximum(total, np.finfo(np.float64).tiny)
-        return PoissonNoise(total).draw(interval, on_fraction=on_fraction)
-
 
 def photons(intensity: IntensityArray) -> Float64Array:
     """Photons that pixels receive, `max(I, 1) / 255 · well capacity`, float64.
@@ -187,22 +154,3 @@ def photons(intensity: IntensityArray) -> Float64Array:
     """
     exact = intensity.astype(np.float64, copy=False)
     return np.asarray(np.maximum(exact, DARKEST) / WHITE * WELL_CAPACITY)
-
-
-def shot_noise_rate_hz(electrons: Float64Array, threshold: Float64Array) -> Float64Array:
-    """Events per second of one polarity that photon and dark noise fire at a resting pixel.
-
-    One sample of ln(electrons) has the variance `(N + dark²) / N²`, the difference of two samples
-    twice that; each new sample, one per exposure, passes the threshold with that tail's
-    probability.
-
-    Args:
-        electrons: mean number N, [H, W], above 0.
-        threshold: of that polarity, [H, W], log units.
-
-    Returns:
-        [H, W].
-    """
-    variance = (electrons + DARK_ELECTRONS**2) / electrons**2
-    tail = np.frompyfunc(math.erfc, 1, 1)(threshold / (2.0 * np.sqrt(variance)))
-    return np.asarray(tail, np.float64) / 2 / (EXPOSURE_US * 1e-6)

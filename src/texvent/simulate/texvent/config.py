@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
@@ -11,7 +12,7 @@ from texvent.errors import ConfigError
 CachePolicy = Literal["local", "global", "none"]
 ResetRule = Literal["current", "step"]
 NoiseKind = Literal["adaptive", "gaussian", "random", "none"]
-TimestampRule = Literal["eq7", "random", "linear", "hyperbolic", "even", "end"]
+TimestampRule = Literal["eq7", "random", "linear", "end"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,39 +62,51 @@ class TexventConfig:
     """Share of ON among noise events, 0..1; Gaussian noise decides polarity by itself."""
     timestamp_rule: TimestampRule = "linear"
     """Time of an event between two frames: larger change earlier (eq7), random, where a straight
-    line crosses the threshold (linear), where a ramp from the reference does (hyperbolic), evenly
-    spaced (even), or at the end (end)."""
-    timestamp_scale: float = 1.0
-    """Scale γ of --timestamp-rule eq7, above 0 up to 1: the share of the interval that events
-    spread over."""
+    line crosses the threshold (linear), or at the end (end)."""
 
     def __post_init__(self) -> None:
         check_range("contrast_threshold", self.contrast_threshold, 1e-4, 10.0)
-        check_range("balance", self.balance, 0.0, 1e6)
+        check_range("balance", self.balance, 1e-6, 1e6)
         check_range("residual_decay_hz", self.residual_decay_hz, 0.0, 1e6)
         check_range("noise_rate_hz", self.noise_rate_hz, 0.0, 1e4)
         check_range("noise_scale", self.noise_scale, 0.0, 1e3)
         check_range("noise_intensity", self.noise_intensity, 0.0, 1e6)
         check_range("noise_on_fraction", self.noise_on_fraction, 0.0, 1.0)
-        check_range("timestamp_scale", self.timestamp_scale, 1e-6, 1.0)
         check_choices(self)
         if self.multi_event and self.timestamp_rule == "eq7":
             raise ConfigError(
                 "timestamp_rule 'eq7' gives a pixel one time per frame, but multi_event lets it "
-                "fire several times; use timestamp_rule 'linear', 'hyperbolic', 'even', 'random' "
-                "or 'end'"
+                "fire several times; use timestamp_rule 'linear', 'random' or 'end'"
             )
-
-    @property
-    def reset_step(self) -> float | None:
-        """Step of the reference per event, log units; None: to the current brightness."""
-        return self.contrast_threshold if self.reset == "step" else None
 
     @property
     def has_added_noise(self) -> bool:
         """Whether noise events are added to the others (Eq. 6), not only to the brightness."""
         return self.noise in ("adaptive", "random") and self.noise_rate_hz * self.noise_scale > 0
 
+    @property
+    def is_fusible(self) -> bool:
+        """Whether a pair can be computed without drawing its frames; ablations are not."""
+        is_usual = self.reset == "current" or self.multi_event
+        return is_usual and self.cache != "none" and self.noise != "gaussian"
+
     def expected_noise(self, duration_s: float) -> float:
         """λ1 · λ2: noise events per pixel in a sub-interval of so many seconds."""
         return self.noise_rate_hz * (self.noise_scale * duration_s)
+
+
+PRESETS: Mapping[str, TexventConfig] = {
+    # Chosen by measurement against true and recorded events (docs/benchmark.md).
+    "accurate": TexventConfig(),
+    "paper": TexventConfig(
+        balance=30.0,
+        cache="local",
+        reset="current",
+        multi_event=False,
+        residual_decay_hz=0.0,
+        noise_rate_hz=0.1,
+        noise_intensity=80.0,
+        timestamp_rule="eq7",
+    ),
+}
+"""Name → options."""

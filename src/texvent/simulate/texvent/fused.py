@@ -18,26 +18,17 @@ from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.crossing.trigger_levels import trigger_factors
 from texvent.simulate.fused.bounds import (
-    PREVIOUS_FRAME,
-    RESET_BY_THRESHOLD,
-    RESET_BY_THRESHOLD_ONCE,
-    RESET_TO_CURRENT,
     CrossingCandidates,
     Int64Array,
     LumaBounds,
     ReferenceLevels,
 )
-from texvent.simulate.fused.candidates import (
-    find_bounds,
-    map_candidates,
-    warp_pixels,
-)
+from texvent.simulate.fused.candidates import find_bounds, map_candidates, warp_pixels
 from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.noise import draw_noise
 from texvent.simulate.texvent.pixel_memory import FiredPixels, Memory
-from texvent.simulate.texvent.pixels import timing_of
 from texvent.simulate.texvent.timestamps import timestamp_events
 from texvent.video import Frame
 
@@ -46,20 +37,19 @@ class FusedPass:
     """Packets of one pair after another. References live in the `Memory` of the pixels.
 
     With a cache that outlives a pair (global), references are read from and written to that
-    memory. With one that forgets (local, none), a pair starts from its own first frame, and no
-    memory is needed.
+    memory. With one that forgets (local), a pair starts from its own first frame, and no memory is
+    needed.
     """
 
     def __init__(self, config: TexventConfig, seed: int) -> None:
         """Prepare a pass.
 
         Args:
-            config: options; Gaussian noise is not supported.
+            config: options for which `is_fusible`.
             seed: of noise and random times.
         """
         self._config, self._seed = config, seed
-        self._keeps_start = config.timestamp_rule == "linear" or config.cache == "none"
-        self._timing = timing_of(config)
+        self._keeps_start = config.timestamp_rule == "linear"
         self._scratch: Float64Array = np.empty(0)
 
     def find_bounds(self, pair: FramePair, memory: Memory | None) -> LumaBounds | None:
@@ -100,24 +90,18 @@ class FusedPass:
             span = FrameInterval(*span_us, frame_key(self._seed, span_us[1]))
             luma_of = functools.partial(warp_pixels, motion, part)
             noise = draw_noise(self._config, span, size.width * size.height, luma_of)
-            x, y, t, p, label = timestamp_events(fired[part], noise, self._timing, span, size.shape)
+            x, y, t, p, label = timestamp_events(fired[part], noise, self._config, span, size.shape)
             yield frame, EventStream.unchecked(x, y, t, p, size=size, label=label)
 
     def _levels(self, pair: FramePair, memory: Memory | None) -> ReferenceLevels:
         """References at the start of a pair, and the rule by which they move."""
         config = self._config
-        if config.cache == "none":
-            rule = PREVIOUS_FRAME
-        elif config.reset == "current":
-            rule = RESET_TO_CURRENT
-        else:
-            rule = RESET_BY_THRESHOLD if config.multi_event else RESET_BY_THRESHOLD_ONCE
         up, down = trigger_factors(config.contrast_threshold, config.contrast_threshold)
         level = np.empty((0, 0))
         if memory is not None:
             # Rounded to float32, which the margin of the search covers.
             level = memory.reference.reshape(pair.second.size.shape).astype(np.float64)
-        return ReferenceLevels(level, config.balance, up, down, rule)
+        return ReferenceLevels(level, config.balance, up, down, config.reset == "step")
 
     def _decide(
         self,
@@ -167,7 +151,7 @@ class FusedPass:
             reference: reference brightness of all pixels, flat.
         """
         config = self._config
-        then = start if config.cache == "none" else reference[pixel]
+        then = reference[pixel]
         change = stop - then
         fires = np.abs(change) >= config.contrast_threshold
         if not fires.all():
@@ -176,7 +160,7 @@ class FusedPass:
         reference[pixel] = stop
         if config.reset == "step":
             threshold = config.contrast_threshold
-            number = np.floor(np.abs(change) / threshold) if config.multi_event else 1.0
+            number = np.floor(np.abs(change) / threshold)
             reference[pixel] = then + np.sign(change) * (number * threshold)
         return FiredPixels(pixel, change, start, stop, then)
 

@@ -149,18 +149,6 @@ class NoisePlaces(NamedTuple):
 QUIET = NoisePlaces(np.empty(0, np.int64), np.empty(0), np.empty(0, np.uint8))
 
 
-class NoiseBlock(NamedTuple):
-    """Parameters of the noise of a frame's blocks."""
-
-    key: np.uint64
-    """Of `draws.frame_key`."""
-    cumulative: NDArray[np.float64]
-    """[n] P(number ≤ k) of the number of events of a block, k = 0, 1, ...; a uniform number u draws
-    how many entries are ≤ u. See `noise.poisson_cumulative`."""
-    on_fraction: float
-    """Probability of ON."""
-
-
 _COUNT, _PLACE, _POLARITY = (
     int(purpose.draw())
     for purpose in (Purpose.NOISE_COUNT, Purpose.NOISE_PLACE, Purpose.NOISE_POLARITY)
@@ -172,11 +160,13 @@ FEW_PIXELS = NOISE_BLOCK // 32
 """With an event for fewer pixels than these, 32 a block, sorting them by digits is faster."""
 
 
-def place_noise(noise: NoiseBlock, pixels: int) -> NoisePlaces:
+def place_noise(key: np.uint64, mean: float, on_fraction: float, pixels: int) -> NoisePlaces:
     """Place, time and polarity of noise in one sub-interval, before any mask.
 
     Args:
-        noise: key of the draws, numbers of events of a block, share of ON.
+        key: of `draws.frame_key`.
+        mean: expected number of events per pixel.
+        on_fraction: probability of ON.
         pixels: number of pixels of the frame.
 
     Equation: (6), section 3.2.2: Poisson(λ1 λ2).
@@ -184,8 +174,9 @@ def place_noise(noise: NoiseBlock, pixels: int) -> NoisePlaces:
         is the same distribution as a Poisson number per pixel.
     """
     with allow_wrap_around():
-        places = _place_noise(noise.key, noise.cumulative, noise.on_fraction, pixels)
-    return NoisePlaces(*places)
+        return NoisePlaces(
+            *_place_noise(key, poisson_cumulative(mean * NOISE_BLOCK), on_fraction, pixels)
+        )
 
 
 @jit
@@ -270,9 +261,7 @@ def draw_noise(
     mean = config.expected_noise(span.duration_s)
     # Drawn for whole blocks, then cut to the frame.
     check_event_number(mean * -(-size // NOISE_BLOCK) * NOISE_BLOCK)
-    cumulative = poisson_cumulative(mean * NOISE_BLOCK)
-    block = NoiseBlock(span.key, cumulative, config.noise_on_fraction)
-    noise = place_noise(block, size)
+    noise = place_noise(span.key, mean, config.noise_on_fraction, size)
     if config.noise == "random" or not len(noise.pixel):
         return noise
     dark = np.flatnonzero(luma_of(noise.pixel) < config.noise_intensity)

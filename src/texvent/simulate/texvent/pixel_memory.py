@@ -1,8 +1,7 @@
 """Memory of the pixels of the Texvent model between frames, and their trigger levels.
 
-The definition of the model is float64 NumPy on whole frames (`dense_pixels`). The fast form must
-return the same events, bit for bit, without a logarithm per pixel. It can, because an event needs
-only this state and these levels.
+By definition every pixel of every frame is compared in float64. This form returns the same events,
+bit for bit, without a logarithm per pixel, because an event needs only this state and these levels.
 
 **State.** One array per pixel, `reference`: the intensity R that the pixel compares with, in the
 type of the frames (uint8, uint16 or float32 luma; once frames of two types have come, float32,
@@ -31,7 +30,6 @@ fires.
 from __future__ import annotations
 
 import functools
-import math
 from dataclasses import dataclass
 from typing import Any, NamedTuple, TypeAlias
 
@@ -111,8 +109,6 @@ class Memory:
     reference: Intensity
     """[n] intensity that each pixel compares with, of the frames' type; beside `level` float32,
     exp(level)."""
-    renewed: Intensity
-    """[n] where a kernel writes the next references if all are renewed; else not looked at."""
     previous: Intensity
     """[n] intensity of the frame before, or [0] where times do not depend on it."""
     level: Float64Array
@@ -145,7 +141,6 @@ def init_memory(first: Intensity, config: TexventConfig) -> Memory:
     # The kernels write to these, so none may be the caller's array.
     memory = Memory(
         reference=first.copy(),
-        renewed=np.empty(0 if has_levels or not may_renew(config) else first.size, first.dtype),
         previous=np.empty(0, first.dtype) if config.timestamp_rule != "linear" else first.copy(),
         level=np.empty(first.size if has_levels else 0),
         table=_NOTHING if has_levels else brightness_table(first.dtype.str, config.balance),
@@ -159,11 +154,10 @@ def store_reference(memory: Memory, config: TexventConfig) -> None:
     """Go over to `Memory.level`, for whatever moves references between intensities.
 
     Args:
-        memory: of pixels whose references are intensities so far; none of them has renewed all.
+        memory: of pixels whose references are intensities so far.
         config: options.
     """
     turn_to_float(memory)
-    memory.renewed = np.empty(0, np.float32)
     memory.level = np.asarray(balanced_log(memory.reference, config.balance))
     memory.reference = np.exp(memory.level).astype(np.float32)
 
@@ -173,11 +167,6 @@ def needs_levels(config: TexventConfig) -> bool:
     if config.cache == "none":
         return False
     return config.reset == "step" or (config.cache == "global" and config.residual_decay_hz > 0)
-
-
-def may_renew(config: TexventConfig) -> bool:
-    """Whether all references are ever renewed at once."""
-    return config.cache in ("none", "local")
 
 
 def as_luma(intensity: Intensity) -> Intensity:
@@ -191,7 +180,6 @@ def turn_to_float(memory: Memory) -> None:
     """Go over to float32 intensities, which hold those of both integer types exactly."""
     memory.reference = as_luma(memory.reference)
     memory.previous = as_luma(memory.previous)
-    memory.renewed = np.empty(memory.renewed.size, np.float32)
     memory.table = _NOTHING
     memory.work = None
 
@@ -221,14 +209,12 @@ def brightness_table(dtype: str, balance: float) -> Float64Array:
     """Brightness of every intensity of an integer type; empty for float32.
 
     Returns:
-        [256] or [65536], −∞ for black without a balance; read-only.
+        [256] or [65536], read-only.
     """
     if np.dtype(dtype).kind == "f":
         return _NOTHING
     luma = as_luma(np.arange(np.iinfo(dtype).max + 1).astype(dtype))
-    lit = luma[1:] if balance == 0 else luma
-    dark = [-math.inf] if balance == 0 else []
-    return read_only(np.concatenate([dark, balanced_log(lit, balance)]))
+    return read_only(balanced_log(luma, balance))
 
 
 def scan_levels(config: TexventConfig, memory: Memory) -> ScanLevels:
@@ -251,8 +237,8 @@ def scan_levels(config: TexventConfig, memory: Memory) -> ScanLevels:
 
 @functools.lru_cache(maxsize=16)
 def least_difference(threshold: float, balance: float) -> np.uint8:
-    """Smallest difference of two uint8 intensities above 0 that fires; 255 if none does."""
-    table = brightness_table("uint8", balance)[0 if balance > 0 else 1 :]
+    """Smallest difference of two uint8 intensities that fires; 255 if none does."""
+    table = brightness_table("uint8", balance)
     for difference in range(1, len(table)):
         if np.max(table[difference:] - table[:-difference]) >= threshold:
             return np.uint8(difference)

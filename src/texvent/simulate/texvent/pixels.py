@@ -1,7 +1,8 @@
-"""The paper's pixel model without a logarithm per pixel: the same events, as fast as memory.
+"""The pixels of the paper's model from frame to frame.
 
-`pixel_memory` explains it. No array as large as a frame is made after the first, unless frames have
-colour or more than one type.
+`SparsePixels` takes no logarithm per pixel; `pixel_memory` explains how. It makes no array as large
+as a frame after the first, unless frames have colour or more than one type. `ShakenPixels` is the
+ablation with Gaussian noise, which moves every pixel.
 """
 
 from __future__ import annotations
@@ -9,13 +10,19 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.brightness import check_balance
-from texvent.events import EventStream
+from texvent.brightness import Float64Array, balanced_log
+from texvent.events import NOISE, EventStream
 from texvent.runtime.read_only import read_only
 from texvent.simulate.packets import FrameInterval
+from texvent.simulate.texvent.brightness_cache import CacheSchedule
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.event_frame import CacheSchedule
-from texvent.simulate.texvent.noise import NoisePlaces, draw_noise
+from texvent.simulate.texvent.noise import (
+    QUIET,
+    NoisePlaces,
+    draw_noise,
+    draw_voltage_noise,
+    is_background,
+)
 from texvent.simulate.texvent.pixel_memory import (
     FiredPixels,
     FireRule,
@@ -29,17 +36,17 @@ from texvent.simulate.texvent.pixel_memory import (
     update_reference,
 )
 from texvent.simulate.texvent.scan import detect_events
-from texvent.simulate.texvent.timestamps import Timing, timestamp_events
+from texvent.simulate.texvent.timestamps import timestamp_events
 from texvent.video import Frame, bad_intensity, check_intensity
 
 Int64Array = NDArray[np.int64]
 
 
 class SparsePixels:
-    """All pixels of a sensor, by their trigger levels; with the interface of `DensePixels`."""
+    """All pixels of a sensor, by their trigger levels."""
 
     def __init__(self, config: TexventConfig, frame: Frame, where: str) -> None:
-        """Begin with the first frame; see `reference.DensePixels`.
+        """Begin with the first frame.
 
         Args:
             config: options.
@@ -47,7 +54,6 @@ class SparsePixels:
             where: what messages call it.
         """
         check_intensity(frame.pixels, where)
-        check_balance(frame.luma, config.balance)
         self._config = config
         self._schedule = CacheSchedule(config.cache, config.residual_decay_hz)
         self._schedule.pass_frame(frame.t_us, is_source=frame.is_source)
@@ -62,10 +68,18 @@ class SparsePixels:
             has_line=config.timestamp_rule == "linear",
         )
         self._rule_that_renews = self._rule._replace(is_renewed=True)
-        self._timing = timing_of(config)
 
     def advance(self, frame: Frame, span: FrameInterval, where: str) -> EventStream:
-        """Events until this frame; see `DensePixels.advance`."""
+        """Events until this frame.
+
+        Args:
+            frame: the next frame, of the same size.
+            span: time since the frame before, and the key of its random draws.
+            where: which frame it is, for messages.
+
+        Raises:
+            InputError: an intensity is NaN, infinite or negative; the pixels are then as they were.
+        """
         intensity = self._read(frame, where)
         share = self._schedule.share_after(frame.t_us, is_source=frame.is_source)
         fired = self._fire(intensity, share)
@@ -73,7 +87,7 @@ class SparsePixels:
             raise bad_intensity(frame.pixels, where)
         self._schedule.pass_frame(frame.t_us, is_source=frame.is_source)
         noise = self._draw_noise(intensity, span)
-        x, y, t, p, label = timestamp_events([fired], noise, self._timing, span, frame.size.shape)
+        x, y, t, p, label = timestamp_events([fired], noise, self._config, span, frame.size.shape)
         return EventStream.unchecked(x, y, t, p, size=frame.size, label=label)
 
     def ensure_reference(self) -> Memory:
@@ -111,8 +125,6 @@ class SparsePixels:
         if frame.pixels.ndim != 2 or frame.pixels.dtype != np.float32:
             # The kernels look at float32 luma themselves.
             check_intensity(frame.pixels, where)
-        if self._config.balance == 0:
-            check_balance(frame.luma, 0.0)
         intensity = _native_intensity(frame)
         if intensity.dtype == self._memory.reference.dtype:
             return intensity
@@ -131,15 +143,55 @@ class SparsePixels:
         return draw_noise(self._config, span, intensity.size, luma_of)
 
 
-def timing_of(config: TexventConfig) -> Timing:
-    """Timing rules of a configuration."""
-    return Timing(
-        config.timestamp_rule,
-        config.timestamp_scale,
-        config.contrast_threshold,
-        config.multi_event,
-        config.noise == "adaptive",
-    )
+class ShakenPixels:
+    """All pixels of a sensor under Gaussian noise (ablation E10), as whole frames of brightness."""
+
+    def __init__(self, config: TexventConfig, frame: Frame, where: str) -> None:
+        """Begin with the first frame; arguments as for `SparsePixels`."""
+        check_intensity(frame.pixels, where)
+        self._config = config
+        self._schedule = CacheSchedule(config.cache, config.residual_decay_hz)
+        self._t_us, self._is_source = frame.t_us, frame.is_source
+        self._brightness = balanced_log(frame.luma, config.balance).reshape(-1)
+        self._reference = self._brightness.copy()
+
+    def advance(self, frame: Frame, span: FrameInterval, where: str) -> EventStream:
+        """Events until this frame; those that only the noise let fire are labelled as noise.
+
+        Arguments as for `SparsePixels.advance`; so are the errors, and an `InputError` if the noise
+        would fire a pixel every time. References move as if there were no noise.
+        """
+        check_intensity(frame.pixels, where)
+        config, shape = self._config, frame.size.shape
+        brightness = balanced_log(frame.luma, config.balance)
+        mean = config.expected_noise(span.duration_s)
+        noise = draw_voltage_noise(shape, span.key, threshold=config.contrast_threshold, mean=mean)
+        now, shaken = brightness.reshape(-1), (brightness + noise).reshape(-1)
+        share = self._schedule.pass_frame(self._t_us, is_source=self._is_source)
+        before, reference = self._brightness, self._reference
+        if share == 1:
+            reference[:] = before
+        elif share:
+            reference += share * (before - reference)
+        pixel, change = self._compare(shaken)
+        fired = FiredPixels(pixel, change, before[pixel], shaken[pixel], reference[pixel])
+        x, y, t, p, label = timestamp_events([fired], QUIET, config, span, shape)
+        signal, change = self._compare(now)
+        label[is_background(y.astype(np.int64) * shape[1] + x, signal)] = NOISE
+        if config.reset == "current":
+            reference[signal] = now[signal]
+        else:
+            size = np.abs(change) / config.contrast_threshold
+            number = np.floor(size) if config.multi_event else 1.0
+            reference[signal] += np.sign(change) * (number * config.contrast_threshold)
+        self._brightness, self._t_us, self._is_source = now, frame.t_us, frame.is_source
+        return EventStream.unchecked(x, y, t, p, size=frame.size, label=label)
+
+    def _compare(self, brightness: Float64Array) -> tuple[Int64Array, Float64Array]:
+        """Eq. 5: the pixels that fire, [n] ascending, and their changes, log units."""
+        change = brightness - self._reference
+        pixel = np.flatnonzero(np.abs(change) >= self._config.contrast_threshold)
+        return pixel, change[pixel]
 
 
 def _native_intensity(frame: Frame) -> Intensity:

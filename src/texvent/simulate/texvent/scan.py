@@ -137,8 +137,6 @@ class ScanArrays(NamedTuple):
 
     frame: Intensity
     reference: Intensity
-    renewed: Intensity
-    """[0] unless all references are renewed."""
     previous: Intensity
     """[0] unless events need it."""
 
@@ -180,8 +178,7 @@ def detect_events(
     """
     work: _Work = memory.work or _make_room(memory)
     memory.work = work
-    renewed = memory.renewed if rule.is_renewed else memory.renewed[:0]
-    arrays = ScanArrays(frame, memory.reference, renewed, memory.previous)
+    arrays = ScanArrays(frame, memory.reference, memory.previous)
     if not memory.table.size:
         return _find_fired_floats(arrays, memory, levels, rule)
     table, fired = memory.table, work.fired
@@ -189,9 +186,7 @@ def detect_events(
         # Of a copied simulator; Numba would compile for it again.
         table = memory.table = read_only(table)
     with allow_wrap_around():
-        found = _fire_integers(arrays, table, levels, rule.threshold, fired)
-    if rule.is_renewed:
-        memory.reference, memory.renewed = memory.renewed, memory.reference
+        found = _fire_integers(arrays, table, levels, rule, fired)
     return fired.first(found)
 
 
@@ -219,7 +214,7 @@ def _find_fired_floats(
     if rule.has_line:
         memory.previous[:] = arrays.frame
     if rule.is_renewed:
-        memory.reference, memory.renewed = memory.renewed, memory.reference
+        memory.reference[:] = arrays.frame
     return fired.first(found)
 
 
@@ -264,7 +259,7 @@ def _settle_floats(
 ) -> int:
     """List the candidates that fire, and move what those pixels remember; how many there are."""
     # Arrays are taken out of their tuples once: counting references to them in the loop is slow.
-    frame, reference, _, _ = arrays
+    frame, reference, _ = arrays
     _, nows, thens, befores = logs
     pixel, changes, start, stop, at_start = out
     found = 0
@@ -311,19 +306,18 @@ def _find_candidates(arrays: ScanArrays, levels: ScanLevels, pixel: Int64Array) 
                 bits ^= bit
                 pixel[found] = first + runs[k] * RUN + number_of(bit)
                 found += 1
-    _copy(arrays.frame, arrays.renewed)
     return found
 
 
 @jit
 def _fire_integers(
-    arrays: ScanArrays, table: Float64Array, levels: ScanLevels, threshold: float, out: FiredPixels
+    arrays: ScanArrays, table: Float64Array, levels: ScanLevels, rule: FireRule, out: FiredPixels
 ) -> int:
     """Let the pixels of uint8 or uint16 frames fire; how many did."""
-    frame, reference, renewed, previous = arrays
+    frame, reference, previous = arrays
     pixel, change, start, stop, at_start = out
     runs, words = mark_pixels(frame, reference, levels)
-    is_renewed, has_line, found = renewed.size > 0, previous.size > 0, 0
+    threshold, is_renewed, has_line, found = rule.threshold, rule.is_renewed, previous.size > 0, 0
     for k in range(runs.size):
         bits = words[k]
         while bits != _0:
@@ -339,7 +333,8 @@ def _fire_integers(
             if fires and not is_renewed:
                 reference[i] = frame[i]
             found += int(fires)
-    _copy(frame, renewed)
+    if is_renewed:
+        _copy(frame, reference)
     _copy(frame, previous)
     return found
 

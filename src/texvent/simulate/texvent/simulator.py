@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING, Any, ClassVar
+from typing import TYPE_CHECKING, ClassVar
 
 import numpy as np
 
@@ -12,14 +12,13 @@ from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.packets import FrameInterval, UnsortedEvents, make_packet
 from texvent.simulate.random.draws import frame_key
-from texvent.simulate.streaming import Backend, SteppingSimulator
-from texvent.simulate.texvent.config import TexventConfig
+from texvent.simulate.streaming import SteppingSimulator
+from texvent.simulate.texvent.config import PRESETS, TexventConfig
 from texvent.video import Frame, StreamChecker, check_intensity
 
 if TYPE_CHECKING:
-    from texvent.simulate.texvent.dense_pixels import DensePixels
     from texvent.simulate.texvent.fused import FusedPass
-    from texvent.simulate.texvent.pixels import SparsePixels
+    from texvent.simulate.texvent.pixels import ShakenPixels, SparsePixels
 
 __all__ = ["TexventConfig", "TexventSimulator"]
 
@@ -42,47 +41,22 @@ class TexventSimulator(SteppingSimulator):
 
     config_type: ClassVar[type] = TexventConfig
     bytes_per_pixel: ClassVar[int] = 30
-    presets: ClassVar[Mapping[str, TexventConfig]] = {
-        # Chosen by measurement against true and recorded events (docs/benchmark.md).
-        "accurate": TexventConfig(),
-        "paper": TexventConfig(
-            balance=30.0,
-            cache="local",
-            reset="current",
-            multi_event=False,
-            residual_decay_hz=0.0,
-            noise_rate_hz=0.1,
-            noise_intensity=80.0,
-            timestamp_rule="eq7",
-        ),
-    }
+    presets: ClassVar[Mapping[str, TexventConfig]] = PRESETS
     frame_bound_presets: ClassVar[frozenset[str]] = frozenset({"paper"})
-    has_gpu: ClassVar[bool] = True
 
-    def __init__(
-        self,
-        config: TexventConfig | None = None,
-        *,
-        seed: int = 0,
-        backend: Backend = "cpu",
-    ) -> None:
+    def __init__(self, config: TexventConfig | None = None, *, seed: int = 0) -> None:
         """Prepare a simulator that has seen no frame.
 
         Args:
             config: options; default: the preset "accurate".
             seed: of noise and random times, 0..2⁶³−1.
-            backend: "cpu", or "gpu" for kernels on a GPU, with the same events as nearly as
-                `texvent.simulate.gpu` says.
 
         Raises:
-            ConfigError: the seed is out of range, or the backend is "gpu" and there is no
-                GPU, or an option that only the CPU has.
-            MissingDependencyError: what the backend needs is not installed.
+            ConfigError: the seed is out of range.
         """
         check_range("seed", seed, 0, 2**63 - 1)
         self.config = config or TexventConfig()
         self._seed = int(seed)
-        self._backend = backend
         self._forgets = self.config.cache in ("local", "none")
         self.reset()
 
@@ -116,23 +90,13 @@ class TexventSimulator(SteppingSimulator):
     def reset(self) -> None:
         """Forget all frames: the next one is the first."""
         self._checker = StreamChecker()
-        self._pixels: DensePixels | SparsePixels | None = None
+        self._pixels: ShakenPixels | SparsePixels | None = None
         self._last: Frame | None = None
         self._fused: FusedPass | None = None
-        self._on_gpu: Any = None
-        if self._backend == "gpu":
-            from texvent.simulate.gpu.frames import FrameSteps  # brings torch
-
-            self._on_gpu = FrameSteps(self.config, self._seed)
 
     def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
         """Events between two frames; see `simulate.protocol.Simulator.advance`."""
-        is_drawn = (
-            pair.first is None
-            or self._on_gpu is not None
-            or self.config.noise == "gaussian"
-            or pair.motion.flows is None
-        )
+        is_drawn = pair.first is None or not self.config.is_fusible or pair.motion.flows is None
         if is_drawn:
             yield from super().advance(pair)
             return
@@ -170,12 +134,9 @@ class TexventSimulator(SteppingSimulator):
         Raises:
             InputError: another size than before, a time that does not increase, an intensity that
                 is NaN, infinite or negative, or Gaussian noise of one event per frame or more.
-            ConfigError: the balance is 0 and a pixel is black.
         """
         where = self._checker.check_order(frame)
-        if self._on_gpu is not None:
-            packet: EventStream = self._on_gpu.step(frame)
-        elif self._last is None:
+        if self._last is None:
             self._pixels = self._begin(frame, where)
             span = FrameInterval(frame.t_us, frame.t_us, np.uint64(0))
             packet = make_packet(UnsortedEvents.none(), span, frame.size)
@@ -188,13 +149,9 @@ class TexventSimulator(SteppingSimulator):
         self._last = frame
         return packet
 
-    def _begin(self, frame: Frame, where: str) -> DensePixels | SparsePixels:
+    def _begin(self, frame: Frame, where: str) -> ShakenPixels | SparsePixels:
         """Pixels whose references are those of a frame."""
-        # Both bring Numba.
-        if self.config.noise == "gaussian":
-            from texvent.simulate.texvent.dense_pixels import DensePixels
+        from texvent.simulate.texvent.pixels import ShakenPixels, SparsePixels  # brings Numba
 
-            return DensePixels(self.config, frame, where)
-        from texvent.simulate.texvent.pixels import SparsePixels
-
-        return SparsePixels(self.config, frame, where)
+        kind = ShakenPixels if self.config.noise == "gaussian" else SparsePixels
+        return kind(self.config, frame, where)

@@ -1,16 +1,14 @@
-"""Time stamp reconstruction (Eq. 7): the time of an event within its sub-interval.
+"""Time stamp reconstruction (Eq. 7), compiled: the time of an event within its sub-interval.
 
-Every rule gives a fraction 0..1 of the sub-interval per event; `place_in` makes it µs. The rules
-come first, on arrays; `timestamp_events` is the compiled form that a run uses, with the same
-arithmetic, operation by operation. Signal and noise both come by pixel, so it merges them into one
-list of keys in that order, and sorting by time is all that is left.
+Every rule gives a fraction 0..1 of the sub-interval per event. Signal and noise both come by pixel,
+so they are merged into one list of keys in that order, and sorting by time is all that is left.
 """
 
 from __future__ import annotations
 
 import functools
 import math
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -19,158 +17,20 @@ from numpy.typing import NDArray
 from texvent.events import NOISE
 from texvent.runtime.jit import jit
 from texvent.simulate.kernels.radix_sort import key_bits, sort_keys, unpack_keys
-from texvent.simulate.packets import FrameInterval, SortedEvents, place_in
-from texvent.simulate.random.draws import Purpose, draw_uniforms
+from texvent.simulate.packets import FrameInterval, SortedEvents
+from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.draws_cpu import allow_wrap_around, draw_uniform
-from texvent.simulate.texvent.config import TimestampRule
-from texvent.simulate.texvent.event_frame import ThresholdCrossings
+from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.noise import NoisePlaces
 from texvent.simulate.texvent.pixel_memory import FiredPixels
 
 Float64Array = NDArray[np.float64]
 
 
-class SubInterval(NamedTuple):
-    """Time between two neighbouring frames, and the brightness of the pixels that fired in it."""
-
-    span: FrameInterval
-    """Time of both frames, and the key of the random draws between them."""
-    width: int
-    """Of the frame, pixels."""
-    pixel: NDArray[np.int64]
-    """[n] flat index y · W + x of the pixels that fired, ascending."""
-    brightness: tuple[Float64Array, Float64Array, Float64Array]
-    """Previous brightness, brightness and reference of each, [n] log units."""
-
-
-def reconstruct_timestamps(
-    crossings: ThresholdCrossings,
-    interval: SubInterval,
-    *,
-    timestamp_rule: TimestampRule,
-    threshold: float,
-    scale: float = 1.0,
-) -> NDArray[np.int64]:
-    """Times of the events of one sub-interval.
-
-    Args:
-        crossings: the events.
-        interval: the sub-interval they belong to.
-        timestamp_rule: how.
-        threshold: δ, log units.
-        scale: γ of Eq. 7, 0..1; other rules do not use it.
-
-    Returns:
-        [n] µs, in `[start_us, stop_us)`.
-    """
-    if timestamp_rule == "eq7":
-        return place_in(interval.span, scale * larger_change_earlier(crossings.change))
-    return place_in(interval.span, _RULES[timestamp_rule](crossings, interval, threshold))
-
-
-def larger_change_earlier(change: Float64Array) -> Float64Array:
-    """The paper's rule: the largest change at the start, the smallest at the end.
-
-    Args:
-        change: brightness minus reference of every event pixel of the sub-interval, log units.
-
-    Returns:
-        u = 1 − (Δ − min Δ) / (max Δ − min Δ) with Δ = |change|.
-
-    Equation: (7), section 3.2.2.
-    Deviation: the range of Δ is that of the event pixels of this sub-interval (the paper does not
-        say); where all Δ are equal, and the paper divides by zero, u = 1/2.
-
-    Example:
-        >>> larger_change_earlier(np.array([0.25, -0.30, 0.45])).round(3).tolist()
-        [1.0, 0.75, 0.0]
-    """
-    if change.size == 0:
-        return np.empty(0)
-    size = np.abs(change)
-    smallest, largest = size.min(), size.max()
-    if largest == smallest:
-        return np.full(change.shape, 0.5)
-    return np.asarray(1.0 - (size - smallest) / (largest - smallest))
-
-
-def random_time(
-    crossings: ThresholdCrossings, interval: SubInterval, threshold: float
-) -> Float64Array:
-    """Uniform in the sub-interval: the paper's ablation E12."""
-    y, x = np.divmod(crossings.pixel, interval.width)
-    return draw_uniforms(interval.span.key, y, x, Purpose.TIMESTAMP.draw(crossings.order))
-
-
-def linear_crossing(
-    crossings: ThresholdCrossings, interval: SubInterval, threshold: float
-) -> Float64Array:
-    """Crossing of the k-th threshold by a straight line from the previous brightness to this one.
-
-    (R ± kδ − L^{j−1}) / (L^j − L^{j−1}): exact for linear ramps, with any residual carried over.
-    A crossing before the sub-interval (left over from it) is put at its start.
-
-    Source: ESIM (Rebecq, Gehrig and Scaramuzza, CoRL 2018).
-    """
-    row = np.searchsorted(interval.pixel, crossings.pixel)
-    start, stop, reference = (column[row] for column in interval.brightness)
-    sign = np.sign(crossings.change)
-    level = reference + sign * (crossings.order * threshold)
-    is_over = sign * (start - level) >= 0
-    fraction = np.ones(level.shape)
-    np.divide(level - start, stop - start, out=fraction, where=~is_over & (stop != start))
-    fraction[is_over] = 0.0
-    return np.clip(fraction, 0.0, 1.0)
-
-
-def hyperbolic_crossing(
-    crossings: ThresholdCrossings, interval: SubInterval, threshold: float
-) -> Float64Array:
-    """Crossing of the k-th threshold by a ramp from the reference: kδ / Δ."""
-    return np.minimum(crossings.order * threshold / np.abs(crossings.change), 1.0)
-
-
-def even_spacing(
-    crossings: ThresholdCrossings, interval: SubInterval, threshold: float
-) -> Float64Array:
-    """The k-th of n events of a pixel at k / n."""
-    return np.asarray(crossings.order / crossings.number)
-
-
-def interval_end(
-    crossings: ThresholdCrossings, interval: SubInterval, threshold: float
-) -> Float64Array:
-    """All events at the end, as an event frame has them."""
-    return np.ones(crossings.pixel.shape)
-
-
-_RULES: Mapping[str, Callable[[ThresholdCrossings, SubInterval, float], Float64Array]] = {
-    "random": random_time,
-    "linear": linear_crossing,
-    "hyperbolic": hyperbolic_crossing,
-    "even": even_spacing,
-    "end": interval_end,
-}
-
-
-class Timing(NamedTuple):
-    """Rules for the times (Eq. 7) and the number of events."""
-
-    timestamp_rule: TimestampRule
-    scale: float
-    """γ of Eq. 7."""
-    threshold: float
-    """δ, log units."""
-    multi_event: bool
-    """Whether a pixel fires floor(Δ / δ) times."""
-    noise_at_rest: bool
-    """Whether noise is dropped where the pixel fired (Eq. 6)."""
-
-
 Uint64Array = NDArray[np.uint64]
 
-_STAMPS = ("eq7", "random", "linear", "hyperbolic", "even", "end")
-_EQ7, _RANDOM, _LINEAR, _HYPERBOLIC, _EVEN, _END = range(len(_STAMPS))
+_STAMPS = ("eq7", "random", "linear", "end")
+_EQ7, _RANDOM, _LINEAR, _END = range(len(_STAMPS))
 _DRAW = int(Purpose.TIMESTAMP.draw())
 _NOISE = np.uint64(NOISE)
 _1, _2 = np.uint64(1), np.uint64(2)
@@ -180,28 +40,37 @@ _INFINITY_BITS = int(np.array(np.inf).view(np.int64))
 
 
 class _Rule(NamedTuple):
-    """`Timing` and the sensor, in numbers."""
+    """The options that decide times (Eq. 7) and numbers of events, and the sensor."""
 
     timestamp_rule: int
-    scale: float
     threshold: float
+    """δ, log units."""
     multi_event: bool
+    """Whether a pixel fires floor(Δ / δ) times."""
     noise_at_rest: bool
+    """Whether noise is dropped where the pixel fired (Eq. 6)."""
     width: int
     low: int
     """Bits of a key below its time."""
 
     @classmethod
     @functools.lru_cache(maxsize=16)
-    def of(cls, timing: Timing, width: int, low: int) -> _Rule:
+    def of(cls, config: TexventConfig, width: int, low: int) -> _Rule:
         """The same numbers for every packet of a simulator."""
-        return cls(_STAMPS.index(timing.timestamp_rule), *timing[1:], width, low)
+        return cls(
+            _STAMPS.index(config.timestamp_rule),
+            config.contrast_threshold,
+            config.multi_event,
+            config.noise == "adaptive",
+            width,
+            low,
+        )
 
 
 def timestamp_events(
     bands: Sequence[FiredPixels],
     noise: NoisePlaces,
-    timing: Timing,
+    config: TexventConfig,
     span: FrameInterval,
     shape: tuple[int, int],
 ) -> SortedEvents:
@@ -210,7 +79,7 @@ def timestamp_events(
     Args:
         bands: the pixels that fired, of bands that follow each other, at least one.
         noise: noise events.
-        timing: the rules.
+        config: options.
         span: the sub-interval.
         shape: (height, width).
 
@@ -218,7 +87,7 @@ def timestamp_events(
         InputError: the sub-interval is too long for a sensor of this size.
     """
     low = key_bits(span.duration_us, shape)
-    rule, bits = _Rule.of(timing, shape[1], low), low + span.duration_us.bit_length()
+    rule, bits = _Rule.of(config, shape[1], low), low + span.duration_us.bit_length()
     with allow_wrap_around():
         if len(bands) == 1:
             return SortedEvents(*_stamp_events(bands[0], noise, rule, span, bits))
@@ -303,13 +172,15 @@ def _list_signal(
         number = _number_of(change[i], rule)
         for order in range(1, number + 1):
             if rule.timestamp_rule == _EQ7:
-                size = abs(change[i])
-                fraction = rule.scale * _larger_change_earlier(size, smallest, largest)
+                fraction = _larger_change_earlier(abs(change[i]), smallest, largest)
             elif rule.timestamp_rule == _LINEAR:
                 level = reference[i] + sign * (order * rule.threshold)
                 fraction = _linear_crossing(start[i], stop[i], level, sign)
+            elif rule.timestamp_rule == _RANDOM:
+                y = pixel[i] // rule.width
+                fraction = draw_uniform(span.key, y, pixel[i] - y * rule.width, _DRAW + order)
             else:
-                fraction = _fraction(pixel[i], abs(change[i]), order, number, rule, span)
+                fraction = 1.0
             keys[found] = _key(place, fraction, rule, span)
             found += 1
 
@@ -357,6 +228,17 @@ def _key(place: np.uint64, fraction: float, rule: _Rule, span: FrameInterval) ->
 
 @jit(inline="always")
 def _larger_change_earlier(size: float, smallest: float, largest: float) -> float:
+    """The paper's rule: the largest change at the start, the smallest at the end.
+
+    Args:
+        size: Δ = |brightness minus reference| of an event pixel, log units.
+        smallest: Δ of the event pixels of this sub-interval, the smallest.
+        largest: the largest.
+
+    Equation: (7), section 3.2.2: u = 1 − (Δ − min Δ) / (max Δ − min Δ).
+    Deviation: the range of Δ is that of the event pixels of this sub-interval (the paper does not
+        say); where all Δ are equal, and the paper divides by zero, u = 1/2.
+    """
     if largest == smallest:
         return 0.5
     return 1.0 - (size - smallest) / (largest - smallest)
@@ -364,23 +246,15 @@ def _larger_change_earlier(size: float, smallest: float, largest: float) -> floa
 
 @jit(inline="always")
 def _linear_crossing(start: float, stop: float, level: float, sign: float) -> float:
+    """Crossing of a level by a straight line from the previous brightness to this one.
+
+    (R ± kδ − L^{j−1}) / (L^j − L^{j−1}): exact for linear ramps, with any residual carried over.
+    A crossing before the sub-interval (left over from it) is put at its start.
+
+    Source: ESIM (Rebecq, Gehrig and Scaramuzza, CoRL 2018).
+    """
     if sign * (start - level) >= 0:
         return 0.0
     if stop == start:
         return 1.0
     return min(max((level - start) / (stop - start), 0.0), 1.0)
-
-
-@jit(inline="always")
-def _fraction(
-    pixel: int, size: float, order: int, number: int, rule: _Rule, span: FrameInterval
-) -> float:
-    """Time of an event as a fraction of the sub-interval; see `timestamps`."""
-    if rule.timestamp_rule == _HYPERBOLIC:
-        return min(order * rule.threshold / size, 1.0)
-    if rule.timestamp_rule == _EVEN:
-        return order / number
-    if rule.timestamp_rule == _RANDOM:
-        y = pixel // rule.width
-        return draw_uniform(span.key, y, pixel - y * rule.width, _DRAW + order)
-    return 1.0

@@ -10,19 +10,27 @@ from collections import deque
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
+from numpy.typing import NDArray
 
+from texvent._require import require
 from texvent.config import check_range
+from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.networks.weight_files import describe_file
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.packets import FrameInterval, UnsortedEvents, make_packet
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
-from texvent.simulate.v2ce.ldati import Rounding, sample_events
-from texvent.simulate.v2ce.network import Float32Array, check_weights_path, load_network
+from texvent.simulate.v2ce.ldati import sample_events
 from texvent.video import Frame
+
+Float32Array: TypeAlias = NDArray[np.float32]
+WHERE_FROM = (
+    "the published file is v2ce_3d.pt; its authors' project V2CE-Toolbox "
+    "(github.com/ucsd-hdsi-dvs/V2CE-Toolbox) links to it"
+)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -37,9 +45,6 @@ class V2ceConfig:
     """File with the network's weights, v2ce_3d.pt; it is never downloaded."""
     sequence_length: int = 16
     """Frame pairs that the network sees at once; it was trained on 16."""
-    rounding: Rounding = "published"
-    """Rounding of parts of an event: published rounds each pixel's number up or down by where
-    the part is; stochastic rounds it by chance, right on average."""
 
     def __post_init__(self) -> None:
         check_range("sequence_length", self.sequence_length, 1, 1024)
@@ -133,7 +138,7 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
     ) -> Iterator[tuple[Frame, EventStream]]:
         grids = self._predict()[-len(waiting) :]
         for (frame, interval), grid in zip(waiting, grids, strict=True):
-            yield frame, make_packet(self._sample(grid, interval), interval, frame.size)
+            yield frame, make_packet(sample_events(grid, interval), interval, frame.size)
 
     def _begin(self, intensity: IntensityArray) -> None:
         self._recent: deque[Float32Array] = deque(
@@ -142,16 +147,44 @@ class V2ceSimulator(StreamingSimulator[V2ceConfig]):
 
     def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> UnsortedEvents:
         self._recent.append(normalise(intensity))
-        return self._sample(self._predict()[-1], interval)
+        return sample_events(self._predict()[-1], interval)
 
     def _predict(self) -> Float32Array:
         """Voxel grids of the recent pairs, [N, 2, 10, H, W]."""
         recent = np.stack(self._recent)
-        return self._network.predict(np.stack([recent[:-1], recent[1:]], axis=1))
+        pairs = np.stack([recent[:-1], recent[1:]], axis=1)
+        grids: Float32Array = self._network.predict(pairs)
+        return grids
 
-    def _sample(self, grid: Float32Array, interval: FrameInterval) -> UnsortedEvents:
-        config = self.config
-        return sample_events(grid, interval, rounding=config.rounding)
+
+def check_weights_path(path: Path | None) -> Path:
+    """The path of a weights file that exists.
+
+    Raises:
+        ConfigError: no file was named.
+        InputError: there is no such file.
+    """
+    if path is None:
+        raise ConfigError(
+            f"simulator v2ce needs its network's weights and downloads nothing; {WHERE_FROM}. "
+            "Then pass weights=PATH"
+        )
+    if not path.is_file():
+        raise InputError(f"there is no weights file {path}; {WHERE_FROM}")
+    return path
+
+
+def load_network(path: Path) -> Any:
+    """The `network.V2ceNetwork` of a weights file; it brings torch.
+
+    Raises:
+        FileFormatError: the file does not hold this network.
+        MissingDependencyError: torch is not installed.
+    """
+    require("torch", extra="v2ce")
+    from texvent.simulate.v2ce.network import V2ceNetwork
+
+    return V2ceNetwork(path, WHERE_FROM)
 
 
 def normalise(intensity: IntensityArray) -> Float32Array:

@@ -31,8 +31,6 @@ class LastEvents(NamedTuple):
     """Time of the last event that counts for the refractory period, µs."""
     interval_us: NDArray[np.int64]
     """End of the interval of the last event of any kind, µs."""
-    noise: Float64Array
-    """Noise of the photoreceptor then, log units; [0] without."""
 
 
 class EmissionRules(NamedTuple):
@@ -58,7 +56,7 @@ def emit_and_reset(
 ) -> SortedEvents:
     """Fire at every threshold that was crossed, and move the references by as many.
 
-    Events to which leak and noise of the photoreceptor contributed at least half are noise.
+    Events to which leak contributed at least half are noise.
 
     Args:
         crossing: the pixels that have reached a threshold.
@@ -122,23 +120,20 @@ def _reset(
 ) -> None:
     """Move the references of pixels that fired, and label what is noise."""
     pixel, thresholds, steps = moves
-    _, reference, (_, noise_now), _ = state
-    _, interval_us, noise_then = last
+    _, reference, _ = state
+    _, interval_us = last
     found = 0
     for n in range(pixel.size):
         count = abs(steps[n])
         if count == 0:
             continue
         i = pixel[n]
-        moved, by_noise = steps[n] * thresholds[n], 0.0
+        moved, leaked = steps[n] * thresholds[n], 0.0
         reference[i] += moved
         if leak.size > 0:
-            by_noise += np.float64(leak[i]) * (stop_us - interval_us[i])
-        if noise_now.size > 0:
-            by_noise += noise_now[i] - noise_then[i]
-            noise_then[i] = noise_now[i]
+            leaked = np.float64(leak[i]) * (stop_us - interval_us[i])
         interval_us[i] = stop_us
-        if (by_noise if steps[n] > 0 else -by_noise) >= 0.5 * abs(moved):
+        if (leaked if steps[n] > 0 else -leaked) >= 0.5 * abs(moved):
             for k in range(found, found + count):
                 keys[k] |= _NOISE
         found += count

@@ -15,6 +15,7 @@ from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.kernels.active_pixels import WORD, is_equal, list_marked
 from texvent.simulate.kernels.elementary_cpu import natural_log
 from texvent.simulate.random.mismatch import PixelMismatch
+from texvent.simulate.v2e.simulator import LINEAR_BELOW
 
 Float64Array: TypeAlias = NDArray[np.float64]
 
@@ -35,8 +36,6 @@ class LowPassInput(NamedTuple):
     """[n] luma at the end, of the same type."""
     table: Float64Array | None
     """[2, 256] for uint8: brightness of every level, and its (I + 20) / 275; else None."""
-    linear_below: float
-    """Intensity up to which brightness is linear."""
     angle: float
     """2π · bandwidth at white · length of the interval; infinite for an unlimited bandwidth."""
     elapsed_us: tuple[float, float]
@@ -46,15 +45,13 @@ class LowPassInput(NamedTuple):
 class V2ePixelState(NamedTuple):
     """State of the pixels.
 
-    The change that fires it is brightness + noise − reference + leak · time since the first frame.
+    The change that fires it is brightness − reference + leak · time since the first frame.
     """
 
     brightness: Float64Array
     """[n] after the low-pass, log units; a kernel moves it to the end of the interval."""
     reference: Float64Array
     """[n] brightness at the last event, less what had leaked until then, log units."""
-    noise: tuple[Float64Array, Float64Array]
-    """[n] noise of the photoreceptor at the start and at the end, log units; [0] without."""
     quiescent_until_us: Float64Array
     """[blocks] time after the first frame, µs, up to which no pixel of a block fires if its luma
     does not change; only the fast kernel reads it."""
@@ -75,18 +72,10 @@ class CrossingPixels(NamedTuple):
     """[m] change at the end."""
 
 
-def new_state(brightness: Float64Array, *, has_noise: bool) -> V2ePixelState:
-    """The state of pixels whose reference is the brightness of the first frame.
-
-    Args:
-        brightness: [n] log units.
-        has_noise: whether the photoreceptors make noise.
-    """
-    noise = np.zeros(brightness.size if has_noise else 0)
+def new_state(brightness: Float64Array) -> V2ePixelState:
+    """The state of pixels whose reference is the brightness of the first frame, [n] log units."""
     blocks = -(-brightness.size // BLOCK)
-    return V2ePixelState(
-        brightness, brightness.copy(), (noise, noise.copy()), np.full(blocks, -np.inf)
-    )
+    return V2ePixelState(brightness, brightness.copy(), np.full(blocks, -np.inf))
 
 
 Float32Array = NDArray[np.float32]
@@ -116,17 +105,15 @@ def apply_low_pass(
             take_scratch("start of crossing pixels", size, np.float64),
             take_scratch("stop of crossing pixels", size, np.float64),
         )
-        noise_start, noise_stop = state.noise
         # Numba leaves out branches for arguments that are None, but not for their fields.
         found = _apply_low_pass(
             (light.before[part], read_only(light.now[part])),
             light.table,
-            (light.linear_below, light.angle, *light.elapsed_us),
+            (light.angle, *light.elapsed_us),
             mismatch.part(part),
             V2ePixelState(
                 state.brightness[part],
                 state.reference[part],
-                (noise_start[part], noise_stop[part]),
                 state.quiescent_until_us[blocks],
             ),
             room,
@@ -151,15 +138,14 @@ def apply_low_pass(
 def _apply_low_pass(
     luma: tuple[NDArray[Any], NDArray[Any]],
     table: Float64Array | None,
-    constants: tuple[float, float, float, float],
+    constants: tuple[float, float, float],
     mismatch: PixelMismatch,
     state: V2ePixelState,
     room: CrossingPixels,
 ) -> int:
     """Fill in the crossing pixels; return how many there are."""
-    (before, now), (linear_below, angle, start_us, stop_us) = luma, constants
-    (on, off, leak), (brightness, reference, noise, quiescent_until_us) = mismatch, state
-    noise_start, noise_stop = noise
+    (before, now), (angle, start_us, stop_us) = luma, constants
+    (on, off, leak), (brightness, reference, quiescent_until_us) = mismatch, state
     size = now.size
     pixel, start_change, stop_change = room
     local = np.empty(BLOCK + WORD, np.uint64)
@@ -168,18 +154,15 @@ def _apply_low_pass(
     marks = words.view(np.uint8)
     for first in range(0, size, BLOCK):
         last = min(first + BLOCK, size)
-        is_static = noise_start.size == 0 and is_equal(before[first:last], now[first:last])
+        is_static = is_equal(before[first:last], now[first:last])
         if is_static and stop_us <= quiescent_until_us[first // BLOCK]:
             continue
         before[first:last] = now[first:last]
-        _read_luma(now[first:last], table, (linear_below, angle), stop, weight)
+        _read_luma(now[first:last], table, angle, stop, weight)
         unsettled = _move(brightness[first:last], reference[first:last], weight, start, stop)
         if leak.size > 0:
             _add(start, leak[first:last], start_us)
             _add(stop, leak[first:last], stop_us)
-        if noise_start.size > 0:
-            _add(start, noise_start[first:last], 1.0)
-            _add(stop, noise_stop[first:last], 1.0)
         _mark(stop, on[first:last], off[first:last], marks)
         crossing = list_marked(words[: -(-(last - first) // WORD)], marks, local)
         for k in range(crossing):
@@ -199,23 +182,22 @@ def _apply_low_pass(
 def _read_luma(
     luma: NDArray[Any],
     table: Float64Array | None,
-    constants: tuple[float, float],
+    angle: float,
     brightness: Float64Array,
     weight: Float64Array,
 ) -> None:
     """Fill in brightness, and how far the low-pass moves towards it."""
-    linear_below, angle = constants
     if table is not None:
         for j in range(luma.size):
             brightness[j] = table[0, luma[j]]
         for j in range(luma.size):
             weight[j] = min(table[1, luma[j]] * angle, 1.0)
     else:
-        slope = math.log(linear_below) / linear_below
+        slope = math.log(LINEAR_BELOW) / LINEAR_BELOW
         for j in range(luma.size):
             level = np.float64(luma[j])
-            log = natural_log(max(level, linear_below))
-            brightness[j] = level * slope if level <= linear_below else log
+            log = natural_log(max(level, LINEAR_BELOW))
+            brightness[j] = level * slope if level <= LINEAR_BELOW else log
         for j in range(luma.size):
             weight[j] = min((np.float64(luma[j]) + DARK_OFFSET) / WHITE_LEVEL * angle, 1.0)
 

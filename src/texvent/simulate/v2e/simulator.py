@@ -13,16 +13,10 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from texvent.config import check_range
-from texvent.errors import ConfigError
 from texvent.simulate.packets import FrameInterval, SortedEvents
-from texvent.simulate.random.mismatch import (
-    check_nominal_thresholds,
-    smaller_threshold,
-)
+from texvent.simulate.random.mismatch import check_nominal_thresholds, smaller_threshold
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 
-NOISE_FIT_RANGE = (1e-5, 1.0)
-"""ON rate / bandwidth over which `pixels.NOISE_FIT` was made."""
 LINEAR_BELOW = 20.0
 """Intensity, in levels of 0..255, below which brightness is linear instead of logarithmic."""
 
@@ -32,7 +26,7 @@ class V2eConfig:
     """Options of the v2e pixel model; the defaults are those of its command line.
 
     Raises:
-        ConfigError: an option is out of range, or two contradict each other.
+        ConfigError: an option is out of range.
     """
 
     contrast_threshold_on: float = 0.2
@@ -49,9 +43,6 @@ class V2eConfig:
     """Standard deviation of log10 of the leak rate between pixels."""
     shot_noise_rate_hz: float = 0.001
     """Noise events per pixel and second in the dark; a quarter of it at white."""
-    photoreceptor_noise: bool = False
-    """Make shot noise as Gaussian noise of the photoreceptor within its bandwidth, which
-    alternates ON and OFF, instead of as independent events."""
     refractory_period_us: int = 500
     """Time after an event in which the pixel cannot fire; the change is kept for later."""
 
@@ -62,18 +53,6 @@ class V2eConfig:
         check_range("leak_rate_decades", self.leak_rate_decades, 0.0, 1.0)
         check_range("shot_noise_rate_hz", self.shot_noise_rate_hz, 0.0, 1e3)
         check_range("refractory_period_us", self.refractory_period_us, 0, 10**9)
-        if self.photoreceptor_noise:
-            self._check_photoreceptor_noise()
-
-    def _check_photoreceptor_noise(self) -> None:
-        low, high = NOISE_FIT_RANGE
-        ratio = self.shot_noise_rate_hz / 2 / self.cutoff_hz if self.cutoff_hz else 0.0
-        if not low <= ratio <= high:
-            raise ConfigError(
-                f"photoreceptor_noise needs shot_noise_rate_hz / 2 between {low:g} and {high:g} "
-                f"times cutoff_hz; it is {self.shot_noise_rate_hz:g} Hz at "
-                f"{self.cutoff_hz:g} Hz: change one of them, or leave photoreceptor_noise off"
-            )
 
 
 PRESETS: Mapping[str, V2eConfig] = {

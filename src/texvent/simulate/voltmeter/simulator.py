@@ -9,56 +9,95 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import ClassVar, Literal, NamedTuple
 
 import numpy as np
 
 from texvent.config import check_choices, check_range
+from texvent.errors import ConfigError, shown
 from texvent.simulate.packets import FrameInterval, SortedEvents, check_event_number
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.random.mismatch import sensor_key
 from texvent.simulate.streaming import IntensityArray, StreamingSimulator
 
 
+class Constants(NamedTuple):
+    """Constants of drift and diffusion: intensities 0..255, times in µs, voltages in thresholds."""
+
+    k1: float
+    """Gain: events per unit of relative change of light, ΔL / (L + k2)."""
+    k2: float
+    """Dark offset of the light, in levels of 0..255."""
+    k3: float
+    """Photon noise: its share of the diffusion is k3 √L / (L + k2), per √µs."""
+    k4: float
+    """Leakage: constant drift, thresholds per µs."""
+    k5: float
+    """Parasitic photocurrent: drift per level of light, thresholds per µs."""
+    k6: float
+    """Leakage noise: constant diffusion, per √µs."""
+
+    def __str__(self) -> str:
+        return " ".join(map(repr, self))
+
+
+RANGES = {
+    "k1": (1e-3, 1e3),
+    "k2": (0.1, 1e6),
+    "k3": (0.0, 0.1),
+    "k4": (-0.01, 0.01),
+    "k5": (-1e-4, 1e-4),
+    "k6": (0.0, 0.1),
+}
+"""Lowest and highest value of every constant."""
+
+
+def parse_constants(text: str) -> Constants:
+    """The constants that a text such as "5.265 20 1e-4 1e-7 5e-9 1e-5" holds.
+
+    Raises:
+        ConfigError: it is no list of six numbers, or one is out of range.
+    """
+    try:
+        constants = Constants(*map(float, text.replace(",", " ").split()))
+    except (ValueError, TypeError):
+        raise ConfigError(
+            f"constants is {shown(text)}; it must be the six numbers k1 to k6, such as "
+            f"'{VoltmeterConfig.constants}'"
+        ) from None
+    for name, (low, high) in RANGES.items():
+        check_range(name, getattr(constants, name), low, high)
+    return constants
+
+
 @dataclass(frozen=True, kw_only=True)
 class VoltmeterConfig:
-    """Constants of the DVS-Voltmeter pixel model, for intensities 0..255 and times in µs.
-
-    The defaults are the DAVIS346's. Voltage is measured in thresholds.
+    """Options of the DVS-Voltmeter pixel model; the default constants are the DAVIS346's.
 
     Raises:
         ConfigError: a constant is out of range.
     """
 
-    k1: float = 5.265
-    """Gain: events per unit of relative change of light, ΔL / (L + k2)."""
-    k2: float = 20.0
-    """Dark offset of the light, in levels of 0..255."""
-    k3: float = 1e-4
-    """Photon noise: its share of the diffusion is k3 √L / (L + k2), per √µs."""
-    k4: float = 1e-7
-    """Leakage: constant drift, thresholds per µs."""
-    k5: float = 5e-9
-    """Parasitic photocurrent: drift per level of light, thresholds per µs."""
-    k6: float = 1e-5
-    """Leakage noise: constant diffusion, per √µs."""
+    constants: str = "5.265 20 1e-4 1e-7 5e-9 1e-5"
+    """k1 to k6 of the publication: gain, dark offset, photon noise, leakage, parasitic
+    photocurrent, leakage noise."""
     initial_phase: Literal["random", "zero"] = "random"
     """Voltages at the first frame: anywhere up to the next leak event (random), or all zero (zero),
     which makes equal pixels leak in unison."""
 
     def __post_init__(self) -> None:
-        check_range("k1", self.k1, 1e-3, 1e3)
-        check_range("k2", self.k2, 0.1, 1e6)
-        check_range("k3", self.k3, 0.0, 0.1)
-        check_range("k4", self.k4, -0.01, 0.01)
-        check_range("k5", self.k5, -1e-4, 1e-4)
-        check_range("k6", self.k6, 0.0, 0.1)
+        parse_constants(self.constants)
         check_choices(self)
+
+    @property
+    def k(self) -> Constants:
+        """The constants as numbers."""
+        return parse_constants(self.constants)
 
 
 PRESETS: Mapping[str, VoltmeterConfig] = {
     "davis346": VoltmeterConfig(),
-    "davis240": VoltmeterConfig(k1=4.424, k2=23.0, k3=2e-4, k5=5e-8),
+    "davis240": VoltmeterConfig(constants="4.424 23 2e-4 1e-7 5e-8 1e-5"),
     "peer-common": VoltmeterConfig(initial_phase="zero"),
 }
 """Name → options."""
@@ -69,7 +108,7 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
 
     Example:
         >>> from texvent.video import Frame
-        >>> quiet = VoltmeterConfig(k3=0, k4=0, k5=0, k6=0)
+        >>> quiet = VoltmeterConfig(constants="5.265 20 0 0 0 0")
         >>> simulator = VoltmeterSimulator(quiet)
         >>> len(simulator.step(Frame(np.array([[90]], np.uint8), t_us=0)))
         0
@@ -87,27 +126,20 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
     @property
     def contrast_threshold(self) -> float:
         """`1 / k1`: the relative change of one event."""
-        return 1.0 / self.config.k1
+        return 1.0 / self.config.k.k1
 
     @property
     def balance(self) -> float:
         """`k2`, on the 0..255 scale."""
-        return self.config.k2
+        return self.config.k.k2
 
     def _begin(self, intensity: IntensityArray) -> None:
-        from texvent.simulate.voltmeter.first_passage import (  # brings Numba
-            Constants,
-            new_voltage,
-        )
+        from texvent.simulate.voltmeter.voltage import new_voltage  # brings Numba
 
-        config = self.config
-        self._seen = intensity.copy()
-        self._constants = Constants(
-            config.k1, config.k2, config.k3, config.k4, config.k5, config.k6
-        )
+        self._seen, self._constants = intensity.copy(), self.config.k
         displacement = np.zeros(intensity.shape)
-        if config.initial_phase == "random":
-            leak = config.k4 + config.k5 * intensity.astype(np.float64)
+        if self.config.initial_phase == "random":
+            leak = self._constants.k4 + self._constants.k5 * intensity.astype(np.float64)
             y, x = np.ogrid[: intensity.shape[0], : intensity.shape[1]]
             chance = draw_uniforms(sensor_key(self._seed), y, x, Purpose.PHASE.draw())
             displacement = np.sign(leak) * chance
@@ -115,11 +147,8 @@ class VoltmeterSimulator(StreamingSimulator[VoltmeterConfig]):
         self._begin_us = self._last_us
 
     def _advance(self, intensity: IntensityArray, interval: FrameInterval) -> SortedEvents:
-        from texvent.simulate.voltmeter.first_passage import (  # brings Numba
-            FirstPassageInput,
-            find_first_passages,
-            most_passages,
-        )
+        from texvent.simulate.voltmeter.first_passage import find_first_passages  # brings Numba
+        from texvent.simulate.voltmeter.voltage import FirstPassageInput, most_passages
 
         if intensity.dtype != self._seen.dtype:
             # Frames of two types: from now on all are float32, which holds 8-bit levels exactly.

@@ -1,4 +1,4 @@
-"""ESIM on the GPU: its options as numbers and maps, and threshold crossings as Triton kernels.
+"""ESIM on the GPU: its options as numbers, and threshold crossings as Triton kernels.
 
 As with Texvent, a program owns a block of pixels and goes through all intervals of a call, once to
 count the events and once to write them.
@@ -38,21 +38,6 @@ class EsimRules(NamedTuple):
     """[3] float64, because Triton rounds a plain number to float32."""
     logs: Tensor
     """[256] float64: log intensity of a byte."""
-    threshold_on: Tensor
-    """[B, area] float64 thresholds of every pixel, or None where all have the nominal one."""
-    threshold_off: Tensor
-    """[B, area] alike."""
-    rests: Tensor
-    """[1] int64, time after an event in which the pixel cannot fire, µs; None without one."""
-
-
-class State(NamedTuple):
-    """State of the pixels."""
-
-    level: Tensor
-    """[B, area] float64, reference log intensity."""
-    fired_us: Tensor
-    """[B, area] int64, time of its last event, µs; None without a refractory period."""
 
 
 _THRESHOLD_ON = tl.constexpr(THRESHOLD_ON)
@@ -66,7 +51,7 @@ def scan_ramp(
     frames: tl.tuple,
     intervals: tl.tuple,
     rules: tl.tuple,
-    state: tl.tuple,
+    reference: tl.tensor,
     tally: tl.tuple,
     records: tl.tuple,
     ALIGN: tl.constexpr,
@@ -75,18 +60,16 @@ def scan_ramp(
     """Find every threshold that a straight line of log intensity crosses in every interval.
 
     Arguments as for `texvent.gpu.scan_triton.scan_levels`, but `rules` are `EsimRules`, and
-    `state`, a `State`, is brought up to date in pass 2.
+    `reference` is a log intensity, float64.
 
     Source: as `crossing.ramp`, whose events these are.
     """
     clip, at, inside, home, pixels = own_pixels(frames, ALIGN, BLOCK)
-    threshold_on, threshold_off = _thresholds_of(rules, home, inside)
+    threshold_on = tl.load(rules.numbers + _THRESHOLD_ON)
+    threshold_off = tl.load(rules.numbers + _THRESHOLD_OFF)
     intensity = read(frames.previous + home, inside)
     before = log_intensity(intensity, rules)
-    level = tl.load(state.level + home, mask=inside, other=0.0)
-    fired_us = tl.zeros([BLOCK], tl.int64)
-    if state.fired_us is not None:
-        fired_us = tl.load(state.fired_us + home, mask=inside, other=0)
+    level = tl.load(reference + home, mask=inside, other=0.0)
     bad = count_bad(intensity, inside)
     for interval in range(frames.intervals):
         segment = clip * frames.intervals + interval
@@ -96,15 +79,21 @@ def scan_ramp(
             level = before
         is_on = now > level
         threshold = tl.where(is_on, threshold_on, threshold_off)
-        first, last = _towards(is_on, before - level, now - level)
+        size = tl.where(inside, tl.abs(now - level), 0.0)
         cell = find_cell(tally, segment)
         place = tl.full([], 0, tl.int64)
         if records is not None:
             place = tl.load(cell)
-        line = tl.where(inside, first, 0.0), tl.where(inside, last, 0.0), threshold
-        place, passed, fired_us = _cross(
-            line, place, fired_us, (intervals, segment, rules, at, level), records
-        )
+        order = 1
+        passed = tl.zeros([BLOCK], tl.int32)
+        reached = size >= threshold
+        while tl.max(reached.to(tl.int32)) > 0:
+            if records is not None:
+                write_events(records, place, reached, (at, order, level))
+            place += tl.sum(reached.to(tl.int32))
+            passed += reached.to(tl.int32)
+            order += 1
+            reached = size >= order * threshold
         if records is None:
             tl.store(cell, place)
             bad += count_bad(intensity, inside)
@@ -114,46 +103,7 @@ def scan_ramp(
     if records is None:
         tl.atomic_add(tally.bad, tl.sum(bad))
     else:
-        tl.store(state.level + home, level, mask=inside)
-        if state.fired_us is not None:
-            tl.store(state.fired_us + home, fired_us, mask=inside)
-
-
-@triton.jit
-def _cross(
-    line: tl.tuple, place: tl.tensor, fired_us: tl.tensor, where: tl.tuple, records: tl.tuple
-) -> tl.tuple:
-    """Follow lines over their thresholds.
-
-    Args:
-        line: change at the start and at the end, and the distance of thresholds, log units.
-        place: where the events go among the records.
-        fired_us: when each pixel fired last; not looked at without a refractory period.
-        where: intervals, segment, rules, pixels and their reference levels.
-        records: `kernel_types.Records`, or None to count only.
-
-    Returns:
-        `place` behind the events, how many thresholds each line passed, and `fired_us` after.
-    """
-    first, last, threshold = line
-    intervals, segment, rules, at, level = where
-    order = 1
-    passed = tl.zeros(last.shape, tl.int32)
-    reached = last >= threshold
-    while tl.max(reached.to(tl.int32)) > 0:
-        fires = reached
-        if rules.rests is not None:
-            share = crossing_share(first, last, order * threshold)
-            t = place_in(intervals, segment, share) - tl.load(intervals.origin_us + segment)
-            fires = reached & (t - fired_us >= tl.load(rules.rests))
-            fired_us = tl.where(fires, t, fired_us)
-        if records is not None:
-            write_events(records, place, fires, (at, order, level))
-        place += tl.sum(fires.to(tl.int32))
-        passed += reached.to(tl.int32)
-        order += 1
-        reached = last >= order * threshold
-    return place, passed, fired_us
+        tl.store(reference + home, level, mask=inside)
 
 
 @triton.jit
@@ -178,7 +128,8 @@ def stamp_crossings(
         BLOCK: records that a program takes at a time.
     """
     segment = tl.program_id(0).to(tl.int64)
-    clip = segment // frames.intervals
+    threshold_on = tl.load(rules.numbers + _THRESHOLD_ON)
+    threshold_off = tl.load(rules.numbers + _THRESHOLD_OFF)
     start = tl.load(ends + segment) + tl.program_id(1) * BLOCK
     stop = tl.load(ends + segment + 1)
     for begin in range(start, stop, tl.num_programs(1) * BLOCK):
@@ -190,9 +141,9 @@ def stamp_crossings(
         before = log_intensity(read_before(frames, segment, pixel, inside), rules)
         now = log_intensity(read_now(frames, segment, pixel, inside), rules)
         is_on = now > level
-        threshold_on, threshold_off = _thresholds_of(rules, clip * frames.area + pixel, inside)
         threshold = tl.where(is_on, threshold_on, threshold_off)
-        first, last = _towards(is_on, before - level, now - level)
+        first = tl.where(is_on, before - level, level - before)
+        last = tl.abs(now - level)
         share = crossing_share(first, last, order * threshold)
         t = place_in(intervals, segment, share)
         tl.store(words + at, pack_event(t, pixel, is_on, 0, frames.area), mask=inside)
@@ -207,24 +158,6 @@ def log_intensity(intensity: tl.tensor, rules: tl.tuple) -> tl.tensor:
         share = intensity.to(tl.float64) / _WHITE
         brightness = tl.log(share + tl.load(rules.numbers + _LOG_EPS))
     return brightness
-
-
-@triton.jit
-def _thresholds_of(rules: tl.tuple, at: tl.tensor, inside: tl.tensor) -> tl.tuple:
-    """ON and OFF thresholds of pixels: from the sensor's maps, or the same for all."""
-    if rules.threshold_on is not None:
-        on = tl.load(rules.threshold_on + at, mask=inside, other=1.0)
-        off = tl.load(rules.threshold_off + at, mask=inside, other=1.0)
-    else:
-        on = tl.load(rules.numbers + _THRESHOLD_ON)
-        off = tl.load(rules.numbers + _THRESHOLD_OFF)
-    return on, off
-
-
-@triton.jit
-def _towards(is_on: tl.tensor, start: tl.tensor, stop: tl.tensor) -> tl.tuple:
-    """Both changes counted in the direction in which the pixel may fire."""
-    return tl.where(is_on, start, -start), tl.where(is_on, stop, -stop)
 
 
 @triton.jit

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -15,10 +14,8 @@ from texvent.simulate.esim.gpu.crossings_triton import (
     THRESHOLD_OFF,
     THRESHOLD_ON,
     EsimRules,
-    State,
 )
 from texvent.simulate.esim.simulator import EsimConfig, log_intensity
-from texvent.simulate.gpu.intervals import Float64Array, Int64Array, Span
 from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
 from texvent.simulate.gpu.launch import (
     EXTRA,
@@ -30,46 +27,38 @@ from texvent.simulate.gpu.launch import (
     to_device,
 )
 from texvent.simulate.gpu.passes import GpuPixels
-from texvent.simulate.random.mismatch import LONG_AGO_US, draw_threshold_pair, sensor_key
 
 
 class EsimPixels(GpuPixels[EsimConfig]):
     """The pixels of a batch of clips under ESIM."""
 
-    def __init__(self, config: EsimConfig, seeds: Sequence[int]) -> None:
+    def __init__(self, config: EsimConfig) -> None:
         """Pixels that have seen no frame.
 
         Args:
             config: the options.
-            seeds: one per clip.
 
         Raises:
-            ConfigError: thresholds that are drawn for every frame.
+            ConfigError: thresholds that are drawn for every frame, or a refractory period.
         """
-        if config.threshold_sigma > 0 and config.threshold_redraw == "frame":
+        if config.refractory_period_us > 0:
             raise ConfigError(
-                "threshold_redraw 'frame' draws two normal numbers for every pixel and frame, "
-                "which backend gpu does not do; use threshold_redraw 'never', or backend cpu"
+                f"refractory_period_us is {config.refractory_period_us}, which is not kept on a "
+                "GPU; use 0"
             )
-        super().__init__(config, seeds, RAMP_LAUNCH)
+        if config.threshold_sigma > 0:
+            raise ConfigError(
+                f"threshold_sigma {config.threshold_sigma:g} draws two normal numbers for every "
+                "pixel and frame, which is not done on a GPU; use 0"
+            )
+        super().__init__(config, RAMP_LAUNCH)
 
     def begin(self, frames: Tensor) -> None:
         """See `GpuPixels`."""
         torch = require("torch", extra=EXTRA)
-        config, device, shape = self.config, frames.device, frames.shape
-        rests = config.refractory_period_us > 0
-        self._state = State(
-            # What it holds does not matter: the first interval begins at its own start.
-            torch.zeros(shape, dtype=torch.float64, device=device),
-            torch.full(shape, LONG_AGO_US, dtype=torch.int64, device=device) if rests else None,
-        )
-        maps: tuple[Tensor, Tensor] = (None, None)
-        if config.threshold_sigma > 0:
-            pairs = [
-                draw_threshold_pair(shape[1:], sensor_key(seed), config) for seed in self._seeds
-            ]
-            on, off = (to_device(np.stack(one), device) for one in zip(*pairs, strict=True))
-            maps = on, off
+        config, device = self.config, frames.device
+        # What it holds does not matter: the first interval begins at its own start.
+        self._reference = torch.zeros(frames.shape, dtype=torch.float64, device=device)
         numbers = np.empty(3)
         numbers[THRESHOLD_ON] = config.contrast_threshold_on
         numbers[THRESHOLD_OFF] = config.contrast_threshold_off
@@ -78,27 +67,14 @@ class EsimPixels(GpuPixels[EsimConfig]):
         self._rules = EsimRules(
             to_device(numbers, device),
             to_device(logs, device),
-            *maps,
-            to_device(np.array([config.refractory_period_us]), device) if rests else None,
         )
 
-    def keys(self, span: Span) -> Int64Array:
-        """Nothing is drawn per interval; [B, T]."""
-        return np.zeros_like(span.start_us)
-
-    def shares(self, span: Span) -> Float64Array:
-        """References begin at the first frame and are never forgotten; [B, T]."""
-        shares = np.zeros(span.start_us.shape)
-        if span.is_new:
-            shares[:, 0] = 1.0
-        return shares
-
     def _scan(self, call: Call) -> tuple[Any, Any, Any]:
-        return crossings_triton.scan_ramp, self._rules, self._state
+        return crossings_triton.scan_ramp, self._rules, self._reference
 
     def records(self, count: int) -> Records:
         """See `GpuPixels`."""
-        return make_records(count, self._state.level, has_order=True)
+        return make_records(count, self._reference, has_order=True)
 
     def timestamp(self, call: Call, records: Records, ends: Tensor, words: Tensor) -> None:
         """Give every record its time; see `crossings_triton.stamp_crossings`."""

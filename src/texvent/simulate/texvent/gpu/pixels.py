@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import ConfigError
-from texvent.simulate.gpu.intervals import Float64Array, Int64Array, Span
+from texvent.simulate.gpu.intervals import Float64Array, Span
 from texvent.simulate.gpu.kernel_types import Call, Records, Tensor
 from texvent.simulate.gpu.launch import (
     BRIGHTNESS_LAUNCH,
@@ -23,41 +23,33 @@ from texvent.simulate.gpu.launch import (
     to_device,
 )
 from texvent.simulate.gpu.passes import GpuPixels
-from texvent.simulate.random.draws import frame_keys
+from texvent.simulate.texvent.brightness_cache import CacheSchedule
 from texvent.simulate.texvent.config import TexventConfig
-from texvent.simulate.texvent.event_frame import CacheSchedule
 from texvent.simulate.texvent.gpu import rules, scan_triton
 
 
 class TexventPixels(GpuPixels[TexventConfig]):
     """The pixels of a batch of clips under Eqs. 5 and 7."""
 
-    def __init__(self, config: TexventConfig, seeds: Sequence[int]) -> None:
+    def __init__(self, config: TexventConfig, clips: int) -> None:
         """Pixels that have seen no frame.
 
         Args:
             config: the options.
-            seeds: one per clip.
+            clips: how many there are.
 
         Raises:
-            ConfigError: Gaussian noise, or a balance of 0.
+            ConfigError: Gaussian noise.
         """
         if config.noise == "gaussian":
             raise ConfigError(
-                "noise 'gaussian' draws a normal number for every pixel and frame, which backend "
-                "gpu does not do; use noise 'adaptive', 'random' or 'none', or backend cpu"
-            )
-        if config.balance <= 0:
-            raise ConfigError(
-                "balance is 0, and backend gpu does not look for black pixels, which then have no "
-                "logarithm; use a balance above 0, or backend cpu"
+                "noise 'gaussian' draws a normal number for every pixel and frame, which is not "
+                "done on a GPU; use noise 'adaptive', 'random' or 'none'"
             )
         self._tracks_intensity = rules.tracks_intensity(config)
-        super().__init__(
-            config, seeds, LEVELS_LAUNCH if self._tracks_intensity else BRIGHTNESS_LAUNCH
-        )
+        super().__init__(config, LEVELS_LAUNCH if self._tracks_intensity else BRIGHTNESS_LAUNCH)
         self._schedules = [
-            CacheSchedule(config.cache, config.residual_decay_hz) for _ in range(len(seeds))
+            CacheSchedule(config.cache, config.residual_decay_hz) for _ in range(clips)
         ]
 
     def begin(self, frames: Tensor) -> None:
@@ -75,14 +67,6 @@ class TexventPixels(GpuPixels[TexventConfig]):
             int(self.config.reset == "step"),
             int(self.config.multi_event),
         )
-
-    def keys(self, span: Span) -> Int64Array:
-        """See `GpuPixels`."""
-        keys = [
-            frame_keys(seed, times_us)
-            for seed, times_us in zip(self._seeds, span.stop_us, strict=True)
-        ]
-        return np.stack(keys).view(np.int64)
 
     def shares(self, span: Span) -> Float64Array:
         """See `GpuPixels` and `CacheSchedule`."""

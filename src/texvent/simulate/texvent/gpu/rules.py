@@ -14,9 +14,9 @@ from texvent.simulate.random.draws import Purpose
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.pixel_memory import needs_levels
 
-BALANCE, THRESHOLD, UP, DOWN, SCALE = range(5)
+BALANCE, THRESHOLD, UP, DOWN = range(4)
 """Places in `TexventRules.numbers`."""
-TIMESTAMP_RULES = {"eq7": 0, "random": 1, "linear": 2, "hyperbolic": 3, "even": 4, "end": 5}
+TIMESTAMP_RULES = {"eq7": 0, "random": 1, "linear": 2, "end": 3}
 """Numbers of the rules for times in the kernels."""
 TIMESTAMP_DRAW = Purpose.TIMESTAMP.draw()
 LEVELS = 256
@@ -26,7 +26,7 @@ class TexventRules(NamedTuple):
     """The options of the model, on the device."""
 
     numbers: Tensor
-    """[5] float64, because Triton rounds a plain number to float32."""
+    """[4] float64, because Triton rounds a plain number to float32."""
     levels: Tensor
     """[256] int32: for a reference byte, the byte from which on it fires (low half), and the byte
     up to which it fires (high half, −1 for none)."""
@@ -40,12 +40,11 @@ class TexventRules(NamedTuple):
 
 def list_numbers(config: TexventConfig) -> NDArray[np.float64]:
     """The values of `TexventRules.numbers`."""
-    numbers = np.empty(5)
+    numbers = np.empty(4)
     numbers[BALANCE] = config.balance
     numbers[THRESHOLD] = config.contrast_threshold
     factors = trigger_factors(config.contrast_threshold, config.contrast_threshold)
     numbers[UP], numbers[DOWN] = factors
-    numbers[SCALE] = config.timestamp_scale
     return numbers
 
 

@@ -33,14 +33,11 @@ _BALANCE = tl.constexpr(rules.BALANCE)
 _THRESHOLD = tl.constexpr(rules.THRESHOLD)
 _UP = tl.constexpr(rules.UP)
 _DOWN = tl.constexpr(rules.DOWN)
-_SCALE = tl.constexpr(rules.SCALE)
 _LARGEST = tl.constexpr(1e3)
 """Change of brightness that no two allowed intensities differ by, log units."""
 _EQ7 = tl.constexpr(rules.TIMESTAMP_RULES["eq7"])
 _RANDOM = tl.constexpr(rules.TIMESTAMP_RULES["random"])
 _LINEAR = tl.constexpr(rules.TIMESTAMP_RULES["linear"])
-_HYPERBOLIC = tl.constexpr(rules.TIMESTAMP_RULES["hyperbolic"])
-_EVEN = tl.constexpr(rules.TIMESTAMP_RULES["even"])
 _TIMESTAMP_DRAW = tl.constexpr(rules.TIMESTAMP_DRAW)
 
 
@@ -293,7 +290,7 @@ def timestamp_events(
         TIMESTAMP_RULE: which rule, see `rules.TIMESTAMP_RULES`.
         BLOCK: records that a program takes at a time.
 
-    Equation: (7), section 3.2.2; the other rules are in `texvent.simulate.texvent.timestamps`.
+    Equation: (7), section 3.2.2; see `texvent.simulate.texvent.timestamps`.
     """
     segment = tl.program_id(0).to(tl.int64)
     first = tl.load(ends[0] + segment) + tl.program_id(1) * BLOCK
@@ -306,7 +303,7 @@ def timestamp_events(
         reference = _reference_of(records, at, inside, rules)
         now = brightness_of(read_now(frames, segment, pixel, inside), rules)
         if TIMESTAMP_RULE == _EQ7:
-            fraction = _larger_change_earlier(now - reference, ends[1] + 2 * segment, rules)
+            fraction = _larger_change_earlier(now - reference, ends[1] + 2 * segment)
         elif TIMESTAMP_RULE == _RANDOM:
             key = tl.load(intervals.key + segment).to(tl.uint64, bitcast=True)
             y = pixel // frames.width
@@ -316,19 +313,18 @@ def timestamp_events(
             before = brightness_of(read_before(frames, segment, pixel, inside), rules)
             fraction = _linear_crossing(before, now, reference, order, rules)
         else:
-            fraction = _by_order(tl.abs(now - reference), order, rules, TIMESTAMP_RULE)
+            fraction = tl.full([BLOCK], 1.0, tl.float64)
         is_on = (now > reference).to(tl.int64)
         t = place_in(intervals, segment, fraction)
         tl.store(words + at, pack_event(t, pixel, is_on, 0, frames.area), mask=inside)
 
 
 @triton.jit
-def _larger_change_earlier(change: tl.tensor, extremes: tl.tensor, rules: tl.tuple) -> tl.tensor:
+def _larger_change_earlier(change: tl.tensor, extremes: tl.tensor) -> tl.tensor:
     smallest = tl.load(extremes)
     spread = tl.load(extremes + 1) - smallest
-    scale = tl.load(rules.numbers + _SCALE)
     share = (tl.abs(change) - smallest) / tl.where(spread > 0, spread, 1.0)
-    return scale * tl.where(spread > 0, 1.0 - share, 0.5)
+    return tl.where(spread > 0, 1.0 - share, 0.5)
 
 
 @triton.jit
@@ -343,20 +339,3 @@ def _linear_crossing(
     share = (level - before) / tl.where(slope != 0, slope, 1.0)
     share = tl.where(slope != 0, share, 1.0)
     return tl.minimum(tl.maximum(tl.where(is_over, 0.0, share), 0.0), 1.0)
-
-
-@triton.jit
-def _by_order(
-    size: tl.tensor, order: tl.tensor, rules: tl.tuple, TIMESTAMP_RULE: tl.constexpr
-) -> tl.tensor:
-    threshold = tl.load(rules.numbers + _THRESHOLD)
-    # Lanes past the last record hold a size below the threshold, which nothing may be divided by.
-    size = tl.maximum(size, threshold)
-    rank = order.to(tl.float64)
-    if TIMESTAMP_RULE == _HYPERBOLIC:
-        share = tl.minimum(rank * threshold / size, 1.0)
-    elif TIMESTAMP_RULE == _EVEN:
-        share = rank / count_events(size, threshold, rules).to(tl.float64)
-    else:
-        share = tl.full(size.shape, 1.0, tl.float64)
-    return share
