@@ -58,7 +58,6 @@ class Texture(IntEnum):
     GRASS = 20
     SOIL = 21
     SAND = 22
-    GRAVEL = 23
     LEAVES = 24
     SNOW = 25
     PAVING = 26

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.raycast.records import OwnedWorld, World
+from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.render import world_at
 from texvent.scenes.raycast.surface_motion import (
     Seen,
@@ -127,7 +127,7 @@ def _instances(scene: Scene, time_s: float, number: NDArray[np.int32]) -> NDArra
     return np.asarray(owner[np.where(number >= 0, number, -1)], dtype=np.int32)
 
 
-def _hidden(world: World | OwnedWorld, place: Float64Array, size: SensorSize) -> NDArray[np.bool_]:
+def _hidden(world: World, place: Float64Array, size: SensorSize) -> NDArray[np.bool_]:
     """Whether something stands before the points, or they are out of the image."""
     x, y, depth = place.T
     inside = (depth > 0) & (x >= 0) & (x < size.width) & (y >= 0) & (y < size.height)
@@ -142,7 +142,7 @@ def _boxes(scene: Scene, time_s: float, seen: Seen, instance: NDArray[np.int32])
     """Boxes around the visible pixels of each object."""
     owner = scene.primitives(time_s).instance.astype(np.int32)
     alone = np.zeros(1 + max(owner.max(initial=0), 0), dtype=np.int64)
-    count_unoccluded(seen.world, owner, seen.points, alone)
+    count_unoccluded(seen.world.instant, owner, seen.points, alone)
     boxes = []
     for one in np.unique(instance[instance > 0]):
         rows, columns = np.nonzero(instance == one)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.runtime.threads import count_threads, run_parts, split
-from texvent.scenes.raycast.meshes.tree import tree_of
-from texvent.scenes.raycast.records import OwnedWorld, World
+from texvent.scenes.raycast.addresses import list_at
+from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.render import world_at
 from texvent.scenes.raycast.trace import (
     SKY,
@@ -19,37 +20,35 @@ from texvent.scenes.raycast.trace import (
     first_hit,
     hit_again,
     plane_direction,
-    ray_direction,
     tile_at,
 )
-from texvent.scenes.raycast.uncounted import uncounted_world
-from texvent.scenes.raycast.vectors import plane_point, turned
-from texvent.scenes.scene import Float64Array, Primitives, Scene, place_in_image
+from texvent.scenes.raycast.vectors import plane_point
+from texvent.scenes.scene import Float64Array, Scene, place_in_image
 from texvent.sensor import SensorSize
 from texvent.video import Motion
 
 
 @jit(error_model="numpy")
 def cast_points(
-    owner: World | OwnedWorld, points: Float64Array, depth: Float64Array, number: NDArray[np.int32]
+    instants: NDArray[Any], points: Float64Array, depth: Float64Array, number: NDArray[np.int32]
 ) -> None:
     """First surface behind each image point.
 
     Args:
-        owner: the scene.
+        instants: `World.instant` of the scene.
         points: [k, 2] x and y, pixels, inside the image.
         depth: [k] metres along the optical axis is written; inf for the sky.
         number: [k] shape number, or GROUND, SKY, ROOM or NOTHING, is written.
     """
-    world = uncounted_world(owner)
+    instant = instants[0]
     for index in range(len(points)):
-        t, found, _, _ = first_hit(world, points[index, 0], points[index, 1])
+        t, found, _, _ = first_hit(instant, points[index, 0], points[index, 1])
         depth[index], number[index] = t, found
 
 
 @jit(error_model="numpy")
 def see_from(
-    owner: World | OwnedWorld,
+    instants: NDArray[Any],
     points: Float64Array,
     depth: Float64Array,
     number: NDArray[np.int32],
@@ -60,7 +59,7 @@ def see_from(
     """Where surfaces seen through image points are for a camera at another instant.
 
     Args:
-        owner: the scene at the first instant.
+        instants: `World.instant` of the scene at the first instant.
         points: [k, 2] x and y, pixels.
         depth: [k] m.
         number: [k] shape number, or GROUND, SKY or ROOM.
@@ -68,8 +67,7 @@ def see_from(
         pose: [3, 3] axes and [3] position, m, of the camera at the other instant.
         seen: [k, 3] along its axes, m, is written; for the sky, a direction.
     """
-    world = uncounted_world(owner)
-    instant = world.instant[0]
+    instant = instants[0]
     (turn, shift), (axes, position) = motion, pose
     for k in range(len(points)):
         u, v = plane_point(instant, points[k, 0], points[k, 1])
@@ -92,7 +90,7 @@ def see_from(
 
 @jit(error_model="numpy")
 def count_unoccluded(
-    owner: World | OwnedWorld,
+    instants: NDArray[Any],
     instance: NDArray[np.int32],
     points: Float64Array,
     counts: NDArray[np.int64],
@@ -100,14 +98,13 @@ def count_unoccluded(
     """At how many points of the image each instance would be seen if nothing stood before it.
 
     Args:
-        owner: the scene.
+        instants: `World.instant` of the scene.
         instance: [n] instance of each shape.
         points: [k, 2] x and y, pixels.
         counts: [1 + highest instance] is added to.
     """
-    world = uncounted_world(owner)
-    instant = world.instant[0]
-    lists = world.lists
+    instant = instants[0]
+    lists = instant.lists
     last = np.full(len(counts), -1, dtype=np.int64)
     for number in range(len(points)):
         x, y = points[number]
@@ -117,105 +114,21 @@ def count_unoccluded(
         cell = tile_at(instant, u, v)
         direction = plane_direction(instant, u, v)
         behind = background_hit(instant, direction)[0]
-        for index in range(lists[cell], lists[cell + 1]):
-            one = instance[lists[index]]
+        for index in range(list_at(lists, cell), list_at(lists, cell + 1)):
+            one = instance[list_at(lists, index)]
             if last[one] == number:
                 continue
-            t, _ = hit_again(world, x, y, lists[index])
+            t, _ = hit_again(instant, x, y, list_at(lists, index))
             if t < behind:
                 last[one] = number
                 counts[one] += 1
-
-
-def deforming_shapes(start: Primitives, stop: Primitives) -> NDArray[np.intp]:
-    """Numbers of the shapes whose mesh is not the same at both instants."""
-    if start.mesh is None or stop.mesh is None:
-        return np.zeros(0, dtype=np.intp)
-    pairs = zip(start.mesh, stop.mesh, strict=True)
-    return np.flatnonzero([first is not second for first, second in pairs])
-
-
-def follow_triangles(
-    world: World | OwnedWorld,
-    points: Float64Array,
-    number: int,
-    start: Primitives,
-    stop: Primitives,
-) -> Float64Array:
-    """World points at the second instant of what a deforming mesh shows at the first.
-
-    Args:
-        world: the scene at the first instant.
-        points: [k, 2] image points that show the mesh, pixels.
-        number: its shape number.
-        start: the shapes at the first instant.
-        stop: the shapes at the second one.
-
-    Returns:
-        [k, 3] metres.
-    """
-    if not isinstance(world, OwnedWorld) or start.mesh is None or stop.mesh is None:
-        return np.full((len(points), 3), np.nan)
-    depth, face = np.empty(len(points)), np.empty(len(points), dtype=np.int64)
-    places = np.empty((len(points), 3))
-    cast_faces(world, np.ascontiguousarray(points), number, depth, face, places)
-    first, leaf = start.mesh[number], int(world.shapes["root"][number])
-    while world.nodes["count"][leaf] == 0:
-        leaf += 1  # the first leaf of a tree owns its first triangle
-    triangle = tree_of(first).order[face - world.nodes["first"][leaf]]
-    corners = first.vertices[first.triangles[triangle]]
-    weights = _weights(corners, places)
-    second = stop.mesh[number]
-    moved = (weights[:, :, None] * second.vertices[second.triangles[triangle]]).sum(axis=1)
-    to_world = stop.to_world[number]
-    return np.asarray(moved @ to_world[:, :3].T + to_world[:, 3])
-
-
-def _weights(corners: Float64Array, places: Float64Array) -> Float64Array:
-    """[k, 3] barycentric weights of [k, 3] places in triangles [k, 3, 3]."""
-    second, third = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    normal = np.cross(second, third)
-    square = (normal**2).sum(axis=1)
-    offset = places - corners[:, 0]
-    b = (np.cross(offset, third) * normal).sum(axis=1) / square
-    c = (np.cross(second, offset) * normal).sum(axis=1) / square
-    return np.stack([1.0 - b - c, b, c], axis=1)
-
-
-@jit(error_model="numpy")
-def cast_faces(
-    owner: World | OwnedWorld,
-    points: Float64Array,
-    number: int,
-    depth: Float64Array,
-    face: NDArray[np.int64],
-    places: Float64Array,
-) -> None:
-    """Where rays meet one shape.
-
-    Args:
-        owner: the scene.
-        points: [k, 2] x and y, pixels.
-        number: shape number.
-        depth: [k] m, is written.
-        face: [k] face, of a mesh triangle, is written.
-        places: [k, 3] the point in the shape's coordinates, is written.
-    """
-    world = uncounted_world(owner)
-    instant, shape = world.instant[0], world.shapes[number]
-    for index in range(len(points)):
-        x, y = points[index, 0], points[index, 1]
-        depth[index], face[index] = hit_again(world, x, y, number)
-        d = turned(shape.inverse, ray_direction(instant, x, y))
-        for axis in range(3):
-            places[index, axis] = shape.eye[axis] + depth[index] * d[axis]
 
 
 @dataclass(frozen=True, eq=False)
 class Seen:
     """What the pixel centres show at one instant."""
 
-    world: World | OwnedWorld
+    world: World
     """The scene at that instant."""
     points: Float64Array
     """[H · W, 2] image points, pixels."""
@@ -256,19 +169,19 @@ def frame_motion(
     )
 
 
-def cast_centres(world: World | OwnedWorld, size: SensorSize) -> Seen:
+def cast_centres(world: World, size: SensorSize) -> Seen:
     """What the pixel centres show."""
     row, column = np.indices(size.shape)
     points = np.stack([column.ravel() + 0.5, row.ravel() + 0.5], axis=1)
     return Seen(world, points, *cast(world, points))
 
 
-def cast(world: World | OwnedWorld, points: Float64Array) -> tuple[Float64Array, NDArray[np.int32]]:
+def cast(world: World, points: Float64Array) -> tuple[Float64Array, NDArray[np.int32]]:
     """Depth, m, and shape number of the first surface behind [k, 2] image points."""
     depth = np.empty(len(points), dtype=np.float64)
     number = np.empty(len(points), dtype=np.int32)
     parts = split(len(points), count_threads())
-    run_parts(lambda one: cast_points(world, points[one], depth[one], number[one]), parts)
+    run_parts(lambda one: cast_points(world.instant, points[one], depth[one], number[one]), parts)
     return depth, number
 
 
@@ -279,8 +192,7 @@ def move_to(
 
     Its depth is not positive where it is beside or behind the camera, and ± inf for the sky.
     """
-    shapes = scene.primitives(times_s[0]), scene.primitives(times_s[1])
-    start, stop = shapes[0].to_world, shapes[1].to_world
+    start, stop = (scene.primitives(time_s).to_world for time_s in times_s)
     # What takes the surface of each shape from t0 to t1: one matrix and one shift.
     turn = stop[:, :, :3] @ np.linalg.inv(start[:, :, :3])
     shift = stop[:, :, 3] - (turn @ start[:, :, 3:])[..., 0]
@@ -295,14 +207,9 @@ def move_to(
 
     def work(one: slice) -> None:
         arrays = seen.points[one], seen.depth[one], seen.number[one]
-        see_from(seen.world, *arrays, (turn, shift), pose, place[one])
+        see_from(seen.world.instant, *arrays, (turn, shift), pose, place[one])
 
     run_parts(work, split(len(place), count_threads()))
-    for number in deforming_shapes(*shapes):
-        own = np.flatnonzero(seen.number == number)
-        if len(own):
-            moved = follow_triangles(seen.world, seen.points[own], int(number), *shapes)
-            place[own] = (moved - after.position) @ after.rotation.T
     place = place_in_image(after, size, place)
     far = seen.number == SKY
     place[far, 2] = np.where(place[far, 2] > 0.0, np.inf, -np.inf)

@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.records import Record, World
-from texvent.scenes.raycast.uncounted import node_at, only_with_meshes, triangle_at
+from texvent.scenes.raycast.addresses import node_at, shape_at, triangle_at
+from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.vectors import (
     Vector,
     along,
@@ -82,21 +82,14 @@ def _other_child(nodes: int, parent: int, child: int) -> int:
     return int(node_at(nodes, parent).second) if child == parent + 1 else parent + 1
 
 
-def _missed(
-    world: World, root: int, o: Vector, d: Vector, near: float, any_hit: bool
-) -> tuple[float, int]:
-    return math.inf, root
-
-
-@only_with_meshes(_missed)
 @jit(error_model="numpy", inner=True)
 def hit_mesh(
-    world: World, root: int, o: Vector, d: Vector, near: float, any_hit: bool
+    instant: Record, root: int, o: Vector, d: Vector, near: float, any_hit: bool
 ) -> tuple[float, int]:
     """Where the ray `o + t · d`, in the mesh's coordinates, meets it first, from either side.
 
     Args:
-        world: the scene.
+        instant: the scene.
         root: first node of the mesh.
         o: ray origin.
         d: ray direction, any length but 0.
@@ -106,7 +99,6 @@ def hit_mesh(
     Returns:
         (t, triangle), (inf, 0) where it is missed.
     """
-    instant = world.instant[0]
     nodes, triangles = instant.nodes, instant.triangles
     inverse = (
         1.0 / (d[0] if d[0] != 0.0 else _FLAT),
@@ -198,19 +190,14 @@ def slopes_of(triangle: Record, v: Vector) -> tuple[float, float]:
     return dot(cross(v, e2), n) / square, dot(cross(e1, v), n) / square
 
 
-def _no_normals(world: World, number: int, face: int, point: Vector) -> tuple[Vector, Vector]:
-    return point, point
-
-
-@only_with_meshes(_no_normals)
 @jit(error_model="numpy", inner=True)
-def mesh_normals(world: World, number: int, face: int, point: Vector) -> tuple[Vector, Vector]:
+def mesh_normals(instant: Record, number: int, face: int, point: Vector) -> tuple[Vector, Vector]:
     """Unit normals of a mesh at a world point, towards the camera.
 
     Returns:
         That of the smooth surface, and that of the triangle.
     """
-    shape, triangle = world.shapes[number], triangle_at(world.instant[0].triangles, face)
+    shape, triangle = shape_at(instant.shapes, number), triangle_at(instant.triangles, face)
     m = shape.inverse
     a = triple(triangle.corner[0])
     e1 = along(triple(triangle.corner[1]), a, -1.0)
@@ -226,7 +213,7 @@ def mesh_normals(world: World, number: int, face: int, point: Vector) -> tuple[V
             w[0] * n[0, 2] + w[1] * n[1, 2] + w[2] * n[2, 2],
         ),
     )
-    view = along(point, triple(world.instant[0].origin), -1.0)
+    view = along(point, triple(instant.origin), -1.0)
     if dot(flat, view) > 0.0:
         flat = scaled(flat, -1.0)
     if dot(smooth, flat) < 0.0:
@@ -234,19 +221,14 @@ def mesh_normals(world: World, number: int, face: int, point: Vector) -> tuple[V
     return smooth, flat
 
 
-def _same_point(world: World, number: int, face: int, point: Vector) -> Vector:
-    return point
-
-
-@only_with_meshes(_same_point)
 @jit(error_model="numpy", inner=True)
-def smooth_point(world: World, number: int, face: int, point: Vector) -> Vector:
+def smooth_point(instant: Record, number: int, face: int, point: Vector) -> Vector:
     """A point of a mesh moved out to the smooth surface that its corner normals stand for.
 
     Shadow rays start there, or triangles would shade each other where light grazes: Hanika,
     Hacking the Shadow Terminator (Ray Tracing Gems II, 2021).
     """
-    shape, triangle = world.shapes[number], triangle_at(world.instant[0].triangles, face)
+    shape, triangle = shape_at(instant.shapes, number), triangle_at(instant.triangles, face)
     p = mapped(shape.inverse, point)
     w = weights_at(triangle, p)
     a = triple(triangle.corner[0])

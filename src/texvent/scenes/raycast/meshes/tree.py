@@ -1,4 +1,4 @@
-"""Bounding-volume hierarchy of a mesh: built once, refitted where the mesh deforms (Numba).
+"""Bounding-volume hierarchy of a mesh (Numba).
 
 A binary tree in depth-first order: a node's first child follows it. Splits come from the surface
 area heuristic over bins (Wald, On fast Construction of SAH-based Bounding Volume Hierarchies,
@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -19,7 +19,12 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.scenes.mesh import Float64Array, Mesh, SurfaceImage, triangle_normals
-from texvent.scenes.raycast.records import IMAGE_RECORD, NODE_RECORD, TRIANGLE_RECORD
+from texvent.scenes.raycast.records import (
+    IMAGE_RECORD,
+    NODE_RECORD,
+    TRIANGLE_RECORD,
+    PackedSurfaces,
+)
 from texvent.scenes.scene import Primitives
 
 LEAF_TRIANGLES = 4
@@ -39,9 +44,7 @@ class MeshTree:
     nodes: NDArray[Any]
     """[k] `NODE_RECORD`."""
     triangles: NDArray[Any]
-    """[t] `TRIANGLE_RECORD`, in the order of `order`."""
-    order: NDArray[np.int64]
-    """[t] number in the mesh of each triangle of the tree."""
+    """[t] `TRIANGLE_RECORD`, in the order of the leaves."""
     half_width: float
     """Half the thickness of what is thin in it, as a share of its largest half extent."""
 
@@ -50,11 +53,10 @@ _TREES: WeakKeyDictionary[Mesh, MeshTree] = WeakKeyDictionary()
 
 
 def tree_of(mesh: Mesh) -> MeshTree:
-    """The tree of a mesh; that of a deformed one is its rest pose's, refitted."""
+    """The tree of a mesh, built once."""
     found = _TREES.get(mesh)
     if found is None:
-        found = _build(mesh) if mesh.rest is None else _refit(mesh, tree_of(mesh.rest))
-        _TREES[mesh] = found
+        found = _TREES[mesh] = _build(mesh)
     return found
 
 
@@ -74,15 +76,7 @@ def _build(mesh: Mesh) -> MeshTree:
     triangles["uv"], triangles["colour"] = mesh.uv[order], mesh.colours[order]
     triangles["image"] = mesh.image[order]
     triangles["code"] = (direction + _AXES * (patches % (FACE_CODES // _AXES)))[order]
-    return MeshTree(nodes[:count].copy(), triangles, order, _half_width(mesh, corners, patches))
-
-
-def _refit(mesh: Mesh, tree: MeshTree) -> MeshTree:
-    nodes, triangles = tree.nodes.copy(), tree.triangles.copy()
-    triangles["corner"] = mesh.vertices[mesh.triangles][tree.order]
-    triangles["normal"] = mesh.normals[tree.order]
-    refit_nodes(nodes, triangles["corner"])
-    return MeshTree(nodes, triangles, tree.order, tree.half_width)
+    return MeshTree(nodes[:count].copy(), triangles, _half_width(mesh, corners, patches))
 
 
 def _half_width(mesh: Mesh, unit_corners: Float64Array, patches: NDArray[np.int64]) -> float:
@@ -280,46 +274,13 @@ def build_nodes(
     return count
 
 
-@jit(error_model="numpy")
-def refit_nodes(nodes: NDArray[Any], corners: Float64Array) -> None:
-    """Fit the boxes of a tree to moved triangles, [t, 3, 3] corners in the tree's order."""
-    for number in range(len(nodes) - 1, -1, -1):
-        node = nodes[number]
-        node.low[:], node.high[:] = math.inf, -math.inf
-        for triangle in range(node.first, node.first + node.count):
-            for corner in range(3):
-                _grow(node.low, node.high, corners[triangle, corner], corners[triangle, corner])
-        if node.count == 0:
-            first, second = nodes[number + 1], nodes[node.second]
-            _grow(node.low, node.high, first.low, first.high)
-            _grow(node.low, node.high, second.low, second.high)
-
-
 _FACE_AXES = ((1, 2), (1, 2), (0, 2), (0, 2), (1, 0), (1, 0))
 """Axes of a box's face that are the image's right and down, without their signs."""
 
 
-class PackedSurfaces(NamedTuple):
-    """All meshes and images of an instant."""
-
-    nodes: NDArray[Any]
-    triangles: NDArray[Any]
-    images: NDArray[Any]
-    texels: NDArray[np.float32]
-    roots: dict[Mesh, int]
-    """First node of each mesh."""
-    numbers: dict[SurfaceImage, int]
-    """Index of each image."""
-
-
-def describe_surfaces(shapes: NDArray[Any], primitives: Primitives) -> PackedSurfaces | None:
-    """Write which mesh and image each shape has into their records, and pack both.
-
-    None: there are neither.
-    """
+def describe_surfaces(shapes: NDArray[Any], primitives: Primitives) -> PackedSurfaces:
+    """Write which mesh and image each shape has into their records, and pack both."""
     shapes["image"] = -1
-    if primitives.mesh is None and primitives.image is None:
-        return None
     count = len(shapes)
     meshes = primitives.mesh if primitives.mesh is not None else np.full(count, None)
     images = primitives.image if primitives.image is not None else np.full(count, None)

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.raycast.acceleration import SUN_CELLS, TILE
-from texvent.scenes.raycast.records import INSTANT_RECORD, OwnedWorld, World
+from texvent.scenes.raycast.records import INSTANT_RECORD, World
 from texvent.scenes.raycast.render import light_of_rows, world_and_shapes
 from texvent.scenes.raycast.reuse.regions import (
     Balls,
@@ -35,8 +35,9 @@ _WALL_M = 0.1
 _FLOWING = (Ground.SEA, Ground.UNDERWATER, Ground.RIVER, Ground.LAKE)
 """Grounds that change with time."""
 _ELSEWHERE = {
-    "lamp_cells", "puff_tiles", "puff_table", "puff_count", "glow_table", "glow_count", "sun_grid",
-    "sun_cells", "nodes", "triangles", "images", "texels", "time", "crossings",
+    "lamp_cells", "puff_tiles", "shapes", "lists", "nodes", "triangles", "images", "texels",
+    "lamps", "puffs", "puff_count", "glows", "glow_count", "sun_grid", "sun_cells", "time",
+    "crossings",
 }  # fmt: skip
 """Fields of the instant that only say where something lies, or that are looked at by themselves."""
 _FIELDS = [name for name in INSTANT_RECORD.names or () if name not in _ELSEWHERE]
@@ -45,7 +46,7 @@ _FIELDS = [name for name in INSTANT_RECORD.names or () if name not in _ELSEWHERE
 class Drawn(NamedTuple):
     """One instant as it was drawn."""
 
-    world: World | OwnedWorld
+    world: World
     primitives: Primitives
 
 
@@ -87,15 +88,14 @@ def changed_tiles(before: Drawn, after: Drawn) -> Mask | None:
     return tiles
 
 
-def _is_comparable(before: World | OwnedWorld, after: World | OwnedWorld) -> bool:
+def _is_comparable(before: World, after: World) -> bool:
     """Whether camera and surroundings are the same, and such that changes can be followed."""
     first, second = before.instant[0], after.instant[0]
     is_outside = first["origin"][2] < _WALL_M and first["ground"] != Ground.NONE
     if first["ground"] == Ground.FLOOR:
         is_outside |= bool(room_planes(first)[1].min() < _WALL_M)
     return bool(
-        type(before) is type(after)
-        and len(before.shapes) == len(after.shapes)
+        len(before.shapes) == len(after.shapes)
         and before.lamps.shape == after.lamps.shape
         and (len(before.glows) > 0) == (len(after.glows) > 0)
         and first["distortion"] == NO_DISTORTION
@@ -170,7 +170,7 @@ def _by_sun(pair: _Pair) -> Mask | None:
     return tiles
 
 
-def _big_casters(world: World | OwnedWorld) -> NDArray[np.int32]:
+def _big_casters(world: World) -> NDArray[np.int32]:
     """Shapes that the sun grid lists apart: they are tested after the others."""
     lists = world.lists
     last = int(world.instant[0]["sun_cells"]) + SUN_CELLS * SUN_CELLS
@@ -227,26 +227,29 @@ def _by_lamps(pair: _Pair) -> Mask | None:
             reached |= shaded_from_lamp(rows[index], casters, receivers)
             hits |= shaded_from_lamp(rows[index], casters, ground)
         # Which side of a shape faces a lamp that casts shadows is told beyond its light too.
-        reached |= bool((lamps[0][:count, :3] != lamps[1][:count, :3]).any())
+        reached |= bool((lamps[0]["place"][:count] != lamps[1]["place"][:count]).any())
         tiles |= touched_tiles(world.shapes["window"][reached], shape)
     return tiles | hits.reshape(shape)
 
 
-def _is_inside(instant: Any, lamp: Float64Array) -> bool:
+def _is_inside(instant: Any, lamp: Any) -> bool:
     """Whether a lamp is above the ground and inside the room: all of it then faces the lamp."""
     if instant["ground"] == Ground.NONE:
         return True
-    inside = lamp[2] > _WALL_M
+    inside = lamp["place"][2] > _WALL_M
     if instant["ground"] == Ground.FLOOR:
         normals, distances = room_planes(instant)
-        inside &= ((lamp[:3] - instant["origin"]) @ normals.T + _WALL_M < distances).all()
+        inside &= ((lamp["place"] - instant["origin"]) @ normals.T + _WALL_M < distances).all()
     return bool(inside)
 
 
-def _farthest(instant: Any, *lamps: Float64Array) -> float:
+def _farthest(instant: Any, *lamps: NDArray[Any]) -> float:
     """How far along the camera's axis any of these lamps shines, m."""
     rows = np.concatenate(lamps)
-    return float((np.linalg.norm(rows[:, :3] - instant["origin"], axis=1) + rows[:, 6]).max()) + 1.0
+    return (
+        float((np.linalg.norm(rows["place"] - instant["origin"], axis=1) + rows["reach"]).max())
+        + 1.0
+    )
 
 
 MOST_CHANGED = 0.9

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.raycast.acceleration import CUBE, TILE, screen_bounds
-from texvent.scenes.raycast.lamps.light import FULL, POSITION, REACH, in_beam
+from texvent.scenes.raycast.lamps.light import in_beam
 from texvent.scenes.raycast.trace import MESH, SHADOW_BIAS_M
 from texvent.scenes.scene import Float64Array, Ground, Primitives, Rays
 from texvent.sensor import SensorSize
@@ -116,20 +116,20 @@ def receiving_balls(shapes: NDArray[Any], balls: Balls) -> Balls:
     return balls._replace(radius=np.where(shapes["kind"] == MESH, 3.0, 1.0) * balls.radius)
 
 
-def lit_by_lamp(lamp: Float64Array, balls: Balls) -> Mask:
+def lit_by_lamp(lamp: Any, balls: Balls) -> Mask:
     """[n] which balls a lamp's light may reach, whatever stands in its way."""
-    offset = balls.centre - lamp[POSITION : POSITION + 3]
+    offset = balls.centre - lamp["place"]
     distance = np.linalg.norm(offset, axis=1)
     there = balls.radius >= 0.0
-    near = there & (distance - balls.radius <= lamp[REACH])
-    if lamp[FULL] >= -1.0:
+    near = there & (distance - balls.radius <= lamp["reach"])
+    if lamp["full"] >= -1.0:
         near &= in_beam(lamp, offset, distance, np.maximum(balls.radius, 0.0))
     return np.asarray(near)
 
 
-def shaded_from_lamp(lamp: Float64Array, casters: Balls, balls: Balls) -> Mask:
+def shaded_from_lamp(lamp: Any, casters: Balls, balls: Balls) -> Mask:
     """[n] which balls the shadow of a caster may fall on."""
-    place = lamp[POSITION : POSITION + 3]
+    place = lamp["place"]
     towards, width = _seen_from(place, casters)
     ways, widths = _seen_from(place, balls)
     cosine = np.clip(towards @ ways.T, -1.0, 1.0)
