@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import cv2
 import pytest
-from tests.scenes.assets.glb_writer import write_bar
+from tests.scenes.assets.glb_bar import write_bar
 
 from texvent.cli.app import main
 

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from texvent.scenes.description import SceneDescription
     from texvent.scenes.models.protocol import Noun
     from texvent.scenes.raycast.ground_truth import GroundTruth
-    from texvent.scenes.raycast.reuse.memory import FrameMemory
+    from texvent.scenes.raycast.reuse import FrameMemory
     from texvent.scenes.report import PromptReport
     from texvent.scenes.scene import Camera, Scene
     from texvent.scenes.staging.compose import ComposedScene
@@ -214,7 +214,7 @@ class ProceduralVideo(NotebookFrames):
         return self._make_memory()
 
     def _make_memory(self) -> FrameMemory:
-        from texvent.scenes.raycast.reuse.memory import FrameMemory
+        from texvent.scenes.raycast.reuse import FrameMemory
 
         config = self.config
         return FrameMemory(

@@ -238,9 +238,7 @@ def count_pixels(
     return most
 
 
-def _count(
-    world: World, owner: NDArray[np.int64], points: Float64Array
-) -> Counter[int]:
+def _count(world: World, owner: NDArray[np.int64], points: Float64Array) -> Counter[int]:
     """Points that show each instance."""
     _, number = cast(world, points)
     return Counter(owner[np.where(number >= 0, number, -1)].tolist())

@@ -23,8 +23,7 @@ def camera(distance: float, turn: float = 0.0) -> Camera:
 
 
 def scene_of(image: SurfaceImage, seen_by: Camera) -> MeshScene:
-    mesh, to_body = sheet(image)
-    return MeshScene(lambda time: (mesh, to_body), camera_at=lambda time: seen_by)
+    return MeshScene(sheet(image), camera_at=lambda time: seen_by)
 
 
 def light_on(image: SurfaceImage, seen_by: Camera, size: SensorSize = SIZE) -> np.ndarray:
