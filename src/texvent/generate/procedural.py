@@ -183,17 +183,14 @@ class ProceduralVideo(NotebookFrames):
 
     def luma_of(self, t_us: int, wanted: NDArray[np.bool_]) -> NDArray[np.float32]:
         """Luma of the pixels of [H, W] `wanted` at `t_us`, [k] float32, 0..255 scale."""
-        from texvent.scenes.raycast.render import render_pixels
+        from texvent.scenes.raycast.render import light_of_rows, world_at
 
-        config = self.config
-        light = render_pixels(
-            self.scene,
-            t_us / MICROSECONDS,
-            self.size,
-            wanted,
-            samples=config.samples,
-            shadows=config.shadows,
+        size, config = self.size, self.config
+        world = world_at(
+            self.scene, t_us / MICROSECONDS, size, shadows=config.shadows, samples=config.samples
         )
+        rows = (0, size.height)
+        light = light_of_rows(world, rows, size, samples=config.samples, wanted=wanted)[wanted]
         return np.asarray(luma_bt601(self._code(light)), dtype=np.float32)
 
     def _motion(self, index: int) -> Motion:

@@ -20,20 +20,14 @@ MOST_LEVELS = 14
 class SurfaceImage:
     """An image that a surface shows; u runs right and v down over 0..1."""
 
-    levels: tuple[Float32Array, ...] = ()
-    """[h, w, 3] linear RGB, each half as large as the one before, down to one pixel; empty for a
-    checkerboard."""
-    checks: tuple[int, int] | None = None
-    """Columns and rows of a checkerboard's squares, with a white margin one square wide around;
-    the square at its top left is black. None: the levels are shown."""
+    levels: tuple[Float32Array, ...]
+    """[h, w, 3] linear RGB, each half as large as the one before, down to one pixel."""
     repeats: bool = False
     """Whether it repeats beyond 0..1, as textures of meshes do."""
 
     @property
     def aspect(self) -> float:
         """Width divided by height."""
-        if self.checks is not None:
-            return (self.checks[0] + 2) / (self.checks[1] + 2)
         height, width = self.levels[0].shape[:2]
         return float(width / height)
 

@@ -166,7 +166,6 @@ IMAGE_RECORD = np.dtype(
         ("height", "i8"),
         ("levels", "i8"),
         ("repeats", "i8"),
-        ("checks", "i8", 2),  # columns and rows of a checkerboard; 0 = it has texels
         ("start", "i8", MOST_LEVELS),  # where each level begins in `texels`
     ],
     align=True,

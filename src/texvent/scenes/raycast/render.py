@@ -116,33 +116,6 @@ def render(
     return encode_srgb(render_light(scene, time_s, size, samples=samples, shadows=shadows))
 
 
-def render_pixels(
-    scene: Scene,
-    time_s: float,
-    size: SensorSize,
-    wanted: NDArray[np.bool_],
-    *,
-    samples: int = 2,
-    shadows: bool = True,
-) -> Float64Array:
-    """Some pixels of what `render_light` gives.
-
-    Args:
-        scene: what to draw.
-        time_s: the instant, s.
-        size: image size, pixels.
-        wanted: [H, W] which pixels.
-        samples: as for `render`.
-        shadows: as for `render`.
-
-    Returns:
-        [k, 3] linear RGB of the wanted pixels, row by row.
-    """
-    world = world_at(scene, time_s, size, shadows=shadows, samples=samples)
-    light = light_of_rows(world, (0, size.height), size, samples=samples, wanted=wanted)
-    return light[wanted]
-
-
 def render_light(
     scene: Scene,
     time_s: float,

@@ -338,9 +338,6 @@ def _pack_images(images: Sequence[SurfaceImage]) -> tuple[NDArray[Any], NDArray[
     begin = 0
     for record, image in zip(records, images, strict=True):
         record["repeats"] = int(image.repeats)
-        if image.checks is not None:
-            record["checks"] = image.checks
-            continue
         record["height"], record["width"] = image.levels[0].shape[:2]
         record["levels"] = len(image.levels)
         for number, level in enumerate(image.levels):

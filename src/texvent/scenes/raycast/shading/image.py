@@ -14,9 +14,6 @@ from texvent.scenes.scene import Colour
 
 MOST_TAPS = 16
 """A footprint is taken to be at most this many times as long as wide."""
-_CHECK_TAPS = 3
-_BLACK, _WHITE = 0.03, 0.85
-"""Reflectance of a printed board."""
 Footprint = tuple[tuple[float, float], tuple[float, float]]
 """Change of (u, v) from one pixel to the next, to the right and down."""
 
@@ -116,12 +113,9 @@ def image_colour(instant: Record, number: int, u: float, v: float, footprint: Fo
     """Mean of an image over a pixel's footprint.
 
     Trilinear samples of the mip pyramid, two to a pixel across the footprint's shorter side and as
-    dense along its longer one: a simple form of Feline (McCormack et al. 1999). A checkerboard is
-    integrated exactly per tap.
+    dense along its longer one: a simple form of Feline (McCormack et al. 1999).
     """
     image = image_at(instant.images, number)
-    if image.checks[0] > 0:
-        return _checks_colour(image, u, v, footprint)
     width, height = float(image.width), float(image.height)
     right = math.hypot(footprint[0][0] * width, footprint[0][1] * height)
     down = math.hypot(footprint[1][0] * width, footprint[1][1] * height)
@@ -187,45 +181,3 @@ def _texel(index: int, count: int, repeats: int) -> int:
 def _at(instant: Record, index: int) -> Colour:
     texels = instant.texels
     return texel_at(texels, index), texel_at(texels, index + 1), texel_at(texels, index + 2)
-
-
-@jit(error_model="numpy", inner=True)
-def _checks_colour(image: Record, u: float, v: float, footprint: Footprint) -> Colour:
-    columns, rows = image.checks[0], image.checks[1]
-    across, tall = columns + 2.0, rows + 2.0
-    step_x = (abs(footprint[0][0]) + abs(footprint[1][0])) * across / _CHECK_TAPS
-    step_y = (abs(footprint[0][1]) + abs(footprint[1][1])) * tall / _CHECK_TAPS
-    black = 0.0
-    for j in range(_CHECK_TAPS):
-        for i in range(_CHECK_TAPS):
-            a, b = (i + 0.5) / _CHECK_TAPS - 0.5, (j + 0.5) / _CHECK_TAPS - 0.5
-            x = (u + a * footprint[0][0] + b * footprint[1][0]) * across - 1.0
-            y = (v + a * footprint[0][1] + b * footprint[1][1]) * tall - 1.0
-            inside = _mean_within(x, step_x, columns) * _mean_within(y, step_y, rows)
-            signs = _mean_sign(x, step_x, columns) * _mean_sign(y, step_y, rows)
-            black += 0.5 * (inside + signs)
-    share = black / _CHECK_TAPS**2
-    grey = _WHITE + share * (_BLACK - _WHITE)
-    return grey, grey, grey
-
-
-@jit(error_model="numpy", inner=True)
-def _mean_within(place: float, width: float, count: int) -> float:
-    """Mean over an interval of what is 1 in 0..count and 0 beside it."""
-    half = 0.5 * max(width, 1e-9)
-    low, high = min(max(place - half, 0.0), count), min(max(place + half, 0.0), count)
-    return (high - low) / (2.0 * half)
-
-
-@jit(error_model="numpy", inner=True)
-def _mean_sign(place: float, width: float, count: int) -> float:
-    """Mean over an interval of what is +1 and -1 by turns in 0..count, and 0 beside it."""
-    half = 0.5 * max(width, 1e-9)
-    low, high = min(max(place - half, 0.0), count), min(max(place + half, 0.0), count)
-    return (_sign_sum(high) - _sign_sum(low)) / (2.0 * half)
-
-
-@jit(error_model="numpy", inner=True)
-def _sign_sum(place: float) -> float:
-    rest = place % 2.0
-    return min(rest, 2.0 - rest)
