@@ -139,9 +139,7 @@ NODE_RECORD = np.dtype(
         ("high", "f8", 3),
         ("first", "i4"),  # of a leaf: its first triangle
         ("count", "i4"),  # its triangles; 0 = it has two children, the first is the next node
-        ("second", "i4"),  # the second child
-        ("parent", "i4"),  # -1 at the root
-        ("axis", "i8"),  # along which the children are apart
+        ("skip", "i8"),  # the node after all that are in it
     ],
     align=True,
 )

@@ -3,7 +3,7 @@
 Triangles: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection (2013): an edge is decided by
 the same two numbers in both triangles that share it, so no ray slips between them. Boxes are
 passed with the slack that rounding needs (Ize, Robust BVH Ray Traversal, 2013). The tree is walked
-without a stack: Hapala et al., Efficient Stack-less BVH Traversal for Ray Tracing (2011).
+in the order of its nodes; a box that is missed is skipped with all in it.
 """
 
 from __future__ import annotations
@@ -25,7 +25,6 @@ from texvent.scenes.raycast.vectors import (
 
 _SLACK = 1.0 + 8.0 * 2.0**-53
 _FLAT = 1e-300
-_FROM_PARENT, _FROM_SIBLING, _FROM_CHILD = 0, 1, 2
 
 
 @jit(error_model="numpy", inner=True)
@@ -70,19 +69,6 @@ def _meets_box(node: Record, o: Vector, inverse: Vector, near: float, far: float
 
 
 @jit(error_model="numpy", inner=True)
-def _first_child(nodes: int, parent: int, d: Vector) -> int:
-    """The child that the ray comes to first."""
-    if _component(d, node_at(nodes, parent).axis) >= 0.0:
-        return parent + 1
-    return int(node_at(nodes, parent).second)
-
-
-@jit(error_model="numpy", inner=True)
-def _other_child(nodes: int, parent: int, child: int) -> int:
-    return int(node_at(nodes, parent).second) if child == parent + 1 else parent + 1
-
-
-@jit(error_model="numpy", inner=True)
 def hit_mesh(
     instant: Record, root: int, o: Vector, d: Vector, near: float, any_hit: bool
 ) -> tuple[float, int]:
@@ -109,21 +95,18 @@ def hit_mesh(
     length = _component(d, axes[2])
     shear = (_component(d, axes[0]) / length, _component(d, axes[1]) / length, 1.0 / length)
     hit = (math.inf, 0)
-    current, state = root, _FROM_SIBLING
-    while True:
-        if state != _FROM_CHILD:
-            node = node_at(nodes, current)
-            goes_in = _meets_box(node, o, inverse, near, hit[0])
-            if goes_in and node.count == 0:
-                current, state = _first_child(nodes, current, d), _FROM_PARENT
-                continue
-            if goes_in:
-                hit = _hit_leaf(triangles, node, (o, shear), axes, near, hit)
-                if any_hit and hit[0] < math.inf:
-                    return hit
-        if current == root:
-            return hit
-        current, state = _step_on(nodes, current, state, d)
+    current, end = root, int(node_at(nodes, root).skip)
+    while current < end:
+        node = node_at(nodes, current)
+        if not _meets_box(node, o, inverse, near, hit[0]):
+            current = int(node.skip)
+            continue
+        current += 1
+        if node.count > 0:
+            hit = _hit_leaf(triangles, node, (o, shear), axes, near, hit)
+            if any_hit and hit[0] < math.inf:
+                break
+    return hit
 
 
 @jit(error_model="numpy", inner=True)
@@ -142,18 +125,6 @@ def _hit_leaf(
         if near < t < best:
             best, found = t, index
     return best, found
-
-
-@jit(error_model="numpy", inner=True)
-def _step_on(nodes: int, current: int, state: int, d: Vector) -> tuple[int, int]:
-    """The node after one that is done with, and where it is come from."""
-    parent = int(node_at(nodes, current).parent)
-    is_first = state == _FROM_PARENT
-    if state == _FROM_CHILD:
-        is_first = current == _first_child(nodes, parent, d)
-    if is_first:
-        return _other_child(nodes, parent, current), _FROM_SIBLING
-    return parent, _FROM_CHILD
 
 
 @jit(error_model="numpy", inner=True)
