@@ -195,7 +195,7 @@ class ProceduralVideo(NotebookFrames):
 
     def _motion(self, index: int) -> Motion:
         """Motion from a frame to its neighbours."""
-        from texvent.scenes.raycast.surface_motion import frame_motion
+        from texvent.scenes.raycast.ground_truth import frame_motion
 
         before, now, after = (
             frame_time_us(index + step, self.fps) / MICROSECONDS for step in (-1, 0, 1)
@@ -322,7 +322,7 @@ class ProceduralGenerator:
 
     def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
-        from texvent.scenes.assets import list_files
+        from texvent.scenes.assets.nouns import list_files
         from texvent.scenes.in_view import find_unseen, without_words
         from texvent.scenes.staging.compose import compose_scene
 

@@ -9,8 +9,8 @@ from tests.scenes.assets.glb_bar import write_bar
 
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.scenes.assets import check_files, load_model, merge_nouns, read_folder
-from texvent.scenes.assets.index import Asset
+from texvent.scenes.assets.index import Asset, read_folder
+from texvent.scenes.assets.nouns import check_files, load_model, merge_nouns
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.spec.files import load_scene
