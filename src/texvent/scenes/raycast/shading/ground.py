@@ -31,8 +31,6 @@ _WHITE_PAINT = (0.62, 0.62, 0.60)
 _KERB = (0.46, 0.46, 0.44)
 _DASH_M = 6.0
 _LINE_M = 0.14
-_ZEBRA_M = 3.2
-_ZEBRA_EVERY_M = 58.0
 _DIRT_ROAD = 3
 _CITY = 5
 _RIVER = 11
@@ -116,15 +114,6 @@ def _line_marks(strip: Strip, half: float, feet: tuple[float, float]) -> float:
 
 
 @jit(error_model="numpy", inner=True)
-def _zebra_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> float:
-    """Share of a pixel within a zebra crossing's length; they come at even distances."""
-    if instant.ground != _CITY:
-        return 0.0
-    place = strip[0] - 11.0 - _ZEBRA_EVERY_M * math.floor((strip[0] - 11.0) / _ZEBRA_EVERY_M)
-    return box_coverage(place, 0.0, _ZEBRA_M, feet[0])
-
-
-@jit(error_model="numpy", inner=True)
 def _asphalt(instant: Record, x: float, y: float, axes: Patch, marks: float) -> Look:
     """Carriageway with worn paint; `marks` is its share of a pixel."""
     sample = sample_material(instant, instant.road_surface, x, y, axes, 1.0)
@@ -195,13 +184,7 @@ def _carriageway(
     strip, feet, inside = main
     marks = 0.0
     if inside > 0.0:
-        zebra = _zebra_share(instant, strip, feet)
-        stripes = square_wave(strip[1] / 1.1, feet[1] / 1.1) * box_coverage(
-            strip[1], -half + 0.3, half - 0.3, feet[1]
-        )
-        marks = inside * (
-            zebra * stripes + (1.0 - zebra) * _line_marks(strip, half, feet) * (1.0 - other[2])
-        )
+        marks = inside * _line_marks(strip, half, feet) * (1.0 - other[2])
     if other[2] > 0.0:
         marks += (1.0 - inside) * other[2] * _line_marks(other[0], half, other[1])
     return _asphalt(instant, point[0], point[1], axes, marks)
