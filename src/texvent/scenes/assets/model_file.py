@@ -91,7 +91,7 @@ def _surface(part: Any, is_linear: bool) -> _Surface | None:
     colour, alpha, image = _material(part.visual, is_linear)
     if alpha < _CLEAR:
         return None
-    colours = np.broadcast_to(np.float32(colour), (*corners.shape, 3))
+    colours = np.broadcast_to(np.array(colour, dtype=np.float32), (*corners.shape, 3))
     if part.visual.kind == "vertex":
         coded = np.asarray(part.visual.vertex_colors)[:, :3].astype(np.uint8)
         colours = _linear(coded, is_linear)[corners]
@@ -126,7 +126,7 @@ def _material(visual: Any, is_linear: bool) -> tuple[Colour, float, SurfaceImage
 
 def _linear(coded: np.ndarray, is_linear: bool) -> Float32Array:
     """Linear light of 8-bit numbers."""
-    return np.float32(coded) / np.float32(255.0) if is_linear else decode_srgb(coded)
+    return coded.astype(np.float32) / np.float32(255.0) if is_linear else decode_srgb(coded)
 
 
 def _joined(surfaces: Sequence[_Surface]) -> tuple[Mesh, Float64Array]:

@@ -26,7 +26,7 @@ _UNITS = ((20.0, 0.01), (1000.0, 0.001))
 """Longest side of a file above which its unit is taken to be this many metres: cm, mm."""
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(eq=False)
 class AssetModel:
     """A model from a file; implements `models.protocol.Model`."""
 
