@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from tests.scenes.assets.glb_writer import write_bar
+from tests.scenes.assets.glb_bar import write_bar
 
 from texvent.cli.app import main
 

@@ -42,7 +42,7 @@ if TYPE_CHECKING:
     from texvent.scenes.description import SceneDescription
     from texvent.scenes.models.protocol import Noun
     from texvent.scenes.raycast.ground_truth import GroundTruth
-    from texvent.scenes.raycast.reuse.memory import FrameMemory
+    from texvent.scenes.raycast.reuse import FrameMemory
     from texvent.scenes.report import PromptReport
     from texvent.scenes.scene import Camera, Scene
     from texvent.scenes.staging.compose import ComposedScene
@@ -183,22 +183,19 @@ class ProceduralVideo(NotebookFrames):
 
     def luma_of(self, t_us: int, wanted: NDArray[np.bool_]) -> NDArray[np.float32]:
         """Luma of the pixels of [H, W] `wanted` at `t_us`, [k] float32, 0..255 scale."""
-        from texvent.scenes.raycast.render import render_pixels
+        from texvent.scenes.raycast.render import light_of_rows, world_at
 
-        config = self.config
-        light = render_pixels(
-            self.scene,
-            t_us / MICROSECONDS,
-            self.size,
-            wanted,
-            samples=config.samples,
-            shadows=config.shadows,
+        size, config = self.size, self.config
+        world = world_at(
+            self.scene, t_us / MICROSECONDS, size, shadows=config.shadows, samples=config.samples
         )
+        rows = (0, size.height)
+        light = light_of_rows(world, rows, size, samples=config.samples, wanted=wanted)[wanted]
         return np.asarray(luma_bt601(self._code(light)), dtype=np.float32)
 
     def _motion(self, index: int) -> Motion:
         """Motion from a frame to its neighbours."""
-        from texvent.scenes.raycast.surface_motion import frame_motion
+        from texvent.scenes.raycast.ground_truth import frame_motion
 
         before, now, after = (
             frame_time_us(index + step, self.fps) / MICROSECONDS for step in (-1, 0, 1)
@@ -214,7 +211,7 @@ class ProceduralVideo(NotebookFrames):
         return self._make_memory()
 
     def _make_memory(self) -> FrameMemory:
-        from texvent.scenes.raycast.reuse.memory import FrameMemory
+        from texvent.scenes.raycast.reuse import FrameMemory
 
         config = self.config
         return FrameMemory(
@@ -325,7 +322,7 @@ class ProceduralGenerator:
 
     def _stage(self, prompt: Subject) -> tuple[ComposedScene, PromptReport, list[dict[str, str]]]:
         # Imported here: the vocabulary and all models are only needed to make a scene.
-        from texvent.scenes.assets import list_files
+        from texvent.scenes.assets.nouns import list_files
         from texvent.scenes.in_view import find_unseen, without_words
         from texvent.scenes.staging.compose import compose_scene
 

@@ -67,7 +67,8 @@ def _read(prompt: str, nouns: Mapping[str, Noun]) -> Reading:
 
 def list_nouns(assets: str | Path | None = None) -> Mapping[str, Noun]:
     """The nouns that scenes can show, with models of a folder."""
-    from texvent.scenes.assets import merge_nouns, read_folder
+    from texvent.scenes.assets.index import read_folder
+    from texvent.scenes.assets.nouns import merge_nouns
     from texvent.scenes.models.nouns import NOUNS
 
     return NOUNS if assets is None else merge_nouns(read_folder(Path(assets)))
@@ -80,7 +81,7 @@ def nouns_of(subject: Subject, nouns: Mapping[str, Noun]) -> Mapping[str, Noun]:
         ConfigError: a field of the scene is wrong.
         InputError: a model does not exist.
     """
-    from texvent.scenes.assets import with_models
+    from texvent.scenes.assets.nouns import with_models
 
     if not isinstance(subject, Scene):
         return nouns

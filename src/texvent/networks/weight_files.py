@@ -138,26 +138,6 @@ def trained_with(content: Mapping[str, Any], table: str) -> Mapping[str, Any]:
     return found
 
 
-def load_strictly(network: Any, tensors: Mapping[str, Tensor], path: Path, hint: str) -> None:
-    """Fill a network with the tensors of a file.
-
-    Args:
-        network: a torch module; it may be on the device "meta".
-        tensors: name → tensor, float32.
-        path: of the file, for messages.
-        hint: where to get the right file.
-
-    Raises:
-        FileFormatError: a tensor is missing, unknown, of another shape, or not finite.
-    """
-    try:
-        network.load_state_dict(tensors, strict=True, assign=True)
-    except RuntimeError as error:
-        problem = str(error).splitlines()[1].strip().rstrip(". ")
-        raise FileFormatError(f"{path} holds another network: {problem[:300]}; {hint}") from error
-    check_finite(tensors, path)
-
-
 def check_finite(tensors: Mapping[str, Tensor], path: Path) -> None:
     """Refuse weights that are NaN or infinite.
 

@@ -160,8 +160,8 @@ def count_instants(speed_px_s: float, exposure_s: float) -> int:
 
 def fastest_px_s(scene: Scene, size: SensorSize, time_s: float) -> float:
     """Speed that `FASTEST_SHARE` of the pixels do not exceed, px/s."""
+    from texvent.scenes.raycast.ground_truth import cast_centres, move_to
     from texvent.scenes.raycast.render import world_at
-    from texvent.scenes.raycast.surface_motion import cast_centres, move_to
 
     seen = cast_centres(world_at(scene, time_s, size), size)
     place = move_to(scene, (time_s, time_s + _LOOK_S), size, seen)

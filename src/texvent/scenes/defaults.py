@@ -254,7 +254,7 @@ def _usual_motion(description: SceneDescription, noun: Noun) -> str:
     place, is_person = description.surroundings.name, noun.name in PERSON_NOUNS
     if is_person and (place == "space" or description.shot.framing in ("close", "medium")):
         return "hover" if place == "space" else "stand"
-    is_parked = place is None or place == "parking lot" or is_room(place)
+    is_parked = place is None or is_room(place)
     return "stand" if noun.motion == "drive" and is_parked else noun.motion
 
 

@@ -22,9 +22,9 @@ from texvent.scenes.held import Unheld, bodies_of, find_unheld
 from texvent.scenes.models.effects import LAMPS
 from texvent.scenes.models.places import PLACES, Place
 from texvent.scenes.raycast.acceleration import CUBE
-from texvent.scenes.raycast.records import OwnedWorld, World
+from texvent.scenes.raycast.ground_truth import cast
+from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.render import render, world_and_shapes
-from texvent.scenes.raycast.surface_motion import cast
 from texvent.scenes.read.lexicon import lexicon_of, word_set
 from texvent.scenes.scene import Camera, Float64Array, Ground, Primitives, Scene, Texture, project
 from texvent.scenes.spec.data import PLACING
@@ -238,9 +238,7 @@ def count_pixels(
     return most
 
 
-def _count(
-    world: World | OwnedWorld, owner: NDArray[np.int64], points: Float64Array
-) -> Counter[int]:
+def _count(world: World, owner: NDArray[np.int64], points: Float64Array) -> Counter[int]:
     """Points that show each instance."""
     _, number = cast(world, points)
     return Counter(owner[np.where(number >= 0, number, -1)].tolist())

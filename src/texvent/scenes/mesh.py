@@ -20,20 +20,14 @@ MOST_LEVELS = 14
 class SurfaceImage:
     """An image that a surface shows; u runs right and v down over 0..1."""
 
-    levels: tuple[Float32Array, ...] = ()
-    """[h, w, 3] linear RGB, each half as large as the one before, down to one pixel; empty for a
-    checkerboard."""
-    checks: tuple[int, int] | None = None
-    """Columns and rows of a checkerboard's squares, with a white margin one square wide around;
-    the square at its top left is black. None: the levels are shown."""
+    levels: tuple[Float32Array, ...]
+    """[h, w, 3] linear RGB, each half as large as the one before, down to one pixel."""
     repeats: bool = False
     """Whether it repeats beyond 0..1, as textures of meshes do."""
 
     @property
     def aspect(self) -> float:
         """Width divided by height."""
-        if self.checks is not None:
-            return (self.checks[0] + 2) / (self.checks[1] + 2)
         height, width = self.levels[0].shape[:2]
         return float(width / height)
 
@@ -93,14 +87,6 @@ class Mesh:
     """Textures."""
     half: tuple[float, float, float] = (1.0, 1.0, 1.0)
     """Half extents before it was scaled into the cube."""
-    rest: Mesh | None = None
-    """For a mesh that deforms: itself in its rest pose, with the same triangles in the same order;
-    None: this one is rigid."""
-
-    @property
-    def origin(self) -> Mesh:
-        """The mesh whose triangles and tree it shares: its rest pose, or itself."""
-        return self if self.rest is None else self.rest
 
 
 def make_mesh(
@@ -153,10 +139,10 @@ def make_mesh(
         image=np.full(count, -1, np.int32) if image is None else np.asarray(image, np.int32),
         images=tuple(images),
     )
-    return into_unit_cube(_select(mesh, has_area))
+    return _into_unit_cube(_select(mesh, has_area))
 
 
-def into_unit_cube(mesh: Mesh) -> tuple[Mesh, Float64Array]:
+def _into_unit_cube(mesh: Mesh) -> tuple[Mesh, Float64Array]:
     """The same mesh moved and scaled per axis into the unit cube, and the [3, 4] map back."""
     used = mesh.vertices[np.unique(mesh.triangles)]
     low, high = used.min(axis=0), used.max(axis=0)
@@ -167,19 +153,6 @@ def into_unit_cube(mesh: Mesh) -> tuple[Mesh, Float64Array]:
     vertices = (mesh.vertices - middle) / half
     placed = replace(mesh, vertices=vertices, normals=normals, half=extents)
     return placed, np.column_stack([np.diag(half), middle])
-
-
-def deformed(
-    rest: Mesh, vertices: Float64Array, normals: Float32Array
-) -> tuple[Mesh, Float64Array]:
-    """A mesh with its vertices elsewhere, and the [3, 4] map from its cube to their coordinates.
-
-    Args:
-        rest: the mesh in its rest pose.
-        vertices: [v, 3] places now.
-        normals: [t, 3, 3] corner normals now.
-    """
-    return into_unit_cube(replace(rest, vertices=vertices, normals=normals, rest=rest.origin))
 
 
 def triangle_normals(vertices: Float64Array, triangles: NDArray[np.int32]) -> Float64Array:

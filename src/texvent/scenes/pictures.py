@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 import threading
 from collections import OrderedDict
@@ -185,6 +186,8 @@ LARGEST_SIDE = 4096
 _LETTER_PX = 96
 """Height of capital letters in the image of a text."""
 _LINE_PX = 160
+_LONGEST_BOARD_PX = 2048
+"""Longest side of the image of a checkerboard at most."""
 _INK, PAPER = 0.03, 0.85
 """Reflectance of printed letters and of the paper."""
 
@@ -239,10 +242,27 @@ def _version(picture: Picture) -> tuple[float, int]:
 def _still(picture: Picture, version: tuple[float, int]) -> SurfaceImage:
     del version
     if picture.kind == "checkerboard":
-        return SurfaceImage(checks=read_checks(picture.value))
+        return surface_image(draw_checks(*read_checks(picture.value)))
     if picture.kind == "text":
         return surface_image(draw_text(picture.value))
     return surface_image(read_image(Path(picture.value)))
+
+
+def draw_checks(columns: int, rows: int) -> NDArray[np.float32]:
+    """[h, w, 3] linear image of black and white squares, with a white margin one square wide.
+
+    The square at its top left is black. Its side is a power of two, so that its averages are exact.
+    """
+    side = 2 ** int(math.log2(_LONGEST_BOARD_PX / (max(columns, rows) + 2)))
+    i, j = np.indices((rows, columns))
+    share = np.pad((i + j + 1) % 2, 1).repeat(side, axis=0).repeat(side, axis=1)
+    return _printed(share)
+
+
+def _printed(share: NDArray[Any]) -> NDArray[np.float32]:
+    """[h, w, 3] of ink on paper, from the share [h, w] of ink."""
+    grey = PAPER + share.astype(np.float32) * np.float32(_INK - PAPER)
+    return np.repeat(grey[..., None], 3, axis=2).astype(np.float32)
 
 
 def draw_text(text: str) -> NDArray[np.float32]:
@@ -256,9 +276,7 @@ def draw_text(text: str) -> NDArray[np.float32]:
         foot = (_LINE_PX * (2 * row + 2) + _LETTER_PX) // 2
         left = (canvas.shape[1] - width) // 2
         cv2.putText(canvas, line, (left, foot), font, scale, 255, thickness, cv2.LINE_AA)
-    share = canvas.astype(np.float32) / 255.0
-    grey = PAPER + share * (_INK - PAPER)
-    return np.repeat(grey[..., None], 3, axis=2).astype(np.float32)
+    return _printed(canvas / 255.0)
 
 
 def _wrapped(words: list[str]) -> list[str]:

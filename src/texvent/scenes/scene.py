@@ -58,7 +58,6 @@ class Texture(IntEnum):
     GRASS = 20
     SOIL = 21
     SAND = 22
-    GRAVEL = 23
     LEAVES = 24
     SNOW = 25
     PAVING = 26
@@ -116,9 +115,8 @@ class Primitives:
     instance: NDArray[np.int32]
     """[n] id of the object it belongs to: 1, 2, ...; 0 is scenery without an id of its own."""
     mesh: NDArray[np.object_] | None = None
-    """[n] `Mesh` of each `Shape.MESH`, None elsewhere; None: there are no meshes. A mesh that
-    deforms is another one at every instant, with the same `Mesh.origin`. `colour` multiplies its
-    own."""
+    """[n] `Mesh` of each `Shape.MESH`, None elsewhere; None: there are no meshes. `colour`
+    multiplies its own."""
     image: NDArray[np.object_] | None = None
     """[n] `SurfaceImage` that a face of a box shows, or None; None: there are no images."""
     image_face: NDArray[np.int8] | None = None

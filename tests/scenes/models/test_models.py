@@ -31,8 +31,7 @@ MOUNDS = {"dune mound"}
 """Scenery whose lower half is in the ground."""
 HUNG = {"ceiling fan"}
 """What hangs from above or on a wall."""
-LINES = {"runway markings", "tennis court lines", "basketball court lines", "pitch lines",
-         "parking lines"}  # fmt: skip
+LINES = {"runway markings", "basketball court lines", "pitch lines"}
 """White paint on the ground."""
 INSECTS = {"bee", "housefly", "dragonfly", "butterfly"}
 HOPPERS = {"frog"}

@@ -6,6 +6,7 @@ import pytest
 from tests.scenes.raycast.meshes.mesh_scenes import MeshScene, sheet
 
 from texvent.scenes.mesh import SurfaceImage, surface_image
+from texvent.scenes.pictures import draw_checks
 from texvent.scenes.raycast.render import render_light
 from texvent.scenes.scene import Camera, place_in_image
 from texvent.sensor import SensorSize
@@ -23,8 +24,7 @@ def camera(distance: float, turn: float = 0.0) -> Camera:
 
 
 def scene_of(image: SurfaceImage, seen_by: Camera) -> MeshScene:
-    mesh, to_body = sheet(image)
-    return MeshScene(lambda time: (mesh, to_body), camera_at=lambda time: seen_by)
+    return MeshScene(sheet(image), camera_at=lambda time: seen_by)
 
 
 def light_on(image: SurfaceImage, seen_by: Camera, size: SensorSize = SIZE) -> np.ndarray:
@@ -64,7 +64,7 @@ def test_a_filtered_image_is_near_the_mean_of_many_samples(distance, turn):
 def test_a_checkerboard_shows_its_corners_exactly_where_the_camera_says():
     size = SensorSize(320, 240)
     seen_by = camera(3.2, 0.5)
-    board = SurfaceImage(checks=(9, 6))
+    board = surface_image(draw_checks(9, 6))
     gray = encode_srgb(light_on(board, seen_by, size)).mean(axis=2).astype(np.uint8)
     found, corners = cv2.findChessboardCorners(gray, (8, 5))
     assert found

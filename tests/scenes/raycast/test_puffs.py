@@ -79,7 +79,8 @@ def test_the_density_along_a_chord_is_its_integral(half, start, length):
 def test_optical_depth_is_the_integral_of_the_density(point, stop):
     row = puff((0.1, 0.2, -0.1), (0.8, 0.6, 1.1), thickness=1.7)
     scene = scene_of(row)
-    seen = optical_depth(world_at(scene, 0.0, SMALL), *point, stop)
+    world = world_at(scene, 0.0, SMALL)
+    seen = optical_depth(world.instant[0], *point, stop)
     assert seen == pytest.approx(numeric_depth(row, scene, point, stop), abs=2e-4)
 
 

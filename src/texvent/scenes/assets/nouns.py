@@ -12,125 +12,27 @@ from typing import Any
 
 import numpy as np
 
-from texvent._require import require
-from texvent.errors import FileFormatError, InputError, one_line, shown
-from texvent.scenes.assets.figure import Figure, GltfFigure, RigidFigure, Surface
+from texvent.errors import FileFormatError, InputError, shown
 from texvent.scenes.assets.index import ENDINGS, Asset
+from texvent.scenes.assets.model_file import KEPT_FILES, load_mesh, painted
 from texvent.scenes.description import SceneDescription
-from texvent.scenes.mesh import Colour, Float64Array, SurfaceImage, decode_srgb, surface_image
+from texvent.scenes.mesh import Colour, Float64Array, Mesh
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
 from texvent.scenes.models.parts import read_nouns
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose, choose
-from texvent.scenes.scene import Shape, Texture
+from texvent.scenes.scene import Shape
 
-_CLEAR = 0.4
-"""Surfaces less opaque than this are left out: panes of glass."""
-
-
-def load_with_trimesh(path: Path) -> RigidFigure:
-    """The model of an OBJ or PLY file.
-
-    Raises:
-        MissingDependencyError: trimesh is not installed.
-        FileFormatError: the file is damaged.
-        InputError: it has no triangle with an area.
-    """
-    trimesh: Any = require("trimesh", extra="assets")
-    require("PIL.Image", extra="assets")
-    try:
-        loaded = trimesh.load(str(path), process=False)
-        parts = loaded.dump() if isinstance(loaded, trimesh.Scene) else [loaded]
-        surfaces = [_surface(part) for part in parts if isinstance(part, trimesh.Trimesh)]
-    except Exception as error:
-        raise FileFormatError(f"{path} cannot be read as a model: {one_line(error)}") from error
-    kept = [surface for surface in surfaces if surface is not None]
-    if not kept:
-        raise FileFormatError(f"{path} has no triangles")
-    return RigidFigure(kept)
-
-
-def _surface(part: Any) -> Surface | None:
-    vertices = np.asarray(part.vertices, dtype=np.float64)
-    if not len(part.faces):
-        return None
-    given = "vertex_normals" in part._cache
-    colour, alpha, image = _material(part.visual)
-    if alpha < _CLEAR:
-        return None
-    uv = getattr(part.visual, "uv", None)
-    has_uv = uv is not None and len(uv) == len(vertices)
-    colours = None
-    if part.visual.kind == "vertex":
-        colours = decode_srgb(np.asarray(part.visual.vertex_colors)[:, :3].astype(np.uint8))
-        colour = (1.0, 1.0, 1.0)
-    return Surface(
-        vertices,
-        np.asarray(part.faces),
-        normals=np.asarray(part.vertex_normals, dtype=np.float32) if given else None,
-        uv=np.asarray(np.asarray(uv) * [1, -1] + [0, 1], np.float32) if has_uv else None,
-        colours=colours,
-        colour=colour,
-        image=image if has_uv else None,
-    )
-
-
-def _material(visual: Any) -> tuple[tuple[float, float, float], float, SurfaceImage | None]:
-    """Linear colour, opacity and image of a part."""
-    material = getattr(visual, "material", None)
-    if material is None:
-        return (0.5, 0.5, 0.5), 1.0, None
-    image = getattr(material, "image", None) or getattr(material, "baseColorTexture", None)
-    coded = np.asarray(material.main_color, dtype=np.uint8)
-    red, green, blue = (float(value) for value in decode_srgb(coded[:3]))
-    alpha = float(coded[3]) / 255.0 if len(coded) > 3 else 1.0
-    if image is None:
-        return (red, green, blue), alpha, None
-    pixels = np.asarray(image.convert("RGB"), dtype=np.uint8)
-    return (1.0, 1.0, 1.0), alpha, surface_image(decode_srgb(pixels), repeats=True)
-
-
-KEPT_FILES = 32
-"""Read files that are kept."""
 _UNITS = ((20.0, 0.01), (1000.0, 0.001))
 """Longest side of a file above which its unit is taken to be this many metres: cm, mm."""
-_SAMPLES = 12
-"""Instants at which an animated model is measured."""
-
-
-@lru_cache(maxsize=KEPT_FILES)
-def _read(path: str, changed_ns: int) -> Figure:
-    del changed_ns
-    place = Path(path)
-    try:
-        return GltfFigure(place) if place.suffix.lower() == ".glb" else load_with_trimesh(place)
-    except InputError as error:
-        if path in str(error):
-            raise
-        raise FileFormatError(f"{path}: {error}") from error
-
-
-def read_figure(asset: Asset) -> Figure:
-    """The figure of an asset's file, read once while it does not change.
-
-    Raises:
-        FileFormatError: the file is damaged.
-        InputError: it is gone.
-    """
-    try:
-        changed_ns = asset.path.stat().st_mtime_ns
-    except OSError as error:
-        raise InputError(f"the asset {asset.path} cannot be read: {error.strerror}") from error
-    return _read(str(asset.path), changed_ns)
 
 
 @dataclass(eq=False)
 class AssetModel:
     """A model from a file; implements `models.protocol.Model`."""
 
-    figure: Figure
+    mesh: Mesh
     to_body: Float64Array
-    """[3, 4] the file's coordinates → body."""
-    colour: Colour | None
+    """[3, 4] mesh → body."""
     length: float
     width: float
     height: float
@@ -139,15 +41,9 @@ class AssetModel:
     """How its size was found."""
 
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
-        """Its meshes at that pose."""
-        found = []
-        for mesh, to_file in self.figure.place(pose.time_s, pose.activity, self.colour):
-            to_body = self.to_body[:, :3] @ to_file
-            to_body[:, 3] += self.to_body[:, 3]
-            found.append(
-                ModelPart(Shape.MESH, to_body, (1.0, 1.0, 1.0), texture=Texture.PLAIN, mesh=mesh)
-            )
-        return found
+        """Its mesh, at any pose."""
+        del pose
+        return [ModelPart(Shape.MESH, self.to_body, (1.0, 1.0, 1.0), mesh=self.mesh)]
 
 
 @lru_cache(maxsize=KEPT_FILES)
@@ -160,7 +56,7 @@ def _part_noun(asset: Asset) -> Noun | None:
     """The noun of an asset that is a list of parts; None: it is a mesh."""
     if asset.path.suffix.lower() != ".toml":
         return None
-    return _read_parts(asset.path, asset.path.stat().st_mtime_ns)[asset.noun]
+    return _read_parts(asset.path, _changed_ns(asset))[asset.noun]
 
 
 def load_model(
@@ -172,17 +68,33 @@ def load_model(
         FileFormatError: the file is damaged.
         MissingDependencyError: trimesh is needed and not installed.
     """
-    figure = read_figure(asset)
+    mesh, to_file = load_mesh(asset.path, _changed_ns(asset))
     turn = _axes(asset)
-    low, high = _measure(figure, turn)
+    used = mesh.vertices[np.unique(mesh.triangles)]
+    places = (used @ to_file[:, :3].T + to_file[:, 3]) @ turn.T
+    low, high = places.min(axis=0), places.max(axis=0)
     factors, note = _scale(asset, high - low)
     factors = factors * scale
     extents = (high - low) * factors
     middle = 0.5 * (low + high) * factors
     foot = middle[2] if is_centred else low[2] * factors[2]
-    to_body = np.column_stack([factors[:, None] * turn, [-middle[0], -middle[1], -foot]])
+    to_body = factors[:, None] * turn @ to_file
+    to_body[:, 3] -= [middle[0], middle[1], foot]
     length, width, height = (max(float(extent), 1e-3) for extent in extents)
-    return AssetModel(figure, to_body, colour, length, width, height, is_centred, note)
+    shown = mesh if colour is None else painted(mesh, colour)
+    return AssetModel(shown, to_body, length, width, height, is_centred, note)
+
+
+def _changed_ns(asset: Asset) -> int:
+    """When the file of an asset was last changed.
+
+    Raises:
+        InputError: it is gone.
+    """
+    try:
+        return asset.path.stat().st_mtime_ns
+    except OSError as error:
+        raise InputError(f"the asset {asset.path} cannot be read: {error.strerror}") from error
 
 
 def _axes(asset: Asset) -> Float64Array:
@@ -200,20 +112,6 @@ def _axes(asset: Asset) -> Float64Array:
 def _axis(name: str) -> Float64Array:
     sign = -1.0 if name.startswith("-") else 1.0
     return np.asarray(sign * np.eye(3)["xyz".index(name[-1])])
-
-
-def _measure(figure: Figure, turn: Float64Array) -> tuple[Float64Array, Float64Array]:
-    """Least and greatest coordinates over the first seconds of its animation, after turning."""
-    low, high = np.full(3, np.inf), np.full(3, -np.inf)
-    for step in range(_SAMPLES):
-        placed = figure.place(step / 6.0, "move", None)
-        for mesh, to_file in placed:
-            used = mesh.vertices[np.unique(mesh.triangles)]
-            places = (used @ to_file[:, :3].T + to_file[:, 3]) @ turn.T
-            low, high = np.minimum(low, places.min(axis=0)), np.maximum(high, places.max(axis=0))
-        if isinstance(figure, RigidFigure):
-            break
-    return low, high
 
 
 def _scale(asset: Asset, extents: Float64Array) -> tuple[Float64Array, str]:

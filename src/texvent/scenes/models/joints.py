@@ -1,8 +1,8 @@
 """Joints of nouns: how a group of parts moves, bends or shines with time and distance.
 
-docs/nouns.md lists them. RATE is "2hz" (cycles per second) or, of what bends, "1.5/m" (cycles per
-metre travelled); "start NAME" lets the seed choose where the cycle begins, "from .25" begins it
-later by a share of a cycle.
+docs/nouns.md lists them. A joint is its kind, an axis, numbers with units, and named values. Its
+rate is "2hz" (cycles per second) or "1.5/m" (cycles per metre travelled); "start NAME" lets the
+seed choose where the cycle begins, "from .25" or "from 90deg" begins it later.
 """
 
 from __future__ import annotations
@@ -18,8 +18,6 @@ from texvent.scenes.models.materials import shade
 from texvent.scenes.models.protocol import ModelPart, Pose, between, fraction
 from texvent.scenes.models.shapes import Affine, Point, compose, moved, shift, turn_about
 
-_UNITS = {"": 1.0, "deg": math.radians(1.0), "hz": 1.0, "m/s": 1.0, "m": 1.0}
-
 RESTING = frozenset({"stand", "sit", "lie", *ANIMAL_ACTS})
 """Activities of a body that stays where it is."""
 _RESTING_VIGOUR = 0.3
@@ -30,14 +28,15 @@ along its body, rad: for a body of length 1."""
 
 Cycle = Callable[[Pose, int], float]
 """Pose and seed → cycles so far."""
+Motion = Callable[[Pose, int], Affine]
+"""Pose and seed → [3, 4] map."""
 
 
 @dataclass(frozen=True)
 class Joint:
     """How parts move in their body."""
 
-    motion: Callable[[Pose, int], Affine]
-    """Pose and seed → [3, 4] map."""
+    motion: Motion
     rolls: bool = False
     """Whether it turns with the distance travelled."""
 
@@ -69,13 +68,15 @@ def place(joints: Sequence[Joint], pose: Pose, seed: int) -> Affine:
     return motion
 
 
-def read_number(word: str) -> float:
-    """A number, perhaps with a unit; degrees become radians only in joints.
+def read_number(word: str, unit: str = "") -> float:
+    """A number with that unit.
 
     Raises:
-        ValueError: it is none, or not finite.
+        ValueError: it is none, not finite, or has another unit.
     """
-    value = float(word)
+    if not word.endswith(unit):
+        raise ValueError(f"{word!r} needs the unit {unit!r}")
+    value = float(word.removesuffix(unit))
     if not math.isfinite(value):
         raise ValueError(f"numbers must be finite but one is {word!r}")
     return value
@@ -88,209 +89,106 @@ def rolling(axis: str, pivot: Point, radius: float) -> Joint:
     return Joint(lambda pose, seed: turn_about(axis, pose.distance_m / radius, pivot), rolls=True)
 
 
-def read_joint(text: str) -> Joint:
-    """A joint from its text, such as "swing x 0 0 1.17 22.9deg .541hz".
+_OPTIONS = frozenset({"at", "start", "from", "above", "below", "sink", "within", "between", "dim"})
+"""Names of values."""
+_Options = Mapping[str, Sequence[str]]
+
+
+def _split_options(words: Sequence[str]) -> tuple[list[str], _Options]:
+    """The words before the first named value, and name → its words."""
+    plain: list[str] = []
+    options: dict[str, list[str]] = {}
+    words_of = plain
+    for word in words:
+        if word in _OPTIONS and words_of[-1:] != ["start"]:
+            words_of = options[word] = []
+        else:
+            words_of.append(word)
+    return plain, options
+
+
+def _share_of_turn(word: str) -> float:
+    """Cycles of a number of them, or of an angle such as "90deg"."""
+    return read_number(word, "deg") / 360.0 if word.endswith("deg") else read_number(word)
+
+
+def _cycle(rate: str, options: _Options) -> Cycle:
+    """Cycles of a rate, by its "start" and "from"."""
+    unit = next((one for one in ("hz", "/m") if rate.endswith(one)), None)
+    if unit is None:
+        raise ValueError(f"rate {rate!r} needs the unit 'hz' or '/m'")
+    pace, late = read_number(rate, unit), _share_of_turn(options.get("from", ["0"])[0])
+    label, times = [*options.get("start", [""]), "1"][:2]
+    most = read_number(times)
+
+    def cycle(pose: Pose, seed: int) -> float:
+        begun = most * fraction(seed, label) if label else 0.0
+        return pace * (pose.time_s if unit == "hz" else pose.distance_m) + begun + late
+
+    return cycle
+
+
+def read_cycle(words: Sequence[str]) -> Cycle:
+    """Cycles from the words of a rate, such as ("2hz", "start", "flap").
 
     Raises:
-        ValueError: it cannot be read; the message has the text.
+        ValueError: they are none.
     """
-    try:
-        kind, axis, *rest = text.split()
-        axes = axis if kind in _STRETCHING else [axis]
-        if kind not in _JOINTS or not set(axes) <= set("xyz"):
-            raise ValueError(f"it must begin with {', '.join(_JOINTS)} and an axis x, y or z")
-        return _JOINTS[kind](axis, rest)
-    except (ValueError, IndexError) as error:
-        raise ValueError(f"joint {text!r}: {error}") from None
+    (rate, *more), options = _split_options(words)
+    if more or options.keys() - {"start", "from"}:
+        raise ValueError(f"unknown words after rate {rate!r}; there are 'start' and 'from'")
+    return _cycle(rate, options)
 
 
-def read_light(text: str) -> Light:
-    """A light from its text, such as "sine 1hz start blink".
-
-    Raises:
-        ValueError: it cannot be read; the message has the text.
-    """
-    try:
-        kind, *rest = text.split()
-        options = _Options(rest)
-        rate, lag, start = options.number("at"), options.angle("from"), options.start()
-        low, high = options.pair("between")
-        dim = options.number("dim") if "dim" in rest else None
-        if kind not in _WAVES:
-            raise ValueError(f"it must begin with {', '.join(_WAVES)}")
-    except (ValueError, IndexError) as error:
-        raise ValueError(f"light {text!r}: {error}") from None
-    wave = _WAVES[kind]
-
-    def level(time_s: float, seed: int) -> float:
-        phase = (rate * time_s + lag / (2.0 * math.pi) + start(seed)) % 1.0
-        return wave(phase, low, high)
-
-    return Light(level, dim)
+def sine(cycle: Cycle, pose: Pose, seed: int) -> float:
+    """The sine of a cycle at one instant."""
+    return math.sin(2.0 * math.pi * cycle(pose, seed))
 
 
-def _sine(phase: float, low: float, high: float) -> float:
-    return 0.5 + 0.5 * math.sin(2.0 * math.pi * phase)
+def _angle(word: str) -> float:
+    return math.radians(read_number(word, "deg"))
 
 
-_RAMP = 0.01
-"""Share of a cycle in which a lamp comes on or goes off: a filament's glow."""
+def _spin(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+    """Steady turning: rate."""
+    cycle = _cycle(words[0], options)
+    return Joint(lambda pose, seed: turn_about(axis, 2.0 * math.pi * cycle(pose, seed), pivot))
 
 
-def _switched(phase: float, low: float, high: float) -> float:
-    """On from one share of the cycle to another."""
-    inside = min(phase - low, high - phase)
-    if low == 0.0 and phase > 1.0 - _RAMP:
-        inside = phase - 1.0
-    return min(1.0, max(0.0, 0.5 + inside / _RAMP))
-
-
-_WAVES: Mapping[str, Callable[[float, float, float], float]] = {
-    "sine": _sine, "switched": _switched,
-}  # fmt: skip
-
-
-class _Options:
-    """The words of a joint after its axis: numbers with units, and named values."""
-
-    def __init__(self, words: Sequence[str]) -> None:
-        self._words = list(words)
-
-    def point(self) -> Point:
-        """The pivot: the first three numbers."""
-        x, y, z = (read_number(one) for one in self._words[:3])
-        self._words = self._words[3:]
-        return x, y, z
-
-    def first(self, unit: str) -> float:
-        """The next number, which must have that unit."""
-        word = self._words.pop(0)
-        if not word.endswith(unit):
-            raise ValueError(f"{word!r} needs the unit {unit!r}")
-        return _UNITS[unit] * read_number(word.removesuffix(unit))
-
-    def number(self, name: str, usual: float = 0.0) -> float:
-        """The number after a name, without its unit."""
-        if name not in self._words:
-            return usual
-        return read_number(self._words[self._words.index(name) + 1].rstrip("hzdegm/s"))
-
-    def angle(self, name: str, usual: float = 0.0) -> float:
-        """The angle after a name, radians."""
-        return math.radians(self.number(name, math.degrees(usual)))
-
-    def pair(self, name: str) -> tuple[float, float]:
-        """The two numbers after a name."""
-        if name not in self._words:
-            return 0.0, 1.0
-        at = self._words.index(name)
-        return read_number(self._words[at + 1]), read_number(self._words[at + 2])
-
-    def start(self) -> Callable[[int], float]:
-        """Turns at the beginning, from 0 up to a number of them, by the seed."""
-        if "start" not in self._words:
-            return lambda seed: 0.0
-        label, *rest = self._words[self._words.index("start") + 1 :]
-        times = read_number(rest[0]) if rest and not rest[0].isalpha() else 1.0
-        return lambda seed: times * fraction(seed, label)
-
-
-def _spin(axis: str, words: Sequence[str]) -> Joint:
-    """Steady turning: pivot, rate."""
-    options = _Options(words)
-    pivot, rate, start = options.point(), options.first("hz"), options.start()
+def _swing(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+    """Turning to and fro: greatest angle, rate; between two angles where it is stopped."""
+    reach, cycle = _angle(words[0]), _cycle(words[1], options)
+    low = _angle(options["above"][0]) if "above" in options else -math.inf
+    high = _angle(options["below"][0]) if "below" in options else math.inf
     return Joint(
         lambda pose, seed: turn_about(
-            axis, 2.0 * math.pi * (rate * pose.time_s + start(seed)), pivot
+            axis, min(max(reach * sine(cycle, pose, seed), low), high), pivot
         )
     )
 
 
-def _swing(axis: str, words: Sequence[str]) -> Joint:
-    """Turning to and fro: pivot, greatest angle, rate; between two angles where it is stopped."""
-    options = _Options(words)
-    pivot, reach, rate = options.point(), options.first("deg"), options.first("hz")
-    lag, start = options.angle("from"), options.start()
-    low, high = options.angle("above", -math.inf), options.angle("below", math.inf)
-
-    def motion(pose: Pose, seed: int) -> Affine:
-        phase = 2.0 * math.pi * (rate * pose.time_s + start(seed)) + lag
-        return turn_about(axis, min(max(reach * math.sin(phase), low), high), pivot)
-
-    return Joint(motion)
+def _roll(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+    """Turning with the distance travelled: radius."""
+    return rolling(axis, pivot, read_number(words[0], "m"))
 
 
-def _roll(axis: str, words: Sequence[str]) -> Joint:
-    """Turning with the distance travelled: pivot, radius."""
-    options = _Options(words)
-    return rolling(axis, options.point(), options.first("m"))
-
-
-def _turn(axis: str, words: Sequence[str]) -> Joint:
-    """Turned once and for all: pivot, angle."""
-    options = _Options(words)
-    pivot, angle = options.point(), options.first("deg")
+def _turn(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+    """Turned once and for all: angle."""
+    angle = _angle(words[0])
     return Joint(lambda pose, seed: turn_about(axis, angle, pivot))
 
 
-def _lie(axis: str, words: Sequence[str]) -> Joint:
-    """Turned unless it is carried: pivot, angle."""
-    options = _Options(words)
-    pivot, angle = options.point(), options.first("deg")
+def _lie(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+    """Turned unless it is carried: angle."""
+    angle = _angle(words[0])
     return Joint(
         lambda pose, seed: turn_about(axis, 0.0 if pose.activity == "move" else angle, pivot)
     )
 
 
-def _belt(axis: str, words: Sequence[str]) -> Joint:
-    """Along a belt, then from its start again: length, speed; sinking by a depth at its ends."""
-    options = _Options(words)
-    length, speed = options.first("m"), options.first("m/s")
-    first, depth, edge = (options.number(name) for name in ("from", "sink", "within"))
-
-    def motion(pose: Pose, seed: int) -> Affine:
-        along = (speed * pose.time_s + first) % length
-        sunk = max(0.0, 1.0 - min(along, length - along) / edge) if edge else 0.0
-        moved = shift(**{axis: along - 0.5 * length})
-        moved[2, 3] -= depth * sunk
-        return np.asarray(moved)
-
-    return Joint(motion)
-
-
-def _pulse(axes: str, words: Sequence[str]) -> Joint:
-    """Stretched along axes and shrunk: pivot, greatest share, rate."""
-    options, cycle = _Options(words), read_cycle(words[4:])
-    pivot, share = options.point(), options.first("")
-    return Joint(lambda pose, seed: _stretch(axes, 1.0 + share * sine(cycle, pose, seed), pivot))
-
-
-def _grow(axes: str, words: Sequence[str]) -> Joint:
-    """From a share of its size to the whole, again and again: pivot, least share, rate."""
-    options, cycle = _Options(words), read_cycle(words[4:])
-    pivot, least = options.point(), options.first("")
-    return Joint(
-        lambda pose, seed: _stretch(axes, least + (1.0 - least) * (cycle(pose, seed) % 1.0), pivot)
-    )
-
-
-def _vary(axes: str, words: Sequence[str]) -> Joint:
-    """Stretched once and for all: pivot, least and greatest factor, name of the seed's choice."""
-    options, name = _Options(words), words[5]
-    pivot, low, high = options.point(), options.first(""), options.first("")
-    return Joint(lambda pose, seed: _stretch(axes, between(seed, name, low, high), pivot))
-
-
-def _sway(axis: str, words: Sequence[str]) -> Joint:
-    """To and fro along an axis: greatest distance, rate."""
-    reach, cycle = read_number(words[0]), read_cycle(words[1:])
-    return Joint(lambda pose, seed: shift(**{axis: reach * sine(cycle, pose, seed)}))
-
-
-def _bow(axis: str, words: Sequence[str]) -> Joint:
-    """Turned down while the mouth is at the ground: pivot, degrees."""
-    options = _Options(words)
-    pivot, reach = options.point(), math.radians(options.first(""))
+def _bow(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+    """Turned down while the mouth is at the ground: angle."""
+    reach = _angle(words[0])
     return Joint(
         lambda pose, seed: turn_about(
             axis, reach * act_stance(pose.activity, pose.time_s).head_down, pivot
@@ -298,9 +196,55 @@ def _bow(axis: str, words: Sequence[str]) -> Joint:
     )
 
 
-_JOINTS: Mapping[str, Callable[[str, Sequence[str]], Joint]] = {
-    "spin": _spin, "swing": _swing, "roll": _roll, "turn": _turn, "lie": _lie,
-    "belt": _belt, "bow": _bow, "sway": _sway, "pulse": _pulse, "grow": _grow, "vary": _vary,
+def _pulse(axes: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+    """Stretched along axes and shrunk: greatest share, rate."""
+    share, cycle = read_number(words[0]), _cycle(words[1], options)
+    return Joint(lambda pose, seed: _stretch(axes, 1.0 + share * sine(cycle, pose, seed), pivot))
+
+
+def _grow(axes: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+    """From a share of its size to the whole, again and again: least share, rate."""
+    least, cycle = read_number(words[0]), _cycle(words[1], options)
+    return Joint(
+        lambda pose, seed: _stretch(axes, least + (1.0 - least) * (cycle(pose, seed) % 1.0), pivot)
+    )
+
+
+def _vary(axes: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
+    """Stretched once and for all: least and greatest factor, name of the seed's choice."""
+    low, high, name = read_number(words[0]), read_number(words[1]), words[2]
+    return Joint(lambda pose, seed: _stretch(axes, between(seed, name, low, high), pivot))
+
+
+def _belt(axis: str, words: Sequence[str], options: _Options) -> Joint:
+    """Along a belt, then from its start again: length, speed; sinking by a depth at its ends."""
+    length, speed = read_number(words[0], "m"), read_number(words[1], "m/s")
+    first, depth, edge = (
+        read_number(options.get(name, ["0"])[0]) for name in ("from", "sink", "within")
+    )
+
+    def motion(pose: Pose, seed: int) -> Affine:
+        along = (speed * pose.time_s + first) % length
+        sunk = max(0.0, 1.0 - min(along, length - along) / edge) if edge else 0.0
+        carried = shift(**{axis: along - 0.5 * length})
+        carried[2, 3] -= depth * sunk
+        return np.asarray(carried)
+
+    return Joint(motion)
+
+
+def _sway(axis: str, words: Sequence[str], options: _Options) -> Joint:
+    """To and fro along an axis: greatest distance, rate."""
+    reach, cycle = read_number(words[0]), _cycle(words[1], options)
+    return Joint(lambda pose, seed: shift(**{axis: reach * sine(cycle, pose, seed)}))
+
+
+_ABOUT_PIVOT: Mapping[str, Callable[[str, Point, Sequence[str], _Options], Joint]] = {
+    "spin": _spin, "swing": _swing, "roll": _roll, "turn": _turn, "lie": _lie, "bow": _bow,
+    "pulse": _pulse, "grow": _grow, "vary": _vary,
+}  # fmt: skip
+_ALONG: Mapping[str, Callable[[str, Sequence[str], _Options], Joint]] = {
+    "belt": _belt, "sway": _sway,
 }  # fmt: skip
 _STRETCHING = ("pulse", "grow", "vary")
 """Joints of several axes, such as "yz"."""
@@ -312,32 +256,57 @@ def _stretch(axes: str, factor: float, pivot: Point) -> Affine:
     return np.column_stack([np.diag(factors), (1.0 - factors) * np.array(pivot)])
 
 
-def read_cycle(words: Sequence[str]) -> Cycle:
-    """Cycles from the words of a rate, such as ("2hz", "start", "flap").
+def read_joint(text: str) -> Joint:
+    """A joint from its text, such as "swing x 0 0 1.17 22.9deg .541hz".
 
     Raises:
-        ValueError: they are none.
+        ValueError: it cannot be read; the message has the text.
     """
-    rate, *more = words
-    options = dict(zip(more[::2], more[1::2], strict=True))
-    late, label = read_number(options.pop("from", "0")), options.pop("start", None)
-    if options:
-        raise ValueError(f"unknown words {' '.join(options)!r}; there are 'start' and 'from'")
-    unit = next((one for one in ("hz", "/m") if rate.endswith(one)), None)
-    if unit is None:
-        raise ValueError(f"rate {rate!r} needs the unit 'hz' or '/m'")
-    pace = read_number(rate.removesuffix(unit))
-
-    def cycle(pose: Pose, seed: int) -> float:
-        begun = fraction(seed, label) if label is not None else 0.0
-        return pace * (pose.time_s if unit == "hz" else pose.distance_m) + begun + late
-
-    return cycle
+    try:
+        kind, axis, *rest = text.split()
+        if not set(axis) <= set("xyz") or (len(axis) > 1 and kind not in _STRETCHING):
+            raise ValueError(f"its axis is {axis!r}; it must be x, y or z")
+        words, options = _split_options(rest)
+        if kind in _ALONG:
+            return _ALONG[kind](axis, words, options)
+        if kind not in _ABOUT_PIVOT:
+            raise ValueError(f"it must begin with {', '.join([*_ABOUT_PIVOT, *_ALONG])}")
+        x, y, z = map(read_number, words[:3])
+        return _ABOUT_PIVOT[kind](axis, (x, y, z), words[3:], options)
+    except (ValueError, IndexError) as error:
+        raise ValueError(f"joint {text!r}: {error}") from None
 
 
-def sine(cycle: Cycle, pose: Pose, seed: int) -> float:
-    """The sine of a cycle at one instant."""
-    return math.sin(2.0 * math.pi * cycle(pose, seed))
+_RAMP = 0.01
+"""Share of a cycle in which a lamp comes on or goes off: a filament's glow."""
+
+
+def read_light(text: str) -> Light:
+    """A light from its text, such as "sine at 1hz start blink" or "switched at 2hz between 0 .5".
+
+    Raises:
+        ValueError: it cannot be read; the message has the text.
+    """
+    try:
+        (kind,), options = _split_options(text.split())
+        cycle = _cycle(options.get("at", [""])[0], options)
+        low, high = map(read_number, options.get("between", ["0", "1"]))
+        dim = read_number(options["dim"][0]) if "dim" in options else None
+        if kind not in ("sine", "switched"):
+            raise ValueError("it must begin with sine or switched")
+    except (ValueError, IndexError) as error:
+        raise ValueError(f"light {text!r}: {error}") from None
+
+    def level(time_s: float, seed: int) -> float:
+        phase = cycle(Pose(time_s, 0.0, 0.0), seed) % 1.0
+        if kind == "sine":
+            return 0.5 + 0.5 * math.sin(2.0 * math.pi * phase)
+        inside = min(phase - low, high - phase)
+        if low == 0.0 and phase > 1.0 - _RAMP:
+            inside = phase - 1.0
+        return min(1.0, max(0.0, 0.5 + inside / _RAMP))
+
+    return Light(level, dim)
 
 
 def read_wave(text: str) -> Callable[[ModelPart, Pose, int], ModelPart]:

@@ -45,7 +45,6 @@ _AXES = {
     **dict.fromkeys(_SPANNED, "xyzxyzxyzxyz"),
     "bar": "xyzyz--", "disc": "xyz--", "frame": "xyz----", "ring": "xyz------", "lathe": "xyz",
     "bits": "xyz---", "chain": "-" + 40 * "xyz", "wheel": "xyz--",
-    "thin-wheel": "xyz--",
 }  # fmt: skip
 """Shape → the axis that each number of a line is along, "-" for lengths."""
 _WORDS = frozenset({"lean", "turn", "about", "rows"})
@@ -82,8 +81,8 @@ def read_parts(text: str) -> tuple[tuple[Placed, ...], list[Wheel]]:
         try:
             words, turns = _take_turns(_split(line))
             for shape, surface, values, more in _written_out(words):
-                if shape.endswith("wheel"):
-                    wheels.append(_wheel(shape, _count(values, 5)))
+                if shape == "wheel":
+                    wheels.append(_wheel(_count(values, 5)))
                 else:
                     drawn += _read_one(shape, surface, values, more)
             _check(drawn)
@@ -122,7 +121,7 @@ def _split(line: str) -> _Words:
         raise ValueError("a line is a shape, a surface and numbers")
     if shape not in _AXES:
         raise ValueError(f"unknown shape {shape!r}; there are {', '.join(_AXES)}")
-    if shape.endswith("wheel"):
+    if shape == "wheel":
         return shape, "", rest
     taken = 1
     while " ".join(rest[:taken]).count("(") > " ".join(rest[:taken]).count(")"):
@@ -329,44 +328,16 @@ _COMPOSED: dict[str, Callable[[str, list[float], list[float | str]], Iterator[Pl
 }  # fmt: skip
 
 
-def _wheel(kind: str, values: Sequence[float]) -> Wheel:
-    """A wheel at its place: middle, radius and width."""
+def _wheel(values: Sequence[float]) -> Wheel:
+    """A tyre with a bright rim that a dark cross divides: its middle, radius and width."""
     x, y, z, radius, width = values
-    draw = _thin_wheel if kind == "thin-wheel" else _disc_wheel
-    here = shift(x, y, z)
-    parts = tuple(
-        Placed(one.shape, one.surface, compose(here, one.to_body)) for one in draw(radius, width)
-    )
-    return parts, rolling("y", (x, y, z), radius)
-
-
-def _axle(surface: str, half: float, radius: float) -> Placed:
-    to_body = placed_between((0.0, -half, 0.0), (0.0, half, 0.0), radius, radius, 0.0)
-    return Placed(Shape.CYLINDER, surface, to_body)
-
-
-def _cross(long: float, wide: float, gap: float) -> list[Placed]:
-    return [
-        Placed(Shape.BOX, "dark", placed_upright((0.0, 0.0, 0.0), size))
-        for size in ((long, wide, gap), (gap, wide, long))
+    spoke, deep = 1.26 * radius, width + 0.04
+    sizes = (spoke, deep, 0.16 * radius), (0.16 * radius, deep, spoke)
+    rims = ("rubber", 0.5 * width, radius), ("chrome", 0.5 * width + 0.01, 0.64 * radius)
+    discs = [
+        (surface, placed_between((x, y - half, z), (x, y + half, z), reach, reach, 0.0))
+        for surface, half, reach in rims
     ]
-
-
-def _disc_wheel(radius: float, width: float) -> list[Placed]:
-    """A tyre with a bright rim that a dark cross divides."""
-    half = 0.5 * width
-    return [
-        _axle("rubber", half, radius),
-        _axle("chrome", half + 0.01, 0.64 * radius),
-        *_cross(1.26 * radius, width + 0.04, 0.16 * radius),
-    ]
-
-
-def _thin_wheel(radius: float, width: float) -> list[Placed]:
-    """A cycle's tyre, the air between its spokes, and a dark cross."""
-    half = 0.5 * width
-    return [
-        _axle("rubber", half, radius),
-        _axle("(.3 .31 .32)", half + 0.002, 0.86 * radius),
-        *_cross(1.72 * radius, width + 0.01, 2.0 * (0.03 * radius + 0.006)),
-    ]
+    parts = [Placed(Shape.CYLINDER, surface, to_body) for surface, to_body in discs]
+    parts += [Placed(Shape.BOX, "dark", placed_upright((x, y, z), size)) for size in sizes]
+    return tuple(parts), rolling("y", (x, y, z), radius)

@@ -155,13 +155,12 @@ class PartsBuilder:
             parts += [part for shapes, group in drawn for part in group.draw(shapes, pose, seed)]
             parts += [part for draw in chains for part in draw(pose, seed)]
             if rider is not None:
-                parts += rider.legs(seed, pose.distance_m)
+                parts += rider.draw(seed, pose.distance_m)
             return parts if walk is None else walk(parts, pose, seed)
 
-        upper = rider.upper_body(seed) if rider is not None else []
         rests = moves_all or any(one.at_rest is not None for one in groups)
         return ArticulatedModel(
-            upper if moves_all else [*rigid, *upper],
+            [] if moves_all else rigid,
             scale=scale * table.get("size", 1.0),
             articulate=articulate if moves_all or drawn or chains or rider is not None else None,
             is_centred=is_centred,

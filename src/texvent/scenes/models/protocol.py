@@ -34,8 +34,7 @@ class ModelPart:
     texture_scale: float = 1.0
     emission: float = 0.0
     mesh: Mesh | None = None
-    """Its triangles, for `Shape.MESH`; the same one, or one with the same `Mesh.origin`, at every
-    pose. `colour` multiplies the mesh's own."""
+    """Its triangles, for `Shape.MESH`; `colour` multiplies their own."""
     image: SurfaceImage | None = None
     """What a face of a box shows now."""
     image_face: int = 1

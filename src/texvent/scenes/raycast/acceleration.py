@@ -17,18 +17,16 @@ from texvent.scenes.raycast.meshes.tree import describe_surfaces, tree_of
 from texvent.scenes.raycast.records import (
     GLOW_RECORD,
     INSTANT_RECORD,
+    LAMP_RECORD,
     PUFF_RECORD,
     SHAPE_RECORD,
-    OwnedWorld,
     World,
     describe_lens,
     describe_materials,
     describe_rays,
     describe_surroundings,
-    own_world,
 )
 from texvent.scenes.scene import (
-    LAMP_COLUMNS,
     Environment,
     Float64Array,
     Primitives,
@@ -169,7 +167,7 @@ def build_world(
     shadows: bool,
     samples: int,
     lens: Lens | None = None,
-) -> World | OwnedWorld:
+) -> World:
     """Everything the kernels need to draw one instant but lamps and puffs: see `render.light_up`.
 
     Args:
@@ -212,15 +210,15 @@ def build_world(
     sun_cells = _describe_sun_cells(instant[0], shapes, primitives, casts, wanted)
     instant["tile_columns"], instant["tile_rows"] = tiles.columns, tiles.rows
     instant["sun_cells"] = len(tiles.start)
-    world = World(
+    return World(
         instant,
         shapes,
         _join_lists(tiles, sun_cells),
-        np.zeros((0, LAMP_COLUMNS)),
+        surfaces,
+        lamps=np.zeros(0, dtype=LAMP_RECORD),
         puffs=np.zeros(0, dtype=PUFF_RECORD),
         glows=np.zeros(0, dtype=GLOW_RECORD),
-    )
-    return world if surfaces is None else own_world(world, *surfaces[:4])
+    ).addressed()
 
 
 def _describe_sun_cells(

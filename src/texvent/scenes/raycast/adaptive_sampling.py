@@ -10,6 +10,7 @@ is near, many samples, no two of them in the same row or column, find the shares
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,7 +20,7 @@ from texvent.scenes.raycast.acceleration import TILE
 from texvent.scenes.raycast.lamps.glow import add_glows
 from texvent.scenes.raycast.lamps.light import ALL_LIGHTS, LIT_BITS, lit_by
 from texvent.scenes.raycast.puffs import through_puffs
-from texvent.scenes.raycast.records import OwnedWorld, World
+from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.lighting import shade_hit
 from texvent.scenes.raycast.trace import (
     CODES,
@@ -30,7 +31,6 @@ from texvent.scenes.raycast.trace import (
     shows_code,
     surface_code,
 )
-from texvent.scenes.raycast.uncounted import uncounted_world
 from texvent.scenes.raycast.vectors import scaled
 from texvent.scenes.scene import Colour, Float64Array
 
@@ -49,11 +49,11 @@ _SOFT_CLIP_START = 0.75
 
 
 @jit(error_model="numpy", inner=True)
-def _probe(world: World, x: float, y: float) -> int:
+def _probe(instant: Record, x: float, y: float) -> int:
     """What is at image point (x, y), as one number: surface, face, and what it is lit by."""
-    depth, number, face, _ = first_hit(world, x, y)
-    lit = lit_by(world, x, y, (depth, number, face), ALL_LIGHTS)[0]
-    return (surface_code(world, number, face) << LIT_BITS) + lit
+    depth, number, face, _ = first_hit(instant, x, y)
+    lit = lit_by(instant, x, y, (depth, number, face), ALL_LIGHTS)[0]
+    return (surface_code(instant, number, face) << LIT_BITS) + lit
 
 
 @jit(error_model="numpy", inner=True)
@@ -66,27 +66,26 @@ def _soft_clip(light: float) -> float:
 
 
 @jit(error_model="numpy", inner=True)
-def _expose(world: World, light: Colour) -> Colour:
-    red, green, blue = scaled(light, world.instant[0].exposure)
-    if world.instant[0].highlights == 1:
+def _expose(instant: Record, light: Colour) -> Colour:
+    red, green, blue = scaled(light, instant.exposure)
+    if instant.highlights == 1:
         return max(red, 0.0), max(green, 0.0), max(blue, 0.0)
     return _soft_clip(red), _soft_clip(green), _soft_clip(blue)
 
 
 @jit(error_model="numpy", inner=True)
-def _shade(world: World, x: float, y: float, probe: int) -> Colour:
+def _shade(instant: Record, x: float, y: float, probe: int) -> Colour:
     """Exposed light at image point (x, y), where the surface `probe` is."""
     number, lit = (probe >> LIT_BITS) // CODES, probe & ALL_LIGHTS
     depth, face = math.inf, 0
     if number >= 0:
-        depth, face = hit_again(world, x, y, number)
+        depth, face = hit_again(instant, x, y, number)
     if depth == math.inf:
-        instant = world.instant[0]
         depth, number, face = background_hit(instant, ray_direction(instant, x, y))
-    light = shade_hit(world, x, y, (depth, number, face), lit)
-    if world.instant[0].puff_count > 0:
-        light = through_puffs(world, x, y, depth, light)
-    return _expose(world, light)
+    light = shade_hit(instant, x, y, (depth, number, face), lit)
+    if instant.puff_count > 0:
+        light = through_puffs(instant, x, y, depth, light)
+    return _expose(instant, light)
 
 
 @jit(error_model="numpy", inner=True)
@@ -114,7 +113,7 @@ def _add_share(
 
 
 @jit(error_model="numpy", inner=True)
-def _mean_light(world: World, shares: Float64Array, count: int) -> Colour:
+def _mean_light(instant: Record, shares: Float64Array, count: int) -> Colour:
     """Mean light of a pixel that several surfaces share.
 
     Each is shaded once, in the middle of its pieces: textures are averaged over the pixel anyway.
@@ -124,9 +123,9 @@ def _mean_light(world: World, shares: Float64Array, count: int) -> Colour:
         share = shares[group, 1]
         probe = int(shares[group, 0])
         x, y = shares[group, 2] / share, shares[group, 3] / share
-        if not shows_code(world, x, y, probe >> LIT_BITS):
+        if not shows_code(instant, x, y, probe >> LIT_BITS):
             x, y = shares[group, 4], shares[group, 5]
-        light = _shade(world, x, y, probe)
+        light = _shade(instant, x, y, probe)
         red += share * light[0]
         green += share * light[1]
         blue += share * light[2]
@@ -136,14 +135,14 @@ def _mean_light(world: World, shares: Float64Array, count: int) -> Colour:
 
 @jit(error_model="numpy", inner=True)
 def _sample_pixel(
-    world: World, column: int, row: int, pattern: Float64Array, shares: Float64Array
+    instant: Record, column: int, row: int, pattern: Float64Array, shares: Float64Array
 ) -> Colour:
     """Mean light over a pixel with something thin in it, from the samples of `pattern`."""
     count = 0
     for index in range(len(pattern)):
         x, y = column + pattern[index, 0], row + pattern[index, 1]
-        count = _add_share(shares, count, _probe(world, x, y), 1.0, (x, y))
-    return _mean_light(world, shares, count)
+        count = _add_share(shares, count, _probe(instant, x, y), 1.0, (x, y))
+    return _mean_light(instant, shares, count)
 
 
 @jit(error_model="numpy", inner=True)
@@ -155,7 +154,7 @@ def _between(
 
 @jit(error_model="numpy", inner=True)
 def _find_edge(
-    world: World,
+    instant: Record,
     ends: tuple[tuple[float, float], tuple[float, float]],
     low: float,
     probes: tuple[int, int],
@@ -171,10 +170,10 @@ def _find_edge(
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
         x, y = _between(ends[0], ends[1], middle)
-        depth, number, face, _ = first_hit(world, x, y)
-        is_same = surface_code(world, number, face) == probes[0] >> LIT_BITS
+        depth, number, face, _ = first_hit(instant, x, y)
+        is_same = surface_code(instant, number, face) == probes[0] >> LIT_BITS
         if is_same and changed:  # else there is no need to know about shadow
-            lit, _ = lit_by(world, x, y, (depth, number, face), changed)
+            lit, _ = lit_by(instant, x, y, (depth, number, face), changed)
             is_same = lit & changed == probes[0] & changed
         if is_same:
             low = middle
@@ -183,12 +182,12 @@ def _find_edge(
     if high == 1.0:
         return 0.5 * (low + high), probes[1]
     x, y = _between(ends[0], ends[1], high)
-    return 0.5 * (low + high), _probe(world, x, y)
+    return 0.5 * (low + high), _probe(instant, x, y)
 
 
 @jit(error_model="numpy", inner=True)
 def _add_line(
-    world: World,
+    instant: Record,
     shares: Float64Array,
     count: int,
     ends: tuple[tuple[float, float], tuple[float, float]],
@@ -205,7 +204,7 @@ def _add_line(
         if probe == probes[1]:
             break
         first = low
-        low, beyond = _find_edge(world, ends, low, (probe, probes[1]))
+        low, beyond = _find_edge(instant, ends, low, (probe, probes[1]))
         place = _between(start, stop, 0.5 * (first + low))
         count = _add_share(shares, count, probe, share * (low - first), place)
         probe = beyond
@@ -215,7 +214,7 @@ def _add_line(
 
 @jit(error_model="numpy", inner=True)
 def _split_pixel(
-    world: World, column: int, row: int, probes: NDArray[np.int64], shares: Float64Array
+    instant: Record, column: int, row: int, probes: NDArray[np.int64], shares: Float64Array
 ) -> Colour:
     """Mean light over a pixel with an edge in it.
 
@@ -243,8 +242,8 @@ def _split_pixel(
                 first, second = probes[piece, line], probes[piece + 1, line]
                 start = (column + line / last, row + piece / last)
                 stop = (start[0], row + (piece + 1) / last)
-            count = _add_line(world, shares, count, (start, stop), (first, second), share)
-    return _mean_light(world, shares, count)
+            count = _add_line(instant, shares, count, (start, stop), (first, second), share)
+    return _mean_light(instant, shares, count)
 
 
 @jit(error_model="numpy", inner=True)
@@ -260,7 +259,7 @@ def _is_needed(wanted: NDArray[np.bool_], j: int, i: int, samples: int) -> bool:
 
 @jit(error_model="numpy", inner=True)
 def _probe_tile(
-    world: World,
+    instant: Record,
     corner: tuple[int, int],
     wanted: NDArray[np.bool_],
     samples: int,
@@ -278,19 +277,19 @@ def _probe_tile(
                 probes[j, i] = _NOT_PROBED
                 continue
             x, y = left + i / samples, top + j / samples
-            depth, number, face, thin = first_hit(world, x, y)
-            surface = surface_code(world, number, face)
+            depth, number, face, thin = first_hit(instant, x, y)
+            surface = surface_code(instant, number, face)
             is_odd = (i + j) % 2 == 1
             if not thin and i > 0 and is_odd and probes[j, i - 1] >> LIT_BITS == surface:
                 probes[j, i] = probes[j, i - 1]
                 continue
-            lit, thin_shadow = lit_by(world, x, y, (depth, number, face), ALL_LIGHTS)
+            lit, thin_shadow = lit_by(instant, x, y, (depth, number, face), ALL_LIGHTS)
             probes[j, i] = _THIN if thin or thin_shadow else (surface << LIT_BITS) + lit
 
 
 @jit(error_model="numpy", inner=True)
 def _probe_shadows(
-    world: World,
+    instant: Record,
     column: int,
     row: int,
     lattice: tuple[int, int],
@@ -305,7 +304,7 @@ def _probe_shadows(
     for j in range(last + 1):
         for i in range(last + 1):
             if (lattice[0] + lattice[1] + i + j) % 2 == 1:
-                around[j, i] = _probe(world, column + i / last, row + j / last)
+                around[j, i] = _probe(instant, column + i / last, row + j / last)
             else:
                 around[j, i] = probes[lattice[0] + j, lattice[1] + i]
 
@@ -333,7 +332,7 @@ def _any_thin(probes: NDArray[np.int64], top: int, left: int, samples: int) -> b
 
 @jit(error_model="numpy")
 def render_rows(
-    owner: World | OwnedWorld,
+    instants: NDArray[Any],
     rows: tuple[int, int],
     samples: int,
     pattern: Float64Array,
@@ -343,14 +342,14 @@ def render_rows(
     """Fill the wanted pixels in some rows of an image.
 
     Args:
-        owner: the scene.
+        instants: `World.instant` of the scene.
         rows: first row and one past the last one; at most `TILE` rows.
         samples: probes per pixel side.
         pattern: [k, 2] sample positions in [0, 1)² for pixels with something thin.
         wanted: [H, W] which pixels to fill.
         image: [H, W, 3] linear light, 1 is white; these rows are written.
     """
-    world = uncounted_world(owner)
+    instant = instants[0]
     width = image.shape[1]
     top, bottom = rows
     probes = np.empty((TILE * samples + 1, TILE * samples + 1), dtype=np.int64)
@@ -361,21 +360,21 @@ def render_rows(
         in_tile = wanted[top:bottom, left:right]
         if not in_tile.any():
             continue
-        _probe_tile(world, (left, top), in_tile, samples, probes)
+        _probe_tile(instant, (left, top), in_tile, samples, probes)
         for row in range(top, bottom):
             for column in range(left, right):
                 if not wanted[row, column]:
                     continue
                 j, i = (row - top) * samples, (column - left) * samples
                 if _any_thin(probes, j, i, samples):
-                    light = _sample_pixel(world, column, row, pattern, shares)
+                    light = _sample_pixel(instant, column, row, pattern, shares)
                 elif _agree(probes, j, i, samples):
-                    light = _shade(world, column + 0.5, row + 0.5, int(probes[j, i]))
+                    light = _shade(instant, column + 0.5, row + 0.5, int(probes[j, i]))
                 else:
-                    _probe_shadows(world, column, row, (j, i), probes, around)
-                    light = _split_pixel(world, column, row, around, shares)
-                if world.instant[0].glow_count > 0:
-                    light = add_glows(world, column + 0.5, row + 0.5, light)
+                    _probe_shadows(instant, column, row, (j, i), probes, around)
+                    light = _split_pixel(instant, column, row, around, shares)
+                if instant.glow_count > 0:
+                    light = add_glows(instant, column + 0.5, row + 0.5, light)
                 image[row, column, 0] = light[0]
                 image[row, column, 1] = light[1]
                 image[row, column, 2] = light[2]

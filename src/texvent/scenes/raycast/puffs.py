@@ -24,11 +24,11 @@ from texvent.scenes.raycast.acceleration import (
     invert_maps,
     screen_bounds,
 )
+from texvent.scenes.raycast.addresses import list_at, puff_at
 from texvent.scenes.raycast.lamps.light import light_through
-from texvent.scenes.raycast.records import PUFF_RECORD, Record, World
+from texvent.scenes.raycast.records import PUFF_RECORD, Record
 from texvent.scenes.raycast.shading.value_noise import detail_fade, noise_3d
 from texvent.scenes.raycast.trace import plane_direction, tile_at
-from texvent.scenes.raycast.uncounted import puff_at
 from texvent.scenes.raycast.vectors import Vector, along, dot, plane_point, scaled, triple, turned
 from texvent.scenes.scene import PUFF_COLUMNS, Colour, Float64Array, Rays
 from texvent.sensor import SensorSize
@@ -88,14 +88,14 @@ def _with_detail(puff: Record, place: Vector, footprint: float) -> float:
 
 
 @jit(error_model="numpy")
-def optical_depth(world: World, u: float, v: float, depth: float) -> float:
+def optical_depth(instant: Record, u: float, v: float, depth: float) -> float:
     """Optical depth of all puffs before `depth`, at a point of the image without distortion."""
-    instant, lists = world.instant[0], world.lists
+    lists = instant.lists
     direction = plane_direction(instant, u, v)
     cell = instant.puff_tiles + tile_at(instant, u, v)
     total = 0.0
-    for index in range(lists[cell], lists[cell + 1]):
-        puff = puff_at(instant.puff_table, lists[index])
+    for index in range(list_at(lists, cell), list_at(lists, cell + 1)):
+        puff = puff_at(instant.puffs, list_at(lists, index))
         if puff.depth >= depth:
             continue
         thickness, place = _puff_depth(puff, direction, depth)
@@ -106,12 +106,11 @@ def optical_depth(world: World, u: float, v: float, depth: float) -> float:
 
 
 @jit(error_model="numpy", inner=True)
-def _puff_light(world: World, puff: Record, direction: Vector, place: Vector) -> Colour:
+def _puff_light(instant: Record, puff: Record, direction: Vector, place: Vector) -> Colour:
     """Light that a puff scatters and gives off towards the camera.
 
     It is lit like a matt ball, softly: smoke scatters light many times.
     """
-    instant = world.instant[0]
     colour = triple(puff.colour)
     m = puff.inverse
     view = turned(m, direction)
@@ -126,10 +125,10 @@ def _puff_light(world: World, puff: Record, direction: Vector, place: Vector) ->
     facing = 0.5 + 0.5 * dot(normal, triple(instant.sun))
     light = scaled(triple(instant.ambient), 0.78 + 0.22 * normal[2])
     light = along(light, triple(instant.sun_colour), 0.15 + 0.65 * facing * facing)
-    if world.instant[0].lamp_count > 0:
+    if instant.lamp_count > 0:
         distance = puff.depth + puff.radius
         point = along(triple(instant.origin), direction, distance)
-        light = along(light, light_through(world, point), 0.5)
+        light = along(light, light_through(instant, point), 0.5)
     glow = puff.emission
     return (
         colour[0] * (light[0] + glow),
@@ -139,27 +138,27 @@ def _puff_light(world: World, puff: Record, direction: Vector, place: Vector) ->
 
 
 @jit(error_model="numpy", inner=True)
-def through_puffs(world: World, x: float, y: float, depth: float, light: Colour) -> Colour:
+def through_puffs(instant: Record, x: float, y: float, depth: float, light: Colour) -> Colour:
     """What is left of a surface's light behind all puffs, with the light of the puffs.
 
     Args:
-        world: the scene.
+        instant: the scene.
         x: pixels from the left.
         y: pixels from the top.
         depth: of the surface, metres; inf for the sky.
         light: of the surface, linear.
     """
-    instant, lists = world.instant[0], world.lists
+    lists = instant.lists
     u, v = plane_point(instant, x, y)
     if math.isnan(u):
         return light
     cell = instant.puff_tiles + tile_at(instant, u, v)
-    if lists[cell] == lists[cell + 1]:
+    if list_at(lists, cell) == list_at(lists, cell + 1):
         return light
     direction = plane_direction(instant, u, v)
     total, own = 0.0, (0.0, 0.0, 0.0)
-    for index in range(lists[cell], lists[cell + 1]):
-        puff = puff_at(instant.puff_table, lists[index])
+    for index in range(list_at(lists, cell), list_at(lists, cell + 1)):
+        puff = puff_at(instant.puffs, list_at(lists, index))
         window = puff.window
         if puff.depth >= depth or u < window[0] or u > window[1] or v < window[2] or v > window[3]:
             continue
@@ -167,7 +166,7 @@ def through_puffs(world: World, x: float, y: float, depth: float, light: Colour)
         if thickness <= 0.0:
             continue
         thickness *= _with_detail(puff, place, puff.depth * instant.step / puff.radius)
-        colour = _puff_light(world, puff, direction, place)
+        colour = _puff_light(instant, puff, direction, place)
         if instant.fog > 0.0:
             share = math.exp(-instant.fog * puff.depth)
             colour = along(scaled(triple(instant.fog_colour), 1.0 - share), colour, share)

@@ -13,9 +13,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.lens import Lens
-from texvent.scenes.mesh import MOST_LEVELS
+from texvent.scenes.mesh import MOST_LEVELS, Mesh, SurfaceImage
 from texvent.scenes.raycast.surfaces.catalogue import SURFACE_COUNT, surface_rows
-from texvent.scenes.scene import Environment, Float64Array, Ground, Primitives, Rays, Texture
+from texvent.scenes.scene import Environment, Ground, Primitives, Rays, Texture
 
 NIGHT_SKY = 0.06
 """Stars show where the sky at the zenith is darker than this (linear luma)."""
@@ -49,12 +49,19 @@ INSTANT_RECORD = np.dtype(
         # Where the cells of the lamps that cast shadows begin, and the screen tiles of puffs.
         ("lamp_cells", "i8"),
         ("puff_tiles", "i8"),
-        # Addresses of the puffs and glows, and how many there are; see `point_to`.
-        ("puff_table", "i8"),
-        ("puff_count", "i8"),
-        ("glow_table", "i8"),
-        ("glow_count", "i8"),
+        # Addresses of the arrays of `World` and of its meshes and images, and numbers of items.
+        ("shapes", "i8"),
+        ("lists", "i8"),
+        ("nodes", "i8"),
+        ("triangles", "i8"),
+        ("images", "i8"),
+        ("texels", "i8"),
+        ("lamps", "i8"),
         ("lamp_count", "i8"),
+        ("puffs", "i8"),
+        ("puff_count", "i8"),
+        ("glows", "i8"),
+        ("glow_count", "i8"),
         ("shadow_lamps", "i8"),  # how many lamps, the first ones, cast shadows
         ("sun_plane", "f8", (2, 3)),
         ("sun_grid", "f8", 4),
@@ -90,11 +97,6 @@ INSTANT_RECORD = np.dtype(
         ("highlights", "i8"),  # 1 = light above white is kept
         ("room", "f8"),  # half the side of the room, metres
         ("time", "f8"),
-        # Addresses of the arrays of `OwnedWorld`.
-        ("nodes", "i8"),
-        ("triangles", "i8"),
-        ("images", "i8"),
-        ("texels", "i8"),
     ],
     align=True,
 )
@@ -137,9 +139,7 @@ NODE_RECORD = np.dtype(
         ("high", "f8", 3),
         ("first", "i4"),  # of a leaf: its first triangle
         ("count", "i4"),  # its triangles; 0 = it has two children, the first is the next node
-        ("second", "i4"),  # the second child
-        ("parent", "i4"),  # -1 at the root
-        ("axis", "i8"),  # along which the children are apart
+        ("skip", "i8"),  # the node after all that are in it
     ],
     align=True,
 )
@@ -164,13 +164,26 @@ IMAGE_RECORD = np.dtype(
         ("height", "i8"),
         ("levels", "i8"),
         ("repeats", "i8"),
-        ("checks", "i8", 2),  # columns and rows of a checkerboard; 0 = it has texels
         ("start", "i8", MOST_LEVELS),  # where each level begins in `texels`
     ],
     align=True,
 )
 """One image of `scenes.mesh`."""
 
+LAMP_RECORD = np.dtype(
+    [
+        ("place", "f8", 3),
+        ("light", "f8", 3),
+        ("reach", "f8"),
+        ("beam", "f8", 3),
+        ("full", "f8"),
+        ("dark", "f8"),
+        ("radius", "f8"),
+        ("casts", "f8"),
+        ("glows", "f8"),
+    ]
+)
+"""One lamp: a row of `Environment.lamps`, see `scene.LAMP_COLUMNS`."""
 
 PUFF_RECORD = np.dtype(
     [
@@ -204,8 +217,25 @@ GLOW_RECORD = np.dtype(
 """One lamp as the camera sees it: a bright spot with a halo."""
 
 
+class PackedSurfaces(NamedTuple):
+    """All meshes and images of an instant."""
+
+    nodes: NDArray[Any]
+    """`NODE_RECORD`: the trees of all meshes, one after the other."""
+    triangles: NDArray[Any]
+    """`TRIANGLE_RECORD`: the triangles of all meshes."""
+    images: NDArray[Any]
+    """`IMAGE_RECORD`."""
+    texels: NDArray[np.float32]
+    """Linear RGB of all images, level by level."""
+    roots: dict[Mesh, int]
+    """First node of each mesh."""
+    numbers: dict[SurfaceImage, int]
+    """Index of each image."""
+
+
 class World(NamedTuple):
-    """One instant of a scene, as the kernels read it."""
+    """One instant of a scene; kernels get `instant`, which has the other arrays' addresses."""
 
     instant: NDArray[Any]
     """[1] `INSTANT_RECORD`."""
@@ -213,78 +243,25 @@ class World(NamedTuple):
     """[n] `SHAPE_RECORD`."""
     lists: NDArray[np.int32]
     """Shape numbers by screen tile and by sun cell; see `INSTANT_RECORD`."""
-    lamps: Float64Array
-    """[m, 15] as in `Environment.lamps`; those that cast shadows come first."""
+    surfaces: PackedSurfaces
+    """Meshes and images of the shapes."""
+    lamps: NDArray[Any]
+    """[m] `LAMP_RECORD`; those that cast shadows come first."""
     puffs: NDArray[Any]
     """[k] `PUFF_RECORD`."""
     glows: NDArray[Any]
     """[g] `GLOW_RECORD`."""
 
-
-class SceneView(NamedTuple):
-    """A `World` inside a kernel: addresses, as each array that kernels pass on makes them slower.
-
-    The types are what Python would see; in kernels each is a `uncounted.Table`. The instant has
-    the addresses of puffs, glows and tiles.
-    """
-
-    instant: NDArray[Any]
-    shapes: NDArray[Any]
-    lists: NDArray[np.int32]
-    lamps: Float64Array
-
-
-class MeshView(NamedTuple):
-    """An `OwnedWorld` inside a kernel; its instant has the addresses of meshes and images too.
-
-    A type of its own: kernels are compiled for each type, so that scenes without meshes do not pay
-    for them.
-    """
-
-    instant: NDArray[Any]
-    shapes: NDArray[Any]
-    lists: NDArray[np.int32]
-    lamps: Float64Array
-
-
-class OwnedWorld(NamedTuple):
-    """A `World` with meshes or images, as kernels are given it."""
-
-    instant: NDArray[Any]
-    shapes: NDArray[Any]
-    lists: NDArray[np.int32]
-    lamps: Float64Array
-    puffs: NDArray[Any]
-    glows: NDArray[Any]
-    nodes: NDArray[Any]
-    """`NODE_RECORD`: the trees of all meshes, one after the other."""
-    triangles: NDArray[Any]
-    """`TRIANGLE_RECORD`: the triangles of all meshes."""
-    images: NDArray[Any]
-    """`IMAGE_RECORD`: what surfaces show."""
-    texels: NDArray[np.float32]
-    """Linear RGB of all images, level by level."""
-
-
-def own_world(
-    world: World,
-    nodes: NDArray[Any],
-    triangles: NDArray[Any],
-    images: NDArray[Any],
-    texels: NDArray[np.float32],
-) -> OwnedWorld:
-    """A world with its meshes and images; their addresses are written into its instant."""
-    instant = world.instant[0]
-    instant["nodes"], instant["triangles"] = nodes.ctypes.data, triangles.ctypes.data
-    instant["images"], instant["texels"] = images.ctypes.data, texels.ctypes.data
-    return OwnedWorld(*world, nodes, triangles, images, texels)
-
-
-def point_to(world: World | OwnedWorld) -> None:
-    """Write into a world's instant where its puffs and glows are, and how many there are."""
-    instant = world.instant[0]
-    instant["puff_table"], instant["puff_count"] = world.puffs.ctypes.data, len(world.puffs)
-    instant["glow_table"], instant["glow_count"] = world.glows.ctypes.data, len(world.glows)
+    def addressed(self) -> World:
+        """The same world, whose instant has the addresses of its arrays."""
+        instant, surfaces = self.instant[0], self.surfaces
+        for name in ("shapes", "lists", "lamps", "puffs", "glows"):
+            instant[name] = getattr(self, name).ctypes.data
+        for name in ("nodes", "triangles", "images", "texels"):
+            instant[name] = getattr(surfaces, name).ctypes.data
+        instant["puff_count"], instant["glow_count"] = len(self.puffs), len(self.glows)
+        instant["lamp_count"] = len(self.lamps)
+        return self
 
 
 def describe_lens(instant: NDArray[Any], lens: Lens, corner: tuple[float, float]) -> None:

@@ -15,7 +15,7 @@ from texvent.scenes.raycast.adaptive_sampling import render_rows
 from texvent.scenes.raycast.lamps.glow import see_glows
 from texvent.scenes.raycast.lamps.light import list_casters, order_lamps
 from texvent.scenes.raycast.puffs import describe_puffs
-from texvent.scenes.raycast.records import OwnedWorld, World, point_to
+from texvent.scenes.raycast.records import World
 from texvent.scenes.scene import (
     Environment,
     Float32Array,
@@ -30,13 +30,13 @@ from texvent.transfer import encode_srgb
 
 
 def light_up(
-    world: World | OwnedWorld,
+    world: World,
     primitives: Primitives,
     environment: Environment,
     rays: Rays,
     *,
     shadows: bool,
-) -> World | OwnedWorld:
+) -> World:
     """The world with its lamps, their shadows and glow, and its puffs.
 
     Args:
@@ -52,16 +52,13 @@ def light_up(
     lamps, casting = order_lamps(environment.lamps, shadows=shadows)
     inverse = world.shapes["inverse"]
     grids = [list_casters(lamp, primitives, inverse) for lamp in lamps[:casting]]
-    instant["lamp_count"], instant["shadow_lamps"] = len(lamps), casting
+    instant["shadow_lamps"] = casting
     instant["lamp_cells"] = len(world.lists)
     puffs, tiles = describe_puffs(environment.puffs, rays, instant[0])
     instant["puff_tiles"] = len(world.lists) + sum(len(bins.start) for bins in grids)
     lists = np.concatenate([world.lists, *_joined([*grids, tiles], len(world.lists))])
-    world = world._replace(lists=lists.astype(np.int32), lamps=lamps, puffs=puffs)
-    point_to(world)
-    world = world._replace(glows=see_glows(world, rays))
-    point_to(world)
-    return world
+    world = world._replace(lists=lists.astype(np.int32), lamps=lamps, puffs=puffs).addressed()
+    return world._replace(glows=see_glows(world, rays)).addressed()
 
 
 def _joined(grids: list[Bins], first: int) -> list[np.ndarray]:
@@ -76,14 +73,14 @@ def _joined(grids: list[Bins], first: int) -> list[np.ndarray]:
 
 def world_at(
     scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
-) -> World | OwnedWorld:
+) -> World:
     """What the kernels read about one instant of a scene."""
     return world_and_shapes(scene, time_s, size, shadows=shadows, samples=samples)[0]
 
 
 def world_and_shapes(
     scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
-) -> tuple[World | OwnedWorld, Primitives]:
+) -> tuple[World, Primitives]:
     """What the kernels read about one instant of a scene, and the shapes that it is made of."""
     camera = scene.camera(time_s)
     rays = camera_rays(camera, size)
@@ -119,33 +116,6 @@ def render(
     return encode_srgb(render_light(scene, time_s, size, samples=samples, shadows=shadows))
 
 
-def render_pixels(
-    scene: Scene,
-    time_s: float,
-    size: SensorSize,
-    wanted: NDArray[np.bool_],
-    *,
-    samples: int = 2,
-    shadows: bool = True,
-) -> Float64Array:
-    """Some pixels of what `render_light` gives.
-
-    Args:
-        scene: what to draw.
-        time_s: the instant, s.
-        size: image size, pixels.
-        wanted: [H, W] which pixels.
-        samples: as for `render`.
-        shadows: as for `render`.
-
-    Returns:
-        [k, 3] linear RGB of the wanted pixels, row by row.
-    """
-    world = world_at(scene, time_s, size, shadows=shadows, samples=samples)
-    light = light_of_rows(world, (0, size.height), size, samples=samples, wanted=wanted)
-    return light[wanted]
-
-
 def render_light(
     scene: Scene,
     time_s: float,
@@ -178,7 +148,7 @@ def grey_light(light: Float64Array) -> Float64Array:
 
 
 def light_of_rows(
-    world: World | OwnedWorld,
+    world: World,
     rows: tuple[int, int],
     size: SensorSize,
     *,
@@ -203,7 +173,7 @@ def light_of_rows(
     pattern = sample_pattern((4 * samples) ** 2)
 
     def draw(top: int) -> None:
-        render_rows(world, (top, min(top + TILE, last)), samples, pattern, chosen, image)
+        render_rows(world.instant, (top, min(top + TILE, last)), samples, pattern, chosen, image)
 
     run_parts(draw, range(first, last, TILE))
     return image[first:]

@@ -10,9 +10,9 @@ import math
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import NEAR_M, SUN_CELLS, TILE
+from texvent.scenes.raycast.addresses import list_at, shape_at, triangle_at
 from texvent.scenes.raycast.meshes.hit import hit_mesh, mesh_normals, smooth_point
-from texvent.scenes.raycast.records import Record, World
-from texvent.scenes.raycast.uncounted import has_meshes, triangle_at
+from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.vectors import (
     Vector,
     along,
@@ -193,20 +193,20 @@ def plane_direction(rays: Record, x: float, y: float) -> Vector:
 
 
 @jit(error_model="numpy", inner=True)
-def _hit_one(world: World, shape: Record, direction: Vector) -> tuple[float, int, Vector]:
+def _hit_one(instant: Record, shape: Record, direction: Vector) -> tuple[float, int, Vector]:
     """Where a camera ray meets one shape: depth, face (of a mesh: triangle), local direction."""
     d = turned(shape.inverse, direction)
-    if has_meshes(world) and shape.kind == MESH:
-        t, face = hit_mesh(world, shape.root, triple(shape.eye), d, NEAR_M, False)
+    if shape.kind == MESH:
+        t, face = hit_mesh(instant, shape.root, triple(shape.eye), d, NEAR_M, False)
     else:
         t, face = hit_shape(shape.kind, triple(shape.eye), d, NEAR_M)
     return t, face, d
 
 
 @jit(error_model="numpy", inner=True)
-def hit_again(world: World, x: float, y: float, number: int) -> tuple[float, int]:
+def hit_again(instant: Record, x: float, y: float, number: int) -> tuple[float, int]:
     """(depth, face) where the ray through (x, y) meets shape `number`, as if it stood alone."""
-    t, face, _ = _hit_one(world, world.shapes[number], ray_direction(world.instant[0], x, y))
+    t, face, _ = _hit_one(instant, shape_at(instant.shapes, number), ray_direction(instant, x, y))
     return t, face
 
 
@@ -222,18 +222,18 @@ def widened_hit(shape: Record, o: Vector, d: Vector, near: float) -> float:
 
 
 @jit(error_model="numpy", inner=True)
-def is_between(world: World, shape: Record, o: Vector, d: Vector, far: float) -> bool:
+def is_between(instant: Record, shape: Record, o: Vector, d: Vector, far: float) -> bool:
     """Whether the ray `o + t · d`, in the shape's coordinates, meets it at 0 < t < `far`."""
-    if has_meshes(world) and shape.kind == MESH:
-        return hit_mesh(world, shape.root, o, d, 0.0, far == math.inf)[0] < far
+    if shape.kind == MESH:
+        return hit_mesh(instant, shape.root, o, d, 0.0, far == math.inf)[0] < far
     return hit_shape(shape.kind, o, d, 0.0)[0] < far
 
 
 @jit(error_model="numpy", inner=True)
-def surface_code(world: World, number: int, face: int) -> int:
+def surface_code(instant: Record, number: int, face: int) -> int:
     """One number for what was hit, which differs between neighbouring surfaces."""
-    if has_meshes(world) and number >= 0 and world.shapes[number].kind == MESH:
-        face = triangle_at(world.instant[0].triangles, face).code
+    if number >= 0 and shape_at(instant.shapes, number).kind == MESH:
+        face = triangle_at(instant.triangles, face).code
     return number * CODES + face
 
 
@@ -247,28 +247,28 @@ def tile_at(instant: Record, x: float, y: float) -> int:
 
 
 @jit(error_model="numpy", inner=True)
-def shows_code(world: World, x: float, y: float, code: int) -> bool:
+def shows_code(instant: Record, x: float, y: float, code: int) -> bool:
     """Whether a mesh shows the surface of a `surface_code` at (x, y).
 
     In the middle between two legs of a chair it does not. Unit shapes are convex: the middle of
     their pieces is on them.
     """
     number = code // CODES
-    if not has_meshes(world) or number < 0 or world.shapes[number].kind != MESH:
+    if number < 0 or shape_at(instant.shapes, number).kind != MESH:
         return True
-    depth, face = hit_again(world, x, y, number)
-    return depth < math.inf and surface_code(world, number, face) == code
+    depth, face = hit_again(instant, x, y, number)
+    return depth < math.inf and surface_code(instant, number, face) == code
 
 
 @jit(error_model="numpy", inner=True)
-def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
+def first_hit(instant: Record, x: float, y: float) -> tuple[float, int, int, bool]:
     """What the ray through image point (x, y) meets first.
 
     Returns:
         (depth in metres, shape number or GROUND / SKY / ROOM / NOTHING, face, whether a thin
         shape is near).
     """
-    instant, lists = world.instant[0], world.lists
+    lists = instant.lists
     x, y = plane_point(instant, x, y)
     if math.isnan(x):
         return math.inf, NOTHING, 0, False
@@ -276,16 +276,16 @@ def first_hit(world: World, x: float, y: float) -> tuple[float, int, int, bool]:
     cell = tile_at(instant, x, y)
     best, found, best_face = background_hit(instant, direction)
     thin = math.inf
-    for index in range(lists[cell], lists[cell + 1]):
-        shape = world.shapes[lists[index]]
+    for index in range(list_at(lists, cell), list_at(lists, cell + 1)):
+        shape = shape_at(instant.shapes, list_at(lists, index))
         if shape.depth >= best:
             break
         window = shape.window
         if x < window[0] or x > window[1] or y < window[2] or y > window[3]:
             continue
-        t, face, d = _hit_one(world, shape, direction)
+        t, face, d = _hit_one(instant, shape, direction)
         if t < best:
-            best, found, best_face = t, int(lists[index]), face
+            best, found, best_face = t, int(list_at(lists, index)), face
         if shape.is_thin:
             thin = min(thin, widened_hit(shape, triple(shape.eye), d, NEAR_M))
     return best, found, best_face, thin < math.inf and thin <= best
@@ -313,22 +313,22 @@ def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]
 
 
 @jit(error_model="numpy", inner=True)
-def _blocked_in_cell(world: World, cell: int, point: Vector, place: Vector) -> tuple[bool, bool]:
+def _blocked_in_cell(instant: Record, cell: int, point: Vector, place: Vector) -> tuple[bool, bool]:
     """As `sun_blocked`, by the shapes that one cell of the sun grid lists.
 
     `place` is the point along the sun plane's axes and towards the sun.
     """
-    lists = world.lists
+    lists = instant.lists
     thin = False
-    for index in range(lists[cell], lists[cell + 1]):
-        shape = world.shapes[lists[index]]
+    for index in range(list_at(lists, cell), list_at(lists, cell + 1)):
+        shape = shape_at(instant.shapes, list_at(lists, index))
         window = shape.sun_window
         if place[0] < window[0] or place[0] > window[1] or place[2] > window[4]:
             continue
         if place[1] < window[2] or place[1] > window[3]:
             continue
         o, d = mapped(shape.inverse, point), triple(shape.sun)
-        if is_between(world, shape, o, d, math.inf):
+        if is_between(instant, shape, o, d, math.inf):
             return True, thin
         if shape.is_thin and not thin:
             thin = widened_hit(shape, o, d, 0.0) < math.inf
@@ -336,9 +336,8 @@ def _blocked_in_cell(world: World, cell: int, point: Vector, place: Vector) -> t
 
 
 @jit(error_model="numpy", inner=True)
-def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
+def sun_blocked(instant: Record, point: Vector) -> tuple[bool, bool]:
     """Whether a shape stands between a point and the sun, and whether a thin one is close to."""
-    instant = world.instant[0]
     plane, sun, grid = instant.sun_plane, instant.sun, instant.sun_grid
     place = (dot(plane[0], point), dot(plane[1], point), dot(sun, point))
     column = math.floor((place[0] - grid[0]) * grid[2])
@@ -346,41 +345,43 @@ def sun_blocked(world: World, point: Vector) -> tuple[bool, bool]:
     thin = False
     if 0.0 <= column < SUN_CELLS and 0.0 <= row < SUN_CELLS:
         cell = instant.sun_cells + int(row) * SUN_CELLS + int(column)
-        blocked, thin = _blocked_in_cell(world, cell, point, place)
+        blocked, thin = _blocked_in_cell(instant, cell, point, place)
         if blocked:
             return True, thin
     last = instant.sun_cells + SUN_CELLS * SUN_CELLS
-    blocked, big_thin = _blocked_in_cell(world, last, point, place)
+    blocked, big_thin = _blocked_in_cell(instant, last, point, place)
     return blocked, thin or big_thin
 
 
 @jit(error_model="numpy", inner=True)
-def surface_normal(world: World, number: int, face: int, point: Vector) -> Vector:
+def surface_normal(instant: Record, number: int, face: int, point: Vector) -> Vector:
     """Unit normal of what was hit at `point`, metres."""
     if number in (GROUND, NOTHING):
         return (0.0, 0.0, 1.0)
     if number == ROOM:
         return on_axis(face, -1.0 if face == 2 or point[face] > 0.0 else 1.0)
-    if has_meshes(world) and world.shapes[number].kind == MESH:
-        return mesh_normals(world, number, face, point)[0]
-    m = world.shapes[number].inverse
-    return world_normal(m, local_normal(world.shapes[number].kind, face, mapped(m, point)))
+    if shape_at(instant.shapes, number).kind == MESH:
+        return mesh_normals(instant, number, face, point)[0]
+    m = shape_at(instant.shapes, number).inverse
+    return world_normal(
+        m, local_normal(shape_at(instant.shapes, number).kind, face, mapped(m, point))
+    )
 
 
 @jit(error_model="numpy", inner=True)
-def shadow_point(world: World, number: int, face: int, point: Vector) -> Vector:
+def shadow_point(instant: Record, number: int, face: int, point: Vector) -> Vector:
     """Where shadow rays of a surface start: at its point, for a mesh where it would be smooth."""
-    if has_meshes(world) and number >= 0 and world.shapes[number].kind == MESH:
-        return smooth_point(world, number, face, point)
+    if number >= 0 and shape_at(instant.shapes, number).kind == MESH:
+        return smooth_point(instant, number, face, point)
     return point
 
 
 @jit(error_model="numpy", inner=True)
-def sun_reaches(world: World, point: Vector, normal: Vector) -> tuple[bool, bool]:
+def sun_reaches(instant: Record, point: Vector, normal: Vector) -> tuple[bool, bool]:
     """Whether direct light falls on a surface, and whether a thin shape's shadow is near."""
-    if dot(world.instant[0].sun, normal) <= 0.0:
+    if dot(instant.sun, normal) <= 0.0:
         return False, False
-    if not world.instant[0].shadows:
+    if not instant.shadows:
         return True, False
-    blocked, thin = sun_blocked(world, along(point, normal, SHADOW_BIAS_M))
+    blocked, thin = sun_blocked(instant, along(point, normal, SHADOW_BIAS_M))
     return not blocked, thin

@@ -65,16 +65,16 @@ def front(time_s: float) -> Camera:
 
 @dataclass(frozen=True)
 class MeshScene:
-    """One mesh at a height of 1 m; `mesh_at` gives it and its map to coordinates around it."""
+    """One mesh, with its map to the coordinates around it, at a height of 1 m."""
 
-    mesh_at: Callable[[float], tuple[Mesh, Float64Array]]
+    placed: tuple[Mesh, Float64Array]
     move: Callable[[float], Float64Array] = lambda time: np.eye(3, 4)
     camera_at: Callable[[float], Camera] = front
     surroundings: Environment = field(default_factory=day)
     class_names: dict[int, str] = field(default_factory=lambda: {1: "thing"})
 
     def primitives(self, time_s: float) -> Primitives:
-        mesh, to_body = self.mesh_at(time_s)
+        mesh, to_body = self.placed
         move = self.move(time_s)
         to_world = move[:, :3] @ to_body
         to_world[:, 3] += move[:, 3] + [0.0, 0.0, 1.0]

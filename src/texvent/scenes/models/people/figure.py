@@ -9,17 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from texvent.scenes.models.limbs import bend
 from texvent.scenes.models.materials import BLACK, STEEL, WHITE, Material, shade
 from texvent.scenes.models.people.outfit import ADULT, Outfit, PersonKind, draw_parts, dress_person
 from texvent.scenes.models.people.posture import (
     FOREARM,
     LOWER_ARM,
     NECK,
-    SHIN,
-    THIGH,
-    UPPER_ARM,
+    Arm,
+    Leg,
+    Posture,
     Skeleton,
+    solve,
 )
 from texvent.scenes.models.protocol import ModelPart
 from texvent.scenes.models.shapes import (
@@ -37,17 +37,16 @@ from texvent.scenes.models.shapes import (
 HEAD_SIZE = 0.23
 """Height of an adult's head, m."""
 _UP = np.array([0.0, 0.0, 1.0])
-_KNEE: Point = (1.0, 0.0, 0.35)
 
 
 def draw_figure(kind: PersonKind, outfit: Outfit, joints: Skeleton) -> list[ModelPart]:
     """A whole person in the posture that the joints describe."""
-    parts = moved(draw_torso(kind, outfit, (0.0, 0.0, 0.0), (0.0, 0.0, NECK)), joints.torso)
-    parts += moved(draw_head(kind, outfit, (0.0, 0.0, 0.0)), joints.head)
+    parts = moved(_torso(kind, outfit), joints.torso)
+    parts += moved(_head(kind, outfit), joints.head)
     if kind.dress == "skirt":
         parts.append(_skirt(outfit, joints))
     for side in (0, 1):
-        parts += draw_arm(outfit, joints.shoulders[side], joints.elbows[side], joints.hands[side])
+        parts += _arm(outfit, joints.shoulders[side], joints.elbows[side], joints.hands[side])
     for side in (0, 1):
         parts += _leg(outfit, joints, side)
     for name in kind.garments:
@@ -68,55 +67,52 @@ def _skirt(outfit: Outfit, joints: Skeleton) -> ModelPart:
     return spike(outfit.shirt, (x, y, z), (float(tip[0]), float(tip[1]), float(tip[2])), wide)
 
 
-def draw_head(kind: PersonKind, outfit: Outfit, neck: Point) -> list[ModelPart]:
+def _head(kind: PersonKind, outfit: Outfit) -> list[ModelPart]:
     """Neck, head, face, hair and hat above the base of the neck."""
-    x, y, z = neck
     size = HEAD_SIZE * kind.head
-    middle = z + 0.09 + 0.5 * size
-    front = x + 0.02 + 0.41 * size
+    middle = 0.09 + 0.5 * size
+    front = 0.02 + 0.41 * size
     hair = 0.80 if kind.hat else 0.92
     lips = Material(shade(outfit.skin.colour, 0.45))
     parts = [
-        limb(outfit.skin, (x, y, z - 0.02), (x + 0.01, y, z + 0.12), 0.055),
-        ball(outfit.skin, (x + 0.02, y, middle), (0.9 * size, 0.78 * size, 1.08 * size)),
-        ball(outfit.skin, (x + 0.02 + 0.46 * size, y, middle - 0.02), (0.05, 0.04, 0.06)),
+        limb(outfit.skin, (0.0, 0.0, -0.02), (0.01, 0.0, 0.12), 0.055),
+        ball(outfit.skin, (0.02, 0.0, middle), (0.9 * size, 0.78 * size, 1.08 * size)),
+        ball(outfit.skin, (0.02 + 0.46 * size, 0.0, middle - 0.02), (0.05, 0.04, 0.06)),
         ball(
             outfit.hair,
-            (x - 0.025, y, middle + 0.15 * size),
+            (-0.025, 0.0, middle + 0.15 * size),
             (hair * size, 0.88 * size, hair * size),
         ),
-        ball(lips, (front + 0.005, y, middle - 0.27 * size), (0.03, 0.075, 0.018)),
+        ball(lips, (front + 0.005, 0.0, middle - 0.27 * size), (0.03, 0.075, 0.018)),
     ]
     for side in (1.0, -1.0):
-        eye = (front - 0.014, y + side * 0.17 * size, middle + 0.05 * size)
+        eye = (front - 0.014, side * 0.17 * size, middle + 0.05 * size)
         parts.append(ball(Material(WHITE), eye, (0.05, 0.052, 0.034)))
         pupil = (eye[0] + 0.018, eye[1], eye[2])
         parts.append(ball(Material(BLACK), pupil, (0.022, 0.026, 0.028)))
-        ear = (x + 0.015, y + side * 0.40 * size, middle - 0.02)
+        ear = (0.015, side * 0.40 * size, middle - 0.02)
         parts.append(ball(outfit.skin, ear, (0.05, 0.025, 0.07)))
     if kind.long_hair:
-        parts.append(ball(outfit.hair, (x - 0.07, y, z + 0.06), (0.13, 0.20, 0.36)))
+        parts.append(ball(outfit.hair, (-0.07, 0.0, 0.06), (0.13, 0.20, 0.36)))
     if kind.hat:
         # From multiples of the head's height to metres.
-        to_head = np.column_stack([size * np.eye(3), [x + 0.01, y, middle]])
+        to_head = np.column_stack([size * np.eye(3), [0.01, 0.0, middle]])
         parts += moved(draw_parts("outfits", "hats", kind.hat, outfit.hat), to_head)
     return parts
 
 
-def draw_torso(kind: PersonKind, outfit: Outfit, hips: Point, neck: Point) -> list[ModelPart]:
-    """Pelvis, chest and shoulders."""
-    collar = (neck[0], neck[1], neck[2] - 0.10)
-    low = (hips[0], hips[1], hips[2] + 0.02)
+def _torso(kind: PersonKind, outfit: Outfit) -> list[ModelPart]:
+    """Pelvis, chest and shoulders above the middle of the hips."""
     pelvis = outfit.shirt if kind.dress == "skirt" else outfit.legs
-    belt = part_way(hips, neck, 0.22)
+    belt = (0.0, 0.0, 0.22 * NECK)
     return [
-        limb(pelvis, (low[0], low[1], low[2] - 0.06), belt, 0.115, side_radius=0.165),
-        limb(outfit.shirt, low, collar, 0.128, side_radius=0.178),
-        ball(outfit.shirt, (neck[0], neck[1], neck[2] - 0.12), (0.22, 0.43, 0.24)),
+        limb(pelvis, (0.0, 0.0, -0.04), belt, 0.115, side_radius=0.165),
+        limb(outfit.shirt, (0.0, 0.0, 0.02), (0.0, 0.0, NECK - 0.10), 0.128, side_radius=0.178),
+        ball(outfit.shirt, (0.0, 0.0, NECK - 0.12), (0.22, 0.43, 0.24)),
     ]
 
 
-def draw_arm(outfit: Outfit, shoulder: Point, elbow: Point, palm: Point) -> list[ModelPart]:
+def _arm(outfit: Outfit, shoulder: Point, elbow: Point, palm: Point) -> list[ModelPart]:
     """Sleeve, forearm and hand; `palm` is the middle of the palm."""
     wrist = part_way(elbow, palm, FOREARM / LOWER_ARM)
     tips = part_way(elbow, palm, 1.16)
@@ -127,23 +123,12 @@ def draw_arm(outfit: Outfit, shoulder: Point, elbow: Point, palm: Point) -> list
     ]
 
 
-def draw_leg(outfit: Outfit, hip: Point, ankle: Point, *, pitch: float = 0.0) -> list[ModelPart]:
-    """Thigh, shin and shoe, the knee pointing forward; `pitch` radians tip the toes down."""
-    knee = bend(hip, ankle, THIGH, SHIN, _KNEE)
-    return _draw_leg(outfit, (hip, knee, ankle), pitch, 0.0)
-
-
 def _leg(outfit: Outfit, joints: Skeleton, side: int) -> list[ModelPart]:
-    chain = (joints.hips[side], joints.knees[side], joints.ankles[side])
-    return _draw_leg(outfit, chain, joints.pitches[side], joints.heading)
-
-
-def _draw_leg(
-    outfit: Outfit, chain: tuple[Point, Point, Point], pitch: float, heading: float
-) -> list[ModelPart]:
-    hip, knee, ankle = chain
-    heel = foot_point(ankle, pitch, heading, -0.05)
-    toe = foot_point(ankle, pitch, heading, 0.13)
+    """Thigh, shin and shoe."""
+    hip, knee, ankle = joints.hips[side], joints.knees[side], joints.ankles[side]
+    heel, toe = (
+        foot_point(ankle, joints.pitches[side], joints.heading, ahead) for ahead in (-0.05, 0.13)
+    )
     return [
         limb(outfit.legs, hip, knee, 0.085),
         limb(outfit.shins, knee, ankle, 0.058),
@@ -232,8 +217,6 @@ def _level(forward: Affine, origin: Affine) -> Affine:
 _GEAR = 0.45
 """Turns of the pedals per turn of the wheels."""
 _CRANK_M = 0.17
-_BESIDE_M, _SHOULDER_M, _BELOW_NECK_M = 0.09, 0.19, 0.09
-"""Half the width of the hips and of the shoulders, and how far these are below the neck."""
 
 
 @dataclass(frozen=True)
@@ -247,33 +230,23 @@ class Rider:
     wheel: float
     """Radius of the wheels."""
 
-    def upper_body(self, seed: int) -> list[ModelPart]:
-        """Torso, head and arms, which stay where they are."""
-        outfit = dress_person(ADULT, colour=None, seed=seed)
-        parts = [
-            *draw_torso(ADULT, outfit, self.hips, self.neck),
-            *draw_head(ADULT, outfit, self.neck),
-        ]
-        for side in (1.0, -1.0):
-            shoulder = (self.neck[0], side * _SHOULDER_M, self.neck[2] - _BELOW_NECK_M)
-            hand = (self.grip[0], side * self.grip[1], self.grip[2] + 0.02)
-            elbow = bend(shoulder, hand, UPPER_ARM, LOWER_ARM, (-0.3, side * 0.5, -1.0))
-            parts += draw_arm(outfit, shoulder, elbow, hand)
-        return parts
-
-    def legs(self, seed: int, distance_m: float) -> list[ModelPart]:
-        """Pedals and legs after a distance."""
-        outfit = dress_person(ADULT, colour=None, seed=seed)
-        turn, parts = _GEAR * distance_m / self.wheel, []
+    def draw(self, seed: int, distance_m: float) -> list[ModelPart]:
+        """The rider and the pedals after a distance."""
+        turn, legs, pedals = _GEAR * distance_m / self.wheel, [], []
         for side, phase in ((1.0, 0.0), (-1.0, math.pi)):
             ahead, up = (_CRANK_M * wave(turn + phase) for wave in (math.sin, math.cos))
-            y = side * self.crank[1]
-            pedal = (self.crank[0] + ahead, y, self.crank[2] + up)
+            pedal = (self.crank[0] + ahead, side * self.crank[1], self.crank[2] + up)
             axle = (self.crank[0], side * (self.crank[1] - 0.03), self.crank[2])
-            ankle = (pedal[0] - 0.04, y, pedal[2] + 0.10)
-            hip = (self.hips[0], side * _BESIDE_M, self.hips[2])
-            parts += [rod(STEEL, axle, pedal, 0.018), *draw_leg(outfit, hip, ankle, pitch=0.15)]
-        return parts
+            pedals.append(rod(STEEL, axle, pedal, 0.018))
+            foot = (pedal[0] - 0.04, self.crank[1], pedal[2] + 0.10)
+            legs.append(Leg(foot, (1.0, 0.0, 0.35), 0.15))
+        x, y, z = self.grip
+        left, right = (Arm((x, s * y, z + 0.02), (-0.3, 0.5, -1.0), True) for s in (1.0, -1.0))
+        lean = math.atan2(self.neck[0] - self.hips[0], self.neck[2] - self.hips[2])
+        posture = Posture(self.hips, lean, nod=-lean, left=left, right=right,
+                          left_leg=legs[0], right_leg=legs[1])  # fmt: skip
+        outfit = dress_person(ADULT, colour=None, seed=seed)
+        return [*pedals, *draw_figure(ADULT, outfit, solve(posture))]
 
 
 def read_rider(table: Mapping[str, Any]) -> Rider:

@@ -26,7 +26,6 @@ from texvent.scenes.models.materials import (
     striped,
 )
 from texvent.scenes.models.part_lines import Placed, read_parts
-from texvent.scenes.models.people.activities import ease
 from texvent.scenes.models.protocol import ModelPart, choose, paint
 from texvent.scenes.models.shapes import ball, rod
 from texvent.scenes.models.surfaces import FIXED_HUES, PAINT, Painted
@@ -214,35 +213,11 @@ def _skipping_rope(time_s: float) -> list[ModelPart]:
     return [rod(Material(RED), a, b, 0.014) for a, b in pairwise(points)]
 
 
-_SHOT_S, _IN_S = 0.75, 1.5
-"""When a ball leaves the hands, and when it is in the basket, s."""
-_HANDS, _BASKET = (0.36, 2.02), (2.52, 2.52)
-"""Where it is then: ahead, up, m."""
-_GRAVITY_M_S2 = 9.81
-
-
-def _shot(time_s: float) -> list[ModelPart]:
-    """In both hands, then in free flight into the basket, through it and down."""
-    if time_s < _SHOT_S:
-        low = ease(time_s, 0.05, 0.40) - ease(time_s, 0.42, 0.75)
-        x, z = _HANDS[0], 1.36 - 0.16 * low + 0.66 * ease(time_s, 0.35, _SHOT_S)
-    elif time_s < _IN_S:
-        share = (time_s - _SHOT_S) / (_IN_S - _SHOT_S)
-        arc = 0.5 * _GRAVITY_M_S2 * (_IN_S - _SHOT_S) ** 2 * share * (1.0 - share)
-        x, z = (a + share * (b - a) for a, b in zip(_HANDS, _BASKET, strict=True))
-        z += arc
-    else:
-        after = time_s - _IN_S
-        x, z = _BASKET[0], _BASKET[1] - 1.5 * after - 0.5 * _GRAVITY_M_S2 * after**2
-    return [ball(_BASKETBALL, (x, 0.0, max(z, 0.5 * _BALL_M)), (_BALL_M,) * 3)]
-
-
 _MOVING: Mapping[str, Draw] = MappingProxyType(
     {
         "dribbled ball": _dribbled,
         "juggled balls": _juggled,
         "skipping rope": _skipping_rope,
-        "shot ball": _shot,
     }
 )
 """Shape → how it is drawn, if it moves in its place."""

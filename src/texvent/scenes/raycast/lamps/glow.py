@@ -8,16 +8,17 @@ each pixel, so that the sum over the image depends on the lamp's intensity and d
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import NEAR_M
-from texvent.scenes.raycast.lamps.light import BEAM, DARK, FULL, GLOWS, LIGHT, RADIUS
+from texvent.scenes.raycast.addresses import glow_at, list_at, shape_at
 from texvent.scenes.raycast.puffs import optical_depth
-from texvent.scenes.raycast.records import GLOW_RECORD, OwnedWorld, Record, World
+from texvent.scenes.raycast.records import GLOW_RECORD, Record, World
 from texvent.scenes.raycast.trace import background_hit, is_between, plane_direction, tile_at
-from texvent.scenes.raycast.uncounted import glow_at, uncounted_world
 from texvent.scenes.raycast.vectors import plane_point, triple, turned
 from texvent.scenes.scene import Colour, Float64Array, Rays
 
@@ -35,13 +36,13 @@ _PROBES = 48
 """Points of a lamp that are looked at to tell how much of it is hidden."""
 
 
-def see_glows(world: World | OwnedWorld, rays: Rays) -> np.ndarray:
+def see_glows(world: World, rays: Rays) -> np.ndarray:
     """The lamps that the camera sees as glows, [g] `GLOW_RECORD`, with what stands before them."""
-    lamps = world.lamps[world.lamps[:, GLOWS] > 0.0]
+    lamps = world.lamps[world.lamps["glows"] > 0.0]
     if not len(lamps):
         return world.glows
     instant = world.instant[0]
-    offset = lamps[:, :3] - rays.origin
+    offset = lamps["place"] - rays.origin
     basis = np.stack([rays.right, rays.down, rays.corner], axis=1)
     seen = offset @ np.linalg.inv(basis).T
     front = seen[:, 2] > NEAR_M
@@ -52,17 +53,17 @@ def see_glows(world: World | OwnedWorld, rays: Rays) -> np.ndarray:
     glows["place"] = place
     pixel = float(instant["step"])
     distance = np.linalg.norm(offset, axis=1)
-    radius = lamps[:, RADIUS] / (pixel * distance)
+    radius = lamps["radius"] / (pixel * distance)
     glows["core"] = np.hypot(BLUR_PX, 0.45 * radius)
     glows["halo"] = np.hypot(HALO_WIDTH * _width(rays), radius)
     visible = np.zeros(len(lamps))
     probes = _disc(_PROBES) * np.maximum(radius, 0.7)[:, None, None]
-    see_lamps(world, lamps, place, depth, probes, visible)
+    see_lamps(world.instant, lamps["radius"].copy(), place, depth, probes, visible)
     share = visible * _towards_camera(lamps, offset, distance)
     share *= np.exp(-distance * float(instant["fog"]))
     # A surface at 1 m that the lamp lights by 1 has radiance 1: intensity π, per pixel's solid
     # angle.
-    light = np.pi * lamps[:, LIGHT : LIGHT + 3] / (pixel * distance)[:, None] ** 2
+    light = np.pi * lamps["light"] / (pixel * distance)[:, None] ** 2
     light *= share[:, None] * float(instant["exposure"])
     glows["core_light"] = (1.0 - HALO_SHARE) * light
     glows["halo_light"] = HALO_SHARE * light
@@ -82,14 +83,14 @@ def _width(rays: Rays) -> float:
 
 
 def _towards_camera(
-    lamps: Float64Array, offset: Float64Array, distance: Float64Array
+    lamps: NDArray[Any], offset: Float64Array, distance: Float64Array
 ) -> Float64Array:
     """Share of its light that each lamp sends to the camera."""
-    cosine = -(offset * lamps[:, BEAM : BEAM + 3]).sum(axis=1) / distance
-    width = np.maximum(lamps[:, FULL] - lamps[:, DARK], 1e-9)
-    share = np.clip((cosine - lamps[:, DARK]) / width, 0.0, 1.0)
+    cosine = -(offset * lamps["beam"]).sum(axis=1) / distance
+    width = np.maximum(lamps["full"] - lamps["dark"], 1e-9)
+    share = np.clip((cosine - lamps["dark"]) / width, 0.0, 1.0)
     share = np.maximum(share * share * (3.0 - 2.0 * share), _SPILL)
-    return np.where(lamps[:, FULL] < -1.0, 1.0, share)
+    return np.where(lamps["full"] < -1.0, 1.0, share)
 
 
 def _disc(count: int) -> Float64Array:
@@ -101,8 +102,8 @@ def _disc(count: int) -> Float64Array:
 
 @jit(error_model="numpy")
 def see_lamps(
-    owner: World | OwnedWorld,
-    lamps: Float64Array,
+    instants: NDArray[Any],
+    radii: Float64Array,
     places: Float64Array,
     depths: Float64Array,
     probes: Float64Array,
@@ -111,43 +112,43 @@ def see_lamps(
     """How much of each lamp the camera sees: share of its disc, through smoke.
 
     Args:
-        owner: the scene.
-        lamps: [g, 15].
+        instants: `World.instant` of the scene.
+        radii: [g] of the lamps, m.
         places: [g, 2] in the image without distortion, pixels.
         depths: [g] m.
         probes: [g, k, 2] points of its disc relative to its middle, pixels.
         visible: [g] 0..1 is written.
     """
-    world = uncounted_world(owner)
-    for index in range(len(lamps)):
-        near = depths[index] - 2.0 * lamps[index, RADIUS] - 0.03
+    instant = instants[0]
+    for index in range(len(radii)):
+        near = depths[index] - 2.0 * radii[index] - 0.03
         count = 0
         for probe in range(probes.shape[1]):
             x = places[index, 0] + probes[index, probe, 0]
             y = places[index, 1] + probes[index, probe, 1]
-            if not _is_hidden(world, x, y, near):
+            if not _is_hidden(instant, x, y, near):
                 count += 1
         share = count / probes.shape[1]
-        if share > 0.0 and world.instant[0].puff_count > 0:
+        if share > 0.0 and instant.puff_count > 0:
             x, y = places[index, 0], places[index, 1]
-            share *= math.exp(-optical_depth(world, x, y, depths[index]))
+            share *= math.exp(-optical_depth(instant, x, y, depths[index]))
         visible[index] = share
 
 
 @jit(error_model="numpy", inner=True)
-def _is_hidden(world: World, x: float, y: float, depth: float) -> bool:
+def _is_hidden(instant: Record, x: float, y: float, depth: float) -> bool:
     """Whether something nearer than `depth` is at a point of the image without distortion."""
-    instant, lists = world.instant[0], world.lists
+    lists = instant.lists
     direction = plane_direction(instant, x, y)
     if background_hit(instant, direction)[0] < depth:
         return True
     cell = tile_at(instant, x, y)
-    for index in range(lists[cell], lists[cell + 1]):
-        shape = world.shapes[lists[index]]
+    for index in range(list_at(lists, cell), list_at(lists, cell + 1)):
+        shape = shape_at(instant.shapes, list_at(lists, index))
         if shape.depth >= depth:
             break
         d = turned(shape.inverse, direction)
-        if is_between(world, shape, triple(shape.eye), d, depth):
+        if is_between(instant, shape, triple(shape.eye), d, depth):
             return True
     return False
 
@@ -181,15 +182,14 @@ def _glow_at(glow: Record, u: float, v: float) -> Colour:
 
 
 @jit(error_model="numpy", inner=True)
-def add_glows(world: World, x: float, y: float, light: Colour) -> Colour:
+def add_glows(instant: Record, x: float, y: float, light: Colour) -> Colour:
     """A pixel's exposed light with all glows: each fills what is left to white, or is added."""
-    u, v = plane_point(world.instant[0], x, y)
+    u, v = plane_point(instant, x, y)
     if math.isnan(u):
         return light
     red, green, blue = 0.0, 0.0, 0.0
-    instant = world.instant[0]
     for index in range(instant.glow_count):
-        glow = _glow_at(glow_at(instant.glow_table, index), u, v)
+        glow = _glow_at(glow_at(instant.glows, index), u, v)
         red, green, blue = red + glow[0], green + glow[1], blue + glow[2]
     if instant.highlights == 1:
         return light[0] + red, light[1] + green, light[2] + blue

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import CUBE, Bins, IntArray, bin_rectangles
-from texvent.scenes.raycast.records import Record, World
+from texvent.scenes.raycast.addresses import lamp_at, list_at, shape_at
+from texvent.scenes.raycast.records import LAMP_RECORD, Record
 from texvent.scenes.raycast.trace import (
     ROOM,
     SHADOW_BIAS_M,
@@ -22,23 +24,20 @@ from texvent.scenes.raycast.trace import (
     widened_hit,
 )
 from texvent.scenes.raycast.vectors import Vector, along, dot, mapped, triple, turned
-from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Primitives, Shape
-
-POSITION, LIGHT, REACH, BEAM, FULL, DARK, RADIUS, CASTS, GLOWS = 0, 3, 6, 7, 10, 11, 12, 13, 14
-"""Columns of a lamp; see `scene.LAMP_COLUMNS`."""
+from texvent.scenes.scene import Colour, Float64Array, Primitives, Shape
 
 
 @jit(error_model="numpy", inner=True)
 def beam_share(lamp: Record, away: Vector) -> float:
     """Share of a lamp's light that it sends along a unit vector: a beam with a soft edge."""
-    if lamp[FULL] < -1.0:
+    if lamp.full < -1.0:
         return 1.0
-    cosine = lamp[BEAM] * away[0] + lamp[BEAM + 1] * away[1] + lamp[BEAM + 2] * away[2]
-    if cosine <= lamp[DARK]:
+    cosine = lamp.beam[0] * away[0] + lamp.beam[1] * away[1] + lamp.beam[2] * away[2]
+    if cosine <= lamp.dark:
         return 0.0
-    if cosine >= lamp[FULL]:
+    if cosine >= lamp.full:
         return 1.0
-    share = (cosine - lamp[DARK]) / (lamp[FULL] - lamp[DARK])
+    share = (cosine - lamp.dark) / (lamp.full - lamp.dark)
     return float(share * share * (3.0 - 2.0 * share))
 
 
@@ -50,55 +49,55 @@ def falloff(lamp: Record, towards: Vector) -> tuple[float, float]:
     on its axis; the square of 1 - d² / reach² lets it end at its reach.
     """
     square = dot(towards, towards)
-    reach = lamp[REACH] * lamp[REACH]
+    reach = lamp.reach * lamp.reach
     distance = math.sqrt(square) + 1e-9
     if square >= reach:
         return 0.0, distance
     step = -1.0 / distance
     share = beam_share(lamp, (step * towards[0], step * towards[1], step * towards[2]))
     window = 1.0 - square / reach
-    return share * window * window / (square + lamp[RADIUS] * lamp[RADIUS]), distance
+    return share * window * window / (square + lamp.radius * lamp.radius), distance
 
 
 @jit(error_model="numpy", inner=True)
 def towards_lamp(lamp: Record, point: Vector) -> Vector:
     """From a point to a lamp, metres."""
-    return lamp[0] - point[0], lamp[1] - point[1], lamp[2] - point[2]
+    return along(triple(lamp.place), point, -1.0)
 
 
 @jit(error_model="numpy")
-def lamp_light(world: World, point: Vector, normal: Vector, lit: int) -> Colour:
+def lamp_light(instant: Record, point: Vector, normal: Vector, lit: int) -> Colour:
     """Light of all lamps on a surface.
 
     Args:
-        world: the scene.
+        instant: the scene.
         point: metres.
         normal: of the surface, unit vector.
         lit: bit 1 + k: whether the k-th of the lamps that cast shadows is visible from there.
     """
     light = (0.0, 0.0, 0.0)
-    shadow_lamps = world.instant[0].shadow_lamps
-    for index in range(world.instant[0].lamp_count):
+    shadow_lamps = instant.shadow_lamps
+    for index in range(instant.lamp_count):
         if index < shadow_lamps and not (lit >> (index + 1)) & 1:
             continue
-        lamp = world.lamps[index]
+        lamp = lamp_at(instant.lamps, index)
         towards = towards_lamp(lamp, point)
         facing = dot(towards, normal)
         if facing <= 0.0:
             continue
         share, distance = falloff(lamp, towards)
-        light = along(light, (lamp[3], lamp[4], lamp[5]), share * facing / distance)
+        light = along(light, triple(lamp.light), share * facing / distance)
     return light
 
 
 @jit(error_model="numpy", inner=True)
-def light_through(world: World, point: Vector) -> Colour:
+def light_through(instant: Record, point: Vector) -> Colour:
     """Light of all lamps at a point in the air, from all sides, without shadows."""
     light = (0.0, 0.0, 0.0)
-    for index in range(world.instant[0].lamp_count):
-        lamp = world.lamps[index]
+    for index in range(instant.lamp_count):
+        lamp = lamp_at(instant.lamps, index)
         share, _ = falloff(lamp, towards_lamp(lamp, point))
-        light = along(light, (lamp[3], lamp[4], lamp[5]), share)
+        light = along(light, triple(lamp.light), share)
     return light
 
 
@@ -110,15 +109,18 @@ MOST_SHADOW_LAMPS = 4
 _LONGEST_PIECES = 8
 
 
-def order_lamps(lamps: Float64Array, *, shadows: bool) -> tuple[Float64Array, int]:
-    """The lamps that cast shadows first, and how many they are; `shadows` False: none does."""
-    rows = np.asarray(lamps, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
-    casts = np.flatnonzero(rows[:, CASTS] > 0.0)[: MOST_SHADOW_LAMPS if shadows else 0]
+def order_lamps(lamps: Float64Array, *, shadows: bool) -> tuple[NDArray[Any], int]:
+    """Records of `Environment.lamps`, those that cast shadows first, and how many these are.
+
+    `shadows` False: none does.
+    """
+    rows = np.ascontiguousarray(lamps, dtype=np.float64).view(LAMP_RECORD)[:, 0]
+    casts = np.flatnonzero(rows["casts"] > 0.0)[: MOST_SHADOW_LAMPS if shadows else 0]
     rest = np.setdiff1d(np.arange(len(rows)), casts)
-    return np.ascontiguousarray(rows[np.concatenate([casts, rest])]), len(casts)
+    return rows[np.concatenate([casts, rest])], len(casts)
 
 
-def list_casters(lamp: Float64Array, primitives: Primitives, inverse: Float64Array) -> Bins:
+def list_casters(lamp: Any, primitives: Primitives, inverse: Float64Array) -> Bins:
     """The shapes that may stand in a lamp's light, by cells of directions from the lamp.
 
     Each is followed by its distance from the lamp, mm, and nearer ones come first: what is
@@ -126,11 +128,11 @@ def list_casters(lamp: Float64Array, primitives: Primitives, inverse: Float64Arr
     its light does not reach are left out.
 
     Args:
-        lamp: [15] as in `Environment.lamps`.
+        lamp: `LAMP_RECORD`.
         primitives: the shapes.
         inverse: [n, 3, 4] world → unit-shape coordinates.
     """
-    place = lamp[:3]
+    place = lamp["place"]
     local = inverse[:, :, :3] @ place + inverse[:, :, 3]
     is_round = primitives.shape == Shape.ELLIPSOID
     extent = np.where(is_round, np.linalg.norm(local, axis=1), np.abs(local).max(axis=1))
@@ -138,8 +140,8 @@ def list_casters(lamp: Float64Array, primitives: Primitives, inverse: Float64Arr
     numbers, centre, radius = _split_long(primitives, chosen)
     offset = centre - place
     distance = np.linalg.norm(offset, axis=1)
-    near = distance - radius < lamp[6]
-    if lamp[10] >= -1.0:
+    near = distance - radius < lamp["reach"]
+    if lamp["full"] >= -1.0:
         near &= in_beam(lamp, offset, distance, radius)
     numbers, offset = numbers[near], offset[near]
     start_mm = np.floor(1e3 * np.maximum(distance - radius, 0.0)[near]).astype(np.int64)
@@ -176,12 +178,12 @@ def _split_long(
 
 
 def in_beam(
-    lamp: Float64Array, offset: Float64Array, distance: Float64Array, radius: Float64Array
+    lamp: Any, offset: Float64Array, distance: Float64Array, radius: Float64Array
 ) -> NDArray[np.bool_]:
     """Which balls the beam touches."""
-    angle = np.arccos(np.clip(offset @ lamp[7:10] / np.maximum(distance, 1e-9), -1.0, 1.0))
+    angle = np.arccos(np.clip(offset @ lamp["beam"] / np.maximum(distance, 1e-9), -1.0, 1.0))
     width = np.arcsin(np.clip(radius / np.maximum(distance, 1e-9), 0.0, 1.0))
-    touches = angle - width <= np.arccos(np.clip(lamp[11], -1.0, 1.0))
+    touches = angle - width <= np.arccos(np.clip(lamp["dark"], -1.0, 1.0))
     return np.asarray(touches | (distance <= radius), dtype=np.bool_)
 
 
@@ -250,21 +252,21 @@ def direction_cell(towards: Vector, distance: float) -> int:
 
 @jit(error_model="numpy", inner=True)
 def _blocked(
-    world: World, cell: int, point: Vector, towards: Vector, near: float
+    instant: Record, cell: int, point: Vector, towards: Vector, near: float
 ) -> tuple[bool, bool]:
     """Whether a shape of one cell stands between a point and a lamp, and whether a thin one nearly.
 
     Shapes beyond the share `near` of the way belong to the lamp itself.
     """
-    lists = world.lists
+    lists = instant.lists
     thin = False
     reach_mm = 1e3 * math.sqrt(dot(towards, towards))
-    for index in range(lists[cell], lists[cell + 1], 2):
-        if lists[index + 1] > reach_mm:
+    for index in range(list_at(lists, cell), list_at(lists, cell + 1), 2):
+        if list_at(lists, index + 1) > reach_mm:
             break
-        shape = world.shapes[lists[index]]
+        shape = shape_at(instant.shapes, list_at(lists, index))
         o, d = mapped(shape.inverse, point), turned(shape.inverse, towards)
-        if is_between(world, shape, o, d, near):
+        if is_between(instant, shape, o, d, near):
             return True, thin
         if shape.is_thin and not thin:
             thin = widened_hit(shape, o, d, 0.0) < near
@@ -272,18 +274,17 @@ def _blocked(
 
 
 @jit(error_model="numpy")
-def lamps_reach(world: World, point: Vector, normal: Vector, wanted: int) -> tuple[int, bool]:
+def lamps_reach(instant: Record, point: Vector, normal: Vector, wanted: int) -> tuple[int, bool]:
     """Which of the lamps that cast shadows a surface sees, and whether a thin shadow is near.
 
     Only the lamps whose bit is set in `wanted` are looked for. Bit k belongs to lamp k. A lamp
     that the surface faces but whose light ends before it counts as seen.
     """
-    instant = world.instant[0]
     seen, thin = 0, False
     for index in range(instant.shadow_lamps):
         if not (wanted >> index) & 1:
             continue
-        lamp = world.lamps[index]
+        lamp = lamp_at(instant.lamps, index)
         start = along(point, normal, SHADOW_BIAS_M)
         towards = towards_lamp(lamp, start)
         if dot(towards, normal) <= 0.0:
@@ -294,8 +295,8 @@ def lamps_reach(world: World, point: Vector, normal: Vector, wanted: int) -> tup
             continue
         grid = instant.lamp_cells + index * (LONGITUDES * LATITUDES + 1)
         cell = grid + direction_cell(towards, distance)
-        near = 1.0 - min(lamp[12] / distance, 0.9)
-        is_blocked, is_thin = _blocked(world, cell, start, towards, near)
+        near = 1.0 - min(lamp.radius / distance, 0.9)
+        is_blocked, is_thin = _blocked(instant, cell, start, towards, near)
         thin = thin or is_thin
         if is_blocked:
             seen &= ~(1 << index)
@@ -308,25 +309,24 @@ ALL_LIGHTS = (1 << LIT_BITS) - 1
 
 @jit(error_model="numpy", inner=True)
 def lit_by(
-    world: World, x: float, y: float, hit: tuple[float, int, int], wanted: int
+    instant: Record, x: float, y: float, hit: tuple[float, int, int], wanted: int
 ) -> tuple[int, bool]:
     """What light reaches what was hit (bit 0: sun, then lamps), and whether a thin shadow is near.
 
     Only the lights in `wanted` are looked for; only lamps that cast shadows count.
     """
     depth, number, face = hit
-    instant = world.instant[0]
     if number == SKY or (number == ROOM and instant.shadow_lamps == 0):
         return 0, False
     point = along(triple(instant.origin), ray_direction(instant, x, y), depth)
-    normal = surface_normal(world, number, face, point)
-    point = shadow_point(world, number, face, point)
+    normal = surface_normal(instant, number, face, point)
+    point = shadow_point(instant, number, face, point)
     is_sunlit, thin = False, False
     if number != ROOM and wanted & 1:
-        is_sunlit, thin = sun_reaches(world, point, normal)
+        is_sunlit, thin = sun_reaches(instant, point, normal)
     lit = int(is_sunlit)
     if instant.shadow_lamps > 0:
-        lamps, thin_lamp = lamps_reach(world, point, normal, wanted >> 1)
+        lamps, thin_lamp = lamps_reach(instant, point, normal, wanted >> 1)
         lit |= lamps << 1
         thin = thin or thin_lamp
     return lit, thin

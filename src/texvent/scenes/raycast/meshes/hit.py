@@ -3,7 +3,7 @@
 Triangles: Woop, Benthin, Wald, Watertight Ray/Triangle Intersection (2013): an edge is decided by
 the same two numbers in both triangles that share it, so no ray slips between them. Boxes are
 passed with the slack that rounding needs (Ize, Robust BVH Ray Traversal, 2013). The tree is walked
-without a stack: Hapala et al., Efficient Stack-less BVH Traversal for Ray Tracing (2011).
+in the order of its nodes; a box that is missed is skipped with all in it.
 """
 
 from __future__ import annotations
@@ -11,8 +11,8 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.records import Record, World
-from texvent.scenes.raycast.uncounted import node_at, only_with_meshes, triangle_at
+from texvent.scenes.raycast.addresses import node_at, shape_at, triangle_at
+from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.vectors import (
     Vector,
     along,
@@ -25,7 +25,6 @@ from texvent.scenes.raycast.vectors import (
 
 _SLACK = 1.0 + 8.0 * 2.0**-53
 _FLAT = 1e-300
-_FROM_PARENT, _FROM_SIBLING, _FROM_CHILD = 0, 1, 2
 
 
 @jit(error_model="numpy", inner=True)
@@ -70,33 +69,13 @@ def _meets_box(node: Record, o: Vector, inverse: Vector, near: float, far: float
 
 
 @jit(error_model="numpy", inner=True)
-def _first_child(nodes: int, parent: int, d: Vector) -> int:
-    """The child that the ray comes to first."""
-    if _component(d, node_at(nodes, parent).axis) >= 0.0:
-        return parent + 1
-    return int(node_at(nodes, parent).second)
-
-
-@jit(error_model="numpy", inner=True)
-def _other_child(nodes: int, parent: int, child: int) -> int:
-    return int(node_at(nodes, parent).second) if child == parent + 1 else parent + 1
-
-
-def _missed(
-    world: World, root: int, o: Vector, d: Vector, near: float, any_hit: bool
-) -> tuple[float, int]:
-    return math.inf, root
-
-
-@only_with_meshes(_missed)
-@jit(error_model="numpy", inner=True)
 def hit_mesh(
-    world: World, root: int, o: Vector, d: Vector, near: float, any_hit: bool
+    instant: Record, root: int, o: Vector, d: Vector, near: float, any_hit: bool
 ) -> tuple[float, int]:
     """Where the ray `o + t · d`, in the mesh's coordinates, meets it first, from either side.
 
     Args:
-        world: the scene.
+        instant: the scene.
         root: first node of the mesh.
         o: ray origin.
         d: ray direction, any length but 0.
@@ -106,7 +85,6 @@ def hit_mesh(
     Returns:
         (t, triangle), (inf, 0) where it is missed.
     """
-    instant = world.instant[0]
     nodes, triangles = instant.nodes, instant.triangles
     inverse = (
         1.0 / (d[0] if d[0] != 0.0 else _FLAT),
@@ -117,21 +95,18 @@ def hit_mesh(
     length = _component(d, axes[2])
     shear = (_component(d, axes[0]) / length, _component(d, axes[1]) / length, 1.0 / length)
     hit = (math.inf, 0)
-    current, state = root, _FROM_SIBLING
-    while True:
-        if state != _FROM_CHILD:
-            node = node_at(nodes, current)
-            goes_in = _meets_box(node, o, inverse, near, hit[0])
-            if goes_in and node.count == 0:
-                current, state = _first_child(nodes, current, d), _FROM_PARENT
-                continue
-            if goes_in:
-                hit = _hit_leaf(triangles, node, (o, shear), axes, near, hit)
-                if any_hit and hit[0] < math.inf:
-                    return hit
-        if current == root:
-            return hit
-        current, state = _step_on(nodes, current, state, d)
+    current, end = root, int(node_at(nodes, root).skip)
+    while current < end:
+        node = node_at(nodes, current)
+        if not _meets_box(node, o, inverse, near, hit[0]):
+            current = int(node.skip)
+            continue
+        current += 1
+        if node.count > 0:
+            hit = _hit_leaf(triangles, node, (o, shear), axes, near, hit)
+            if any_hit and hit[0] < math.inf:
+                break
+    return hit
 
 
 @jit(error_model="numpy", inner=True)
@@ -150,18 +125,6 @@ def _hit_leaf(
         if near < t < best:
             best, found = t, index
     return best, found
-
-
-@jit(error_model="numpy", inner=True)
-def _step_on(nodes: int, current: int, state: int, d: Vector) -> tuple[int, int]:
-    """The node after one that is done with, and where it is come from."""
-    parent = int(node_at(nodes, current).parent)
-    is_first = state == _FROM_PARENT
-    if state == _FROM_CHILD:
-        is_first = current == _first_child(nodes, parent, d)
-    if is_first:
-        return _other_child(nodes, parent, current), _FROM_SIBLING
-    return parent, _FROM_CHILD
 
 
 @jit(error_model="numpy", inner=True)
@@ -198,19 +161,14 @@ def slopes_of(triangle: Record, v: Vector) -> tuple[float, float]:
     return dot(cross(v, e2), n) / square, dot(cross(e1, v), n) / square
 
 
-def _no_normals(world: World, number: int, face: int, point: Vector) -> tuple[Vector, Vector]:
-    return point, point
-
-
-@only_with_meshes(_no_normals)
 @jit(error_model="numpy", inner=True)
-def mesh_normals(world: World, number: int, face: int, point: Vector) -> tuple[Vector, Vector]:
+def mesh_normals(instant: Record, number: int, face: int, point: Vector) -> tuple[Vector, Vector]:
     """Unit normals of a mesh at a world point, towards the camera.
 
     Returns:
         That of the smooth surface, and that of the triangle.
     """
-    shape, triangle = world.shapes[number], triangle_at(world.instant[0].triangles, face)
+    shape, triangle = shape_at(instant.shapes, number), triangle_at(instant.triangles, face)
     m = shape.inverse
     a = triple(triangle.corner[0])
     e1 = along(triple(triangle.corner[1]), a, -1.0)
@@ -226,7 +184,7 @@ def mesh_normals(world: World, number: int, face: int, point: Vector) -> tuple[V
             w[0] * n[0, 2] + w[1] * n[1, 2] + w[2] * n[2, 2],
         ),
     )
-    view = along(point, triple(world.instant[0].origin), -1.0)
+    view = along(point, triple(instant.origin), -1.0)
     if dot(flat, view) > 0.0:
         flat = scaled(flat, -1.0)
     if dot(smooth, flat) < 0.0:
@@ -234,19 +192,14 @@ def mesh_normals(world: World, number: int, face: int, point: Vector) -> tuple[V
     return smooth, flat
 
 
-def _same_point(world: World, number: int, face: int, point: Vector) -> Vector:
-    return point
-
-
-@only_with_meshes(_same_point)
 @jit(error_model="numpy", inner=True)
-def smooth_point(world: World, number: int, face: int, point: Vector) -> Vector:
+def smooth_point(instant: Record, number: int, face: int, point: Vector) -> Vector:
     """A point of a mesh moved out to the smooth surface that its corner normals stand for.
 
     Shadow rays start there, or triangles would shade each other where light grazes: Hanika,
     Hacking the Shadow Terminator (Ray Tracing Gems II, 2021).
     """
-    shape, triangle = world.shapes[number], triangle_at(world.instant[0].triangles, face)
+    shape, triangle = shape_at(instant.shapes, number), triangle_at(instant.triangles, face)
     p = mapped(shape.inverse, point)
     w = weights_at(triangle, p)
     a = triple(triangle.corner[0])

@@ -1,8 +1,7 @@
-"""Bounding-volume hierarchy of a mesh: built once, refitted where the mesh deforms (Numba).
+"""Bounding-volume hierarchy of a mesh (Numba).
 
-A binary tree in depth-first order: a node's first child follows it. Splits come from the surface
-area heuristic over bins (Wald, On fast Construction of SAH-based Bounding Volume Hierarchies,
-2007), so the same mesh always has the same tree.
+A binary tree in depth-first order: a node's first child follows it, and each node has the number of
+the one after its last.
 """
 
 from __future__ import annotations
@@ -11,7 +10,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any, NamedTuple
+from typing import Any
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -19,12 +18,16 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.scenes.mesh import Float64Array, Mesh, SurfaceImage, triangle_normals
-from texvent.scenes.raycast.records import IMAGE_RECORD, NODE_RECORD, TRIANGLE_RECORD
+from texvent.scenes.raycast.records import (
+    IMAGE_RECORD,
+    NODE_RECORD,
+    TRIANGLE_RECORD,
+    PackedSurfaces,
+)
 from texvent.scenes.scene import Primitives
 
 LEAF_TRIANGLES = 4
 """Triangles in a leaf at most, unless they cannot be told apart."""
-_BINS = 16
 _THIN_SHARE = 0.15
 """A mesh counts as thin as this share of its surface: chair legs count, a door handle does not."""
 FACE_CODES = 60
@@ -39,9 +42,7 @@ class MeshTree:
     nodes: NDArray[Any]
     """[k] `NODE_RECORD`."""
     triangles: NDArray[Any]
-    """[t] `TRIANGLE_RECORD`, in the order of `order`."""
-    order: NDArray[np.int64]
-    """[t] number in the mesh of each triangle of the tree."""
+    """[t] `TRIANGLE_RECORD`, in the order of the leaves."""
     half_width: float
     """Half the thickness of what is thin in it, as a share of its largest half extent."""
 
@@ -50,11 +51,10 @@ _TREES: WeakKeyDictionary[Mesh, MeshTree] = WeakKeyDictionary()
 
 
 def tree_of(mesh: Mesh) -> MeshTree:
-    """The tree of a mesh; that of a deformed one is its rest pose's, refitted."""
+    """The tree of a mesh, built once."""
     found = _TREES.get(mesh)
     if found is None:
-        found = _build(mesh) if mesh.rest is None else _refit(mesh, tree_of(mesh.rest))
-        _TREES[mesh] = found
+        found = _TREES[mesh] = _build(mesh)
     return found
 
 
@@ -74,15 +74,7 @@ def _build(mesh: Mesh) -> MeshTree:
     triangles["uv"], triangles["colour"] = mesh.uv[order], mesh.colours[order]
     triangles["image"] = mesh.image[order]
     triangles["code"] = (direction + _AXES * (patches % (FACE_CODES // _AXES)))[order]
-    return MeshTree(nodes[:count].copy(), triangles, order, _half_width(mesh, corners, patches))
-
-
-def _refit(mesh: Mesh, tree: MeshTree) -> MeshTree:
-    nodes, triangles = tree.nodes.copy(), tree.triangles.copy()
-    triangles["corner"] = mesh.vertices[mesh.triangles][tree.order]
-    triangles["normal"] = mesh.normals[tree.order]
-    refit_nodes(nodes, triangles["corner"])
-    return MeshTree(nodes, triangles, tree.order, tree.half_width)
+    return MeshTree(nodes[:count].copy(), triangles, _half_width(mesh, corners, patches))
 
 
 def _half_width(mesh: Mesh, unit_corners: Float64Array, patches: NDArray[np.int64]) -> float:
@@ -142,89 +134,6 @@ def join_labels(
         label[item] = label[label[item]]
 
 
-@jit(error_model="numpy", inner=True)
-def _area(low: Float64Array, high: Float64Array) -> float:
-    x, y, z = high[0] - low[0], high[1] - low[1], high[2] - low[2]
-    return float(x * y + y * z + z * x)
-
-
-@jit(error_model="numpy", inner=True)
-def _grow(low: Float64Array, high: Float64Array, by_low: Float64Array, by_high: Any) -> None:
-    for axis in range(3):
-        low[axis] = min(low[axis], by_low[axis])
-        high[axis] = max(high[axis], by_high[axis])
-
-
-@jit(error_model="numpy", inner=True)
-def _bin_of(place: float, bottom: float, width: float) -> int:
-    return min(max(int((place - bottom) / width * _BINS), 0), _BINS - 1)
-
-
-@jit(error_model="numpy", inner=True)
-def _fill_bins(
-    low: Float64Array,
-    high: Float64Array,
-    middle: Float64Array,
-    order: NDArray[np.int64],
-    extent: tuple[float, float],
-    count: NDArray[np.int64],
-    bounds: Float64Array,
-) -> None:
-    """Count the triangles whose middles are in each bin of an axis, and bound them.
-
-    `extent` is the lowest middle and how far the others reach from it.
-    """
-    count[:], bounds[0], bounds[1] = 0, math.inf, -math.inf
-    for item in order:
-        one = _bin_of(middle[item], extent[0], extent[1])
-        count[one] += 1
-        _grow(bounds[0, one], bounds[1, one], low[item], high[item])
-
-
-@jit(error_model="numpy", inner=True)
-def _best_split(
-    low: Float64Array, high: Float64Array, middle: Float64Array, order: NDArray[np.int64]
-) -> tuple[int, int, float, float]:
-    """Axis and bin after which to split the triangles of `order`: (-1, ...) = all in one place.
-
-    Returns:
-        Axis, last bin of the first part, and lowest middle and extent along the axis.
-    """
-    best, best_axis, best_bin, best_bottom, best_width = math.inf, -1, 0, 0.0, 1.0
-    count = np.empty(_BINS, dtype=np.int64)
-    bounds = np.empty((2, _BINS, 3))
-    behind = np.empty(_BINS)
-    for axis in range(3):
-        bottom, top = math.inf, -math.inf
-        for item in order:
-            bottom, top = min(bottom, middle[item, axis]), max(top, middle[item, axis])
-        if not top > bottom:
-            continue
-        width = top - bottom
-        _fill_bins(low, high, middle[:, axis], order, (bottom, width), count, bounds)
-        around = np.empty((2, 3))
-        around[0], around[1] = math.inf, -math.inf
-        number = 0
-        for one in range(_BINS - 1, 0, -1):
-            number += count[one]
-            if count[one]:
-                _grow(around[0], around[1], bounds[0, one], bounds[1, one])
-            behind[one] = number * _area(around[0], around[1]) if number else 0.0
-        around[0], around[1] = math.inf, -math.inf
-        number = 0
-        for one in range(_BINS - 1):
-            number += count[one]
-            if count[one]:
-                _grow(around[0], around[1], bounds[0, one], bounds[1, one])
-            if number in (0, len(order)):
-                continue
-            cost = number * _area(around[0], around[1]) + behind[one + 1]
-            if cost < best:
-                best, best_axis, best_bin = cost, axis, one
-                best_bottom, best_width = bottom, width
-    return best_axis, best_bin, best_bottom, best_width
-
-
 @jit(error_model="numpy")
 def build_nodes(
     low: Float64Array,
@@ -233,7 +142,7 @@ def build_nodes(
     order: NDArray[np.int64],
     nodes: NDArray[Any],
 ) -> int:
-    """Build the tree of boxes.
+    """Build the tree of boxes, split at the middle of the longest side of their middles' box.
 
     Args:
         low: [t, 3] least corner of each triangle's box.
@@ -245,81 +154,50 @@ def build_nodes(
     Returns:
         How many nodes there are.
     """
-    pending = np.empty((128, 3), dtype=np.int64)  # first, one past the last, parent · 2 + is second
+    pending = np.empty((128, 3), dtype=np.int64)  # first, one past the last, the node it is in
     pending[0, 0], pending[0, 1], pending[0, 2] = 0, len(order), -1
     height, count = 1, 0
+    parents = np.full(len(nodes), -1, dtype=np.int64)
     while height:
         height -= 1
-        start, stop, link = pending[height, 0], pending[height, 1], pending[height, 2]
-        node = nodes[count]
-        node.parent = link >> 1 if link >= 0 else -1
-        if link >= 0 and link & 1:
-            nodes[link >> 1].second = count
-        node.low[:], node.high[:] = math.inf, -math.inf
-        for item in order[start:stop]:
-            _grow(node.low, node.high, low[item], high[item])
+        start, stop = pending[height, 0], pending[height, 1]
+        node, parents[count] = nodes[count], pending[height, 2]
         part = order[start:stop]
-        axis, last, bottom, width = -1, 0, 0.0, 1.0
-        if stop - start > LEAF_TRIANGLES and height < len(pending) - 2:
-            axis, last, bottom, width = _best_split(low, high, middle, part)
-        if axis < 0:
-            node.first, node.count = start, stop - start
+        least, most = np.full(3, math.inf), np.full(3, -math.inf)
+        node.low[:], node.high[:] = math.inf, -math.inf
+        for item in part:
+            for axis in range(3):
+                node.low[axis] = min(node.low[axis], low[item, axis])
+                node.high[axis] = max(node.high[axis], high[item, axis])
+                least[axis] = min(least[axis], middle[item, axis])
+                most[axis] = max(most[axis], middle[item, axis])
+        axis = int((most - least).argmax())
+        is_second = middle[part, axis] > 0.5 * (least[axis] + most[axis])
+        seconds = is_second.sum()
+        if len(part) <= LEAF_TRIANGLES or seconds == 0 or height > len(pending) - 2:
+            node.first, node.count = start, len(part)
         else:
-            node.axis = axis
-            is_second = np.empty(len(part), dtype=np.int64)
-            for index in range(len(part)):
-                is_second[index] = _bin_of(middle[part[index], axis], bottom, width) > last
             sorted_part = part[np.argsort(is_second, kind="mergesort")]
             part[:] = sorted_part
-            cut = stop - is_second.sum()
-            pending[height, 0], pending[height, 1], pending[height, 2] = cut, stop, 2 * count + 1
-            height += 1
-            pending[height, 0], pending[height, 1], pending[height, 2] = start, cut, 2 * count
-            height += 1
+            for first, last in ((stop - seconds, stop), (start, stop - seconds)):
+                pending[height, 0], pending[height, 1], pending[height, 2] = first, last, count
+                height += 1
         count += 1
+    for number in range(count - 1, -1, -1):
+        nodes[number].skip = max(nodes[number].skip, number + 1)
+        if parents[number] >= 0:
+            parent = nodes[parents[number]]
+            parent.skip = max(parent.skip, nodes[number].skip)
     return count
-
-
-@jit(error_model="numpy")
-def refit_nodes(nodes: NDArray[Any], corners: Float64Array) -> None:
-    """Fit the boxes of a tree to moved triangles, [t, 3, 3] corners in the tree's order."""
-    for number in range(len(nodes) - 1, -1, -1):
-        node = nodes[number]
-        node.low[:], node.high[:] = math.inf, -math.inf
-        for triangle in range(node.first, node.first + node.count):
-            for corner in range(3):
-                _grow(node.low, node.high, corners[triangle, corner], corners[triangle, corner])
-        if node.count == 0:
-            first, second = nodes[number + 1], nodes[node.second]
-            _grow(node.low, node.high, first.low, first.high)
-            _grow(node.low, node.high, second.low, second.high)
 
 
 _FACE_AXES = ((1, 2), (1, 2), (0, 2), (0, 2), (1, 0), (1, 0))
 """Axes of a box's face that are the image's right and down, without their signs."""
 
 
-class PackedSurfaces(NamedTuple):
-    """All meshes and images of an instant."""
-
-    nodes: NDArray[Any]
-    triangles: NDArray[Any]
-    images: NDArray[Any]
-    texels: NDArray[np.float32]
-    roots: dict[Mesh, int]
-    """First node of each mesh."""
-    numbers: dict[SurfaceImage, int]
-    """Index of each image."""
-
-
-def describe_surfaces(shapes: NDArray[Any], primitives: Primitives) -> PackedSurfaces | None:
-    """Write which mesh and image each shape has into their records, and pack both.
-
-    None: there are neither.
-    """
+def describe_surfaces(shapes: NDArray[Any], primitives: Primitives) -> PackedSurfaces:
+    """Write which mesh and image each shape has into their records, and pack both."""
     shapes["image"] = -1
-    if primitives.mesh is None and primitives.image is None:
-        return None
     count = len(shapes)
     meshes = primitives.mesh if primitives.mesh is not None else np.full(count, None)
     images = primitives.image if primitives.image is not None else np.full(count, None)
@@ -352,8 +230,7 @@ def _pack(meshes: tuple[Mesh, ...], shown: tuple[SurfaceImage, ...]) -> PackedSu
         tree = tree_of(mesh)
         nodes, triangles = tree.nodes.copy(), tree.triangles.copy()
         nodes["first"] += triangle_count
-        nodes["second"] += node_count
-        nodes["parent"] += np.where(nodes["parent"] < 0, 0, node_count)
+        nodes["skip"] += node_count
         table = np.array([*(numbers[image] for image in mesh.images), -1])
         triangles["image"] = table[triangles["image"]]
         roots[mesh] = node_count
@@ -377,9 +254,6 @@ def _pack_images(images: Sequence[SurfaceImage]) -> tuple[NDArray[Any], NDArray[
     begin = 0
     for record, image in zip(records, images, strict=True):
         record["repeats"] = int(image.repeats)
-        if image.checks is not None:
-            record["checks"] = image.checks
-            continue
         record["height"], record["width"] = image.levels[0].shape[:2]
         record["levels"] = len(image.levels)
         for number, level in enumerate(image.levels):

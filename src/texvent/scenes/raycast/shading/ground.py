@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.records import Record, World
+from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.material import (
     Look,
     Patch,
@@ -29,12 +29,8 @@ from texvent.scenes.scene import Colour
 
 _WHITE_PAINT = (0.62, 0.62, 0.60)
 _KERB = (0.46, 0.46, 0.44)
-_IRON = (0.045, 0.042, 0.04)
 _DASH_M = 6.0
 _LINE_M = 0.14
-_ZEBRA_M = 3.2
-_ZEBRA_EVERY_M = 58.0
-_MANHOLE_EVERY_M = 19.0
 _DIRT_ROAD = 3
 _CITY = 5
 _RIVER = 11
@@ -118,46 +114,21 @@ def _line_marks(strip: Strip, half: float, feet: tuple[float, float]) -> float:
 
 
 @jit(error_model="numpy", inner=True)
-def _zebra_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> float:
-    """Share of a pixel within a zebra crossing's length; they come at even distances."""
-    if instant.ground != _CITY:
-        return 0.0
-    place = strip[0] - 11.0 - _ZEBRA_EVERY_M * math.floor((strip[0] - 11.0) / _ZEBRA_EVERY_M)
-    return box_coverage(place, 0.0, _ZEBRA_M, feet[0])
-
-
-@jit(error_model="numpy", inner=True)
-def _manhole_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> float:
-    """Share of a pixel that shows a manhole's lid."""
-    if instant.ground != _CITY:
-        return 0.0
-    cell = math.floor(strip[0] / _MANHOLE_EVERY_M)
-    aside = 1.2 * (lattice(int(cell), 0, 21) - 0.5) * instant.road[2]
-    a = strip[0] - _MANHOLE_EVERY_M * (cell + 0.5)
-    b = strip[1] - aside
-    foot = max(feet[0], feet[1], 0.03)
-    share = smooth((0.33 - math.sqrt(a * a + b * b)) / foot + 0.5)
-    return share * min(1.0, 0.4 / foot)
-
-
-@jit(error_model="numpy", inner=True)
-def _asphalt(world: World, x: float, y: float, axes: Patch, marks: float, lid: float) -> Look:
-    """Carriageway with worn paint; `marks` and `lid` are shares of a pixel."""
-    instant = world.instant[0]
+def _asphalt(instant: Record, x: float, y: float, axes: Patch, marks: float) -> Look:
+    """Carriageway with worn paint; `marks` is its share of a pixel."""
     sample = sample_material(instant, instant.road_surface, x, y, axes, 1.0)
     tar = triple(instant.second_colour)
     surface = painted(sample, tar, scaled(tar, 2.2), 1.0)
     brightness = min(sample[0] + sample[1], 1.3)
     colour = mix(surface[0], scaled(_WHITE_PAINT, 0.55 + 0.45 * brightness), 0.9 * marks)
-    return mix(colour, scaled(_IRON, brightness), lid), surface[1], surface[2]
+    return colour, surface[1], surface[2]
 
 
 @jit(error_model="numpy", inner=True)
 def _track(
-    world: World, x: float, y: float, axes: Patch, strip: Strip, feet: tuple[float, float]
+    instant: Record, x: float, y: float, axes: Patch, strip: Strip, feet: tuple[float, float]
 ) -> Look:
     """A dirt road with two ruts."""
-    instant = world.instant[0]
     sample = sample_material(instant, instant.road_surface, x, y, axes, 1.0)
     wobble = 0.3 * noise_2d(0.35 * strip[0], 0.0, 3)
     rut = smooth(1.6 - abs(abs(strip[1] + wobble) - 0.85) / 0.35)
@@ -183,9 +154,8 @@ def _foam_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> flo
 
 
 @jit(error_model="numpy", inner=True)
-def _water(world: World, strip: Strip, axes: Patch, view_up: float, foam: float) -> Look:
+def _water(instant: Record, strip: Strip, axes: Patch, view_up: float, foam: float) -> Look:
     """Rippled water that flows along the strip and mirrors the sky."""
-    instant = world.instant[0]
     speed = _FLOW_M_S if instant.ground == _RIVER else _DRIFT_M_S
     turned = (
         axes[0] * strip[2] + axes[1] * strip[3], axes[1] * strip[2] - axes[0] * strip[3],
@@ -203,35 +173,28 @@ def _water(world: World, strip: Strip, axes: Patch, view_up: float, foam: float)
 
 @jit(error_model="numpy", inner=True)
 def _carriageway(
-    world: World,
+    instant: Record,
     point: tuple[float, float],
     axes: Patch,
     main: tuple[Strip, tuple[float, float], float],
     other: tuple[Strip, tuple[float, float], float],
 ) -> Look:
     """Asphalt of the main road, of one that crosses it, or of both."""
-    instant = world.instant[0]
     half = instant.road[2]
     strip, feet, inside = main
-    marks, lid = 0.0, 0.0
+    marks = 0.0
     if inside > 0.0:
-        zebra = _zebra_share(instant, strip, feet)
-        stripes = square_wave(strip[1] / 1.1, feet[1] / 1.1) * box_coverage(
-            strip[1], -half + 0.3, half - 0.3, feet[1]
-        )
-        marks = inside * (
-            zebra * stripes + (1.0 - zebra) * _line_marks(strip, half, feet) * (1.0 - other[2])
-        )
-        lid = inside * _manhole_share(instant, strip, feet)
+        marks = inside * _line_marks(strip, half, feet) * (1.0 - other[2])
     if other[2] > 0.0:
         marks += (1.0 - inside) * other[2] * _line_marks(other[0], half, other[1])
-    return _asphalt(world, point[0], point[1], axes, marks, lid)
+    return _asphalt(instant, point[0], point[1], axes, marks)
 
 
 @jit(error_model="numpy", inner=True)
-def _road_look(world: World, x: float, y: float, patch: Patch, axes: Patch, strip: Strip) -> Look:
+def _road_look(
+    instant: Record, x: float, y: float, patch: Patch, axes: Patch, strip: Strip
+) -> Look:
     """A road with those that cross it, and what lies beside it."""
-    instant = world.instant[0]
     half = instant.road[2]
     feet = _feet(strip, patch)
     inside = _inside_share(instant, strip, feet[1])
@@ -246,19 +209,19 @@ def _road_look(world: World, x: float, y: float, patch: Patch, axes: Patch, stri
             other, other_feet, beyond = place, spread, share
     covered = inside + (1.0 - inside) * beyond
     if covered <= 0.0:
-        return _kerbed(land_look(world, x, y, axes), instant, kerb)
+        return _kerbed(land_look(instant, x, y, axes), instant, kerb)
     if instant.ground == _DIRT_ROAD:
         if inside >= beyond:
-            surface = _track(world, x, y, axes, strip, feet)
+            surface = _track(instant, x, y, axes, strip, feet)
         else:
-            surface = _track(world, x, y, axes, other, other_feet)
+            surface = _track(instant, x, y, axes, other, other_feet)
     else:
         surface = _carriageway(
-            world, (x, y), axes, (strip, feet, inside), (other, other_feet, beyond)
+            instant, (x, y), axes, (strip, feet, inside), (other, other_feet, beyond)
         )
     if covered >= 1.0:
         return surface
-    return mixed(_kerbed(land_look(world, x, y, axes), instant, kerb), surface, covered)
+    return mixed(_kerbed(land_look(instant, x, y, axes), instant, kerb), surface, covered)
 
 
 @jit(error_model="numpy", inner=True)
@@ -270,33 +233,34 @@ def _kerbed(land: Look, instant: Record, kerb: float) -> Look:
 
 
 @jit(error_model="numpy", inner=True)
-def strip_look(world: World, x: float, y: float, patch: Patch, axes: Patch, view_up: float) -> Look:
+def strip_look(
+    instant: Record, x: float, y: float, patch: Patch, axes: Patch, view_up: float
+) -> Look:
     """Reflectance and relief of a ground with a road, a river or a shore.
 
     Args:
-        world: the scene.
+        instant: the scene.
         x: metres east.
         y: metres north.
         patch: what one pixel covers there.
         axes: of that patch, from `patch_axes`.
         view_up: z of the ray's unit direction.
     """
-    instant = world.instant[0]
     strip = strip_place(instant, x, y)
     if instant.ground not in (_RIVER, _LAKE):
-        return _road_look(world, x, y, patch, axes, strip)
+        return _road_look(instant, x, y, patch, axes, strip)
     feet = _feet(strip, patch)
     wet = _inside_share(instant, strip, feet[1])
     if wet >= 1.0:
-        return _water(world, strip, axes, view_up, _foam_share(instant, strip, feet))
-    land = land_look(world, x, y, axes)
+        return _water(instant, strip, axes, view_up, _foam_share(instant, strip, feet))
+    land = land_look(instant, x, y, axes)
     edge = strip[1] + 1.2 if instant.ground == _LAKE else instant.road[2] + 1.2 - abs(strip[1])
     bank = 0.6 * smooth(edge / 2.0)
     land = scaled(mix(land[0], (0.20, 0.155, 0.10), bank), 1.0 - 0.25 * bank), land[1], land[2]
     if wet <= 0.0:
         return land
     foam = _foam_share(instant, strip, feet)
-    return mixed(land, _water(world, strip, axes, view_up, foam), wet)
+    return mixed(land, _water(instant, strip, axes, view_up, foam), wet)
 
 
 _PLASTER, _STONE, _CLOTH = 33, 31, 43
@@ -310,20 +274,22 @@ _CEILING = (1.7, 1.69, 1.64)
 
 
 @jit(error_model="numpy", inner=True)
-def ground_look(world: World, point: Vector, patch: tuple[Vector, Vector], view_up: float) -> Look:
+def ground_look(
+    instant: Record, point: Vector, patch: tuple[Vector, Vector], view_up: float
+) -> Look:
     """Reflectance and relief of the ground.
 
     Args:
-        world: the scene.
+        instant: the scene.
         point: on the ground, metres.
         patch: what one pixel covers there, from `texture.surface_patch`.
         view_up: z of the ray's unit direction.
     """
     flat = (patch[0][0], patch[0][1], patch[1][0], patch[1][1])
     axes = patch_axes(flat)
-    if world.instant[0].ground in (2, 3, 5, 11, 12):
-        return strip_look(world, point[0], point[1], flat, axes, view_up)
-    return land_look(world, point[0], point[1], axes)
+    if instant.ground in (2, 3, 5, 11, 12):
+        return strip_look(instant, point[0], point[1], flat, axes, view_up)
+    return land_look(instant, point[0], point[1], axes)
 
 
 @jit(error_model="numpy", inner=True)
@@ -366,13 +332,12 @@ def _hang(
 
 @jit(error_model="numpy", inner=True)
 def wall_look(
-    world: World, point: Vector, face: int, patch: tuple[Vector, Vector]
+    instant: Record, point: Vector, face: int, patch: tuple[Vector, Vector]
 ) -> tuple[Colour, Vector]:
     """Reflectance and normal of a room's wall or ceiling.
 
     Walls have a skirting board, windows and pictures; those of rock or drapery have no windows.
     """
-    instant = world.instant[0]
     right, down = patch
     a, b = (1, 2) if face == 0 else (0, 2)
     if face == 2:

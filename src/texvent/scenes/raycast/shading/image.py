@@ -5,43 +5,33 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
+from texvent.scenes.raycast.addresses import image_at, shape_at, texel_at, triangle_at
 from texvent.scenes.raycast.meshes.hit import slopes_of, weights_at
-from texvent.scenes.raycast.records import Record, World
+from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.value_noise import mix
-from texvent.scenes.raycast.uncounted import image_at, only_with_meshes, texel_at, triangle_at
 from texvent.scenes.raycast.vectors import Vector, along, mapped, scaled, times, triple, turned
 from texvent.scenes.scene import Colour
 
 MOST_TAPS = 16
 """A footprint is taken to be at most this many times as long as wide."""
-_CHECK_TAPS = 3
-_BLACK, _WHITE = 0.03, 0.85
-"""Reflectance of a printed board."""
 Footprint = tuple[tuple[float, float], tuple[float, float]]
 """Change of (u, v) from one pixel to the next, to the right and down."""
 
 
-def _no_colour(
-    world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
-) -> Colour:
-    return point
-
-
-@only_with_meshes(_no_colour)
 @jit(error_model="numpy", inner=True)
 def mesh_colour(
-    world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
+    instant: Record, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
 ) -> Colour:
     """Reflectance of a mesh at a world point: colour of its corners times its image.
 
     Args:
-        world: the scene.
+        instant: the scene.
         number: shape number.
         face: triangle that was hit.
         point: metres.
         patch: what one pixel covers there, from `surface_patch`.
     """
-    shape, triangle = world.shapes[number], triangle_at(world.instant[0].triangles, face)
+    shape, triangle = shape_at(instant.shapes, number), triangle_at(instant.triangles, face)
     a, b, c = weights_at(triangle, mapped(shape.inverse, point))
     corners = triangle.colour
     colour = (
@@ -63,19 +53,18 @@ def mesh_colour(
         (right[0] * u1 + right[1] * u2, right[0] * v1 + right[1] * v2),
         (down[0] * u1 + down[1] * u2, down[0] * v1 + down[1] * v2),
     )
-    return times(colour, image_colour(world, triangle.image, u, v, footprint))
+    return times(colour, image_colour(instant, triangle.image, u, v, footprint))
 
 
-@only_with_meshes(_no_colour)
 @jit(error_model="numpy", inner=True)
 def shown_colour(
-    world: World, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
+    instant: Record, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
 ) -> Colour:
     """Colour of a box's face that shows an image, its own colour around the image.
 
     Arguments as for `mesh_colour`.
     """
-    shape = world.shapes[number]
+    shape = shape_at(instant.shapes, number)
     p = mapped(shape.inverse, point)
     right, down = turned(shape.inverse, patch[0]), turned(shape.inverse, patch[1])
     fit = shape.image_fit
@@ -86,7 +75,7 @@ def shown_colour(
         (0.5 * fit[0] * first[0], 0.5 * fit[1] * first[1]),
         (0.5 * fit[0] * second[0], 0.5 * fit[1] * second[1]),
     )
-    colour = image_colour(world, shape.image, u, v, footprint)
+    colour = image_colour(instant, shape.image, u, v, footprint)
     share = _overlap(u, abs(footprint[0][0]) + abs(footprint[1][0]))
     share *= _overlap(v, abs(footprint[0][1]) + abs(footprint[1][1]))
     return mix(triple(shape.colour), colour, share)
@@ -120,16 +109,13 @@ def _overlap(place: float, width: float) -> float:
 
 
 @jit(error_model="numpy", inner=True)
-def image_colour(world: World, number: int, u: float, v: float, footprint: Footprint) -> Colour:
+def image_colour(instant: Record, number: int, u: float, v: float, footprint: Footprint) -> Colour:
     """Mean of an image over a pixel's footprint.
 
     Trilinear samples of the mip pyramid, two to a pixel across the footprint's shorter side and as
-    dense along its longer one: a simple form of Feline (McCormack et al. 1999). A checkerboard is
-    integrated exactly per tap.
+    dense along its longer one: a simple form of Feline (McCormack et al. 1999).
     """
-    image = image_at(world.instant[0].images, number)
-    if image.checks[0] > 0:
-        return _checks_colour(image, u, v, footprint)
+    image = image_at(instant.images, number)
     width, height = float(image.width), float(image.height)
     right = math.hypot(footprint[0][0] * width, footprint[0][1] * height)
     down = math.hypot(footprint[1][0] * width, footprint[1][1] * height)
@@ -148,22 +134,22 @@ def image_colour(world: World, number: int, u: float, v: float, footprint: Footp
             a = (column + 0.5) / columns - 0.5
             x = u + a * long_step[0] + b * short_step[0]
             y = v + a * long_step[1] + b * short_step[1]
-            total = along(total, _trilinear(world, image, x, y, level), 1.0)
+            total = along(total, _trilinear(instant, image, x, y, level), 1.0)
     return scaled(total, 1.0 / (rows * columns))
 
 
 @jit(error_model="numpy", inner=True)
-def _trilinear(world: World, image: Record, u: float, v: float, level: float) -> Colour:
+def _trilinear(instant: Record, image: Record, u: float, v: float, level: float) -> Colour:
     level = min(level, image.levels - 1.0)
     low = int(level)
-    colour = _bilinear(world, image, u, v, low)
+    colour = _bilinear(instant, image, u, v, low)
     if level > low:
-        colour = mix(colour, _bilinear(world, image, u, v, low + 1), level - low)
+        colour = mix(colour, _bilinear(instant, image, u, v, low + 1), level - low)
     return colour
 
 
 @jit(error_model="numpy", inner=True)
-def _bilinear(world: World, image: Record, u: float, v: float, level: int) -> Colour:
+def _bilinear(instant: Record, image: Record, u: float, v: float, level: int) -> Colour:
     width, height = max(image.width >> level, 1), max(image.height >> level, 1)
     x, y = u * width - 0.5, v * height - 0.5
     left, top = math.floor(x), math.floor(y)
@@ -172,13 +158,13 @@ def _bilinear(world: World, image: Record, u: float, v: float, level: int) -> Co
     j0, j1 = _texel(int(top), height, image.repeats), _texel(int(top) + 1, height, image.repeats)
     start = image.start[level]
     upper = mix(
-        _at(world, start + 3 * (j0 * width + i0)),
-        _at(world, start + 3 * (j0 * width + i1)),
+        _at(instant, start + 3 * (j0 * width + i0)),
+        _at(instant, start + 3 * (j0 * width + i1)),
         share_x,
     )
     lower = mix(
-        _at(world, start + 3 * (j1 * width + i0)),
-        _at(world, start + 3 * (j1 * width + i1)),
+        _at(instant, start + 3 * (j1 * width + i0)),
+        _at(instant, start + 3 * (j1 * width + i1)),
         share_x,
     )
     return mix(upper, lower, share_y)
@@ -192,48 +178,6 @@ def _texel(index: int, count: int, repeats: int) -> int:
 
 
 @jit(error_model="numpy", inner=True)
-def _at(world: World, index: int) -> Colour:
-    texels = world.instant[0].texels
+def _at(instant: Record, index: int) -> Colour:
+    texels = instant.texels
     return texel_at(texels, index), texel_at(texels, index + 1), texel_at(texels, index + 2)
-
-
-@jit(error_model="numpy", inner=True)
-def _checks_colour(image: Record, u: float, v: float, footprint: Footprint) -> Colour:
-    columns, rows = image.checks[0], image.checks[1]
-    across, tall = columns + 2.0, rows + 2.0
-    step_x = (abs(footprint[0][0]) + abs(footprint[1][0])) * across / _CHECK_TAPS
-    step_y = (abs(footprint[0][1]) + abs(footprint[1][1])) * tall / _CHECK_TAPS
-    black = 0.0
-    for j in range(_CHECK_TAPS):
-        for i in range(_CHECK_TAPS):
-            a, b = (i + 0.5) / _CHECK_TAPS - 0.5, (j + 0.5) / _CHECK_TAPS - 0.5
-            x = (u + a * footprint[0][0] + b * footprint[1][0]) * across - 1.0
-            y = (v + a * footprint[0][1] + b * footprint[1][1]) * tall - 1.0
-            inside = _mean_within(x, step_x, columns) * _mean_within(y, step_y, rows)
-            signs = _mean_sign(x, step_x, columns) * _mean_sign(y, step_y, rows)
-            black += 0.5 * (inside + signs)
-    share = black / _CHECK_TAPS**2
-    grey = _WHITE + share * (_BLACK - _WHITE)
-    return grey, grey, grey
-
-
-@jit(error_model="numpy", inner=True)
-def _mean_within(place: float, width: float, count: int) -> float:
-    """Mean over an interval of what is 1 in 0..count and 0 beside it."""
-    half = 0.5 * max(width, 1e-9)
-    low, high = min(max(place - half, 0.0), count), min(max(place + half, 0.0), count)
-    return (high - low) / (2.0 * half)
-
-
-@jit(error_model="numpy", inner=True)
-def _mean_sign(place: float, width: float, count: int) -> float:
-    """Mean over an interval of what is +1 and -1 by turns in 0..count, and 0 beside it."""
-    half = 0.5 * max(width, 1e-9)
-    low, high = min(max(place - half, 0.0), count), min(max(place + half, 0.0), count)
-    return (_sign_sum(high) - _sign_sum(low)) / (2.0 * half)
-
-
-@jit(error_model="numpy", inner=True)
-def _sign_sum(place: float) -> float:
-    rest = place % 2.0
-    return min(rest, 2.0 - rest)

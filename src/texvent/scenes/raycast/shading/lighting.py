@@ -9,8 +9,9 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
+from texvent.scenes.raycast.addresses import shape_at
 from texvent.scenes.raycast.lamps.light import lamp_light
-from texvent.scenes.raycast.records import Record, World
+from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.ground import ground_look, wall_look
 from texvent.scenes.raycast.shading.texture import patch_extent, surface_look, surface_patch
 from texvent.scenes.raycast.shading.value_noise import (
@@ -117,11 +118,10 @@ def _sky_light(instant: Record, direction: Colour, pixel: float) -> Colour:
 
 @jit(error_model="numpy", inner=True)
 def _reflected(
-    world: World, colour: Colour, point: Colour, normal: Colour, footprint: float, lit: int
+    instant: Record, colour: Colour, point: Colour, normal: Colour, footprint: float, lit: int
 ) -> Colour:
     """Light reflected by a matt surface of which a pixel covers `foot` metres."""
-    instant = world.instant[0]
-    lamps = lamp_light(world, point, normal, lit)
+    lamps = lamp_light(instant, point, normal, lit)
     above = 0.68 + 0.32 * normal[2]
     facing = 0.0
     if lit & 1:
@@ -134,7 +134,7 @@ def _reflected(
 
 @jit(error_model="numpy", inner=True)
 def _shape_light(
-    world: World,
+    instant: Record,
     hit: tuple[float, int, int],
     point: Colour,
     direction: Colour,
@@ -142,23 +142,22 @@ def _shape_light(
     lit: int,
 ) -> Colour:
     """Light from a shape: texture, reflection, a soft highlight, its own glow."""
-    instant = world.instant[0]
     depth, number, face = hit
-    normal = surface_normal(world, number, face, point)
+    normal = surface_normal(instant, number, face, point)
     patch = surface_patch(steps, direction, depth, normal)
-    colour, normal = surface_look(world, number, face, point, (normal, patch[0], patch[1]))
+    colour, normal = surface_look(instant, number, face, point, (normal, patch[0], patch[1]))
     view = unit(direction)
-    light = _reflected(world, colour, point, normal, patch_extent(patch)[2], lit)
+    light = _reflected(instant, colour, point, normal, patch_extent(patch)[2], lit)
     if lit & 1:
         half = along(triple(instant.sun), view, -1.0)
         facing = max(dot(half, normal), 0.0) / math.sqrt(dot(half, half) + 1e-12)
         light = along(light, triple(instant.sun_colour), 0.12 * facing**24)
-    return along(light, colour, world.shapes[number].emission)
+    return along(light, colour, shape_at(instant.shapes, number).emission)
 
 
 @jit(error_model="numpy", inner=True)
 def _ground_light(
-    world: World,
+    instant: Record,
     depth: float,
     point: Colour,
     direction: Colour,
@@ -166,16 +165,15 @@ def _ground_light(
     lit: int,
 ) -> Colour:
     """Light from the ground or the sea, which fade into the horizon."""
-    instant = world.instant[0]
     up = (0.0, 0.0, 1.0)
     patch = surface_patch(steps, direction, depth, up)
     footprint = patch_extent(patch)
     if instant.ground == _SEA:
         light = sea_light(instant, point, unit(direction), footprint)
     else:
-        colour, slope_x, slope_y = ground_look(world, point, patch, unit(direction)[2])
+        colour, slope_x, slope_y = ground_look(instant, point, patch, unit(direction)[2])
         normal = unit((-slope_x, -slope_y, 1.0))
-        light = _reflected(world, colour, point, normal, footprint[2], lit)
+        light = _reflected(instant, colour, point, normal, footprint[2], lit)
     if instant.ground == _UNDERWATER:
         return light
     return mix(light, triple(instant.sky_horizon), smooth((depth - 150.0) / 1500.0))
@@ -189,17 +187,16 @@ def _angle_of_step(direction: Colour, step: Colour) -> float:
 
 
 @jit(error_model="numpy", inner=True)
-def shade_hit(world: World, x: float, y: float, hit: tuple[float, int, int], lit: int) -> Colour:
+def shade_hit(instant: Record, x: float, y: float, hit: tuple[float, int, int], lit: int) -> Colour:
     """Linear light that reaches image point (x, y).
 
     Args:
-        world: the scene.
+        instant: the scene.
         x: pixels from the left.
         y: pixels from the top.
         hit: depth, what was hit, and which face, from `first_hit`.
         lit: what falls on it, from `lamps_reach` shifted by one bit; bit 0: the sun.
     """
-    instant = world.instant[0]
     depth, number, face = hit
     direction = ray_direction(instant, x, y)
     if math.isnan(direction[0]):  # the lens lets nothing through
@@ -212,12 +209,12 @@ def shade_hit(world: World, x: float, y: float, hit: tuple[float, int, int], lit
     point = along(triple(instant.origin), direction, depth)
     distance = depth * math.sqrt(direction[0] ** 2 + direction[1] ** 2 + direction[2] ** 2)
     if number == GROUND:
-        light = _ground_light(world, depth, point, direction, steps, lit)
+        light = _ground_light(instant, depth, point, direction, steps, lit)
     elif number == ROOM:
-        flat = surface_normal(world, ROOM, face, point)
+        flat = surface_normal(instant, ROOM, face, point)
         patch = surface_patch(steps, direction, depth, flat)
-        colour, normal = wall_look(world, point, face, patch)
-        light = _reflected(world, colour, point, unit(normal), patch_extent(patch)[2], lit)
+        colour, normal = wall_look(instant, point, face, patch)
+        light = _reflected(instant, colour, point, unit(normal), patch_extent(patch)[2], lit)
     else:
-        light = _shape_light(world, hit, point, direction, steps, lit)
+        light = _shape_light(instant, hit, point, direction, steps, lit)
     return _add_fog(instant, light, distance)

@@ -17,11 +17,11 @@ from numba.core import cgutils
 from numba.extending import intrinsic
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.records import Record, World
+from texvent.scenes.raycast.addresses import texel_at
+from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.value_noise import mix
 from texvent.scenes.raycast.surfaces.catalogue import CHANNELS, LEVELS
 from texvent.scenes.raycast.surfaces.fields import SIDE
-from texvent.scenes.raycast.uncounted import texel_at
 from texvent.scenes.raycast.vectors import along, scaled, triple
 from texvent.scenes.scene import FIRST_SURFACE, Colour
 
@@ -285,9 +285,8 @@ def mixed(first: Look, second: Look, share: float) -> Look:
 
 
 @jit(error_model="numpy", inner=True)
-def land_look(world: World, x: float, y: float, axes: Patch) -> Look:
+def land_look(instant: Record, x: float, y: float, axes: Patch) -> Look:
     """The ground's material at (x, y), metres; `axes` of the patch from `patch_axes`."""
-    instant = world.instant[0]
     sample = sample_material(instant, instant.ground_surface, x, y, axes, 1.0)
     first, second = triple(instant.colour), triple(instant.second_colour)
     if instant.ground == _CITY:

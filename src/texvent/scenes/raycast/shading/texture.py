@@ -5,12 +5,12 @@ from __future__ import annotations
 import math
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.records import World
+from texvent.scenes.raycast.addresses import shape_at
+from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.image import mesh_colour, shown_colour
 from texvent.scenes.raycast.shading.material import patch_axes, sample_material
 from texvent.scenes.raycast.shading.value_noise import mix, square_wave
 from texvent.scenes.raycast.trace import MESH
-from texvent.scenes.raycast.uncounted import has_meshes
 from texvent.scenes.raycast.vectors import (
     Vector,
     along,
@@ -62,30 +62,29 @@ def patch_extent(patch: tuple[Vector, Vector]) -> Colour:
 
 @jit(error_model="numpy", inner=True)
 def surface_look(
-    world: World, number: int, face: int, point: Vector, look: tuple[Vector, Vector, Vector]
+    instant: Record, number: int, face: int, point: Vector, look: tuple[Vector, Vector, Vector]
 ) -> tuple[Colour, Vector]:
     """Reflectance of shape `number` at a world point, and its normal with the material's relief.
 
     Args:
-        world: the scene.
+        instant: the scene.
         number: shape number.
         face: face that was hit.
         point: metres.
         look: unit normal of the shape, and what one pixel covers there, from `surface_patch`.
     """
-    shape = world.shapes[number]
+    shape = shape_at(instant.shapes, number)
     plain = triple(shape.colour)
     normal, right, down = look
-    if has_meshes(world):
-        if shape.kind == MESH:
-            return mesh_colour(world, number, face, point, (right, down)), normal
-        if shape.image >= 0 and face == shape.image_face:
-            return shown_colour(world, number, face, point, (right, down)), normal
+    if shape.kind == MESH:
+        return mesh_colour(instant, number, face, point, (right, down)), normal
+    if shape.image >= 0 and face == shape.image_face:
+        return shown_colour(instant, number, face, point, (right, down)), normal
     if shape.texture == _PLAIN:
         return plain, normal
     m = shape.inverse
     if shape.texture >= FIRST_SURFACE:
-        return _material_look(world, number, point, look)
+        return _material_look(instant, number, point, look)
     scale = shape.texture_scale
     right, down = turned(m, right), turned(m, down)
     steps = (
@@ -99,10 +98,10 @@ def surface_look(
 
 @jit(error_model="numpy", inner=True)
 def _material_look(
-    world: World, number: int, point: Vector, look: tuple[Vector, Vector, Vector]
+    instant: Record, number: int, point: Vector, look: tuple[Vector, Vector, Vector]
 ) -> tuple[Colour, Vector]:
     """As `surface_look`, for a material: seen along the local axes that the surface faces."""
-    shape, instant = world.shapes[number], world.instant[0]
+    shape = shape_at(instant.shapes, number)
     normal, right, down = look
     m, extent = shape.inverse, triple(shape.extent)
     place = times(mapped(m, point), extent)

@@ -47,7 +47,6 @@ SURFACES: dict[Texture, SurfaceKind] = {
     Texture.GRASS: SurfaceKind(patterns.grass, 1.7, 0.35, 1.0),
     Texture.SOIL: SurfaceKind(patterns.soil, 1.6, 0.7, 0.8),
     Texture.SAND: SurfaceKind(patterns.sand, 2.2, 0.9, 0.8),
-    Texture.GRAVEL: SurfaceKind(patterns.gravel, 1.3, 0.9, 0.6),
     Texture.LEAVES: SurfaceKind(patterns.leaves, 1.9, 0.4, 0.8),
     Texture.SNOW: SurfaceKind(patterns.snow, 3.0, 0.9, 0.5),
     Texture.PAVING: SurfaceKind(patterns.paving, 3.0, 0.8, 0.8),

@@ -89,17 +89,6 @@ def sand() -> Pattern:
     return Pattern(factor, smooth_step(ripples + hollows, -2.0, 2.0), height)
 
 
-def gravel() -> Pattern:
-    """Stones of many shades, with shade between them."""
-    middle, gap, name = cells(38, 71)
-    small, small_gap, small_name = cells(90, 72)
-    between = smooth_step(gap - middle, 0.04, 0.22)
-    fine = 0.5 * (small_name - 0.5) - 0.6 * (1.0 - smooth_step(small_gap - small, 0.05, 0.3))
-    stone = 0.75 * (name - 0.5) + 0.10 * fractal(20, 4, 73)
-    factor = exponential(between * stone + (1.0 - between) * (fine - 0.7))
-    return Pattern(factor, smooth_step(name, 0.3, 0.9), between * (1.0 - middle))
-
-
 def leaves() -> Pattern:
     """A forest floor: fallen leaves, twigs, earth."""
     _, gap, name = cells(22, 81, 30)

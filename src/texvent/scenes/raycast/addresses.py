@@ -1,0 +1,57 @@
+"""Items of arrays by address, in kernels (Numba).
+
+Numba passes an array as seven numbers or more and counts references to it, at every call. The ray
+caster passes a scene through many small functions per ray; with arrays that took most of the time.
+So kernels pass one record on, `INSTANT_RECORD`, which has the addresses of all arrays of a
+`World`; they are valid while the world lives. No index is checked.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numba
+import numpy as np
+from numba import types
+from numba.extending import intrinsic
+
+from texvent.scenes.raycast.records import (
+    GLOW_RECORD,
+    IMAGE_RECORD,
+    LAMP_RECORD,
+    NODE_RECORD,
+    PUFF_RECORD,
+    SHAPE_RECORD,
+    TRIANGLE_RECORD,
+)
+
+
+def _reader(dtype: Any) -> Any:
+    """`read(address, index)`, in a kernel: item `index` of an array of `dtype` at an address."""
+    kind: Any = numba.from_dtype(np.dtype(dtype))
+    size = np.dtype(dtype).itemsize
+    wide = {types.int32: types.int64, types.float32: types.float64}.get(kind, kind)
+
+    def build_reader(typing_context: Any, address: Any, index: Any) -> Any:
+        def build(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            offset = builder.mul(arguments[1], arguments[1].type(size))
+            place, item = builder.add(arguments[0], offset), context.get_value_type(kind)
+            if isinstance(kind, types.Record):
+                return builder.inttoptr(place, item)
+            value = builder.load(builder.inttoptr(place, item.as_pointer()))
+            return context.cast(builder, value, kind, wide)
+
+        return wide(types.int64, types.int64), build
+
+    return intrinsic(build_reader)
+
+
+shape_at: Any = _reader(SHAPE_RECORD)
+lamp_at: Any = _reader(LAMP_RECORD)
+puff_at: Any = _reader(PUFF_RECORD)
+glow_at: Any = _reader(GLOW_RECORD)
+node_at: Any = _reader(NODE_RECORD)
+triangle_at: Any = _reader(TRIANGLE_RECORD)
+image_at: Any = _reader(IMAGE_RECORD)
+list_at: Any = _reader(np.int32)
+texel_at: Any = _reader(np.float32)

@@ -1,1 +1,0 @@
-"""Frames of which only the tiles are drawn that differ from an earlier frame."""
