@@ -30,7 +30,7 @@ SWAY = CameraMove("handheld", pace=0.4)
 _ACTS = frozenset({"push", "kick", "hit", "throw", "catch", "collide"})
 """Relations in which something moves."""
 _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of", "right of",
-                      "around", "look at"})  # fmt: skip
+                      "around"})  # fmt: skip
 """Relations that an object would undo by moving off."""
 _AT_HAND = frozenset({"hold", "carry", "wear"})
 _PACES = {"walk": 0.7, "run": 1.0}

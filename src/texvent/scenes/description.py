@@ -20,7 +20,7 @@ from texvent.scenes.spec.scene import Picture as Picture
 from texvent.scenes.spec.scene import Place as Surroundings
 
 __all__ = [
-    "AMID", "RELATIONS", "SPIN_RATE_HZ", "STANDING", "CameraMove", "Effect",
+    "RELATIONS", "SPIN_RATE_HZ", "STANDING", "CameraMove", "Effect",
     "Illumination", "ObjectMotion", "Picture", "Relation", "SceneDescription", "SceneLamp",
     "SceneObject", "Shot", "Surroundings", "report_of", "to_description",
 ]  # fmt: skip
@@ -28,8 +28,6 @@ __all__ = [
 SPIN_RATE_HZ = 0.5
 """Usual turns per second of what spins."""
 STANDING = ObjectMotion("stand")
-AMID = frozenset({"surround", "among"})
-"""Kinds of `Relation` whose targets stand around, placed as scenery is; some may be out of view."""
 
 
 @dataclass(frozen=True)
@@ -95,7 +93,7 @@ class Shot:
     @property
     def is_moving(self) -> bool:
         """Whether the camera moves."""
-        return any(move.kind not in ("static", "dutch") for move in self.moves)
+        return any(move.kind != "static" for move in self.moves)
 
 
 @dataclass(frozen=True)

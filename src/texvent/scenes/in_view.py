@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.defaults import NO_PLACE
-from texvent.scenes.description import AMID, SceneDescription
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.held import Unheld, bodies_of, find_unheld
 from texvent.scenes.models.effects import LAMPS
 from texvent.scenes.models.places import PLACES, Place
@@ -80,7 +80,7 @@ def find_unseen(
     pixels = count_pixels(scene, list(object_of), size, duration_s)
     times = np.linspace(0.0, duration_s, INSTANTS)
     shots = [(scene.primitives(float(time_s)), scene.camera(float(time_s))) for time_s in times]
-    around = {i for one in description.relations if one.kind in AMID for i in one.targets}
+    around = {i for one in description.relations if one.kind == "surround" for i in one.targets}
     related = {i for one in description.relations for i in one.targets}
     outside: list[str] = []
     small: list[str] = []

@@ -82,12 +82,8 @@ class EffectWords:
     """Singular or mass nouns that name it, such as "smoke": "smoke rises from a chimney"."""
     verbs: tuple[str, ...] = ()
     """Base forms said of the object it comes from, such as "smoke": "a chimney smokes"."""
-    happens_once: bool = False
-    """Whether it begins at one instant (a burst) rather than going on."""
     ends_source: bool = False
-    """Whether it happens once and the object it comes from is gone afterwards."""
-    breathed: bool = False
-    """Whether it comes from the mouth of a person."""
+    """Whether it happens once, and the object it comes from is gone afterwards: a burst."""
     size: float = 1.0
     """Its size by that of the object it comes from."""
     alone: Vector = (0.15, 0.0, 0.0)
@@ -97,8 +93,6 @@ class EffectWords:
     """Where it leaves its object: x and y in half extents, z in heights from below."""
     anchor_traits: tuple[str, ...] = ()
     """Traits that say so for some nouns, tried in order."""
-    headroom: float = 0.0
-    """Room that it needs in the image above its object, by its size."""
     emitters: tuple[EmitterStyle, ...] = ()
 
 
@@ -115,7 +109,6 @@ def _effect(row: dict[str, Any], usual: Mapping[str, dict[str, Any]]) -> EffectW
         for kind, body in _BODIES.items()
         for one in row.pop(kind, ())
     )
-    row["happens_once"] = row.get("happens_once", False) or row.get("ends_source", False)
     return EffectWords(**row)
 
 

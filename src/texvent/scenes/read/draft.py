@@ -27,7 +27,7 @@ def is_grammar(token: Token) -> bool:
 
 
 def split_move(phrase: str) -> dict[str, Any]:
-    """A move of words.toml, such as "dolly zoom in", as fields of `CameraMove`."""
+    """A move of words.toml, such as "zoom in", as fields of `CameraMove`."""
     kind = next(one for one in _KINDS if phrase == one or phrase.startswith(f"{one} "))
     direction = phrase[len(kind) + 1 :]
     is_turned = direction in (get_args(MoveDirection) if kind not in _UNTURNED else ("all axes",))

@@ -18,7 +18,7 @@ from texvent.scenes.description import (
 from texvent.scenes.models.people.activities import PAIR_GAPS, PERSON_NOUNS
 from texvent.scenes.models.people.outfit import list_props
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.models.tables import nouns_with, trait_value
+from texvent.scenes.models.tables import trait_value
 from texvent.scenes.spec.scene import Direction
 from texvent.scenes.staging.actors import Actor, seeded, size_of
 from texvent.scenes.staging.acts import holding, striking
@@ -43,7 +43,7 @@ def settle_motions(
         for targets in ([(t,) for t in one.targets] if one.kind == "wear" else [one.targets])
     ]
     relations += _implied_acts(objects, relations)
-    relations = _with_thirds(objects, relations)
+    relations = _with_catchers(relations)
     for relation in relations:
         if relation.kind in ACTS and relation.targets:
             pair = relation.subject, relation.targets[0]
@@ -92,27 +92,14 @@ def _mounted(
     return relation
 
 
-def _with_thirds(objects: Sequence[SceneObject], relations: Sequence[Relation]) -> list[Relation]:
-    """The target of a throw catches it; a holder of a racket hits the ball with it."""
+def _with_catchers(relations: Sequence[Relation]) -> list[Relation]:
+    """The relations; the object towards which a thing is thrown catches it."""
     found = list(relations)
-    for act in relations:
-        if act.kind not in ("throw", "hit") or len(act.targets) != 1:
-            continue
-        for other in relations:
-            is_tool = other.subject == act.subject and _holds_tool(other, objects)
-            is_goal = other.kind == "towards" and other.subject in (act.subject, *act.targets)
-            if is_tool if act.kind == "hit" else is_goal:
-                found[found.index(act)] = replace(act, targets=act.targets + other.targets[:1])
-                if is_tool:
-                    found.remove(other)
-                break
+    for n, act in enumerate(relations):
+        for one in relations if act.kind == "throw" else ():
+            if one.kind == "towards" and one.subject in (act.subject, *act.targets):
+                found[n] = replace(act, targets=(act.targets[0], one.targets[0]))
     return found
-
-
-def _holds_tool(relation: Relation, objects: Sequence[SceneObject]) -> bool:
-    noun = objects[relation.targets[0]].noun
-    is_tool = trait_value("struck with", noun) is not None
-    return relation.kind == "hold" and is_tool and noun not in nouns_with("played with")
 
 
 def _implied_acts(objects: Sequence[SceneObject], relations: Sequence[Relation]) -> list[Relation]:
@@ -154,8 +141,6 @@ def _choose_way(objects: Sequence[SceneObject], pair: tuple[int, int], seed: int
 
 _ORDER = ("push", "kick", "throw", "catch", "hit", "collide", "hold", "carry", "wear")
 """What moves bodies comes before what hangs on them."""
-_TIED = frozenset({"at", "on", "in", "ride", "push"})
-"""Relations that give their subject its heading."""
 
 
 def perform_acts(
@@ -175,7 +160,6 @@ def perform_acts(
     cast = Cast(actors)
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     bound = {one for act in acts for one in (act.subject, *act.targets)}
-    _look_at(cast, description.relations, duration_s)
     _face_each_other(cast, [n for n, one in enumerate(actors) if one.object_index not in bound])
     ridden = {one.targets[0] for one in acts if one.kind == "ride"}
     pushed = [r for r in acts if r.kind == "push" and r.targets[0] in ridden]
@@ -215,10 +199,10 @@ _ACTS: Mapping[str, _Act] = {
     "kick": lambda who, what, _, duration_s: striking.kick(who, what, duration_s),
     "catch": lambda who, what, _, duration_s: striking.catch(who, what, duration_s),
     "collide": lambda who, what, _, duration_s: striking.collide(who, what, duration_s),
+    "hit": lambda who, what, _, duration_s: striking.hit(who, what, duration_s),
     "throw": striking.throw,
-    "hit": striking.hit,
 }
-"""Act → the bodies as it leaves them: who acts, on what, and who catches or with what."""
+"""Act → the bodies as it leaves them: who acts, on what, and who catches."""
 
 
 def _bind(cast: Cast, kind: str, who: tuple[int, int, int | None], duration_s: float) -> None:
@@ -237,7 +221,6 @@ def _take_off_doubles(cast: Cast, actors: Sequence[Actor]) -> None:
         for number, thing in enumerate(actors):
             if thing.noun.name in nouns and thing.object_index != person.object_index:
                 cast.put(number, None)
-                nouns.discard(thing.noun.name)
 
 
 def _face_each_other(cast: Cast, numbers: Sequence[int]) -> None:
@@ -274,20 +257,3 @@ def _face(cast: Cast, pair: tuple[int, int], apart_m: float) -> None:
         if isinstance(actor.trajectory, Stationary):
             path = replace(actor.trajectory, home=ahead((x, y, z), yaw, -half, z), yaw=yaw)
             cast.put(number, replace(actor, trajectory=path, lead_m=0.0, is_mover=True))
-
-
-def _look_at(cast: Cast, relations: Sequence[Relation], duration_s: float) -> None:
-    """Who stays in its place turns to what it looks at, where that is at mid clip."""
-    tied = {one.subject for one in relations if one.kind in _TIED}
-    for relation in relations:
-        goals = [number for target in relation.targets for number in cast.copies(target)]
-        if relation.kind != "look at" or relation.subject in tied or not goals:
-            continue
-        if relation.targets == (relation.subject,):
-            goals = goals[1:] + goals[:1]
-        for turn, number in enumerate(cast.copies(relation.subject)):
-            actor, goal = cast.get(number), cast.get(goals[turn % len(goals)])
-            if isinstance(actor.trajectory, Stationary):
-                x, y, _ = goal.middle(0.5 * duration_s) - actor.trajectory.at(0.0).position
-                path = replace(actor.trajectory, yaw=math.atan2(y, x))
-                cast.put(number, replace(actor, trajectory=path))

@@ -22,7 +22,6 @@ from texvent.scenes.staging.acts.acts import (
     is_person,
     moving,
 )
-from texvent.scenes.staging.acts.holding import along_tool
 from texvent.scenes.staging.trajectories.action_trajectories import (
     Arc,
     Flight,
@@ -53,8 +52,6 @@ _REBOUND = {"roll": 0.4, "drive": 0.12, "slide": 0.25}
 """Usual motion → share of the speed with which such a body goes back."""
 _LENGTHS = (1.0, 2.0)
 """Least and most of its own length that a body covers before the contact."""
-_FLOWN_LENGTHS, _BOUNCED = 2.5, 0.3
-"""Way of what flies, in lengths of its own; share of its speed with which it falls back."""
 _THIN, _ASLANT = 0.6, 0.55
 """Share of its width up to which what is hit has a front, and the way's angle to the picture then,
 rad."""
@@ -124,26 +121,20 @@ def catch(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor
     return subject, moving(thing, Switched(arc, caught, catch_s))
 
 
-def hit(
-    subject: Actor, thing: Actor, tool: Actor | None, duration_s: float
-) -> tuple[Actor, Actor, Actor | None]:
+def hit(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
     """The thing arrives where bat, racket or club sweep through, and flies away."""
-    by = thing if tool is None else tool
-    activity = trait_value("struck with", by.noun.name) or "swing bat"
+    activity = trait_value("struck with", thing.noun.name) or "swing bat"
     is_teed = activity == "swing club"
     contact_s, home = contact_time(duration_s, 0.5), subject.trajectory.at(0.0)
     # Who swings to the left turns so that the ball still flies where the body was to face.
     yaw = home.yaw if activity == "swing racket" else home.yaw - 0.5 * math.pi
     path = Performed(Stationary(home.position, yaw), activity, contact_s=contact_s)
-    subject = moving(subject, path)
-    if tool is None:
-        props = list_props(activity, size_of(subject.model))
-        subject = replace(subject, props=tuple(props))
+    props = list_props(activity, size_of(subject.model))
+    subject = replace(moving(subject, path), props=tuple(props))
     axes, heading = subject.anchor("right hand", contact_s), heading_of(home.yaw)
     spot = axes[:, 3] + ACTIVITIES[activity].reach_m * axes[:, 2]
     spot = spot + (0.5 * thing.model.length + 0.02) * heading
-    low = home.position[2]
-    lying = low + 0.5 * thing.model.height
+    lying = home.position[2] + 0.5 * thing.model.height
     spot[2] = lying if is_teed else max(float(spot[2]), lying)
     start = _at(thing, spot, home.yaw)
     flight = _fly_off("hit", thing, start, home, (contact_s, duration_s))
@@ -152,9 +143,7 @@ def hit(
         far = np.array(start.position) + (1.0 + 1.6 * contact_s) * heading
         arc = Arc(replace(start, position=vector(far)), start, 0.0, contact_s, -1.0)
         whole = Switched(arc, whole, contact_s)
-    if tool is not None:
-        tool = moving(tool, held_at(subject, "right hand", along_tool(tool)))
-    return subject, moving(thing, whole), tool
+    return subject, moving(thing, whole)
 
 
 def _at(thing: Actor, middle: Float64Array, yaw: float) -> BodyState:
@@ -211,24 +200,13 @@ def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Act
 
 
 def _run_into(mover: Actor, still: Actor, yaw: float, contact_s: float) -> tuple[Actor, Actor]:
-    """What comes goes back or falls off; what stands has its front to it."""
+    """What comes goes back; what stands has its front to it."""
     if still.model.length < _THIN * still.model.width:
         yaw += _ASLANT if yaw == 0.0 else -_ASLANT
         place = still.trajectory.at(0.0).position
         still = replace(still, trajectory=Stationary(place, yaw + math.pi))
-    is_flying = mover.noun.habitat in ("air", "fixed")  # what cannot go by itself was thrown
-    lift, low_m = mover.lift_m, mover.trajectory.at(0.0).position[2]
-    level = float(still.middle(0.0)[2]) - lift if is_flying else low_m
-    touching = _find_contact(mover, still, yaw, level)
-    if not is_flying:
-        return moving(mover, _run_up(mover, touching, yaw, contact_s)), still
-    speed = _FLOWN_LENGTHS * mover.model.length / contact_s
-    start = ahead(touching, yaw, -speed * contact_s, touching[2])
-    coming = SteeredPath(start, yaw, (Piece(contact_s, speed),), speed)
-    hit = BodyState(touching, yaw, distance_m=speed * contact_s, pivot_m=lift)
-    back = vector(-_BOUNCED * speed * heading_of(yaw))
-    falling = Flight(hit, back, 0.5 * mover.model.height - lift, 0.55, contact_s, -3.0)
-    return moving(mover, Switched(coming, falling, contact_s)), still
+    touching = _find_contact(mover, still, yaw, mover.trajectory.at(0.0).position[2])
+    return moving(mover, _run_up(mover, touching, yaw, contact_s)), still
 
 
 def _find_contact(mover: Actor, still: Actor, yaw: float, level_m: float) -> Vector:

@@ -190,20 +190,19 @@ class Emitter(ParticleEffect):
         return rows
 
     def lamps(self, time_s: float) -> Float64Array:
-        """[m, 15] the light of its flames, or of its flash."""
+        """[m, 15] the light of its flames, or of its salvo."""
         style, size = self.style, self.source.size_m
-        if style.light == 0.0 or (time_s < self.start_s and self.lives.once_at_s is None):
+        if style.light == 0.0 or time_s < self.start_s:
             return super().lamps(time_s)
         row = np.zeros((1, LAMP_COLUMNS))
         row[0, :3] = self.source.at(np.array([time_s]))[0] + [0.0, 0.0, 0.6 * size]
         level, hue = wave_level("flame", _FLAME_HZ * time_s, phase=0.37), _FLAME_LIGHT
-        if self.lives.once_at_s is not None or style.salvos > 0:
+        if style.salvos:
             age, draws = self.lives.at(time_s)
             age_s = max(float(age[0]), 0.0) * self.lives.life_s
             level = min(age_s / 0.02, 1.0) * math.exp(-age_s / (0.35 * math.sqrt(size / GRAVITY)))
-            if style.salvos:
-                row[0, :3] += self._offsets(draws)[0]
-                hue = self.colours[int(draws[0, 6] * len(self.colours))]
+            row[0, :3] += self._offsets(draws)[0]
+            hue = self.colours[int(draws[0, 6] * len(self.colours))]
         row[0, 3:6] = level * style.light * size * size * hue
         row[0, 6], row[0, 10:12], row[0, 12] = 12.0 * size, -2.0, 0.4 * size
         return row

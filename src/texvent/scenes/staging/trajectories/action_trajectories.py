@@ -1,4 +1,4 @@
-"""Motions in one place or under gravity: spin, swing, sway, hover, flight, arc.
+"""Motions in one place or under gravity: spin, sway, hover, flight, arc.
 
 Like those of `trajectory`, they are pure, continuous functions of time; angles in radians,
 lengths in metres, times in seconds.
@@ -14,7 +14,6 @@ import numpy as np
 
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
-    Stationary,
     Trajectory,
     Vector,
     rotation,
@@ -75,13 +74,6 @@ class Oscillating:
             values[wave.axis] += wave.amplitude * math.sin(angle)
         x, y, z, yaw, pitch, roll = values.values()
         return replace(state, position=(x, y, z), yaw=yaw, pitch=pitch, roll=roll)
-
-
-def swing(home: Vector, length_m: float, amplitude_rad: float, pace: float = 1.0) -> Oscillating:
-    """A pendulum of small angles; its origin hangs at `home`, `length_m` below its pivot."""
-    rate_hz = pace * math.sqrt(GRAVITY_M_S2 / length_m) / (2.0 * math.pi)
-    hanging = Stationary(home, activity="swing", pivot_m=length_m)
-    return Oscillating(hanging, (Wave("pitch", amplitude_rad, rate_hz, 0.5 * math.pi),))
 
 
 def hover(path: Trajectory, amplitude_m: float, phase: float = 0.0) -> Oscillating:
