@@ -206,7 +206,7 @@ def _plan_moves(
     description: SceneDescription, main: Actor | None, duration_s: float
 ) -> tuple[CameraMove, ...]:
     """The moves that are said, each kind once at a time; else the subject is followed if fast."""
-    said = {(one.kind, one.phase, one.start_s): one for one in description.shot.moves}
+    said = {(one.kind, one.phase): one for one in description.shot.moves}
     if main is None or said or not main.is_mover:
         return tuple(said.values())
     has_landmark = any(
