@@ -340,12 +340,13 @@ class _Parser:
     def _agrees(self, article: str, first: int) -> bool:
         """Whether a noun may follow these words of a group: no plural "a", no singular "two"."""
         senses = [one.value for one in self._token().all("noun")]
-        said = [sense.value for one in self._tokens[first : self._at] for sense in one.all("field")]
+        words, is_one = self._tokens[first : self._at], article in ("a", "an")
+        is_other = is_one and any(one.is_unknown for one in words)  # "a six axis robot arm"
+        said = [sense.value for one in words for sense in one.all("field") if not is_other]
         counts = [float(value) for field, value in said if field == "count"]
-        if not senses or (not counts and article not in ("a", "an")):
+        if not senses or not (counts or is_one):
             return True
-        is_many = counts[-1] > 1.0 if counts else False
-        return any(one.is_plural is is_many for one in senses)
+        return any(one.is_plural is (bool(counts) and counts[-1] > 1.0) for one in senses)
 
     def _has_object(self, ahead: int = 0) -> bool:
         """Whether a word that may be a noun is a verb: "and watches the ducks"."""
