@@ -84,8 +84,7 @@ class _Reader:
                 adverb = one.first("adverb")
                 if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
                     self._draft.mark(one, "lost")
-                is_spot = adverb is not None and adverb.value[0] == "placement"
-                self._say(one, told if is_spot else moved)
+                self._say(one, told if adverb and adverb.value[0] == "placement" else moved)
 
     def _find_subjects(self, clause: Clause) -> list[int]:
         """Objects that a clause is about; in company, those that go by themselves."""
