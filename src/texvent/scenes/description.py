@@ -61,7 +61,6 @@ class Effect:
     kind: str
     source: int | None = None
     """Index of the object that it comes from."""
-    colour: str | None = None
     start_s: float | None = None
 
 
@@ -129,7 +128,7 @@ def to_description(scene: spec.Scene) -> SceneDescription:
             for one in subject.relations
         ),
         effects=tuple(
-            Effect(one.kind, _index(one.source, ids), one.colour, one.start_s)
+            Effect(one.kind, _index(one.source, ids), one.start_s)
             for one in scene.effects
         ),
         shot=Shot(
@@ -162,7 +161,7 @@ _UNITS = {"_m_s": "m/s", "_hz": "Hz", "_m": "m", "_s": "s", "_deg": "degrees"}
 _SIDES = {"left": "on the left", "right": "on the right", "centre": "in the middle",
           "far": "far away", "lane": "on the road", "near": "in the foreground",
           "row": "in a row", "together": "side by side", "ring": "in a circle"}  # fmt: skip
-RELATIONS = {"front": "in front of", "surround": "surrounded by", "collide": "meets"}
+RELATIONS = {"front": "in front of", "collide": "meets"}
 """Kind of relation → its words, where they differ."""
 _VERBS = {"throw": "fly through the air", "work": "move in place", "stand": "stand still"}
 

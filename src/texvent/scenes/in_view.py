@@ -26,7 +26,7 @@ from texvent.scenes.scene import Camera, Primitives, Scene, Texture, project
 from texvent.scenes.spec.data import PLACING
 from texvent.scenes.staging.actors import assemble
 from texvent.scenes.staging.compose import ComposedScene
-from texvent.scenes.staging.particles.effect import FALLS
+from texvent.scenes.staging.particles.choose import FALLING
 from texvent.scenes.staging.surroundings.environment import RoadLine, build_environment
 from texvent.sensor import SensorSize
 
@@ -72,14 +72,12 @@ def find_unseen(
 ) -> Unseen:
     """Words of a description that no instant shows.
 
-    An object without a body of its own is part of another one's, as a worn coat is, unless it was
-    to stand around others.
+    An object without a body of its own is part of another one's, as a worn coat is.
     """
     object_of = scene.object_of
     times = [float(time_s) for time_s in np.linspace(0.0, duration_s, INSTANTS)]
     pixels = count_pixels(scene, list(object_of), size, times)
     shots = [(scene.primitives(time_s), scene.camera(time_s)) for time_s in times]
-    around = {i for one in description.relations if one.kind == "surround" for i in one.targets}
     related = {i for one in description.relations for i in one.targets}
     outside: list[str] = []
     small: list[str] = []
@@ -87,14 +85,14 @@ def find_unseen(
         ids = [one for one, owner in object_of.items() if owner == index]
         copies = [pixels[one] for one in ids]
         most, lost = max(copies, default=0), copies.count(0)
-        if not copies and index not in around:
+        if not copies:
             continue
         least = math.inf if index not in related else 0.1 * size.width * size.height
         if most == 0:
             outside.append(thing.noun)
         elif most < LEAST_PIXELS:
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
-        elif lost and len(copies) <= max(2 * lost, 0 if index in around else MOST_COUNTED):
+        elif lost and len(copies) <= max(2 * lost, MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(copies)})")
         elif most < least and max(_share_inside(shots, size, one) for one in ids) < LEAST_INSIDE:
             outside.append(f"{thing.noun} (cut off)")
@@ -150,7 +148,7 @@ def _unlit(
 
     for name in _SURROUNDINGS:
         value, usual = getattr(said, name), getattr(Surroundings, name)
-        if value != usual and value not in FALLS:
+        if value != usual and value not in FALLING:
             other = without(surroundings=replace(said, **{name: usual}))
             yield from _unseen(scene, other, times, name, value)
     if description.light.kind not in (None, "day"):

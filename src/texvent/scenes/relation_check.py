@@ -114,7 +114,7 @@ def find_unheld(
 def _unrelated(description: SceneDescription, copies: Copies) -> Iterator[Unheld]:
     names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
     sent = {one.subject: one.targets[0] for one in description.relations
-            if one.kind in ("kick", "hit", "throw")}  # fmt: skip
+            if one.kind in ("kick", "throw")}  # fmt: skip
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
@@ -281,4 +281,4 @@ _RULES: Mapping[str, _Rule] = {
     "through": _passes(0.5, 0.0), "towards": _recedes(-1), "away from": _recedes(1),
     "from": _recedes(1),
 }  # fmt: skip
-"""Kind of relation → whether a body is so to others; "surround", "with" and acts have none."""
+"""Kind of relation → whether a body is so to others; "with" and acts have none."""

@@ -62,8 +62,6 @@ class EmitterStyle:
     """Rate at which chips tumble."""
     colours: tuple[Colour, ...] = ()
     """Of puffs at birth and at the end; of solid bodies those that occur; empty: the object's."""
-    keeps_colour: bool = False
-    """Whether it has them whatever colour the effect is said to have."""
     emission: tuple[float, float] = (0.0, 0.0)
     """Light given off at birth and at the end, as a multiple of the colour."""
     thickness: tuple[float, float] = (1.0, 0.0)
@@ -113,8 +111,6 @@ def _effect(row: dict[str, Any], usual: Mapping[str, dict[str, Any]]) -> EffectW
 
 
 _TABLE = frozen(read_table("effects"))
-LIQUID_COLOURS: Mapping[str, Colour] = MappingProxyType(_TABLE.pop("liquid colours"))
-"""Name of a liquid → its colour."""
 _USUAL = _TABLE.pop("usual particles")
 EFFECTS: Mapping[str, EffectWords] = MappingProxyType(
     {kind: _effect(row, _USUAL) for kind, row in _TABLE.items()}

@@ -13,8 +13,8 @@ from texvent.scenes.read.draft import Reading, SceneDraft, add_motion, set_field
 from texvent.scenes.read.lexicon import Sense, Token, VerbSense, lexicon_of, split_prompt, word_set
 from texvent.scenes.spec.scene import MAX_BODIES
 
-PLURAL_COUNT, SURROUND_COUNT = 3, 14
-"""Copies that a bare plural means, and means all around something."""
+PLURAL_COUNT = 3
+"""Copies that a bare plural means."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 
@@ -344,8 +344,6 @@ class _Reader:
         seats = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
         if seats and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
             return all([draft.relate(one, "on", seats[0]) for one in targets])
-        for one in (draft.things[each] for each in targets if kind == "surround"):
-            one["count"] = SURROUND_COUNT if one["count"] == PLURAL_COUNT else one["count"]
         return draft.relate(index, kind, targets)
 
     # The camera

@@ -41,10 +41,9 @@ Direction: TypeAlias = Literal[
 ]  # fmt: skip
 RelationKind: TypeAlias = Literal[
     "on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
-    "between", "around", "surround",
+    "between", "around",
     "past", "overtake", "through", "towards", "away from", "from", "follow", "with",
-    "hold", "carry", "wear", "ride", "push", "kick", "hit", "throw", "catch",
-    "collide",
+    "hold", "wear", "ride", "push", "kick", "throw", "collide",
 ]  # fmt: skip
 Material: TypeAlias = Literal[
     "wood", "brick", "stone", "marble", "concrete", "metal", "brass", "glass", "plastic",
@@ -164,8 +163,6 @@ class Effect:
     """Kind of particles."""
     source: str | None = None
     """Id of the object that it comes from; left out: all around, or the middle of the scene."""
-    colour: Annotated[str, Colour("effect")] | None = None
-    """Colour: a name, a liquid ("milk", "coffee") or an sRGB code."""
     start_s: Seconds | None = None
     """Start time, s; left out: time 0, or the first half for what happens once."""
 

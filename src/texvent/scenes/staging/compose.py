@@ -8,10 +8,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
-from texvent.scenes.models.places import PLACES, Place, Scenery
+from texvent.scenes.models.places import PLACES, Place
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import (
     PUFF_COLUMNS,
@@ -161,14 +160,9 @@ def compose_scene(
     if PLACES[place].has_road:
         actors = lay_across(actors, view.road)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
-    items, surrounding = _scatter_all(description, view, actors, nouns, seed)
-    named = dict(enumerate(surrounding, len(actors) + 1))
-    placed = [item.place(0) for item in items]
-    placed += [item.place(instance) for instance, (_, item) in named.items()]
+    items = _scatter_all(description, view, actors, nouns, seed)
     names = {one.instance: one.noun.name for one in actors}
-    names |= {instance: item.noun for instance, (_, item) in named.items()}
     object_of = {one.instance: one.object_index for one in actors}
-    object_of |= {instance: index for instance, (index, _) in named.items()}
     animated_environment = build_environment(
         description, place=PLACES[place], road=view.road, distance_m=camera_path.framing.distance_m,
         room_m=camera_path.room_m,
@@ -180,8 +174,9 @@ def compose_scene(
     )  # fmt: skip
     setting = Setting(actors, camera_path, place, duration_s, seed)
     particles = stage_effects(description, setting)
+    still = assemble([item.place() for item in items])
     return ComposedScene(
-        tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
+        tuple(actors), still, particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), object_of,
     )  # fmt: skip
 
@@ -216,24 +211,13 @@ def _scatter_all(
     actors: Sequence[Actor],
     nouns: Mapping[str, Noun],
     seed: int,
-) -> tuple[list[SceneryItem], list[tuple[int, SceneryItem]]]:
-    """Scenery of the place, and the objects that the prompt puts all around, with their index.
+) -> list[SceneryItem]:
+    """Scenery of the place.
 
     Nouns that the prompt counts are not used as scenery: "two trees" are two trees.
     """
-    said = {scene_object.noun for scene_object in description.objects}
-    allowed = {name: noun for name, noun in nouns.items() if name not in description.absent}
-    unsaid = {name: noun for name, noun in allowed.items() if name not in said}
-    around: list[tuple[int, SceneryItem]] = []
-    for relation in description.relations:
-        for target in relation.targets if relation.kind == "surround" else ():
-            one = description.objects[target]
-            colour = rgb_of(one.colour)
-            sizes = (0.8 * one.scale, 1.2 * one.scale)
-            rule = Scenery(one.noun, one.count, "around", (-0.2, 3.5), sizes, (colour,))
-            rng, taken = seeded(seed, "surround", target), [item for _, item in around]
-            found = scatter([rule], view, actors, allowed, rng=rng, taken=taken)
-            around.extend((target, item) for item in found)
+    said = {*description.absent, *(scene_object.noun for scene_object in description.objects)}
+    unsaid = {name: noun for name, noun in nouns.items() if name not in said}
     surroundings = description.surroundings
     place = surroundings.name or "grass"
     rules = [
@@ -242,8 +226,7 @@ def _scatter_all(
     for backdrop in surroundings.backdrops:
         rules.extend(PLACES[backdrop].scenery)
     rules = under_snow(rules) if surroundings.has_snow else rules
-    rng, taken = seeded(seed, "scenery", place), [item for _, item in around]
-    return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around
+    return scatter(rules, view, actors, unsaid, rng=seeded(seed, "scenery", place))
 
 
 def _choose_levels(

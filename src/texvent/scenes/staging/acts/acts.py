@@ -20,9 +20,9 @@ from texvent.scenes.staging.trajectories.trajectory import (
     rotation,
 )
 
-SINGLE = frozenset({"kick", "hit", "throw", "catch", "collide"})
+SINGLE = frozenset({"kick", "throw", "collide"})
 """Acts with one instant of contact."""
-ACTS = SINGLE | {"hold", "carry", "wear", "push", "ride"}
+ACTS = SINGLE | {"hold", "wear", "push", "ride"}
 """Relations that are acts of the subject on its first target."""
 
 

@@ -139,7 +139,7 @@ def _choose_way(objects: Sequence[SceneObject], pair: tuple[int, int], seed: int
     return "left" if seeded(seed, "act", pair[0]).random() < 0.5 else "right"
 
 
-_ORDER = ("push", "kick", "throw", "catch", "hit", "collide", "hold", "carry", "wear")
+_ORDER = ("push", "kick", "throw", "collide", "hold", "wear")
 """What moves bodies comes before what hangs on them."""
 
 
@@ -194,12 +194,9 @@ _Act = Callable[[Actor, Actor, Actor | None, float], tuple[Actor | None, ...]]
 _ACTS: Mapping[str, _Act] = {
     "push": lambda who, what, _, __: holding.push(who, what),
     "hold": lambda who, what, _, __: holding.hold(who, what),
-    "carry": lambda who, what, _, __: holding.hold(who, what),
     "wear": lambda who, what, _, __: holding.wear(who, what),
     "kick": lambda who, what, _, duration_s: striking.kick(who, what, duration_s),
-    "catch": lambda who, what, _, duration_s: striking.catch(who, what, duration_s),
     "collide": lambda who, what, _, duration_s: striking.collide(who, what, duration_s),
-    "hit": lambda who, what, _, duration_s: striking.hit(who, what, duration_s),
     "throw": striking.throw,
 }
 """Act → the bodies as it leaves them: who acts, on what, and who catches."""

@@ -1,4 +1,4 @@
-"""Kick, throw, catch, hit and collide: an instant of contact, motion before and after it.
+"""Kick, throw and collide: an instant of contact, motion before and after it.
 
 Each act gives its subject an activity whose contact is at that instant, finds the place of the body
 that touches the thing then, and lets the thing fly from there, or to there.
@@ -11,12 +11,9 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.scenes.models.people.activities import ACTIVITIES
-from texvent.scenes.models.people.outfit import list_props
 from texvent.scenes.models.shapes import Affine, bounds, moved, shift
-from texvent.scenes.models.tables import trait_value
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor, size_of
+from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import (
     held_at,
     is_person,
@@ -33,7 +30,6 @@ from texvent.scenes.staging.trajectories.trajectory import (
     Performed,
     Stationary,
     Switched,
-    Trajectory,
     Vector,
     ahead,
     rotation,
@@ -44,7 +40,7 @@ _FLIGHT_M = 2.4
 """Most metres that a thing flies in the rest of the clip, so that the camera can show it."""
 _REACH_S = 0.85
 """Longest flight towards who catches, s."""
-_LOFT = {"kick": 0.45, "throw": 0.35, "hit": 0.45}
+_LOFT = {"kick": 0.45, "throw": 0.35}
 """Upward speed of what flies off, as a share of its speed along the ground."""
 _TURN_ROUND_S = 0.08
 """How long the speed takes to change at the contact."""
@@ -108,42 +104,6 @@ def throw(
     arc = Arc(start, end, release_s, catch_s, 1.0)
     whole = Switched(Switched(held, arc, release_s), caught, catch_s)
     return subject, moving(thing, whole), catcher
-
-
-def catch(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
-    """The thing comes flying from ahead and stays in the hands or in the mouth."""
-    catch_s, home = contact_time(duration_s, 0.55), subject.trajectory.at(0.0)
-    subject = _stand_and_catch(subject, home.position, home.yaw, catch_s)
-    caught = held_at(subject, *_catching(subject, thing))
-    end = about_pivot(caught.at(catch_s), thing.lift_m)
-    far = np.array(end.position) + (0.8 + 1.8 * catch_s) * heading_of(home.yaw) - [0.0, 0.0, 0.2]
-    arc = Arc(replace(end, position=vector(far)), end, 0.0, catch_s, 1.0)
-    return subject, moving(thing, Switched(arc, caught, catch_s))
-
-
-def hit(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
-    """The thing arrives where bat, racket or club sweep through, and flies away."""
-    activity = trait_value("struck with", thing.noun.name) or "swing bat"
-    is_teed = activity == "swing club"
-    contact_s, home = contact_time(duration_s, 0.5), subject.trajectory.at(0.0)
-    # Who swings to the left turns so that the ball still flies where the body was to face.
-    yaw = home.yaw if activity == "swing racket" else home.yaw - 0.5 * math.pi
-    path = Performed(Stationary(home.position, yaw), activity, contact_s=contact_s)
-    props = list_props(activity, size_of(subject.model))
-    subject = replace(moving(subject, path), props=tuple(props))
-    axes, heading = subject.anchor("right hand", contact_s), heading_of(home.yaw)
-    spot = axes[:, 3] + ACTIVITIES[activity].reach_m * axes[:, 2]
-    spot = spot + (0.5 * thing.model.length + 0.02) * heading
-    lying = home.position[2] + 0.5 * thing.model.height
-    spot[2] = lying if is_teed else max(float(spot[2]), lying)
-    start = _at(thing, spot, home.yaw)
-    flight = _fly_off("hit", thing, start, home, (contact_s, duration_s))
-    whole: Trajectory = replace(flight, tumble_rad_s=8.0)
-    if not is_teed:
-        far = np.array(start.position) + (1.0 + 1.6 * contact_s) * heading
-        arc = Arc(replace(start, position=vector(far)), start, 0.0, contact_s, -1.0)
-        whole = Switched(arc, whole, contact_s)
-    return subject, moving(thing, whole)
 
 
 def _at(thing: Actor, middle: Float64Array, yaw: float) -> BodyState:

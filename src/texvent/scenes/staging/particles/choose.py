@@ -6,21 +6,20 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import Effect, SceneDescription
 from texvent.scenes.models.effects import EFFECTS, LAMPS, EmitterStyle
 from texvent.scenes.models.tables import trait_value
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.particles.effect import (
-    FALLS,
     ParticleEffect,
     Setting,
     Source,
-    let_fall,
 )
 from texvent.scenes.staging.particles.emitter import Emitter
 
+FALLING = ("rain", "snow")
+"""Weather that is an effect."""
 ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""
 _FALL_STEPS = 240
@@ -38,18 +37,20 @@ class Staged:
 
 
 def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
-    """All effects of a scene, those that some nouns always have, and weather.
+    """Weather, all effects of a scene, and those that some nouns always have.
 
     An effect whose object has several copies is at each of them.
     """
-    said = list(description.effects)
+    weather = description.surroundings.weather
+    said = [Effect(weather)] if weather in FALLING else []
+    said += description.effects
     named = {(effect.kind, effect.source) for effect in said}
     for index, one in enumerate(description.objects):
         kind = trait_value("own effect", one.noun)
         if kind is not None and one.is_lit is not False and (kind, index) not in named:
             said.append(Effect(kind, index))
-    effects = _weather(description, setting)
-    kinds: list[str] = [description.surroundings.weather or ""] * len(effects)
+    effects: list[ParticleEffect] = []
+    kinds: list[str] = []
     ends: dict[int, float] = {}
     for number, effect in enumerate(said):
         copies = [one for one in setting.actors if one.object_index == effect.source]
@@ -62,17 +63,6 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
     return Staged(tuple(effects), ends, tuple(kinds))
 
 
-def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEffect]:
-    """Rain and snow."""
-    kind = description.surroundings.weather
-    if kind not in FALLS:
-        return []
-    rng = seeded(setting.seed, kind)
-    falling = let_fall(kind, setting.base, 1.4 * setting.framing.distance_m, rng)
-    travels = any(one.kind == "travel" for one in description.shot.moves)
-    return [replace(falling, camera=setting.camera) if travels else falling]
-
-
 def gone(to_world: Float64Array) -> Float64Array:
     """[3, 4] the pose of an object that is no more: too small to be seen."""
     return np.column_stack([1e-6 * to_world[:, :3], to_world[:, 3]])
@@ -83,12 +73,11 @@ def _make(
 ) -> list[ParticleEffect]:
     """What shows an effect at an object, or by itself."""
     words = EFFECTS[effect.kind]
-    colour = rgb_of(effect.colour, "effect")
     source = _source(effect.kind, actor, setting)
     start_s = _start(effect, actor, setting) if words.ends_source else effect.start_s
     return [
         Emitter.of(
-            _fitted(style, effect.kind, actor), source, setting, rng, colour=colour,
+            _fitted(style, effect.kind, actor), source, setting, rng,
             start_s=start_s, is_once=words.ends_source, volley=volley,
         )
         for style in words.emitters

@@ -13,7 +13,6 @@ from texvent.scenes.models.effects import EmitterStyle
 from texvent.scenes.scene import (
     LAMP_COLUMNS,
     PUFF_COLUMNS,
-    Colour,
     Float64Array,
     Primitives,
     Shape,
@@ -116,7 +115,6 @@ class Emitter(ParticleEffect):
         setting: Setting,
         rng: np.random.Generator,
         *,
-        colour: Colour | None = None,
         start_s: float | None = None,
         is_once: bool = False,
         volley: int = 0,
@@ -133,9 +131,7 @@ class Emitter(ParticleEffect):
         salvo = volley / style.salvos if style.salvos else None
         lives = Lives.of(style.count, life_s, rng, start_s if is_once else None, salvo)
         colours = np.array(style.colours)
-        if colour is not None and not style.keeps_colour:
-            colours = np.array([colour])
-        elif not len(colours):
+        if not len(colours):
             colours = _colours_of(source, style.count, rng)
         start = -math.inf if start_s is None else start_s
         return cls(source, style, lives, colours, setting, start)

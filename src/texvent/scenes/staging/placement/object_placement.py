@@ -78,18 +78,11 @@ class ObjectPlacer:
         self._along = None if travel is None else RoutePlacer(travel, duration_s, bodies)
 
     def place_all(self) -> list[Actor]:
-        """Every copy of every object that is no scenery, with its trajectory."""
-        scenic = {
-            target
-            for relation in self._description.relations
-            if relation.kind == "surround"
-            for target in relation.targets
-        }
+        """Every copy of every object, with its trajectory."""
         objects = self._description.objects
         # Objects with positions in metres are placed first; others make way.
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
-            if index not in scenic:
-                self._place(index, frozenset())
+            self._place(index, frozenset())
         actors: list[Actor] = []
         for index in sorted(self.groups):
             actors.extend(self._populate(self.groups[index], len(actors)))

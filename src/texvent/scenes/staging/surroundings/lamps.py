@@ -261,7 +261,7 @@ def _still_lamps(items: Sequence[SceneryItem], strength: float) -> list[Float64A
     """Lamps of the scenery that are on."""
     rows = []
     for item in items if strength > 0.0 else ():
-        placed = item.place(0)
+        placed = item.place()
         for part in placed.parts:
             lamp = lamp_of(item.noun, part.colour) if part.emission > 0.0 else None
             if lamp is not None and not lamp.hue:

@@ -82,11 +82,11 @@ class SceneryItem:
         """Of the ground it stands on."""
         return 0.5 * max(self.model.length, self.model.width)
 
-    def place(self, instance: int) -> PlacedModel:
+    def place(self) -> PlacedModel:
         """Its parts in the world."""
         state = BodyState((*self.position, self.height_m), self.yaw, activity="stand")
         parts = self.model.parts(Pose(0.0, 0.0, 0.0, "stand"))
-        return PlacedModel(parts, state.to_world(), instance)
+        return PlacedModel(parts, state.to_world(), 0)
 
 
 def under_snow(rules: Iterable[Scenery]) -> list[Scenery]:
@@ -104,7 +104,6 @@ def scatter(
     nouns: Mapping[str, Noun],
     *,
     rng: np.random.Generator,
-    taken: Sequence[SceneryItem] = (),
 ) -> list[SceneryItem]:
     """Scatter scenery where the camera sees it and it hides and blocks nothing.
 
@@ -114,13 +113,12 @@ def scatter(
         actors: the objects of the scene.
         nouns: table of models; a noun that is missing is left out.
         rng: decides places, sizes and turns.
-        taken: scenery that stands already.
 
     Returns:
         The pieces that found a place; fewer than wanted where it is crowded.
     """
     rules = [rule for rule in rules if rule.noun in nouns]
-    work = _Scatterer(view, actors, nouns, rng, [*taken])
+    work = _Scatterer(view, actors, nouns, rng)
     beside: list[Scenery] = []
     if view.travel is not None:
         beside = [rule for rule in rules if rule.where != "far" and not rule.is_structure]
@@ -132,7 +130,7 @@ def scatter(
             work.enclose(rule)
         elif rule.where != "route" and rule not in beside:
             work.stand_in_view(rule)
-    return work.items[len(taken) :]
+    return work.items
 
 
 class _Scatterer:
@@ -144,9 +142,8 @@ class _Scatterer:
         actors: Sequence[Actor],
         nouns: Mapping[str, Noun],
         rng: np.random.Generator,
-        items: list[SceneryItem],
     ) -> None:
-        self.items = items
+        self.items: list[SceneryItem] = []
         self._view, self._nouns, self._rng = view, nouns, rng
         self._yaw = actors[0].trajectory.at(0.0).yaw if actors else 0.0
         """Heading of the first object."""
