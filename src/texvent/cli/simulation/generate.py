@@ -117,18 +117,13 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
     Warns:
         TexventWarning: there are such words, or the model added something.
     """
-    from texvent.scenes.llm import (
-        Endpoint,  # an extra that most runs do not need
-        write_scene,
-    )
+    from texvent.scenes.llm import write_scene  # most runs do not need it
 
     if own.llm_url is None or is_scene_file(own.prompt):
         raise ConfigError("--reader llm takes a sentence, and --llm-url with the model's server")
     name = str(settings.generator)
     check_takes(Scene(), GENERATORS.load(name), name)
-    scene, report = write_scene(
-        own.prompt, Endpoint(url=own.llm_url, model=own.llm_model or Endpoint.model)
-    )
+    scene, report = write_scene(own.prompt, own.llm_url, own.llm_model or "default")
     refusal = report.refusal() if is_strict(settings) else None
     if refusal is not None:
         raise InputError(refusal)

@@ -148,17 +148,13 @@ def _lane_of(movers: Sequence[Actor], lane_m: float) -> float:
 
 
 def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
-    """The actors, with what is painted across a road turned to it and under who crosses."""
-    crossing = next((one for one in actors if one.goes_across), None)
-    laid = []
-    for one in actors:
-        if one.noun.name in nouns_with("across a road"):
-            x, y, _ = (crossing or one).middle(0.5 * _USUAL_S) - (*road.offset, 0.0)
-            along = float(x * math.cos(road.angle) + y * math.sin(road.angle))
-            x, y, angle = road.at(along)
-            one = replace(one, trajectory=Stationary((x, y, 0.0), angle + 0.5 * math.pi))
-        laid.append(one)
-    return laid
+    """The actors, with what is painted across a road turned to it."""
+    painted, yaw = nouns_with("across a road"), road.angle + 0.5 * math.pi
+    return [
+        replace(one, trajectory=Stationary(one.trajectory.at(0.0).position, yaw))
+        if one.noun.name in painted else one
+        for one in actors
+    ]  # fmt: skip
 
 
 def water_line(place: Place, actors: Sequence[Actor], path: CameraPath) -> RoadLine:
