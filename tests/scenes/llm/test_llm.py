@@ -141,7 +141,7 @@ def test_no_server_and_no_answer_in_time_are_one_line():
     with pytest.raises(TexventError, match=r"127\.0\.0\.1:9/v1 gave no answer .*; check llm_url"):
         write_scene(PROMPT, "http://127.0.0.1:9/v1")
     slow = served(reply(ANSWER), wait_s=0.5)
-    with slow as (url, _), pytest.raises(TexventError, match="gave no answer .*timed out"):
+    with slow as (url, _), pytest.raises(TexventError, match=r"gave no answer .*timed out"):
         write_scene(PROMPT, url, timeout_s=0.1)
 
 

@@ -19,7 +19,6 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     Wave,
     bounce_height,
     hover,
-    swing,
 )
 from texvent.scenes.staging.trajectories.phases import build_path, schedule
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
@@ -48,7 +47,6 @@ pieces = st.builds(
 paths = st.builds(
     SteeredPath, st.just((1.0, 2.0, 0.5)), st.floats(-3.0, 3.0),
     st.lists(pieces, min_size=1, max_size=4).map(tuple), st.floats(-3.0, 9.0),
-    lean=st.sampled_from([0.0, 1.0]),
 )  # fmt: skip
 
 
@@ -119,7 +117,6 @@ def test_position_heading_and_speed_are_continuous(path, time_s):
         before, after = path.at(instant), path.at(instant + 1e-3)
         assert np.abs(np.subtract(after.position, before.position)).max() < 0.03
         assert abs(after.yaw - before.yaw) < 0.01
-        assert abs(after.roll - before.roll) < 0.25
         assert abs(after.speed_m_s - before.speed_m_s) < 0.5
         assert abs(after.distance_m - before.distance_m) < 0.02
 
@@ -143,12 +140,11 @@ TRAJECTORIES = {
     ),
     "rolling": Rolling(Straight((0.0, 0.0, 0.0), 0.0, 2.0, 1.0), 0.25, 0.25),
     "shuttle": Shuttle((0.0, 0.0, 0.0), 0.5, 1.5, 2.0),
-    "circle": Circle((0.0, 0.0, 1.0), 2.0, -1.5, 0.4, lean_rad=0.3),
+    "circle": Circle((0.0, 0.0, 1.0), 2.0, -1.5, 0.4),
     "spin": Spin((0.0, 0.0, 0.0), 3.0),
     "axle": Spin((0.0, 0.0, 0.0), 3.0, axis="pitch", pivot_m=0.5),
     "bounce": Flight(BodyState((0.0, 0.0, 1.5)), (0.5, 0.0, 0.0)),
     "throw": Flight(BodyState((0.0, 0.0, 1.0), pivot_m=0.2), (2.0, 1.0, 4.0), 0.0, 0.6, 0.3, 3.0),
-    "swing": swing((0.0, 0.0, 1.0), 1.2, 0.5),
     "hover": hover(Stationary((0.0, 0.0, 2.0)), 0.2, 0.4),
     "sway": Oscillating(Stationary((0.0, 0.0, 0.0)), (Wave("roll", 0.2, 0.5),)),
     "riding": Attached.seated(STRAIGHT, (0.0, 0.0, 1.0), "sit"),
@@ -196,15 +192,6 @@ def test_an_arc_goes_from_one_state_to_the_other_under_gravity():
         np.testing.assert_allclose(arc.at(time_s).to_world(), state.to_world(), atol=1e-12)
     heights = [arc.at(time_s).position[2] for time_s in (0.5, 0.6, 0.7)]
     assert np.diff(heights, 2) == pytest.approx(-GRAVITY_M_S2 * 0.01)
-
-
-def test_a_pendulum_has_the_period_of_its_length():
-    pendulum = swing((0.0, 0.0, 1.0), 1.5, 0.3)
-    period = 2.0 * math.pi * math.sqrt(1.5 / GRAVITY_M_S2)
-    assert pendulum.at(0.0).pitch == pytest.approx(0.3)
-    assert pendulum.at(0.5 * period).pitch == pytest.approx(-0.3)
-    top = np.array([0.0, 0.0, 1.5, 1.0])
-    np.testing.assert_allclose(pendulum.at(0.7).to_world() @ top, [0.0, 0.0, 2.5], atol=1e-12)
 
 
 @pytest.mark.parametrize(

@@ -30,12 +30,8 @@ SCENES = {
     "kick": ("kick", "man", "football"),
     "throw": ("throw", "woman", "ball"),
     "throw to a dog": ("throw", "child", "ball", "dog"),
-    "catch": ("catch", "man", "ball"),
-    "dog catches": ("catch", "dog", "tennis ball"),
-    "hit with a racket": ("hit", "man", "tennis ball"),
     "hold": ("hold", "man", "bottle"),
-    "kite": ("hold", "child", "kite"),
-    "carry": ("carry", "worker", "box"),
+    "hold in both arms": ("hold", "worker", "box"),
     "ride a horse": ("ride", "man", "horse"),
     "push": ("push", "man", "box"),
 }
@@ -70,9 +66,8 @@ def test_the_foot_touches_the_ball_when_it_leaves(who, what, seed):
 
 @pytest.mark.parametrize(
     ("names", "catcher", "place"),
-    [(("throw", "woman", "ball", "man"), 2, "hands"), (("catch", "man", "ball"), 0, "hands"),
-     (("throw", "child", "ball", "dog"), 2, "mouth"),
-     (("catch", "dog", "tennis ball"), 0, "mouth")],
+    [(("throw", "woman", "ball", "man"), 2, "hands"),
+     (("throw", "child", "ball", "dog"), 2, "mouth")],
 )  # fmt: skip
 def test_what_is_caught_stays_with_who_caught_it(names, catcher, place):
     scene = act(*names)
@@ -87,7 +82,7 @@ def test_what_is_caught_stays_with_who_caught_it(names, catcher, place):
 @pytest.mark.parametrize("what", ["bottle", "umbrella", "box"])
 @pytest.mark.parametrize("motion", [None, WALK_RIGHT])
 def test_any_noun_can_be_held_and_stays_at_the_hands(what, motion):
-    scene = act("carry", "man", what, motion=motion)
+    scene = act("hold", "man", what, motion=motion)
     man, thing = scene.actors
     for time_s in (0.0, 0.7, 1.6):
         reach = 0.5 * max(thing.model.length, thing.model.width, thing.model.height)
@@ -153,7 +148,7 @@ def gap(one: Actor, other: Actor, time_s: float) -> float:
 @pytest.mark.parametrize(
     ("nouns", "moves"),
     [(("car", "car"), (True, True)), (("ball", "box"), (True, False)),
-     (("tree", "car"), (False, True)), (("rock", "window"), (True, False))],
+     (("tree", "car"), (False, True))],
 )  # fmt: skip
 def test_bodies_that_collide_touch_at_one_instant(nouns, moves):
     actors = act("collide", *nouns).actors
