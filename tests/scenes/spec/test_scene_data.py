@@ -196,7 +196,7 @@ def test_a_wrong_field_is_named(data, message):
     assert str(caught.value).startswith(message)
 
 
-@pytest.mark.parametrize("kind", ["stand", "drive", "turn", "bounce", "enter"])
+@pytest.mark.parametrize("kind", ["stand", "drive", "turn", "bounce"])
 def test_objects_and_camera_stand_where_metres_say(kind):
     scene = scene_from_data(
         {
