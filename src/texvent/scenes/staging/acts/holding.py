@@ -33,7 +33,7 @@ from texvent.scenes.staging.trajectories.trajectory import (
 
 Grips = tuple[tuple[str, Vector], ...]
 
-_STYLES = ("held as a tool", "held up high", "held hanging")
+_STYLES = ("held as a tool", "held upright", "held up high", "held hanging")
 """Traits that say how a noun is held."""
 _LARGE_M = 0.36
 """What is larger is held in both arms."""

@@ -255,7 +255,7 @@ def _seat_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
     support = find_support(target.models[0], near_m=seat_m if is_seat else None)
     _line_up(group, target, support, neighbours)
     x, y = support.middle
-    if support.high[0] > support.low[0]:
+    if support.high[0] > support.low[0] and target.noun.name not in nouns_with("sat on"):
         x = max(x, support.high[0] - _FRONT_M * scale)
     kind = group.plan.motion.kind
     doing = SEATED + kind if kind in DONE_SEATED else "sit"
