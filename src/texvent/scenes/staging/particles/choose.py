@@ -12,7 +12,6 @@ from texvent.scenes.models.tables import trait_value
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.particles.effect import (
-    ParticleEffect,
     Setting,
     Source,
 )
@@ -29,7 +28,7 @@ _FALL_STEPS = 240
 class Staged:
     """The particle systems of a scene, and which objects end when."""
 
-    effects: tuple[ParticleEffect, ...]
+    effects: tuple[Emitter, ...]
     ends_s: dict[int, float]
     """Instance of an object → when it is gone, s."""
     kinds: tuple[str, ...] = ()
@@ -49,7 +48,7 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
         kind = trait_value("own effect", one.noun)
         if kind is not None and one.is_lit is not False and (kind, index) not in named:
             said.append(Effect(kind, index))
-    effects: list[ParticleEffect] = []
+    effects: list[Emitter] = []
     kinds: list[str] = []
     ends: dict[int, float] = {}
     for number, effect in enumerate(said):
@@ -70,7 +69,7 @@ def gone(to_world: Float64Array) -> Float64Array:
 
 def _make(
     effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
-) -> list[ParticleEffect]:
+) -> list[Emitter]:
     """What shows an effect at an object, or by itself."""
     words = EFFECTS[effect.kind]
     source = _source(effect.kind, actor, setting)

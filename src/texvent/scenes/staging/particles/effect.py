@@ -1,4 +1,4 @@
-"""Particle effects as functions of time, their sources and shapes."""
+"""Sources of particles, what they need to know of a scene, and shapes in numbers."""
 
 from __future__ import annotations
 
@@ -9,8 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from texvent.scenes.scene import (
-    LAMP_COLUMNS,
-    PUFF_COLUMNS,
     Colour,
     Float64Array,
     Primitives,
@@ -51,25 +49,6 @@ class Setting:
     def floor_m(self) -> float:
         """Height of the ground, m; -inf = none."""
         return -math.inf if self.place in _NO_GROUND else 0.0
-
-
-class ParticleEffect:
-    """An effect as a function of time; each kind overrides what it has."""
-
-    def at(self, time_s: float) -> Primitives:
-        """Its solid shapes at that instant: always as many, in the same order."""
-        del time_s
-        return many_shapes(np.zeros((0, 3, 4)), Shape.ELLIPSOID, np.zeros((0, 3)))
-
-    def puffs(self, time_s: float) -> Float64Array:
-        """[k, 19] its translucent puffs, as in `Environment.puffs`."""
-        del time_s
-        return np.zeros((0, PUFF_COLUMNS))
-
-    def lamps(self, time_s: float) -> Float64Array:
-        """[m, 15] the light it sheds, as in `Environment.lamps`."""
-        del time_s
-        return np.zeros((0, LAMP_COLUMNS))
 
 
 def many_shapes(

@@ -19,7 +19,6 @@ from texvent.scenes.scene import (
 )
 from texvent.scenes.staging.particles.effect import (
     TINY_M,
-    ParticleEffect,
     Setting,
     Source,
     along,
@@ -95,8 +94,8 @@ class _Flown(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Emitter(ParticleEffect):
-    """Particles of a style from a source."""
+class Emitter:
+    """Particles of a style from a source, as a function of time."""
 
     source: Source
     style: EmitterStyle
@@ -137,10 +136,10 @@ class Emitter(ParticleEffect):
         return cls(source, style, lives, colours, setting, start)
 
     def at(self, time_s: float) -> Primitives:
-        """Its drops or chips at that instant."""
+        """Its drops or chips at that instant: always as many, in the same order."""
         style = self.style
         if style.body == "puff":
-            return super().at(time_s)
+            return many_shapes(np.zeros((0, 3, 4)), Shape.ELLIPSOID, np.zeros((0, 3)))
         flown = self._fly(time_s)
         grown = _between(style.radius, flown.age) * (0.7 + 0.6 * flown.draws[:, 5])
         if style.body == "drop":
@@ -170,7 +169,7 @@ class Emitter(ParticleEffect):
         """[k, 19] its puffs at that instant; those just born or about to go are thin."""
         style = self.style
         if style.body != "puff":
-            return super().puffs(time_s)
+            return np.zeros((0, PUFF_COLUMNS))
         flown = self._fly(time_s)
         age, draws = flown.age, flown.draws
         radius = self.source.size_m * _between(style.radius, age) * (0.75 + 0.5 * draws[:, 5])
@@ -189,7 +188,7 @@ class Emitter(ParticleEffect):
         """[m, 15] the light of its flames, or of its salvo."""
         style, size = self.style, self.source.size_m
         if style.light == 0.0 or time_s < self.start_s:
-            return super().lamps(time_s)
+            return np.zeros((0, LAMP_COLUMNS))
         row = np.zeros((1, LAMP_COLUMNS))
         row[0, :3] = self.source.at(np.array([time_s]))[0] + [0.0, 0.0, 0.6 * size]
         level, hue = wave_level("flame", _FLAME_HZ * time_s, phase=0.37), _FLAME_LIGHT

@@ -29,7 +29,7 @@ GAP_M = 0.25
 """Least space between two objects, in units of the smaller one's size."""
 OVERTAKEN = 0.4
 """Speed of what is overtaken, as a share of what overtakes it."""
-_CIRCLE = 1.3
+ORBIT_SIZES = 1.3
 """Radius of a circle, in sizes of who goes along it."""
 _TURNING = ("spin", "roll", "sway", "dance", "fall")
 """Motions that need the same room at all sides."""
@@ -116,8 +116,8 @@ def half_extents_over_clip(
         places = sample_places(plan.path, plan.duration_s)
         return np.asarray(half + spread + 0.5 * np.ptp(places, axis=0))
     travel = 0.5 * plan.travel_m * np.array([cosine, sine, abs(plan.climb)])
-    if plan.motion.direction == "circle":
-        travel = _CIRCLE * size * np.array([1.0, 1.0, 0.0])
+    if plan.motion.kind == "orbit":
+        travel = ORBIT_SIZES * size * np.array([1.0, 1.0, 0.0])
     return np.asarray(half + spread + travel)
 
 
@@ -200,7 +200,7 @@ def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, 
     length = max(model.length for model in models)
     width = max(model.width for model in models)
     size = max(length, width)
-    if plan.motion.direction == "circle":
+    if plan.motion.kind == "orbit":
         return 4.0 * size, 4.0 * size
     if noun.motion == "drive":
         return 1.45 * length + 0.5, max(width + 0.9, 2.9)

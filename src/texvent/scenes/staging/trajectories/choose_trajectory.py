@@ -82,7 +82,7 @@ def choose_trajectory(
     if plan.gesture is not None:
         return Stationary(home, plan.yaw, plan.gesture, plan.motion.pace)
     phase = float(rng.uniform(0.0, 2.0 * math.pi))
-    if kind == "orbit" or (kind in PATH_KINDS and direction == "circle"):
+    if kind == "orbit":
         return _go_round(plan, model, home, phase)
     if direction in ("to and fro", "up and down") and kind != "sway":
         return _go_and_return(plan, model, home)
@@ -120,7 +120,7 @@ def _go_round(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Tra
     rounds_hz = 0.0 if motion.speed_m_s is not None else motion.pace / plan.duration_s
     radius = 1.3 * max(model.length, model.width)
     rate = max(plan.speed_m_s / radius, min(_ROUND_RAD_S, _ROUND_RAD * rounds_hz))
-    circle = Circle(home, radius, rate, phase, activity_of(plan.motion.kind))
+    circle = Circle(home, radius, rate, phase, "move")
     return Facing(circle) if plan.is_facing else circle
 
 

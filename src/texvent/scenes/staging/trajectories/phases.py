@@ -32,7 +32,6 @@ YAWS = {
     "right": 0.0,
     "left": math.pi,
     "away": 0.5 * math.pi,
-    "diagonal": 0.25 * math.pi,
     "up": 0.5 * math.pi,
     "towards": -0.5 * math.pi,
     "down": -0.5 * math.pi,
@@ -262,9 +261,9 @@ class _Builder:
     def _choose_segments(self, motion: ObjectMotion) -> list[tuple[float, float]]:
         """Shares of the time, and by what angle each one turns, rad."""
         direction = motion.direction or ""
-        angle = {"around": math.pi, "circle": 2.0 * math.pi}.get(direction, QUARTER)
+        angle = math.pi if direction == "around" else QUARTER
         angle = -angle if direction in _CLOCKWISE else angle
-        if motion.kind == "turn" or direction in ("around", "circle"):
+        if motion.kind == "turn" or direction == "around":
             lead = 0.5 * (1.0 - _TURN_SHARE) if self._is_single and self._is_mobile else 0.0
             return [(lead, 0.0), (1.0 - 2.0 * lead, angle), (lead, 0.0)] if lead else [(1.0, angle)]
         target = YAWS.get(direction)
