@@ -36,7 +36,8 @@ Pace: TypeAlias = Annotated[float, Between(0.0, 100.0)]
 Surface: TypeAlias = Annotated[str, Colour("surface")]
 
 Direction: TypeAlias = Literal[
-    "left", "right", "towards", "away", "forward", "backward", "up", "down", "across", "to and fro", "up and down", "around", "clockwise", "counter-clockwise",
+    "left", "right", "towards", "away", "forward", "backward", "up", "down", "across",
+    "to and fro", "up and down", "around", "clockwise", "counter-clockwise",
 ]  # fmt: skip
 RelationKind: TypeAlias = Literal[
     "on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
