@@ -22,7 +22,7 @@ from texvent.scenes.raycast.ground_truth import visible_instances
 from texvent.scenes.raycast.render import render
 from texvent.scenes.read.lexicon import lexicon_of, word_set
 from texvent.scenes.relation_check import Unheld, bodies_of, find_unheld
-from texvent.scenes.scene import Camera, Primitives, Scene, Texture, project
+from texvent.scenes.scene import Camera, Ground, Primitives, Scene, Texture, project
 from texvent.scenes.spec.data import PLACING
 from texvent.scenes.staging.actors import assemble
 from texvent.scenes.staging.compose import ComposedScene
@@ -148,7 +148,8 @@ def _unlit(
 
     for name in _SURROUNDINGS:
         value, usual = getattr(said, name), getattr(Surroundings, name)
-        if value != usual and value not in FALLING:
+        is_so = name == "has_snow" and place.ground is Ground.SNOW  # by itself
+        if value != usual and value not in FALLING and not is_so:
             other = without(surroundings=replace(said, **{name: usual}))
             yield from _unseen(scene, other, times, name, value)
     if description.light.kind not in (None, "day"):
