@@ -12,7 +12,6 @@ from texvent.scenes.description import ObjectMotion
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
-    Arc,
     Flight,
     Oscillating,
     Spin,
@@ -182,16 +181,6 @@ def test_a_bouncing_ball_falls_freely_and_keeps_its_restitution(rounds, height):
     landing = math.sqrt(2.0 * 1.25 / GRAVITY_M_S2)
     found = bounce_height(1.25, 0.0, 0.8, landing * rounds)
     assert found == pytest.approx(1.25 * height, abs=1e-12)
-
-
-def test_an_arc_goes_from_one_state_to_the_other_under_gravity():
-    start = BodyState((0.0, 0.0, 1.0), 0.2, pivot_m=0.1)
-    end = BodyState((2.0, -1.0, 1.5), 1.0, 0.3, pivot_m=0.1)
-    arc = Arc(start, end, 0.4, 1.2, 1.0)
-    for state, time_s in ((start, 0.4), (end, 1.2)):
-        np.testing.assert_allclose(arc.at(time_s).to_world(), state.to_world(), atol=1e-12)
-    heights = [arc.at(time_s).position[2] for time_s in (0.5, 0.6, 0.7)]
-    assert np.diff(heights, 2) == pytest.approx(-GRAVITY_M_S2 * 0.01)
 
 
 @pytest.mark.parametrize(

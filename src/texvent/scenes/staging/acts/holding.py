@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import Relation
 from texvent.scenes.models.anchors import find_support, top_heights
 from texvent.scenes.models.people.outfit import CLOTHES, list_props
 from texvent.scenes.models.protocol import Pose
@@ -17,7 +15,6 @@ from texvent.scenes.models.shapes import Affine, shift
 from texvent.scenes.models.tables import nouns_with, trait_value
 from texvent.scenes.staging.actors import Actor, size_of
 from texvent.scenes.staging.acts.acts import (
-    Cast,
     held_at,
     hides_riders,
     is_person,
@@ -166,20 +163,13 @@ def push(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     )
 
 
-def board(cast: Cast, relations: Sequence[Relation]) -> None:
-    """Seat everybody who rides something, each on a mount of its own.
+def board(subject: Actor, ridden: Actor) -> tuple[Actor | None, Actor]:
+    """Both, who rides on its seat.
 
     A person on a bicycle is the one that its model brings; those in a closed vehicle are not seen.
     """
-    taken: set[int] = set()
-    for relation in (one for one in relations if one.kind == "ride"):
-        mounts = [one for one in cast.copies(relation.targets[0]) if one not in taken]
-        for rider, at in zip(cast.copies(relation.subject), mounts, strict=False):
-            subject, ridden = cast.get(rider), cast.get(at)
-            is_own = is_person(subject) and style_of(ridden) == "built-in"
-            is_hidden = is_own or hides_riders(ridden.noun)
-            cast.put(rider, None if is_hidden else mount(subject, ridden))
-            taken.add(at)
+    is_own = is_person(subject) and style_of(ridden) == "built-in"
+    return None if is_own or hides_riders(ridden.noun) else mount(subject, ridden), ridden
 
 
 def style_of(ridden: Actor) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -43,7 +44,6 @@ def settle_motions(
         for targets in ([(t,) for t in one.targets] if one.kind == "wear" else [one.targets])
     ]
     relations += _implied_acts(objects, relations)
-    relations = _with_catchers(relations)
     for relation in relations:
         if relation.kind in ACTS and relation.targets:
             pair = relation.subject, relation.targets[0]
@@ -92,16 +92,6 @@ def _mounted(
     return relation
 
 
-def _with_catchers(relations: Sequence[Relation]) -> list[Relation]:
-    """The relations; the object towards which a thing is thrown catches it."""
-    found = list(relations)
-    for n, act in enumerate(relations):
-        for one in relations if act.kind == "throw" else ():
-            if one.kind == "towards" and one.subject in (act.subject, *act.targets):
-                found[n] = replace(act, targets=(act.targets[0], one.targets[0]))
-    return found
-
-
 def _implied_acts(objects: Sequence[SceneObject], relations: Sequence[Relation]) -> list[Relation]:
     """Who plays a guitar that the scene names holds that one."""
     bound = {target for one in relations if one.kind in ACTS for target in one.targets}
@@ -139,7 +129,7 @@ def _choose_way(objects: Sequence[SceneObject], pair: tuple[int, int], seed: int
     return "left" if seeded(seed, "act", pair[0]).random() < 0.5 else "right"
 
 
-_ORDER = ("push", "kick", "throw", "collide", "hold", "wear")
+_ORDER = ("push", "ride", "kick", "throw", "collide", "hold", "wear")
 """What moves bodies comes before what hangs on them."""
 
 
@@ -161,13 +151,8 @@ def perform_acts(
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     bound = {one for act in acts for one in (act.subject, *act.targets)}
     _face_each_other(cast, [n for n, one in enumerate(actors) if one.object_index not in bound])
-    ridden = {one.targets[0] for one in acts if one.kind == "ride"}
-    pushed = [r for r in acts if r.kind == "push" and r.targets[0] in ridden]
-    for relation in pushed:
-        _perform(cast, relation, duration_s)
-    holding.board(cast, acts)
     for kind in _ORDER:
-        for relation in (one for one in acts if one.kind == kind and one not in pushed):
+        for relation in (one for one in acts if one.kind == kind):
             _perform(cast, relation, duration_s)
     _take_off_doubles(cast, actors)
     return cast.actors()
@@ -176,38 +161,33 @@ def perform_acts(
 def _perform(cast: Cast, relation: Relation, duration_s: float) -> None:
     """An act of each subject on a target of its own."""
     subjects, targets = cast.copies(relation.subject), cast.copies(relation.targets[0])
-    if relation.kind == "collide":
+    if relation.kind == "ride":
+        pairs = zip(subjects, targets, strict=False)
+    elif relation.kind == "collide":
         met = list(dict.fromkeys([*subjects, *targets]))
-        for pair in zip(met[::2], met[1::2], strict=False):
-            _bind(cast, relation.kind, (*pair, None), duration_s)
-        return
-    others = cast.copies(relation.targets[1]) if len(relation.targets) > 1 else []
-    for turn, target in enumerate(targets):
-        if not subjects:
+        pairs = zip(met[::2], met[1::2], strict=False)
+    else:
+        for target in targets if not subjects else ():
             cast.put(target, None)
-        elif subjects[turn % len(subjects)] != target:
-            third = others[turn] if turn < len(others) else None
-            _bind(cast, relation.kind, (subjects[turn % len(subjects)], target, third), duration_s)
+        pairs = zip(itertools.cycle(subjects), targets, strict=False)
+    for one, other in pairs:
+        if one != other:
+            bodies = _ACTS[relation.kind](cast.get(one), cast.get(other), duration_s)
+            for number, body in zip((one, other), bodies, strict=True):
+                cast.put(number, body)
 
 
-_Act = Callable[[Actor, Actor, Actor | None, float], tuple[Actor | None, ...]]
+_Act = Callable[[Actor, Actor, float], tuple[Actor | None, Actor | None]]
 _ACTS: Mapping[str, _Act] = {
-    "push": lambda who, what, _, __: holding.push(who, what),
-    "hold": lambda who, what, _, __: holding.hold(who, what),
-    "wear": lambda who, what, _, __: holding.wear(who, what),
-    "kick": lambda who, what, _, duration_s: striking.kick(who, what, duration_s),
-    "collide": lambda who, what, _, duration_s: striking.collide(who, what, duration_s),
+    "push": lambda who, what, _: holding.push(who, what),
+    "ride": lambda who, what, _: holding.board(who, what),
+    "hold": lambda who, what, _: holding.hold(who, what),
+    "wear": lambda who, what, _: holding.wear(who, what),
+    "kick": striking.kick,
     "throw": striking.throw,
+    "collide": striking.collide,
 }
-"""Act → the bodies as it leaves them: who acts, on what, and who catches."""
-
-
-def _bind(cast: Cast, kind: str, who: tuple[int, int, int | None], duration_s: float) -> None:
-    third = None if who[2] is None else cast.get(who[2])
-    bodies = _ACTS[kind](cast.get(who[0]), cast.get(who[1]), third, duration_s)
-    for number, body in zip(who, bodies, strict=False):
-        if number is not None:
-            cast.put(number, body)
+"""Act → the bodies as it leaves them: who acts, and on what."""
 
 
 def _take_off_doubles(cast: Cast, actors: Sequence[Actor]) -> None:

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.scenes.models.shapes import Affine, bounds, moved, shift
+from texvent.scenes.models.shapes import bounds, moved, shift
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import (
@@ -20,7 +20,6 @@ from texvent.scenes.staging.acts.acts import (
     moving,
 )
 from texvent.scenes.staging.trajectories.action_trajectories import (
-    Arc,
     Flight,
     about_pivot,
 )
@@ -38,8 +37,6 @@ from texvent.scenes.staging.trajectories.trajectory import (
 
 _FLIGHT_M = 2.4
 """Most metres that a thing flies in the rest of the clip, so that the camera can show it."""
-_REACH_S = 0.85
-"""Longest flight towards who catches, s."""
 _LOFT = {"kick": 0.45, "throw": 0.35}
 """Upward speed of what flies off, as a share of its speed along the ground."""
 _TURN_ROUND_S = 0.08
@@ -80,10 +77,8 @@ def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]
     return subject, moving(thing, replace(flight, tumble_rad_s=rolling))
 
 
-def throw(
-    subject: Actor, thing: Actor, catcher: Actor | None, duration_s: float
-) -> tuple[Actor, Actor, Actor | None]:
-    """Let go in the middle of the swing; it flies off, or to who catches it."""
+def throw(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
+    """Let go in the middle of the swing; it flies off."""
     release_s, home = contact_time(duration_s, 0.35), subject.trajectory.at(0.0)
     path = Performed(Stationary(home.position, home.yaw), "throw", contact_s=release_s)
     subject = moving(subject, path)
@@ -91,19 +86,8 @@ def throw(
     anchor = "right hand" if is_person(subject) else "mouth"
     held = held_at(subject, anchor, shift(reach, 0.0, -thing.lift_m))
     start = about_pivot(held.at(release_s), thing.lift_m)
-    if catcher is None:
-        flight = _fly_off("throw", thing, start, home, (release_s, duration_s))
-        flight = replace(flight, tumble_rad_s=6.0)
-        return subject, moving(thing, Switched(held, flight, release_s)), None
-    catch_s = min(release_s + _REACH_S, release_s + 0.75 * (duration_s - release_s))
-    gap = 1.2 + 2.6 * (catch_s - release_s) + 0.5 * catcher.model.length
-    place = ahead(home.position, home.yaw, gap, home.position[2])
-    catcher = _stand_and_catch(catcher, place, home.yaw + math.pi, catch_s)
-    caught = held_at(catcher, *_catching(catcher, thing))
-    end = about_pivot(caught.at(catch_s), thing.lift_m)
-    arc = Arc(start, end, release_s, catch_s, 1.0)
-    whole = Switched(Switched(held, arc, release_s), caught, catch_s)
-    return subject, moving(thing, whole), catcher
+    flight = _fly_off("throw", thing, start, home, (release_s, duration_s))
+    return subject, moving(thing, Switched(held, replace(flight, tumble_rad_s=6.0), release_s))
 
 
 def _at(thing: Actor, middle: Float64Array, yaw: float) -> BodyState:
@@ -121,18 +105,6 @@ def _fly_off(
     floor = home.position[2] + 0.5 * thing.model.height - start.pivot_m
     velocity = (float(along[0]), float(along[1]), _LOFT[act] * speed)
     return Flight(start, velocity, floor, 0.55, times_s[0])
-
-
-def _stand_and_catch(catcher: Actor, home: Vector, yaw: float, catch_s: float) -> Actor:
-    """Who catches, facing the thing."""
-    return moving(catcher, Performed(Stationary(home, yaw), "catch", contact_s=catch_s))
-
-
-def _catching(catcher: Actor, thing: Actor) -> tuple[str, Affine]:
-    """Place of the body at which a thing is caught, and the thing in its axes."""
-    if is_person(catcher):
-        return "hands", shift(0.4 * thing.model.length, 0.0, -thing.lift_m)
-    return "mouth", shift(0.35 * thing.model.length, 0.0, -thing.lift_m)
 
 
 def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Actor]:

@@ -144,37 +144,6 @@ def bounce_height(drop_m: float, up_m_s: float, restitution: float, elapsed_s: f
     return max(speed * into - 0.5 * GRAVITY_M_S2 * into**2, 0.0)
 
 
-@dataclass(frozen=True)
-class Arc:
-    """Free flight from one state to another, both with the same pivot."""
-
-    start: BodyState
-    end: BodyState
-    start_s: float
-    end_s: float
-    turns: float = 0.0
-    """Whole turns about its side axis on the way."""
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        span, elapsed = self.end_s - self.start_s, time_s - self.start_s
-        share = elapsed / span
-        x, y, z = (
-            a + share * (b - a) for a, b in zip(self.start.position, self.end.position, strict=True)
-        )
-        yaw, pitch, roll = (
-            first + share * math.remainder(last - first, 2.0 * math.pi)
-            for first, last in zip(_angles(self.start), _angles(self.end), strict=True)
-        )
-        return replace(
-            self.end,
-            position=(x, y, z + 0.5 * GRAVITY_M_S2 * elapsed * (span - elapsed)),
-            yaw=yaw,
-            pitch=pitch + 2.0 * math.pi * self.turns * share,
-            roll=roll,
-        )
-
-
 def _angles(state: BodyState) -> Vector:
     return (state.yaw, state.pitch, state.roll)
 

@@ -150,7 +150,7 @@ def _choose_yaw(motions: Sequence[ObjectMotion], noun: Noun, model: Model, toss:
 def _faces_camera(noun: Noun, model: Model, motion: ObjectMotion) -> bool:
     """Whether it shows its front while it goes or spins: a board slides so, a shape always."""
     if noun.name in nouns_with("flat pattern"):
-        return motion.kind in PATH_KINDS or motion.kind in ("spin", "rise", "sink")
+        return motion.kind in PATH_KINDS | {"orbit", "spin", "rise", "sink"}
     if motion.kind == "spin":
         return noun.name in nouns_with("flat picture")
     is_wide = model.length < _WIDE * model.width
