@@ -1,4 +1,4 @@
-"""Motions in one place or under gravity: spin, sway, hover, flight, arc.
+"""Motions in one place or under gravity: spin, sway, hover, flight.
 
 Like those of `trajectory`, they are pure, continuous functions of time; angles in radians,
 lengths in metres, times in seconds.
