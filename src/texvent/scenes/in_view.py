@@ -32,9 +32,9 @@ from texvent.sensor import SensorSize
 
 INSTANTS = 7
 """Instants of the clip at which it is looked for objects; what is in view at one of them is."""
-MOST_POINTS = 25_000
+MOST_POINTS = 12_000
 """Points of the grid."""
-LEAST_PIXELS = 6
+LEAST_PIXELS = 10
 """Pixels below which an object is too small to be told."""
 LEAST_INSIDE = 0.33
 """Share of an object's shapes that are inside the image; of fewer it is cut off."""
