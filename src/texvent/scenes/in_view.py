@@ -16,11 +16,11 @@ import numpy as np
 
 from texvent.scenes.defaults import NO_PLACE
 from texvent.scenes.description import SceneDescription, Surroundings
+from texvent.scenes.meanings import list_meanings
 from texvent.scenes.models.effects import LAMPS
 from texvent.scenes.models.places import PLACES, Place
 from texvent.scenes.raycast.ground_truth import visible_instances
 from texvent.scenes.raycast.render import render
-from texvent.scenes.read.lexicon import lexicon_of, word_set
 from texvent.scenes.relation_check import Unheld, bodies_of, find_unheld
 from texvent.scenes.scene import Camera, Ground, Primitives, Scene, Texture, project
 from texvent.scenes.spec.data import PLACING
@@ -34,7 +34,7 @@ INSTANTS = 7
 """Instants of the clip at which it is looked for objects; what is in view at one of them is."""
 MOST_POINTS = 12_000
 """Points of the grid."""
-LEAST_PIXELS = 10
+LEAST_PIXELS = 6
 """Pixels below which an object is too small to be told."""
 LEAST_INSIDE = 0.33
 """Share of an object's shapes that are inside the image; of fewer it is cut off."""
@@ -110,24 +110,12 @@ def find_unseen(
 def without_words(words: Sequence[str], faults: Sequence[Unheld]) -> tuple[str, ...]:
     """Words of a report, but for those that mean what a picture does not show."""
     lost = {(kind, value) for kind, value, _ in faults}
-    return tuple(word for word in words if not lost.intersection(_meanings(word)))
 
+    def is_lost(word: str) -> bool:
+        meant = [*list_meanings(word)]
+        return any(one in lost or (one[0], "") in lost for one in meant)
 
-def _meanings(word: str) -> Iterator[tuple[str, str | None]]:
-    """Kinds and values, as of `Unheld`, of all senses of a word."""
-    phrase = tuple(one for one in word.split() if one not in word_set("senses", "articles"))
-    for sense in lexicon_of(None).get(phrase, ()):
-        if sense.kind == "verb":
-            one = sense.value
-            yield from (("relation", one.relation), ("direction", one.direction))
-            yield from (("motion", one.kind), ("effect", one.kind))
-        elif sense.kind == "noun":
-            yield "noun", sense.value.noun
-        elif sense.kind in ("adverb", "scene", "field"):
-            *_, field, value = sense.value
-            yield from ((field, ""), (field if field != "kind" else "light", value))
-        else:
-            yield sense.kind, sense.value
+    return tuple(word for word in words if not is_lost(word))
 
 
 def _unlit(

@@ -10,12 +10,14 @@ import http.client
 import json
 import os
 import re
+import urllib.error
 import urllib.request
 from collections.abc import Iterator, Mapping
 from typing import Any, Literal, get_args, get_origin
 
 from texvent.errors import ConfigError, InputError, TexventError, one_line, shown
-from texvent.scenes.read.lexicon import Sense, lexicon_of
+from texvent.scenes.meanings import list_meanings
+from texvent.scenes.read.lexicon import lexicon_of
 from texvent.scenes.report import PromptReport
 from texvent.scenes.spec import scene as spec
 from texvent.scenes.spec.data import (
@@ -63,6 +65,8 @@ def ask(url: str, model: str, prompt: str, timeout_s: float = TIMEOUT_S) -> Any:
         with urllib.request.urlopen(request, timeout=timeout_s) as stream:
             reply = stream.read().decode("utf-8", errors="replace")
     except (OSError, http.client.HTTPException, ValueError) as error:
+        if isinstance(error, urllib.error.HTTPError):
+            error.close()
         raise TexventError(
             f"the model server {url} gave no answer ({one_line(error)}); check llm_url, and "
             f"{KEY_VARIABLE} if it wants a key"
@@ -182,9 +186,9 @@ class _Grounding:
     """What the words of a prompt stand for, and what an answer uses of it."""
 
     def __init__(self, prompt: str, answer: Mapping[str, Any]) -> None:
-        self.said: dict[tuple[str, str], frozenset[str]] = {}
+        self.said: dict[tuple[str, object], frozenset[str]] = {}
         """Kind and meaning → the words of the phrases that have it."""
-        self.used: set[tuple[str, str]] = set()
+        self.used: set[tuple[str, object]] = set()
         self.invented: list[str] = []
         words = _split(prompt)
         for length in range(1, LONGEST_PHRASE + 1):
@@ -233,44 +237,14 @@ class _Grounding:
         words = value.split() if isinstance(value, str) else []
         ends = (" ".join(words[first:]) for first in range(len(words)))
         keys = (key for end in ends for key in list_meanings(end))
-        return next((key[1] for key in keys if key[0] == kind and key in self.said), None)
+        return next((str(key[1]) for key in keys if key[0] == kind and key in self.said), None)
 
     def _count(self, noun: str, value: Any) -> int:
         """Copies of an object: several only where its word is a plural or the number is said."""
-        number = ("count", str(float(value))) if isinstance(value, int) else ("count", "")
+        number = ("count", float(value) if isinstance(value, int) else 0.0)
         is_plural = any(one.endswith("s") and one != noun for one in self.said["noun", noun])
         self.used |= {number} & self.said.keys()
         return min(max(int(value or 1), 1), MOST_COUNT) if number in self.said or is_plural else 1
-
-
-def list_meanings(word: str) -> Iterator[tuple[str, str]]:
-    """Kinds of a word or phrase, and what it stands for as each."""
-    if word.isdigit():
-        yield "count", str(float(word))
-    words = word.casefold().replace("_", " ").replace("-", " ").split()
-    phrase = tuple(one for one in words if one not in ("a", "an", "the"))
-    senses = lexicon_of(None).get(phrase, ())
-    for sense in sorted(senses, key=lambda one: one.kind == "verb" and one.value.who == "hand"):
-        yield from ((kind, str(one)) for kind, one in _meanings(sense) if one)
-
-
-def _meanings(sense: Sense) -> Iterator[tuple[str, object]]:
-    value = sense.value
-    match sense.kind:
-        case "noun":
-            yield "noun", value.noun
-        case "place" | "effect" | "relation":
-            yield sense.kind, value
-        case "pose":
-            yield "motion", value[1]
-        case "field" | "adverb":
-            yield value
-        case "verb":
-            yield {"camera": "move", "source": "effect"}.get(value.who, "motion"), value.kind
-            yield from (("direction", value.direction), ("relation", value.relation))
-        case "scene":  # such as ("light", "kind", "dusk"), ("place", "weather", "fog")
-            part, field, each = value
-            yield part if field in ("kind", "name") else field, each
 
 
 def _split(text: str) -> list[str]:
