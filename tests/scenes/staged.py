@@ -38,7 +38,6 @@ def stage(
     shot: Shot | None = None,
     place: str | None = "grass",
     light: str | None = None,
-    road: str | None = None,
     seed: int = 0,
     duration_s: float = DURATION_S,
 ) -> ComposedScene:
@@ -50,7 +49,7 @@ def stage(
         effects=effects,
         shot=shot or Shot(),
         light=Illumination(light),
-        surroundings=Surroundings(place, road=road),
+        surroundings=Surroundings(place),
     )
     return compose_scene(description, seed=seed, size=SIZE, duration_s=duration_s)
 

@@ -1,4 +1,4 @@
-"""Colours by name, in linear-light RGB: of surfaces, of what is poured, of light."""
+"""Colours by name, in linear-light RGB: of surfaces and of light."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ from collections.abc import Mapping
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
-from texvent.scenes.models.effects import LIQUID_COLOURS
 from texvent.scenes.scene import Colour, decode_hex
 
 COLOURS: dict[str, Colour] = {
@@ -96,7 +95,6 @@ TINTS: Mapping[str, Colour] = {
 """Colours of light."""
 PALETTES: Mapping[str, Mapping[str, Colour]] = {
     "surface": SURFACES,
-    "effect": {**SURFACES, **LIQUID_COLOURS},
     "light": TINTS,
 }
 """What has a colour → its colours."""

@@ -27,12 +27,12 @@ NO_PLACE = "no place is said"
 """Begins the note about it."""
 SWAY = CameraMove("handheld", pace=0.4)
 """Move of the camera where nothing else moves: a still image has no events."""
-_ACTS = frozenset({"push", "kick", "hit", "throw", "catch", "collide"})
+_ACTS = frozenset({"push", "kick", "throw", "collide"})
 """Relations in which something moves."""
 _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of", "right of",
-                      "around", "look at"})  # fmt: skip
+                      "around"})  # fmt: skip
 """Relations that an object would undo by moving off."""
-_AT_HAND = frozenset({"hold", "carry", "wear"})
+_AT_HAND = frozenset({"hold", "wear"})
 _PACES = {"walk": 0.7, "run": 1.0}
 """Pace of running in place that looks as walking and running do."""
 _GOING = {"stand": "slide", "float": "fly"}

@@ -20,7 +20,7 @@ from texvent.scenes.spec.scene import Picture as Picture
 from texvent.scenes.spec.scene import Place as Surroundings
 
 __all__ = [
-    "AMID", "RELATIONS", "SPIN_RATE_HZ", "STANDING", "CameraMove", "Effect",
+    "RELATIONS", "SPIN_RATE_HZ", "STANDING", "CameraMove", "Effect",
     "Illumination", "ObjectMotion", "Picture", "Relation", "SceneDescription", "SceneLamp",
     "SceneObject", "Shot", "Surroundings", "report_of", "to_description",
 ]  # fmt: skip
@@ -28,8 +28,6 @@ __all__ = [
 SPIN_RATE_HZ = 0.5
 """Usual turns per second of what spins."""
 STANDING = ObjectMotion("stand")
-AMID = frozenset({"surround", "among"})
-"""Kinds of `Relation` whose targets stand around, placed as scenery is; some may be out of view."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +61,6 @@ class Effect:
     kind: str
     source: int | None = None
     """Index of the object that it comes from."""
-    colour: str | None = None
     start_s: float | None = None
 
 
@@ -95,7 +92,7 @@ class Shot:
     @property
     def is_moving(self) -> bool:
         """Whether the camera moves."""
-        return any(move.kind not in ("static", "dutch") for move in self.moves)
+        return any(move.kind != "static" for move in self.moves)
 
 
 @dataclass(frozen=True)
@@ -131,7 +128,7 @@ def to_description(scene: spec.Scene) -> SceneDescription:
             for one in subject.relations
         ),
         effects=tuple(
-            Effect(one.kind, _index(one.source, ids), one.colour, one.start_s)
+            Effect(one.kind, _index(one.source, ids), one.start_s)
             for one in scene.effects
         ),
         shot=Shot(
@@ -164,7 +161,7 @@ _UNITS = {"_m_s": "m/s", "_hz": "Hz", "_m": "m", "_s": "s", "_deg": "degrees"}
 _SIDES = {"left": "on the left", "right": "on the right", "centre": "in the middle",
           "far": "far away", "lane": "on the road", "near": "in the foreground",
           "row": "in a row", "together": "side by side", "ring": "in a circle"}  # fmt: skip
-RELATIONS = {"front": "in front of", "surround": "surrounded by", "collide": "meets"}
+RELATIONS = {"front": "in front of", "collide": "meets"}
 """Kind of relation → its words, where they differ."""
 _VERBS = {"throw": "fly through the air", "work": "move in place", "stand": "stand still"}
 

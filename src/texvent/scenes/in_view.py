@@ -1,8 +1,7 @@
 """Check of a staged scene: objects out of view or tiny, and words that its picture does not show.
 
-Rays through a coarse grid of image points find all large objects. For each other one every pixel
-of its box in the image is looked at, so that the pixels of small things are counted exactly.
-Effects, weather, flicker and spin must change the pixels of small pictures.
+Rays through a grid of image points count the pixels of every object.
+What is said of light, sky, ground, weather and effects must change the pixels of small pictures.
 """
 
 from __future__ import annotations
@@ -11,50 +10,50 @@ import math
 from collections import Counter
 from collections.abc import Iterator, Sequence
 from dataclasses import replace
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.scenes.defaults import NO_PLACE
-from texvent.scenes.description import AMID, SceneDescription
-from texvent.scenes.held import Unheld, bodies_of, find_unheld
+from texvent.scenes.description import SceneDescription, Surroundings
+from texvent.scenes.meanings import list_meanings
 from texvent.scenes.models.effects import LAMPS
 from texvent.scenes.models.places import PLACES, Place
-from texvent.scenes.raycast.acceleration import CUBE
-from texvent.scenes.raycast.ground_truth import cast
-from texvent.scenes.raycast.records import World
-from texvent.scenes.raycast.render import render, world_and_shapes
-from texvent.scenes.read.lexicon import lexicon_of, word_set
-from texvent.scenes.scene import Camera, Float64Array, Ground, Primitives, Scene, Texture, project
+from texvent.scenes.raycast.ground_truth import visible_instances
+from texvent.scenes.raycast.render import render
+from texvent.scenes.relation_check import Unheld, bodies_of, find_unheld
+from texvent.scenes.scene import Camera, Ground, Primitives, Scene, Texture, project
 from texvent.scenes.spec.data import PLACING
 from texvent.scenes.staging.actors import assemble
 from texvent.scenes.staging.compose import ComposedScene
+from texvent.scenes.staging.particles.choose import FALLING
+from texvent.scenes.staging.surroundings.environment import RoadLine, build_environment
 from texvent.sensor import SensorSize
 
 INSTANTS = 7
 """Instants of the clip at which it is looked for objects; what is in view at one of them is."""
-MOST_POINTS = 2000
-"""Points of a grid over the image, or over the box of an object."""
+MOST_POINTS = 12_000
+"""Points of the grid."""
 LEAST_PIXELS = 6
 """Pixels below which an object is too small to be told."""
 LEAST_INSIDE = 0.33
-"""Share of an object's extent that is inside the image; of less it is cut off."""
+"""Share of an object's shapes that are inside the image; of fewer it is cut off."""
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
 _SMALL = SensorSize(120, 90)
 """Size of small pictures."""
-_LEAST_LEVELS, _LEAST_SHARE, _LEAST_SCENERY = 6.0, 0.002, 0.02
-"""Difference of a pixel, of 255, that is seen; share of the pixels in which it is; of scenery."""
+_LEAST_LEVELS, _LEAST_SHARE = 6.0, 0.002
+"""Difference of a pixel, of 255, that is seen; share of the pixels in which it is."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
 _Shots = Sequence[tuple[Primitives, Camera]]
-_Box = tuple[Float64Array, Float64Array]
-_WATER = (Ground.SEA, Ground.LAKE, Ground.RIVER)
 _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
 """Grounds that many places have: only their scenery shows which one it is."""
-_OUTDOORS = ("sunny", "overcast", "dusk", "dawn", "moonlight")
 _TURNS = ("spin", "work", "rotate")
+_INSTANTS = (0.17, 0.43, 0.71, 0.93)
+"""Shares of the clip at which small pictures are compared."""
+_SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "wave_height")
+"""Fields of a place that pictures must show."""
 
 
 class Unseen(NamedTuple):
@@ -73,14 +72,12 @@ def find_unseen(
 ) -> Unseen:
     """Words of a description that no instant shows.
 
-    An object without a body of its own is part of another one's, as a worn coat is, unless it was
-    to stand around others.
+    An object without a body of its own is part of another one's, as a worn coat is.
     """
     object_of = scene.object_of
-    pixels = count_pixels(scene, list(object_of), size, duration_s)
-    times = np.linspace(0.0, duration_s, INSTANTS)
-    shots = [(scene.primitives(float(time_s)), scene.camera(float(time_s))) for time_s in times]
-    around = {i for one in description.relations if one.kind in AMID for i in one.targets}
+    times = [float(time_s) for time_s in np.linspace(0.0, duration_s, INSTANTS)]
+    pixels = count_pixels(scene, list(object_of), size, times)
+    shots = [(scene.primitives(time_s), scene.camera(time_s)) for time_s in times]
     related = {i for one in description.relations for i in one.targets}
     outside: list[str] = []
     small: list[str] = []
@@ -88,21 +85,21 @@ def find_unseen(
         ids = [one for one, owner in object_of.items() if owner == index]
         copies = [pixels[one] for one in ids]
         most, lost = max(copies, default=0), copies.count(0)
-        if not copies and index not in around:
+        if not copies:
             continue
         least = math.inf if index not in related else 0.1 * size.width * size.height
         if most == 0:
             outside.append(thing.noun)
         elif most < LEAST_PIXELS:
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
-        elif lost and len(copies) <= max(2 * lost, 0 if index in around else MOST_COUNTED):
+        elif lost and len(copies) <= max(2 * lost, MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(copies)})")
         elif most < least and max(_share_inside(shots, size, one) for one in ids) < LEAST_INSIDE:
             outside.append(f"{thing.noun} (cut off)")
     bodies = bodies_of(shots, [one for one, count in pixels.items() if count])
     unheld = [one for one in find_unheld(description, bodies, object_of)
               if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
-    unheld += _unlit(scene, description, duration_s)
+    unheld += (*_unlit(scene, description, duration_s), *_unshown(scene, description, duration_s))
     lines = (one.partition(" (") for one in (*outside, *small) if " of " not in one)
     unheld += [Unheld("noun", noun, "") for noun, *_ in lines]
     return Unseen(
@@ -113,77 +110,78 @@ def find_unseen(
 def without_words(words: Sequence[str], faults: Sequence[Unheld]) -> tuple[str, ...]:
     """Words of a report, but for those that mean what a picture does not show."""
     lost = {(kind, value) for kind, value, _ in faults}
-    return tuple(word for word in words if not lost.intersection(_meanings(word)))
 
+    def is_lost(word: str) -> bool:
+        meant = [*list_meanings(word)]
+        return any(one in lost or (one[0], "") in lost for one in meant)
 
-def _meanings(word: str) -> Iterator[tuple[str, str | None]]:
-    """Kinds and values, as of `Unheld`, of all senses of a word."""
-    phrase = tuple(one for one in word.split() if one not in word_set("senses", "articles"))
-    for sense in lexicon_of(None).get(phrase, ()):
-        if sense.kind == "verb":
-            one = sense.value
-            yield from (("relation", one.relation), ("direction", one.direction))
-            yield from (("motion", one.kind), ("effect", one.kind))
-        elif sense.kind == "noun":
-            yield "noun", sense.value.noun
-        elif sense.kind in ("adverb", "scene", "field"):
-            *_, field, value = sense.value
-            yield from ((field, ""), (field if field != "kind" else "light", value))
-        else:
-            yield sense.kind, sense.value
+    return tuple(word for word in words if not is_lost(word))
 
 
 def _unlit(
     scene: ComposedScene, description: SceneDescription, duration_s: float
 ) -> Iterator[Unheld]:
-    """Weather, light, effects and spin that leave no trace in the picture."""
-    said, light = description.surroundings, description.light.kind
-    place = PLACES[said.name or "grass"]
-    if place.is_room and light in _OUTDOORS:
-        yield Unheld("light", light, f"{light} light, in a room")
-    if said.wave_height > 1.0 and place.ground not in _WATER:
-        yield Unheld("wave_height", "", "waves, without water")
-    if said.has_snow and place.is_room:
-        yield Unheld("has_snow", "", "snow, in a room")
-    times = [share * duration_s for share in (0.17, 0.43, 0.71, 0.93)]
-    yield from _unplaced(scene, description, times)
-    if said.clouds:
-        sky = scene.animated_environment
-        clear = replace(sky, base=replace(sky.base, clouds=0.0))
-        if not _differs(scene, replace(scene, animated_environment=clear), times):
-            yield Unheld("clouds", "", "clouds: no sky is in view")
-    staged = scene.particles
+    """Words of light, sky, ground and weather that leave no trace in the picture."""
+    said, times = description.surroundings, [share * duration_s for share in _INSTANTS]
+    base, place = scene.animated_environment.base, PLACES[said.name or "grass"]
+    x, y = map(float, base.road_offset)
+    road = RoadLine(base.road_angle, (x, y), tuple(map(tuple, base.road_crossings)))
+
+    def without(**fields: Any) -> ComposedScene:
+        other = build_environment(
+            replace(description, **fields), place=place, road=road, room_m=scene.camera_path.room_m,
+            distance_m=scene.camera_path.framing.distance_m,
+        )  # fmt: skip
+        return replace(scene, animated_environment=other)
+
+    for name in _SURROUNDINGS:
+        value, usual = getattr(said, name), getattr(Surroundings, name)
+        is_so = name == "has_snow" and place.ground is Ground.SNOW  # by itself
+        if value != usual and value not in FALLING and not is_so:
+            other = without(surroundings=replace(said, **{name: usual}))
+            yield from _unseen(scene, other, times, name, value)
+    if description.light.kind not in (None, "day"):
+        other = without(light=replace(description.light, kind=None))
+        yield from _unseen(scene, other, times, "light", description.light.kind)
+    if description.is_timelapse:
+        yield from _unseen(scene, without(is_timelapse=False), times, "is_timelapse", True)
+    for noun in (one.noun for one in description.objects if one.is_lit and one.noun not in LAMPS):
+        yield Unheld("is_lit", "", f"lights of the {noun}")
+
+
+def _unshown(
+    scene: ComposedScene, description: SceneDescription, duration_s: float
+) -> Iterator[Unheld]:
+    """Effects, spin and a place that leave no trace in the picture."""
+    said, times = description.surroundings, [share * duration_s for share in _INSTANTS]
+    place, staged = PLACES[said.name or "grass"], scene.particles
     for kind in dict.fromkeys((said.weather, *(one.kind for one in description.effects))):
         pairs = zip(staged.effects, staged.kinds, strict=True)
         rest = tuple(effect for effect, own in pairs if own != kind)
-        without = replace(scene, particles=replace(staged, effects=rest, ends_s={}))
-        if len(rest) < len(staged.effects) and not _differs(scene, without, times):
+        if len(rest) < len(staged.effects):
+            other = replace(scene, particles=replace(staged, effects=rest, ends_s={}))
             name = "weather" if kind == said.weather else "effect"
-            yield Unheld(name, kind or "", f"{kind}, which no pixel shows")
+            yield from _unseen(scene, other, times, name, kind)
     turning = [one for one in description.objects
                if one.motion and one.motion.kind in _TURNS and not one.then]  # fmt: skip
     if turning and not description.shot.is_moving and not _differs(scene, scene, times, 0.13):
         line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
         yield Unheld("motion", turning[0].motion.kind if turning[0].motion else "", line)
-
-
-def _unplaced(
-    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
-) -> Iterator[Unheld]:
-    """A place whose scenery is not in view, and what no picture of it can have."""
-    said = description.surroundings
-    place = PLACES[said.name or "grass"]
-    if description.is_timelapse and place.is_room:
-        yield Unheld("is_timelapse", "", "time lapse, in a room")
-    for noun in (one.noun for one in description.objects if one.is_lit and one.noun not in LAMPS):
-        yield Unheld("is_lit", "", f"lights of the {noun}")
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     is_shared = place.is_room or place.surface in _FLOORS or _is_common(place)
-    if is_said and is_shared and place.scenery and not said.is_empty:
-        bare = replace(scene, still=assemble([]))
-        if not _differs(scene, bare, times, least=_LEAST_SCENERY):
-            line = f"{said.name}, of which only the ground is in view"
-            yield Unheld("place", said.name or "", line)
+    bare = replace(scene, still=assemble([]))
+    if is_said and is_shared and place.scenery and not _differs(scene, bare, times, 0.0, 0.02):
+        yield Unheld("place", said.name or "", f"{said.name}, of which only the ground is in view")
+
+
+def _unseen(
+    scene: ComposedScene, other: ComposedScene, times: Sequence[float], name: str, value: Any
+) -> Iterator[Unheld]:
+    """A word without which the picture is the same."""
+    if not _differs(scene, other, times):
+        said = name.split("_")[-1] if value is True else f"{name} {value}"
+        is_kind = name in ("light", "weather", "effect")
+        yield Unheld(name, value if is_kind else "", f"{said.replace('_', ' ')}: no pixel shows it")
 
 
 def _is_common(place: Place) -> bool:
@@ -193,12 +191,13 @@ def _is_common(place: Place) -> bool:
 
 
 def _share_inside(shots: _Shots, size: SensorSize, instance: int) -> float:
-    """Most that the image holds of an object at one instant: share of its box in the image."""
+    """Most of an object's shapes, as a share, whose middle is in the image at one instant."""
     most = 0.0
     for shapes, camera in shots:
-        if (box := _box(camera, size, shapes, instance)) is not None:
-            (low, high), inside = box, np.diff(np.clip(box, 0.0, [size.width, size.height]), axis=0)
-            most = max(most, float(np.prod(inside / np.maximum(high - low, 1e-9))))
+        seen = project(camera, size, shapes.to_world[shapes.instance == instance, :, 3])
+        x, y, depth = seen.T
+        inside = (depth > 0.0) & (x >= 0.0) & (x < size.width) & (y >= 0.0) & (y < size.height)
+        most = max(most, float(inside.mean()))
     return most
 
 
@@ -217,50 +216,15 @@ def _differs(
 
 
 def count_pixels(
-    scene: Scene, instances: list[int], size: SensorSize, duration_s: float
+    scene: Scene, instances: list[int], size: SensorSize, times: Sequence[float]
 ) -> dict[int, int]:
-    """Instance id → its pixels at the instant that shows most of it; of large ones about."""
+    """Instance id → its pixels at the instant that shows most of it, from a grid of points."""
+    step = max(1, math.ceil(math.sqrt(size.width * size.height / MOST_POINTS)))
+    x, y = (np.arange(step // 2, side, step) + 0.5 for side in (size.width, size.height))
+    points = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
     most = dict.fromkeys(instances, 0)
-    whole = (np.zeros(2), np.array([size.width, size.height], dtype=np.float64))
-    everywhere, share = _grid(*whole)
-    for time_s in np.linspace(0.0, duration_s, INSTANTS):
-        world, shapes = world_and_shapes(scene, float(time_s), size, shadows=False)
-        camera = scene.camera(float(time_s))
-        owner = np.append(shapes.instance.astype(np.int64), 0)
-        seen = _count(world, owner, everywhere)
-        for one in instances:
-            most[one] = max(most[one], round(share * seen[one]))
-            box = _box(camera, size, shapes, one) if most[one] < LEAST_PIXELS * share else None
-            low, high = np.clip(box or (whole[0], whole[0]), *whole)
-            if np.all(high > low):
-                points, each = _grid(np.floor(low), np.ceil(high))
-                most[one] = max(most[one], round(each * _count(world, owner, points)[one]))
+    for time_s in times:
+        _, owner = visible_instances(scene, time_s, size, points)
+        seen = Counter(owner.tolist())
+        most = {one: max(count, seen[one] * step * step) for one, count in most.items()}
     return most
-
-
-def _count(world: World, owner: NDArray[np.int64], points: Float64Array) -> Counter[int]:
-    """Points that show each instance."""
-    _, number = cast(world, points)
-    return Counter(owner[np.where(number >= 0, number, -1)].tolist())
-
-
-def _grid(low: Float64Array, high: Float64Array) -> tuple[Float64Array, float]:
-    """Centres of pixels [k, 2] of a box, at most about `MOST_POINTS`; and pixels for each."""
-    step = max(1, math.ceil(math.sqrt(float(np.prod(high - low)) / MOST_POINTS)))
-    x, y = (np.arange(low[axis] + step // 2, high[axis], step) + 0.5 for axis in (0, 1))
-    return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2), float(step * step)
-
-
-def _box(camera: Camera, size: SensorSize, shapes: Primitives, instance: int) -> _Box | None:
-    """Low and high corner [2] of an instance, pixels; of one around the camera the whole image.
-
-    None where it is behind the camera.
-    """
-    to_world = shapes.to_world[shapes.instance == instance].astype(np.float64)
-    corners = CUBE @ to_world[:, :, :3].transpose(0, 2, 1) + to_world[:, None, :, 3]
-    seen = project(camera, size, corners.reshape(-1, 3))
-    if not np.any(seen[:, 2] > 0.0):
-        return None
-    if (seen[:, 2] > 0.0).all() and np.isfinite(seen).all():
-        return seen[:, :2].min(axis=0), seen[:, :2].max(axis=0)
-    return np.zeros(2), np.array([size.width, size.height], dtype=np.float64)

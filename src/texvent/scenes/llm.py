@@ -13,12 +13,11 @@ import re
 import urllib.error
 import urllib.request
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import Any, Literal, get_args, get_origin
 
 from texvent.errors import ConfigError, InputError, TexventError, one_line, shown
-from texvent.options.fields import option_help
-from texvent.scenes.read.lexicon import Sense, lexicon_of
+from texvent.scenes.meanings import list_meanings
+from texvent.scenes.read.lexicon import lexicon_of
 from texvent.scenes.report import PromptReport
 from texvent.scenes.spec import scene as spec
 from texvent.scenes.spec.data import (
@@ -35,88 +34,49 @@ TIMEOUT_S = 300.0
 MOST_TOKENS = 2000
 
 
-@dataclass(frozen=True, kw_only=True)
-class Endpoint:
-    """A server, and which of its models answers."""
-
-    url: str
-    """Address up to and with the version, such as http://localhost:8080/v1."""
-    model: str = "default"
-    """Name of the model; servers of one model take any."""
-    timeout_s: float = TIMEOUT_S
-    """Longest wait for an answer, s."""
-
-    def __post_init__(self) -> None:
-        if not self.url.startswith(("http://", "https://")):
-            raise ConfigError(
-                f"llm_url is {shown(self.url)}; give an address such as http://localhost:8080/v1"
-            )
-
-
-def ask(endpoint: Endpoint, instruction: str, prompt: str, schema: Mapping[str, Any]) -> Any:
-    """The values of an answer.
+def ask(url: str, model: str, prompt: str, timeout_s: float = TIMEOUT_S) -> Any:
+    """The values of the answer of a model, `url` up to and with the version.
 
     Raises:
+        ConfigError: the address is none.
         TexventError: no server, no answer in time, or an answer that is no JSON.
     """
+    if not url.startswith(("http://", "https://")):
+        raise ConfigError(
+            f"llm_url is {shown(url)}; give an address such as http://localhost:8080/v1"
+        )
+    form = {"name": "scene", "strict": True, "schema": model_schema()}
     question = {
-        "model": endpoint.model,
+        "model": model,
         "messages": [
-            {"role": "system", "content": instruction},
+            {"role": "system", "content": INSTRUCTION},
             {"role": "user", "content": prompt},
         ],
         "temperature": 0,
         "seed": 0,
         "max_tokens": MOST_TOKENS,
-        "response_format": {
-            "type": "json_schema",
-            "json_schema": {"name": "scene", "strict": True, "schema": schema},
-        },
+        "response_format": {"type": "json_schema", "json_schema": form},
     }
-    reply = _post(endpoint, question)
-    try:
-        choice = json.loads(reply)["choices"][0]
-        text, reason = str(choice["message"]["content"]), choice.get("finish_reason")
-    except (ValueError, LookupError, TypeError, AttributeError) as error:
-        raise TexventError(
-            f"the model server {endpoint.url} does not speak the OpenAI chat protocol: "
-            f"{shown(reply[:200])}"
-        ) from error
-    try:
-        return json.loads(text)
-    except ValueError as error:
-        cut = f", cut off at {MOST_TOKENS} tokens" if reason == "length" else ""
-        raise TexventError(
-            f"the answer of {endpoint.url} is no JSON{cut}: {shown(text)}; its server must support "
-            "response_format json_schema"
-        ) from error
-
-
-def _post(endpoint: Endpoint, question: Mapping[str, Any]) -> str:
-    """The text of the server's reply."""
-    address, key = f"{endpoint.url.rstrip('/')}/chat/completions", os.environ.get(KEY_VARIABLE)
-    headers = {"Content-Type": "application/json"}
-    if key:
-        headers["Authorization"] = f"Bearer {key}"
+    key, headers = os.environ.get(KEY_VARIABLE), {"Content-Type": "application/json"}
+    headers |= {"Authorization": f"Bearer {key}"} if key else {}
+    address = f"{url.rstrip('/')}/chat/completions"
     request = urllib.request.Request(address, json.dumps(question).encode(), headers)
     try:
-        with urllib.request.urlopen(request, timeout=endpoint.timeout_s) as reply:
-            return str(reply.read().decode("utf-8", errors="replace"))
-    except urllib.error.HTTPError as error:
-        hint = f"; set {KEY_VARIABLE} to its key" if error.code in (401, 403) else ""
-        with error:
-            said = " ".join(error.read(400).decode("utf-8", errors="replace").split())
-        raise TexventError(
-            f"the model server {address} answers {error.code}: {said}{hint}"
-        ) from error
-    except TimeoutError as error:
-        raise TexventError(
-            f"the model server {address} gave no answer in {endpoint.timeout_s:g} s; take a "
-            "smaller model or a shorter prompt"
-        ) from error
+        with urllib.request.urlopen(request, timeout=timeout_s) as stream:
+            reply = stream.read().decode("utf-8", errors="replace")
     except (OSError, http.client.HTTPException, ValueError) as error:
+        if isinstance(error, urllib.error.HTTPError):
+            error.close()
         raise TexventError(
-            f"the model server {address} cannot be reached ({one_line(error)}); check llm_url"
+            f"the model server {url} gave no answer ({one_line(error)}); check llm_url, and "
+            f"{KEY_VARIABLE} if it wants a key"
+        ) from error
+    try:
+        return json.loads(json.loads(reply)["choices"][0]["message"]["content"])
+    except (ValueError, LookupError, TypeError) as error:
+        raise TexventError(
+            f"the answer of {url} is no JSON: {shown(reply[:200])}; its server must speak the "
+            "OpenAI chat protocol and support response_format json_schema"
         ) from error
 
 
@@ -153,10 +113,13 @@ _PLAIN = ("articles", "pronouns", "conjunctions", "small")
 """Kinds of words without a meaning of their own."""
 
 
-def write_scene(prompt: str, endpoint: Endpoint) -> tuple[spec.Scene, PromptReport]:
+def write_scene(
+    prompt: str, url: str, model: str = "default", timeout_s: float = TIMEOUT_S
+) -> tuple[spec.Scene, PromptReport]:
     """The scene that a model writes, and what became of the prompt's words.
 
-    Notes of the report name what the model added and what was left out for it.
+    Notes of the report name what the model added and what was left out for it; servers of one model
+    take any name of it.
 
     Raises:
         InputError: the prompt is empty, or nothing of the answer is named in it.
@@ -164,9 +127,9 @@ def write_scene(prompt: str, endpoint: Endpoint) -> tuple[spec.Scene, PromptRepo
     """
     if not prompt.strip():
         raise InputError("the prompt is empty; say what to show")
-    answer = ask(endpoint, INSTRUCTION, prompt, model_schema())
+    answer = ask(url, model, prompt, timeout_s)
     if not isinstance(answer, Mapping):
-        raise TexventError(f"the answer of {endpoint.url} is no scene: {shown(answer)}")
+        raise TexventError(f"the answer of {url} is no scene: {shown(answer)}")
     return ground(prompt, answer)
 
 
@@ -180,15 +143,10 @@ def model_schema(hint: Any = spec.Scene, name: str = "") -> dict[str, Any]:
     is_open = inner_type(hint) is not hint
     plain: Any = plain_type(hint)
     if plain in FIELDS:
-        types, texts, names = field_types(plain), option_help(plain), FIELDS[plain]
-        return {
-            "type": "object",
-            "properties": {
-                one: {**model_schema(types[one], one), "description": texts[one]} for one in names
-            },
-            "required": list(names),
-            "additionalProperties": False,
-        }
+        types, names = field_types(plain), list(FIELDS[plain])
+        fields = {one: model_schema(types[one], one) for one in names}
+        return {"type": "object", "properties": fields, "required": names,
+                "additionalProperties": False}  # fmt: skip
     if get_origin(plain) is Literal:
         return {"enum": [*get_args(plain), *([None] if is_open else [])]}
     if get_origin(plain) is tuple:
@@ -213,7 +171,9 @@ def ground(prompt: str, answer: Mapping[str, Any]) -> tuple[spec.Scene, PromptRe
     added = ", ".join(dict.fromkeys(check.invented))
     notes = (f"words do not say, so it is left out: {added}",) if added else ()
     shows = {word for key in check.used for word in check.said[key]}
-    words = [one for one in dict.fromkeys(_split(prompt)) if not _is_plain(one)]
+    lexicon = lexicon_of(None)
+    words = [one for one in dict.fromkeys(_split(prompt))
+             if not any(sense.kind in _PLAIN for sense in lexicon.get((one,), ()))]  # fmt: skip
     report = PromptReport(
         shown=tuple(one for one in words if one in shows),
         not_understood=tuple(one for one in words if one not in shows),
@@ -226,9 +186,9 @@ class _Grounding:
     """What the words of a prompt stand for, and what an answer uses of it."""
 
     def __init__(self, prompt: str, answer: Mapping[str, Any]) -> None:
-        self.said: dict[tuple[str, str], frozenset[str]] = {}
+        self.said: dict[tuple[str, object], frozenset[str]] = {}
         """Kind and meaning → the words of the phrases that have it."""
-        self.used: set[tuple[str, str]] = set()
+        self.used: set[tuple[str, object]] = set()
         self.invented: list[str] = []
         words = _split(prompt)
         for length in range(1, LONGEST_PHRASE + 1):
@@ -236,8 +196,8 @@ class _Grounding:
                 phrase = words[first : first + length]
                 for key in list_meanings(" ".join(phrase)):
                     self.said[key] = self.said.get(key, frozenset()) | frozenset(phrase)
-        nouns = (self._meaning(one.get("noun"), "noun") for one in _tables(answer, "objects"))
-        self._objects = {noun for noun in nouns if noun}
+        self._objects = {self._meaning(one.get("noun"), "noun")
+                         for one in _tables(answer, "objects")}  # fmt: skip
 
     def table(self, owner: Any, answer: Mapping[str, Any]) -> dict[str, Any] | None:
         """Fields of a class that the prompt says; None without one that must be there."""
@@ -246,27 +206,26 @@ class _Grounding:
             plain, value = plain_type(types[name]), answer.get(name)
             if kind == "count":
                 found[name] = self._count(str(found["noun"]), value)
+            elif kind and name in MOST_ITEMS:
+                items = value[: MOST_ITEMS[name]] if isinstance(value, list) else ()
+                found[name] = [one for each in items if (one := self._keep(each, kind))]
             elif kind:
-                found[name] = self._keep(value, kind, name)
+                found[name] = self._keep(value, kind)
             elif dataclasses.is_dataclass(plain):
                 found[name] = self.table(plain, value if isinstance(value, Mapping) else {})
             else:
                 item = get_args(plain)[0]
-                items = (self.table(item, one) for one in _tables(answer, name))
-                found[name] = [one for one in items if one is not None]
+                tables = (self.table(item, one) for one in _tables(answer, name))
+                found[name] = [one for one in tables if one is not None]
             if name in required_fields(owner) and not found[name]:
                 return None
         return found
 
-    def _keep(self, value: Any, kind: str, name: str) -> Any:
-        """What a word of the answer stands for, if the prompt says it, or a list of such words."""
-        if name in MOST_ITEMS:
-            items = value[: MOST_ITEMS[name]] if isinstance(value, list) else ()
-            return [one for each in items if (one := self._keep(each, kind, ""))]
+    def _keep(self, value: Any, kind: str) -> str | None:
+        """What a word of the answer stands for, if the prompt says it."""
+        meaning = self._meaning(value, "noun" if kind == "object" else kind)
         if kind == "object":
-            noun = resolve(str(value), "noun")
-            return noun if noun in self._objects else None
-        meaning = self._meaning(value, kind)
+            return meaning if meaning in self._objects else None
         if meaning is not None:
             self.used.add((kind, meaning))
         elif isinstance(value, str) and value.strip():
@@ -276,68 +235,16 @@ class _Grounding:
     def _meaning(self, value: Any, kind: str) -> str | None:
         """What the longest end of a text stands for that the prompt says too: "big automobile"."""
         words = value.split() if isinstance(value, str) else []
-        ends = (resolve(" ".join(words[first:]), kind) for first in range(len(words)))
-        return next((one for one in ends if one and (kind, one) in self.said), None)
+        ends = (" ".join(words[first:]) for first in range(len(words)))
+        keys = (key for end in ends for key in list_meanings(end))
+        return next((str(key[1]) for key in keys if key[0] == kind and key in self.said), None)
 
     def _count(self, noun: str, value: Any) -> int:
-        """Copies of an object: several only where its word is a plural or a number is said."""
-        if not isinstance(value, int) or isinstance(value, bool) or not 1 < value <= MOST_COUNT:
-            return 1
-        number = ("count", str(float(value)))
+        """Copies of an object: several only where its word is a plural or the number is said."""
+        number = ("count", float(value) if isinstance(value, int) else 0.0)
         is_plural = any(one.endswith("s") and one != noun for one in self.said["noun", noun])
         self.used |= {number} & self.said.keys()
-        if number not in self.said and not is_plural:
-            self.invented.append(f"count {value}")
-            return 1
-        return value
-
-
-def resolve(word: str, kind: str) -> str | None:
-    """What a word or phrase stands for; None where scenes have nothing for it.
-
-    Args:
-        word: as a model or a prompt has it.
-        kind: as of `FIELDS`.
-
-    Example:
-        >>> resolve("Automobiles", "noun"), resolve("driving", "motion"), resolve("wug", "noun")
-        ('car', 'drive', None)
-    """
-    return next((meaning for one, meaning in list_meanings(word) if one == kind), None)
-
-
-def list_meanings(word: str) -> Iterator[tuple[str, str]]:
-    """Kinds of a word or phrase, and what it stands for as each."""
-    if word.isdigit():
-        yield "count", str(float(word))
-    words = word.casefold().replace("_", " ").replace("-", " ").split()
-    phrase = tuple(one for one in words if one not in ("a", "an", "the"))
-    senses = lexicon_of(None).get(phrase, ())
-    for sense in sorted(senses, key=lambda one: one.kind == "verb" and one.value.who == "hand"):
-        yield from ((kind, str(one)) for kind, one in _meanings(sense) if one)
-
-
-def _meanings(sense: Sense) -> Iterator[tuple[str, object]]:
-    value = sense.value
-    match sense.kind:
-        case "noun":
-            yield "noun", value.noun
-        case "place" | "effect" | "relation":
-            yield sense.kind, value
-        case "pose":
-            yield "motion", value[1]
-        case "field" | "adverb":
-            yield value
-        case "verb":
-            yield {"camera": "move", "source": "effect"}.get(value.who, "motion"), value.kind
-            yield from (("direction", value.direction), ("relation", value.relation))
-        case "scene":  # such as ("light", "kind", "dusk"), ("place", "weather", "fog")
-            part, field, each = value
-            yield part if field in ("kind", "name") else field, each
-
-
-def _is_plain(word: str) -> bool:
-    return any(sense.kind in _PLAIN for sense in lexicon_of(None).get((word,), ()))
+        return min(max(int(value or 1), 1), MOST_COUNT) if number in self.said or is_plural else 1
 
 
 def _split(text: str) -> list[str]:

@@ -215,9 +215,6 @@ class Environment:
     """For waves, clouds and grass."""
     room_half_size: float = 9.0
     """Half the side of the square room around (0, 0) that `Ground.FLOOR` stands in, metres."""
-    road_curvature: float = 0.0
-    """Of the road's centre line, 1/m: an arc tangent to `road_angle` at `road_offset`; positive
-    bends to the left of `road_angle`; 0 = straight."""
     road_crossings: Float64Array = field(default_factory=lambda: np.zeros((0, 3)))
     """[k, 3] straight roads that cross the main one: x, y of a point on the centre line (metres)
     and direction (radians)."""

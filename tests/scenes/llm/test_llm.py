@@ -15,7 +15,7 @@ import pytest
 
 from texvent.cli.app import main
 from texvent.errors import InputError, TexventError
-from texvent.scenes.llm import Endpoint, ground, model_schema, write_scene
+from texvent.scenes.llm import ground, model_schema, write_scene
 from texvent.scenes.spec.files import load_scene
 from texvent.scenes.spec.scene import Motion, Relation, SceneObject
 
@@ -72,7 +72,7 @@ def served(text: str, status: int = 200, wait_s: float = 0.0) -> Iterator[tuple[
 def test_what_no_word_names_is_left_out_and_reported(monkeypatch):
     monkeypatch.setenv("TEXVENT_CHAT_KEY", "secret")
     with served(reply(ANSWER)) as (url, asked):
-        scene, report = write_scene(f"{PROMPT} with wugs", Endpoint(url=url, model="m"))
+        scene, report = write_scene(f"{PROMPT} with wugs", url, "m")
     assert scene.objects == (
         SceneObject(
             noun="car",
@@ -124,33 +124,25 @@ def test_the_schema_bounds_everything_and_has_no_closed_list_of_nouns():
 @pytest.mark.parametrize(
     ("text", "status", "message"),
     [
-        ("no key", 401, "answers 401: no key; set TEXVENT_CHAT_KEY to its key"),
-        ("<html>", 200, "does not speak the OpenAI chat protocol: '<html>'"),
-        (reply("{", "length"), 200, "is no JSON, cut off at 2000 tokens: '{'"),
-        (reply("A car."), 200, "is no JSON: 'A car.'; its server must support response_format"),
-        (reply([1]), 200, "is no scene: [1]"),
-        (
-            reply({"objects": [7, {"noun": 3}, {"noun": "dog"}]}),
-            200,
-            "nothing of 'a red automobile",
-        ),
+        ("no", 401, "401.*TEXVENT_CHAT_KEY"),
+        ("<html>", 200, "is no JSON: '<html>'"),
+        (reply("A car."), 200, "is no JSON: .*; its server must speak the OpenAI chat protocol"),
+        (reply([1]), 200, r"is no scene: \[1\]"),
+        (reply({"objects": [7, {"noun": 3}, {"noun": "dog"}]}), 200, "nothing of 'a red automo"),
     ],
 )
 def test_wrong_answers_are_one_line(text, status, message):
-    with served(text, status) as (url, _), pytest.raises(TexventError) as caught:
-        write_scene(PROMPT, Endpoint(url=url))
-    assert message in str(caught.value)
+    with served(text, status) as (url, _), pytest.raises(TexventError, match=message) as caught:
+        write_scene(PROMPT, url)
     assert "\n" not in str(caught.value)
 
 
 def test_no_server_and_no_answer_in_time_are_one_line():
-    with pytest.raises(
-        TexventError, match=r"127\.0\.0\.1:9/v1.* cannot be reached .*; check llm_url"
-    ):
-        write_scene(PROMPT, Endpoint(url="http://127.0.0.1:9/v1"))
-    slow, late = served(reply(ANSWER), wait_s=0.5), r"gave no answer in 0\.1 s"
-    with slow as (url, _), pytest.raises(TexventError, match=late):
-        write_scene(PROMPT, Endpoint(url=url, timeout_s=0.1))
+    with pytest.raises(TexventError, match=r"127\.0\.0\.1:9/v1 gave no answer .*; check llm_url"):
+        write_scene(PROMPT, "http://127.0.0.1:9/v1")
+    slow = served(reply(ANSWER), wait_s=0.5)
+    with slow as (url, _), pytest.raises(TexventError, match=r"gave no answer .*timed out"):
+        write_scene(PROMPT, url, timeout_s=0.1)
 
 
 def test_the_command_line(tmp_path, capsys):
@@ -185,11 +177,11 @@ def test_a_real_model_behind_a_llama_cpp_server():
     parameters.cpuparams.n_threads = parameters.cpuparams_batch.n_threads = 1
     parameters.hostnames, parameters.port = ["127.0.0.1"], 0
     server = xllamacpp.Server(parameters)
-    endpoint = Endpoint(url=f"{server.listening_address}/v1")
+    url = f"{server.listening_address}/v1"
     found = 0
     for prompt in ("a red car drives left past two trees at night", "two dogs chase a ball"):
         try:
-            scene, report = write_scene(prompt, endpoint)
+            scene, report = write_scene(prompt, url)
         except InputError as error:
             assert "nothing of" in str(error)  # noqa: PT017 - the answer named nothing of the prompt
             continue

@@ -21,7 +21,7 @@ _VALUES: Mapping[str, Callable[[SceneDescription], set[str]]] = {
     "relation": lambda scene: {one.kind for one in scene.relations},
     "colour": lambda scene: {one.colour for one in scene.objects if one.colour},
     "count": lambda scene: {str(one.count) for one in scene.objects},
-    "light": lambda scene: {scene.light.kind or "", scene.light.brightness or ""},
+    "light": lambda scene: {scene.light.kind or ""},
     "weather": lambda scene: {scene.surroundings.weather or ""},
     "direction": lambda scene: {
         motion.direction or "" for one in scene.objects for motion in (one.motion, *one.then)

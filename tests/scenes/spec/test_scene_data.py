@@ -94,12 +94,7 @@ def drawn_scenes(draw: st.DrawFn) -> Scene:
     )
     target = draw(st.sampled_from([None, *ids]))
     effects = tuple(dataclasses.replace(one, source=target) for one in scene.effects)
-    moves = tuple(
-        dataclasses.replace(one, start_s=start, stop_s=None if start is None else start + 1.0)
-        for one in scene.camera.moves
-        for start in [min(one.start_s or 0.0, 9.0) if one.kind == "pan" else None]
-    )
-    camera = dataclasses.replace(scene.camera, target=target, moves=moves)
+    camera = dataclasses.replace(scene.camera, target=target)
     return dataclasses.replace(scene, objects=objects, effects=effects, camera=camera)
 
 
@@ -184,10 +179,6 @@ WRONG = [
      "objects[0].position_m is [1]; it must have 2 numbers"),
     ({"objects": [CAR, {"noun": "van", "relations": [{**ON_CAR[0], "distance_m": 2}]}]},
      "objects[1].relations[0].distance_m is given, but 'on' has no distance; "),
-    ({"camera": {"moves": [{"kind": "follow", "start_s": 1}]}},
-     "camera.moves[0] has a start or stop time, but 'follow' lasts all of the clip; pan, tilt"),
-    ({"camera": {"moves": [{"kind": "pan", "start_s": 1, "stop_s": 1}]}},
-     "camera.moves[0].stop_s is 1, not after its start at 1 s; give a later time"),
     ({"camera": {"position_m": [0, 0, 1]}}, "camera.position_m and camera.look_at_m are given to"),
     ({"camera": {"position_m": [0, 0, 1], "look_at_m": [0, 0, 0]}},
      "camera.look_at_m is (0.0, 0.0, 0.0), straight above or below camera.position_m; "),
@@ -205,7 +196,7 @@ def test_a_wrong_field_is_named(data, message):
     assert str(caught.value).startswith(message)
 
 
-@pytest.mark.parametrize("kind", ["stand", "drive", "turn", "bounce", "enter"])
+@pytest.mark.parametrize("kind", ["stand", "drive", "turn", "bounce"])
 def test_objects_and_camera_stand_where_metres_say(kind):
     scene = scene_from_data(
         {

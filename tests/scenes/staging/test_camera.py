@@ -22,16 +22,14 @@ from texvent.scenes.staging.camera.framing import (
 ASPECT = 0.75
 SIGNS = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)])
 TIMES = np.linspace(0.0, DURATION_S, 9)
-KINDS = ("pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "crane",
-         "dolly zoom", "handheld", "follow")  # fmt: skip
-DIRECTIONS = ("left", "right", "up", "down", "in", "out", "clockwise", "behind", "side")
+KINDS = ("pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "handheld", "follow")
+DIRECTIONS = ("left", "right", "up", "down", "in", "out", "clockwise")
 PLACES = ("road", "city", "dirt road", "forest", "grass", "desert", "snow", "sea", "underwater",
           "mountain", "sky", "indoor")  # fmt: skip
 moves = st.lists(
     st.builds(
         CameraMove, st.sampled_from(KINDS), st.sampled_from(DIRECTIONS),
         st.sampled_from([0.5, 1.0, 2.0]), st.integers(0, 2),
-        start_s=st.sampled_from([None, None, 0.0, 0.7]), stop_s=st.sampled_from([None, 1.4]),
     ),
     min_size=1, max_size=3,
 )  # fmt: skip
@@ -88,15 +86,6 @@ def test_the_image_ends_at_the_waist_of_who_acts_with_the_arms_alone(activity, f
     assert (shown[:, 1].max() < 1.0) == is_whole
 
 
-@pytest.mark.parametrize("noun", ["car", "man", "dog"])
-@pytest.mark.parametrize(("kind", "out_s", "in_s"), [("enter", 0.0, 1.8), ("leave", 2.0, 0.2)])
-def test_what_enters_or_leaves_is_out_of_the_picture_before_or_after(noun, kind, out_s, in_s):
-    scene = stage(thing(noun, (kind, "right")))
-    outside, inside = (in_image(scene, scene.actors[0], time) for time in (out_s, in_s))
-    assert np.any(outside.max(axis=0) < 0.0) or np.any(outside.min(axis=0) > 1.0)
-    assert np.all(np.abs(inside.mean(axis=0) - 0.5) < 0.5)
-
-
 def film(*shot, noun="dog", motion=("stand",)):
     return stage(SceneObject(noun, motion=ObjectMotion(*motion)), shot=Shot(shot))
 
@@ -118,10 +107,9 @@ def test_every_combination_is_smooth_and_keeps_its_subject(shot, kind):
     assert np.mean(inside) > 0.85
 
 
-@pytest.mark.parametrize("direction", ["behind", "front", "side", "above"])
-@pytest.mark.parametrize("motion", [("run", None), ("walk", "away"), ("walk", "circle")])
-def test_a_followed_subject_keeps_its_place_and_size(direction, motion):
-    scene = film(CameraMove("follow", direction), motion=motion)
+@pytest.mark.parametrize("motion", [("run", None), ("walk", "away"), ("orbit", None)])
+def test_a_followed_subject_keeps_its_place_and_size(motion):
+    scene = film(CameraMove("follow"), motion=motion)
     cameras = [scene.camera(float(time)) for time in TIMES]
     middles = [scene.actors[0].middle(float(time)) for time in TIMES]
     depths = [
@@ -133,38 +121,21 @@ def test_a_followed_subject_keeps_its_place_and_size(direction, motion):
     assert np.hypot(*way.T).sum() > 1.0
 
 
-@pytest.mark.parametrize("direction", ["in", "out"])
-def test_a_dolly_zoom_keeps_the_subject_and_changes_the_background(direction):
-    scene = film(CameraMove("dolly zoom", direction), noun="man")
-    man = scene.actors[0]
-    views = [image_of(scene.camera(float(t)), man.corners(float(t)))[:, :2] for t in TIMES]
-    sizes = [np.ptp(view, axis=0).max() for view in views]
-    assert max(sizes) / min(sizes) < 1.02
-    behind = man.middle(0.0) + np.array([[-4.0, 30.0, 0.0], [4.0, 30.0, 0.0]])
-    spans = [np.ptp(image_of(scene.camera(t), behind)[:, 0]) for t in (0.0, DURATION_S)]
-    assert max(spans) / min(spans) > 1.4
-    ways = [np.linalg.norm(scene.camera(t).position - man.middle(0.0)) for t in (0.0, 2.0)]
-    assert (ways[1] < ways[0]) == (direction == "in")
-
-
-def test_a_timed_move_starts_and_stops_when_it_says():
-    pan = CameraMove("pan", "right", start_s=0.5, stop_s=1.0)
-    scene = film(pan, CameraMove("tilt", "up", start_s=1.5), noun="house")
-    axes = [scene.camera(t).rotation[2] for t in (0.0, 0.5, 0.75, 1.0, 1.5, 2.0)]
+def test_phases_follow_each_other():
+    scene = film(CameraMove("pan", "right"), CameraMove("tilt", "up", phase=1), noun="house")
+    axes = [scene.camera(t).rotation[2] for t in (0.0, 1.0, 2.0)]
     bearings = [math.atan2(axis[0], axis[1]) for axis in axes]
-    assert bearings[1] == pytest.approx(bearings[0])
-    assert bearings[1] + 0.05 < bearings[2] < bearings[3] - 0.05
-    assert bearings[4] == pytest.approx(bearings[3])
-    assert axes[4][2] == pytest.approx(axes[0][2])
-    assert axes[5][2] > axes[4][2] + 0.05
+    assert bearings[0] + 0.05 < bearings[1] == pytest.approx(bearings[2])
+    assert axes[0][2] == pytest.approx(axes[1][2])
+    assert axes[2][2] > axes[1][2] + 0.05
 
 
-def travel(place, direction, *objects, road=None):
-    return stage(*objects, shot=Shot((CameraMove("travel", direction),)), place=place, road=road)
+def travel(place, direction, *objects):
+    return stage(*objects, shot=Shot((CameraMove("travel", direction),)), place=place)
 
 
 @pytest.mark.parametrize("place", PLACES)
-@pytest.mark.parametrize("direction", ["forward", "backward", "left"])
+@pytest.mark.parametrize("direction", ["forward", "backward"])
 def test_the_camera_moves_on_above_the_ground_and_through_nothing(place, direction):
     scene = travel(place, direction)
     cameras = [scene.camera(float(time)) for time in np.linspace(0.0, DURATION_S, 21)]
@@ -179,16 +150,6 @@ def test_the_camera_moves_on_above_the_ground_and_through_nothing(place, directi
     middles, reach = boxes[:, :, 3], np.linalg.norm(boxes[:, :, :3], axis=(1, 2)) / math.sqrt(3.0)
     for position in positions:
         assert np.all(np.linalg.norm(middles - position, axis=1) > 0.3 * reach)
-
-
-def test_the_road_bends_with_the_route():
-    scene = travel("road", "left")
-    found = scene.environment(0.0)
-    normal = np.array([-math.sin(found.road_angle), math.cos(found.road_angle)])
-    centre, radius = found.road_offset + normal / found.road_curvature, 1.0 / found.road_curvature
-    lanes = [np.hypot(*(scene.camera(t).position[:2] - centre)) - radius for t in (0.0, 1.0, 2.0)]
-    np.testing.assert_allclose(lanes, lanes[0], atol=1e-6)
-    assert 0.5 < lanes[0] < found.road_half_width
 
 
 def test_a_vehicle_ahead_keeps_its_distance_and_oncoming_ones_pass():

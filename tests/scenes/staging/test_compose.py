@@ -21,7 +21,6 @@ from texvent.sensor import SensorSize
 SIZE = SensorSize(346, 260)
 PROMPTS = (
     "a red car drives left past two trees at dusk",
-    "The camera follows behind a white SUV as it speeds up a steep dirt road surrounded by trees",
     "sharks in the ocean",
     "a man with a dog walks to the right on the beach at sunset",
     "two small blue balls bounce on a wooden floor",

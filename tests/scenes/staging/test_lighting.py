@@ -1,4 +1,4 @@
-"""Light: what words change, which lamps are on, how they blink, and what light they shed."""
+"""Light: which lamps are on, how they blink, and what light they shed."""
 
 from dataclasses import replace
 
@@ -7,28 +7,13 @@ import pytest
 from tests.scenes.staged import SIZE, stage, thing
 
 from texvent.generate.scene_input import describe_scene, list_nouns
-from texvent.scenes.description import Illumination
 from texvent.scenes.models.effects import LAMPS
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.raycast.render import render
 from texvent.scenes.spec.scene import Camera, Lamp, Light, Place, Scene, SceneObject
 from texvent.scenes.staging.compose import compose_scene
-from texvent.scenes.staging.surroundings.lighting import towards_light
 
 CAR = thing("car", ("drive", "left"))
-
-
-@pytest.mark.parametrize(
-    ("direction", "axis", "sign"),
-    [("left", 0, -1), ("right", 0, 1), ("back", 1, 1), ("front", 1, -1), ("above", 2, 1)],
-)
-def test_light_comes_from_where_it_is_said_to(direction, axis, sign):
-    usual, ahead = np.array((0.0, 0.6, 0.8)), np.array((0.0, 1.0, 0.0))
-    towards = towards_light(usual, ahead, Illumination(direction=direction))
-    assert np.linalg.norm(towards) == pytest.approx(1.0)
-    assert towards[2] > 0.0
-    assert sign * towards[axis] > 0.8
-    assert towards_light(usual, ahead, Illumination()) is usual
 
 
 def beams(scene):

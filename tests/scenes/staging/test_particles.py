@@ -63,7 +63,7 @@ def test_what_is_seen_of_an_effect_moves_without_jumps(kind, source):
     """
     scene = staged(Effect(kind, source))
     reach = scene.camera_path.framing.distance_m
-    start = 0.0 if EFFECTS[kind].happens_once else 0.2
+    start = 0.0 if EFFECTS[kind].ends_source else 0.2
     for time_s in np.linspace(start, start + 0.35, 15):
         first, second = small(scene, time_s), small(scene, time_s + 1e-4)
         way = np.linalg.norm(second[:, :, 3] - first[:, :, 3], axis=1)

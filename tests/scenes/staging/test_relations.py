@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from tests.scenes.staged import in_image, stage, thing
+from tests.scenes.staged import stage, thing
 
 from texvent.scenes.description import (
     ObjectMotion,
@@ -59,16 +59,6 @@ def test_chairs_stand_around_a_table_and_face_it():
         nose = chair.trajectory.at(0.0).to_world()[:2, 0]
         assert float(nose @ inwards) / np.linalg.norm(inwards) > 0.9
         assert overlap(chair, table, 0.0) < 0.3
-
-
-def test_a_child_appears_from_behind_a_car():
-    objects = thing("child", ("appear", "left")), thing("car")
-    scene = stage(*objects, relations=(("behind", 0, 1),), place="city")
-    for time_s, is_hidden in ((0.0, True), (2.0, False)):
-        child, car = (in_image(scene, one, time_s)[:, 0] for one in scene.actors)
-        assert (child.max() < car.max() and child.min() > car.min()) == is_hidden
-        away = [one.middle(time_s) - scene.camera(time_s).position for one in scene.actors]
-        assert np.linalg.norm(away[0]) > np.linalg.norm(away[1]) or not is_hidden
 
 
 def test_what_begins_after_the_clip_is_reported():
@@ -163,14 +153,12 @@ def road_of(scene):
     return RoadLine(found.road_angle, (float(x), float(y))), found.road_half_width
 
 
-@given(st.floats(-4.0, 4.0), st.sampled_from([0.0, 0.02, -0.03]), st.floats(-40.0, 40.0))
-def test_points_at_an_arc_length_lie_on_the_line(angle, curvature, along):
-    road = RoadLine(angle, (3.0, -2.0), curvature)
+@given(st.floats(-4.0, 4.0), st.floats(-40.0, 40.0))
+def test_points_at_a_distance_lie_on_the_line(angle, along):
+    road = RoadLine(angle, (3.0, -2.0))
     x, y, heading = road.at(along)
+    assert math.hypot(x - 3.0, y + 2.0) == pytest.approx(abs(along))
     assert road.distance(np.array([[x, y]]))[0] == pytest.approx(0.0, abs=1e-9)
-    further = road.at(along + 1e-6)
-    assert math.hypot(further[0] - x, further[1] - y) == pytest.approx(1e-6, rel=1e-3)
-    assert math.cos(heading) == pytest.approx((further[0] - x) / 1e-6, abs=1e-3)
     left = np.array([[x - 0.5 * math.sin(heading), y + 0.5 * math.cos(heading)]])
     assert road.across(left)[0] == pytest.approx(0.5)
 

@@ -124,18 +124,13 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
     Warns:
         TexventWarning: there are such words, or the model added something.
     """
-    from texvent.scenes.llm import (
-        Endpoint,  # an extra that most runs do not need
-        write_scene,
-    )
+    from texvent.scenes.llm import write_scene  # most runs do not need it
 
     if is_scene_file(own.prompt):
         raise ConfigError(f"--llm-url reads a sentence, and {own.prompt} is a scene file")
     name = str(settings.generator)
     check_takes(Scene(), GENERATORS.load(name), name)
-    scene, report = write_scene(
-        own.prompt, Endpoint(url=own.llm_url or "", model=own.llm_model or Endpoint.model)
-    )
+    scene, report = write_scene(own.prompt, own.llm_url, own.llm_model or "default")
     refusal = report.refusal() if is_strict(settings) else None
     if refusal is not None:
         raise InputError(refusal)

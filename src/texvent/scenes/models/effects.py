@@ -62,8 +62,6 @@ class EmitterStyle:
     """Rate at which chips tumble."""
     colours: tuple[Colour, ...] = ()
     """Of puffs at birth and at the end; of solid bodies those that occur; empty: the object's."""
-    keeps_colour: bool = False
-    """Whether it has them whatever colour the effect is said to have."""
     emission: tuple[float, float] = (0.0, 0.0)
     """Light given off at birth and at the end, as a multiple of the colour."""
     thickness: tuple[float, float] = (1.0, 0.0)
@@ -82,12 +80,8 @@ class EffectWords:
     """Singular or mass nouns that name it, such as "smoke": "smoke rises from a chimney"."""
     verbs: tuple[str, ...] = ()
     """Base forms said of the object it comes from, such as "smoke": "a chimney smokes"."""
-    happens_once: bool = False
-    """Whether it begins at one instant (a burst) rather than going on."""
     ends_source: bool = False
-    """Whether it happens once and the object it comes from is gone afterwards."""
-    breathed: bool = False
-    """Whether it comes from the mouth of a person."""
+    """Whether it happens once, and the object it comes from is gone afterwards: a burst."""
     size: float = 1.0
     """Its size by that of the object it comes from."""
     alone: Vector = (0.15, 0.0, 0.0)
@@ -97,8 +91,6 @@ class EffectWords:
     """Where it leaves its object: x and y in half extents, z in heights from below."""
     anchor_traits: tuple[str, ...] = ()
     """Traits that say so for some nouns, tried in order."""
-    headroom: float = 0.0
-    """Room that it needs in the image above its object, by its size."""
     emitters: tuple[EmitterStyle, ...] = ()
 
 
@@ -115,13 +107,10 @@ def _effect(row: dict[str, Any], usual: Mapping[str, dict[str, Any]]) -> EffectW
         for kind, body in _BODIES.items()
         for one in row.pop(kind, ())
     )
-    row["happens_once"] = row.get("happens_once", False) or row.get("ends_source", False)
     return EffectWords(**row)
 
 
 _TABLE = frozen(read_table("effects"))
-LIQUID_COLOURS: Mapping[str, Colour] = MappingProxyType(_TABLE.pop("liquid colours"))
-"""Name of a liquid → its colour."""
 _USUAL = _TABLE.pop("usual particles")
 EFFECTS: Mapping[str, EffectWords] = MappingProxyType(
     {kind: _effect(row, _USUAL) for kind, row in _TABLE.items()}

@@ -45,8 +45,8 @@ class Scenery:
 
     @property
     def is_structure(self) -> bool:
-        """Whether it is part of a place that is empty, too: walls."""
-        return self.where == "both sides"
+        """Whether it is part of a place that is empty, too: walls, lines on the ground."""
+        return self.where in ("both sides", "under")
 
 
 @dataclass(frozen=True)
@@ -79,7 +79,7 @@ class Place:
     @property
     def is_passage(self) -> bool:
         """Whether it runs between two walls."""
-        return any(one.is_structure for one in self.scenery)
+        return any(one.where == "both sides" for one in self.scenery)
 
     @property
     def has_road(self) -> bool:

@@ -77,7 +77,6 @@ INSTANT_RECORD = np.dtype(
         ("surface_tiles", "i8", (SURFACE_COUNT, 2)),
         ("surface_sizes", "f8", (SURFACE_COUNT, 3)),
         ("wall_colour", "f8", 3),
-        ("road_curvature", "f8"),
         ("crossing_count", "i8"),
         ("crossings", "f8", (MAX_CROSSINGS, 4)),  # point (x, y), cosine and sine
         ("road", "f8", 5),  # cosine and sine of its direction, half width, x and y on it
@@ -320,7 +319,6 @@ def describe_surroundings(instant: NDArray[Any], environment: Environment, shado
         environment.road_half_width,
         *environment.road_offset,
     )
-    instant["road_curvature"] = environment.road_curvature
     crossings = np.asarray(environment.road_crossings, dtype=np.float64)[:MAX_CROSSINGS]
     instant["crossing_count"] = len(crossings)
     for number, (x, y, direction) in enumerate(crossings):

@@ -246,7 +246,7 @@ class _Parser:
         is_noun = token.has("noun", "place", "effect", "pose") and not token.has(*_MODIFIERS)
         is_doing = before.text in _IS and token.text.endswith("ing")
         is_after = before.has("noun", "place") or before.is_unknown
-        return is_noun and clause.has_subject and (is_after or is_doing)
+        return is_noun and ((clause.has_subject and (is_after or is_doing)) or self._has_object())
 
     # Noun groups
 
@@ -296,13 +296,13 @@ class _Parser:
         while self._token().has("articles"):
             self._take()
         first = self._at
-        while head is None and not self._ends_group(first):
+        while head is None and not self._ends_group(first) and self._agrees(article, first):
             token = self._take()
-            if token.is_unknown:
-                unknown.append(token)
+            if token.is_unknown:  # what stands before it is said of it
+                unknown, modifiers = [*unknown, *modifiers, token], []
             elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)
-            elif self._is_compound():
+            elif self._is_compound(article, first):
                 unknown.append(token)
             else:
                 head = token
@@ -327,12 +327,26 @@ class _Parser:
         is_before = token.has(*_MODIFIERS) and not after.has("relation")
         return is_before and after.has(*_HEADS, "field")
 
-    def _is_compound(self) -> bool:
-        """Whether the word that follows is the head: "dog house"."""
+    def _is_compound(self, article: str, first: int) -> bool:
+        """Whether the word that follows is the head: "dog house", "glass greenhouse"."""
         after = self._token()
         is_head = after.has("noun", "place") and not after.has("verb", "relation", "adverb")
+        is_head = is_head and self._agrees(article, first) and not self._has_object()
         is_many = any(one.value.is_plural for one in self._token(-1).all("noun"))  # "dogs fish"
-        return is_head and not (is_many or self._has_object())
+        is_verb = after.text.endswith(("s", "ing", "ed", "ly")) or after.has("other")
+        is_word = after.is_unknown and after.text.isalpha() and not is_verb
+        return (is_head or is_word) and not is_many
+
+    def _agrees(self, article: str, first: int) -> bool:
+        """Whether a noun may follow these words of a group: no plural "a", no singular "two"."""
+        senses = [one.value for one in self._token().all("noun")]
+        words, is_one = self._tokens[first : self._at], article in ("a", "an")
+        is_other = is_one and any(one.is_unknown for one in words)  # "a six axis robot arm"
+        said = [sense.value for one in words for sense in one.all("field") if not is_other]
+        counts = [float(value) for field, value in said if field == "count"]
+        if not senses or not (counts or is_one):
+            return True
+        return any(one.is_plural is (bool(counts) and counts[-1] > 1.0) for one in senses)
 
     def _has_object(self, ahead: int = 0) -> bool:
         """Whether a word that may be a noun is a verb: "and watches the ducks"."""

@@ -11,9 +11,8 @@ from texvent.scenes.read.clauses import Clause
 from texvent.scenes.read.lexicon import Token, VerbSense, word_set
 from texvent.scenes.report import Substitution
 from texvent.scenes.spec.data import PLACING, scene_from_data
-from texvent.scenes.spec.scene import MAX_BODIES, MoveDirection, MoveKind, Scene, number_nouns
+from texvent.scenes.spec.scene import MAX_BODIES, MoveDirection, Scene, number_nouns
 
-_KINDS = sorted(get_args(MoveKind), key=len, reverse=True)
 _UNTURNED = ("handheld", "static")
 _MEANS = ("drive", "cycle", "walk", "run", "fly", "sail", "swim")
 _GRAMMAR = ("articles", "pronouns", "conjunctions", "relatives", "negations", "small", "style",
@@ -27,9 +26,8 @@ def is_grammar(token: Token) -> bool:
 
 
 def split_move(phrase: str) -> dict[str, Any]:
-    """A move of words.toml, such as "dolly zoom in", as fields of `CameraMove`."""
-    kind = next(one for one in _KINDS if phrase == one or phrase.startswith(f"{one} "))
-    direction = phrase[len(kind) + 1 :]
+    """A move of words.toml, such as "zoom in", as fields of `CameraMove`."""
+    kind, _, direction = phrase.partition(" ")
     is_turned = direction in (get_args(MoveDirection) if kind not in _UNTURNED else ("all axes",))
     return {"kind": kind, **({"direction": direction} if is_turned else {})}
 
@@ -79,7 +77,7 @@ class SceneDraft:
     tokens: Sequence[Token]
     things: list[dict[str, Any]] = field(default_factory=list)
     """Fields of objects, whose relations are to indices of others; "is_lost" if what it does is
-    not known; "act", what it does if nothing else is said."""
+    not known."""
     moves: list[dict[str, Any]] = field(default_factory=list)
     phase: int = 0
     """Of moves of the camera: those said after "then" follow."""
@@ -101,6 +99,10 @@ class SceneDraft:
     def mark(self, token: Token, fate: str) -> None:
         """Count a token as "lost", or as shown by a noun."""
         self._fates[token.at] = fate
+
+    def shows(self, token: Token) -> bool:
+        """Whether a token is shown, as itself or as something else."""
+        return self._fates.get(token.at, "lost") != "lost"
 
     def relate(self, subject: int, kind: str, targets: Sequence[int]) -> bool:
         """Add a relation of an object to others; False: it has none, or goes round in a circle."""
@@ -143,18 +145,21 @@ class SceneDraft:
         verb = clause.verb
         senses = [one.value for one in verb.all("verb")] if verb is not None else []
         moves = [one.kind for one in senses if one.who == "camera"]
-        if verb is None or not moves or (is_ego and "travel forward" not in moves):
+        if verb is None or not moves:
             return None
         self.show(verb)
         move = split_move("travel forward" if is_ego else moves[0])
-        for one in clause.after:
-            if isinstance(one, Token) and (said := one.first("adverb")) is not None:
-                self.show(one)
-                name, value = said.value
+        turned = read_table("words", "read")["turned_moves"]
+        for one in (each for each in clause.after if isinstance(each, Token)):
+            name, value = sense.value if (sense := one.first("adverb")) else ("", "")
+            if name == "direction":
+                phrase = f"{move['kind']} {value}"
+                way = split_move(turned.get(phrase, phrase))
+                name, move = ("pace", move | way) if "direction" in way else ("", move)
+            elif name in ("pace", "speed_m_s"):
                 move[name] = move.get("pace", 1.0) * value if name == "pace" else value
-        phrase = f"{move['kind']} {move.get('direction', '')}".strip()
-        pace = {"pace": move["pace"]} if "pace" in move else {}
-        move = split_move(read_table("words", "read")["turned_moves"].get(phrase, phrase)) | pace
+            if name in ("pace", "speed_m_s"):
+                self.show(one)
         means = [one.kind for one in senses if one.who == "plain" and one.kind in _MEANS]
         if move["kind"] == "travel" and means:
             move["means"] = means[0]
@@ -182,10 +187,9 @@ class SceneDraft:
             max(self.things, key=lambda one: int(one["count"]))["count"] -= 1
         ids = number_nouns([one["noun"] for one in self.things])
         for one in self.things:
-            act = one.pop("act", "stand" if one.pop("is_lost", False) else "")
             done = {each["kind"] for each in one["relations"]} & word_set("things", "doing")
-            if act and not done and not one["motions"]:
-                one["motions"].append({"kind": act})
+            if one.pop("is_lost", False) and not done and not one["motions"]:
+                one["motions"].append({"kind": "stand"})
             for relation in one["relations"]:
                 relation["to"] = [ids[target] for target in relation["to"]]
         for each in (self.parts["camera"], *self.effects):

@@ -39,8 +39,6 @@ class NounSense:
     is_plural: bool = False
     is_kind: bool = False
     """Whether the word means a kind that is shown as this noun: "terrier", a dog."""
-    act: str = ""
-    """What one does of whom nothing else is said: "dancer"."""
 
 
 @dataclass(frozen=True)
@@ -113,14 +111,11 @@ def _list_nouns(nouns: Mapping[str, Noun]) -> Iterator[tuple[str, Sense]]:
         if one.name not in DRESSING and not one.name.startswith(_UNSAID)
     ]  # fmt: skip
     plurals = {name: NounSense(one.name, is_plural=True) for one in said for name in one.plurals}
-    agents = read_table("words", "read")["agents"]
-    acts = {one: act for act, kinds in agents.items() for one in kinds}
-    names = {name: NounSense(one.name, act=acts.get(one.name, ""))
-             for one in said for name in (one.name, *one.synonyms)}  # fmt: skip
+    names = {name: NounSense(one.name) for one in said for name in (one.name, *one.synonyms)}
     for noun, kinds in read_table("kinds", "read").items():
         for kind in kinds if noun in nouns else ():
             if kind not in plurals:
-                names.setdefault(kind, NounSense(noun, is_kind=True, act=acts.get(kind, "")))
+                names.setdefault(kind, NounSense(noun, is_kind=True))
     for name, one in names.items():
         yield name, Sense("noun", one)
     for name, one in names.items():
@@ -225,7 +220,6 @@ MAX_COUNT = 24
 _RANGES = {"speed_m_s": (0.0, 1000.0), "rate_hz": (0.001, 100_000.0)}
 """Least and most of a quantity of scenes."""
 _WORD = re.compile(r"\d+(?:,\d{3})*(?:\.\d+)?|[^\W\d_]+(?:['’][^\W\d_]+)*|[^\W_]|[.,;:!?/()]")
-_IS = re.compile(r"(?i)\b(it|that|there|he|she|camera)['’]s\b")
 _OWNER = re.compile(r"['’]s?$")
 
 
@@ -281,7 +275,7 @@ def split_prompt(prompt: str, lexicon: Lexicon) -> tuple[Token, ...]:
     found: list[Token] = []
     start = 0
     for begin, end, picture in (*find_literals(text), (len(text), len(text), None)):
-        words, at = _WORD.findall(_IS.sub(r"\1 is", text[start:begin])), 0
+        words, at = _WORD.findall(text[start:begin]), 0
         while at < len(words):
             length, senses = _read_phrase(words, at, lexicon, found)
             text_of = " ".join(words[at : at + length]).casefold()

@@ -6,15 +6,15 @@ from collections.abc import Mapping, Sequence
 
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.people.outfit import list_props
-from texvent.scenes.models.places import is_room
+from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.read.clauses import Clause, Group, Phrase, read_clauses
 from texvent.scenes.read.draft import Reading, SceneDraft, add_motion, set_field
 from texvent.scenes.read.lexicon import Sense, Token, VerbSense, lexicon_of, split_prompt, word_set
 from texvent.scenes.spec.scene import MAX_BODIES
 
-PLURAL_COUNT, SURROUND_COUNT = 3, 14
-"""Copies that a bare plural means, and means all around something."""
+PLURAL_COUNT = 3
+"""Copies that a bare plural means."""
 BLINK_HZ = 2.0
 """Frequency of a lamp of which only is said that it blinks."""
 
@@ -48,9 +48,8 @@ class _Reader:
             if head is not None and head.has("noun"):
                 self._draft.absent.append(head.all("noun")[0].value.noun)
                 self._draft.show(head)
-        is_camera = clause.about == "camera" or (
-            self._was_camera and clause.about in ("same", "then")
-        )
+        goes_on = self._was_camera and clause.about in ("same", "then")
+        is_camera = goes_on or clause.about == "camera"
         is_ego = not is_camera and self._is_ego(clause)
         self._was_camera = is_camera
         if is_camera or is_ego:
@@ -60,16 +59,12 @@ class _Reader:
 
     def _apply_to_things(self, clause: Clause) -> None:
         told = subjects = self._find_subjects(clause)
-        phrases = [one for one in clause.after if isinstance(one, Phrase)]
         first = clause.verb.at if clause.verb is not None else 0
-        before = [one for one in phrases if one.preposition.at < first]
+        before = [one for one in clause.after
+                  if isinstance(one, Phrase) and one.preposition.at < first]  # fmt: skip
         for phrase in before:
             told = self._relate(phrase, subjects, subjects) or subjects
         objects = [index for group in clause.objects for index in self._name(group)]
-        if clause.verb and not objects and _is_passive(clause.verb, phrases[len(before) :]):
-            before.append(phrases[len(before)])
-            objects, subjects = list(subjects), self._relate(before[-1], [], [])
-            self._draft.mark(before[-1].preposition, "shown")
         self._subjects, moved = list(subjects), subjects
         if clause.verb is not None:
             is_unknown = any(one.head is None or one.head.is_liquid for one in clause.objects)
@@ -89,16 +84,14 @@ class _Reader:
                 adverb = one.first("adverb")
                 if one.has("relation") and not one.has("small", "adverb"):  # "close to" the camera
                     self._draft.mark(one, "lost")
-                field, value = adverb.value if adverb else ("", "")
-                is_spot = field == "placement" and value in word_set("things", "spots")
-                self._say(one, told if is_spot else moved)
+                self._say(one, told if adverb and adverb.value[0] == "placement" else moved)
 
     def _find_subjects(self, clause: Clause) -> list[int]:
         """Objects that a clause is about; in company, those that go by themselves."""
         if clause.about == "company":
-            nouns = {one: self._nouns[self._draft.things[one]["noun"]] for one in self._nearest}
-            going = [one for one, noun in nouns.items() if noun.speed_m_s > 0.0]
-            return [] if clause.is_of_effect else going or self._subjects
+            going = [one for one in self._nearest if self._moves(one)]
+            is_known = all(one.head and self._draft.shows(one.head) for one in clause.subjects)
+            return (going or self._subjects) if is_known and not clause.is_of_effect else []
         if clause.subjects:
             return [index for group in clause.subjects for index in self._name(group)]
         return self._nearest if clause.about == "nearest" else self._subjects
@@ -111,8 +104,6 @@ class _Reader:
         An effect comes from the first of the owners.
         """
         head = group.head
-        words = [one.text.removesuffix("s") for one in (*group.unknown, head) if one is not None]
-        is_likeness = word_set("things", "likenesses").intersection(words)
         found: list[int] = []
         if head is not None and self._is_place(head, relation):
             self._set_place(group, head, relation)
@@ -123,42 +114,45 @@ class _Reader:
                 effect = token.first("effect")
                 if not self._draft.set_scene(token) and effect is not None:
                     self._add_effect(token, effect.value, owners)
-        if group.of is not None and not is_likeness:
-            self._fill(found, group.of)
+        if group.of is not None:
+            self._fill(found, group.of.groups[0])
         return found
 
-    def _fill(self, vessels: Sequence[int], of: Phrase) -> None:
-        """Add what is in something, as "of apples"."""
-        draft, head = self._draft, of.groups[0].head
-        if head is None or head.is_liquid:
-            return
-        inside = self._name(of.groups[0])
-        if inside and vessels:
+    def _fill(self, vessels: Sequence[int], content: Group) -> None:
+        """Add a place, or what is in a vessel: "of apples"; else nothing is known of its part."""
+        head, nouns = content.head, [self._draft.things[one]["noun"] for one in vessels]
+        if head is not None and self._is_place(head, ""):
+            self._name(content, "in")
+        elif head and not head.is_liquid and word_set("things", "vessels").intersection(nouns):
+            for index in self._name(content):
+                self._draft.relate(index, "in", vessels)
             self._nearest = list(vessels)
-            is_vessel = draft.things[vessels[0]]["noun"] in word_set("things", "vessels")
-            if not is_vessel or not draft.relate(inside[0], "in", vessels):
-                draft.mark(of.preposition, "lost")
 
     def _is_place(self, head: Token, relation: str) -> bool:
         is_thing = head.has("noun", "pose") or head.is_liquid
-        is_where = bool(relation) and relation not in word_set("things", "positions")
-        return head.has("place") and (is_where or not is_thing)
+        if relation in word_set("things", "outside"):  # "behind a library": where is that?
+            return False
+        return head.has("place") and (bool(relation) or not is_thing)
+
+    def _moves(self, index: int) -> bool:
+        """Whether an object can go from place to place by itself."""
+        return self._nouns[self._draft.things[index]["noun"]].speed_m_s > 0.0
 
     def _name_thing(self, group: Group, head: Token) -> list[int]:
         draft, noun = self._draft, head.first("noun")
         is_owned = group.article in word_set("things", "owners")
-        is_part = is_owned and noun is not None and noun.value.noun in HAND_NOUNS  # "his hands"
-        if len(draft.things) == MAX_BODIES or is_part:
-            return []
-        draft.show(head)
         known = [n for n, one in enumerate(draft.things) if noun and one["noun"] == noun.value.noun]
+        is_part = noun and ((is_owned and noun.value.noun in HAND_NOUNS) or group.article == "its")
+        if len(draft.things) == MAX_BODIES or (is_part and not known):
+            return []  # "his hands", "with its propellers": parts of a body
+        draft.show(head)
         is_plain = not group.modifiers and not group.unknown
-        if known and is_plain and group.article in ("the", "its", "his", "her", "their"):
+        is_same = bool(known) and group.is_plural == (draft.things[known[-1]]["count"] > 1)
+        if is_same and is_plain and group.article in ("the", "its", "his", "her", "their"):
             self._nearest = known[-1:]  # "the car", where there is one
             return known[-1:]
         if noun is not None:
             thing = {"noun": noun.value.noun, "motions": []}
-            thing |= {"act": noun.value.act} if noun.value.act else {}
             if noun.value.is_kind:
                 draft.mark(head, noun.value.noun)
         else:
@@ -306,7 +300,6 @@ class _Reader:
         owners = subjects if kind in ("with", "in", "on") else ()  # "a car in flames"
         for group in phrase.groups:
             targets += self._name(group, kind or token.text, owners)
-        done = {one["kind"] for index in subjects for one in draft.things[index]["relations"]}
         if not targets:
             if draft.parts["place"].get("name") != place:
                 self._go_to_place(token, subjects or self._nearest, moved)
@@ -316,8 +309,7 @@ class _Reader:
         elif kind == "from" and draft.effects and not subjects:
             draft.effects[-1]["source"] = targets[0]
         elif kind and (subjects or kind != "with"):  # "an office with a desk"
-            is_sent = kind in word_set("things", "routes") and done & word_set("things", "sending")
-            able = () if is_sent or kind in ("route", "off") else subjects
+            able = () if kind in ("route", "off") else subjects
             placed = [self._relate_one(kind, index, targets) for index in able]
             draft.mark(token, "shown" if any(placed) else "lost")
         return targets
@@ -328,7 +320,10 @@ class _Reader:
         for index in moved if token.text == "across" else ():
             for motion in draft.things[index]["motions"][-1:]:
                 motion.setdefault("direction", "across")
-        is_road = token.text == "on" and draft.parts["place"]["name"] == "road"
+        place = PLACES[draft.parts["place"]["name"]]
+        if token.text == "through" and place.has_shore:
+            draft.mark(token, "lost")
+        is_road = token.text == "on" and place is PLACES["road"]
         for thing in (draft.things[index] for index in subjects if is_road):
             if self._nouns[thing["noun"]].motion != "drive":
                 thing.setdefault("placement", "lane")
@@ -336,8 +331,8 @@ class _Reader:
     def _relate_one(self, kind: str, index: int, targets: Sequence[int]) -> bool:
         draft = self._draft
         thing, target = draft.things[index], draft.things[targets[0]]
-        if kind == "with" and thing["noun"] in word_set("things", "vessels"):
-            return False  # "a vase with roses"
+        if kind == "with" and not any(map(self._moves, (index, *targets))):
+            return False  # "a vase with roses", "a disc with a dot"
         if target["noun"] in word_set("things", "worn") and kind in ("in", "with"):
             if thing["noun"] not in PERSON_NOUNS:
                 return False
@@ -349,8 +344,6 @@ class _Reader:
         seats = [one["to"] for one in thing["relations"] if kind == "with" and one["kind"] == "at"]
         if seats and self._nouns[target["noun"]].speed_m_s == 0.0:  # "at a table with a laptop"
             return all([draft.relate(one, "on", seats[0]) for one in targets])
-        for one in (draft.things[each] for each in targets if kind == "surround"):
-            one["count"] = SURROUND_COUNT if one["count"] == PLURAL_COUNT else one["count"]
         return draft.relate(index, kind, targets)
 
     # The camera
@@ -359,8 +352,7 @@ class _Reader:
         """Whether a camera goes that is not named: "driving through a city"."""
         verbs = clause.verb.verbs("ing") if clause.verb is not None else ()
         travels = any(one.value == VerbSense("camera", "travel forward") for one in verbs)
-        heads = [group.head for group in clause.subjects]
-        is_place = all(one is not None and self._is_place(one, "") for one in heads)
+        is_place = all(one.head and self._is_place(one.head, "") for one in clause.subjects)
         is_new = not self._draft.things and clause.about not in ("nearest", "company")
         return travels and is_place and is_new
 
@@ -386,9 +378,3 @@ class _Reader:
             self._draft.add_move(move)
             if targets:
                 draft.parts["camera"].setdefault("target", targets[0])
-
-
-def _is_passive(verb: Token, phrases: Sequence[Phrase]) -> bool:
-    """Whether a verb says what is done to its subject: "chased by a dog"."""
-    done = {one.value.relation for one in verb.verbs("ed")} & word_set("things", "doing")
-    return bool(done) and bool(phrases) and phrases[0].preposition.text == "by"

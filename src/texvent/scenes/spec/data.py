@@ -221,21 +221,8 @@ def _circles(scene: Scene, ids: tuple[str, ...]) -> Iterator[str]:
                f"({few([*map(shown, reversed(circle))])}); leave one of them out")  # fmt: skip
 
 
-_TIMED = ("pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "crane",
-          "dolly zoom")  # fmt: skip
-"""Camera moves that start and stop; others last all of the clip."""
-
-
 def _camera_faults(camera: Camera) -> Iterator[str]:
-    """Times of moves and poses of the camera that would have no effect."""
-    for n, one in enumerate(camera.moves):
-        start_s = one.start_s or 0.0
-        if one.is_timed and one.kind not in _TIMED:
-            yield (f"camera.moves[{n}] has a start or stop time, but {shown(one.kind)} lasts all "
-                   f"of the clip; {', '.join(_TIMED)} have times")  # fmt: skip
-        if one.stop_s is not None and one.stop_s <= start_s:
-            yield (f"camera.moves[{n}].stop_s is {one.stop_s:g}, not after its start at "
-                   f"{start_s:g} s; give a later time")  # fmt: skip
+    """Poses of the camera that have no meaning."""
     position, goal = camera.position_m, camera.look_at_m
     if (position is None) != (goal is None):
         yield "camera.position_m and camera.look_at_m are given together, or neither"

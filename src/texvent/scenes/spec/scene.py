@@ -36,35 +36,30 @@ Pace: TypeAlias = Annotated[float, Between(0.0, 100.0)]
 Surface: TypeAlias = Annotated[str, Colour("surface")]
 
 Direction: TypeAlias = Literal[
-    "left", "right", "towards", "away", "forward", "backward", "up", "down", "across", "diagonal",
-    "circle", "to and fro", "up and down", "around", "clockwise", "counter-clockwise",
+    "left", "right", "towards", "away", "forward", "backward", "up", "down", "across",
+    "to and fro", "up and down", "around", "clockwise", "counter-clockwise",
 ]  # fmt: skip
 RelationKind: TypeAlias = Literal[
     "on", "in", "at", "above", "under", "behind", "front", "beside", "left of", "right of",
-    "between", "around", "surround", "among",
-    "past", "overtake", "through", "towards", "away from", "from", "follow", "with", "look at",
-    "hold", "carry", "wear", "ride", "push", "kick", "hit", "throw", "catch",
-    "collide",
+    "between", "around",
+    "past", "overtake", "through", "towards", "away from", "from", "follow", "with",
+    "hold", "wear", "ride", "push", "kick", "throw", "collide",
 ]  # fmt: skip
 Material: TypeAlias = Literal[
     "wood", "brick", "stone", "marble", "concrete", "metal", "brass", "glass", "plastic",
     "ceramic", "cloth", "leather", "rubber", "paper", "rust", "ice",
 ]  # fmt: skip
-Placement: TypeAlias = Literal[
-    "left", "right", "centre", "far", "near", "lane", "row", "ring", "together"
-]
+Placement: TypeAlias = Literal["left", "right", "centre", "far", "near", "lane", "row"]
 MoveKind: TypeAlias = Literal[
     "static", "pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "follow",
-    "crane", "dolly zoom", "handheld", "dutch", "travel",
+    "handheld", "travel",
 ]  # fmt: skip
 MoveDirection: TypeAlias = Literal[
     "left", "right", "up", "down", "in", "out", "clockwise", "counter-clockwise", "forward",
-    "backward", "behind", "front", "side", "above", "all axes",
+    "backward", "all axes",
 ]  # fmt: skip
 Waveform: TypeAlias = Literal["sine", "strobe", "switch"]
-View: TypeAlias = Literal[
-    "aerial", "top", "high", "low", "level", "side", "front", "back", "first person"
-]
+View: TypeAlias = Literal["aerial", "top", "low", "first person"]
 
 
 @dataclass(frozen=True)
@@ -138,8 +133,8 @@ class SceneObject:
     material: Material | None = None
     """Material of the surface."""
     placement: Placement | None = None
-    """Region of the image ("left", "right", "centre", "far", "near"), the road ("lane"), or the
-    formation of the copies ("row", "ring", "together")."""
+    """Region of the image ("left", "right", "centre", "far", "near"), the road ("lane"), or a "row"
+    of the copies."""
     motions: tuple[Motion, ...] = ()
     """Motions in their order; left out: the usual one where nothing else moves, else rest."""
     relations: tuple[Relation, ...] = ()
@@ -168,8 +163,6 @@ class Effect:
     """Kind of particles."""
     source: str | None = None
     """Id of the object that it comes from; left out: all around, or the middle of the scene."""
-    colour: Annotated[str, Colour("effect")] | None = None
-    """Colour: a name, a liquid ("milk", "coffee") or an sRGB code."""
     start_s: Seconds | None = None
     """Start time, s; left out: time 0, or the first half for what happens once."""
 
@@ -181,7 +174,7 @@ class CameraMove:
     kind: MoveKind
     """Kind of move; "travel" is ego-motion along the road or through the place."""
     direction: MoveDirection | None = None
-    """Direction of the move; for "follow" the side of the target that the camera keeps to."""
+    """Direction of the move."""
     pace: Pace = 1.0
     """Speed as a multiple of the usual speed."""
     phase: Annotated[int, Between(0, 100)] = 0
@@ -190,15 +183,6 @@ class CameraMove:
     """Vehicle or gait of travel."""
     speed_m_s: MetresPerSecond | None = None
     """Speed of travel, m/s."""
-    start_s: Seconds | None = None
-    """Start time, s; left out: with its phase, or time 0 if `stop_s` is given."""
-    stop_s: Seconds | None = None
-    """Stop time, s; left out: with its phase, or the end if `start_s` is given."""
-
-    @property
-    def is_timed(self) -> bool:
-        """Whether it has times of its own instead of a phase."""
-        return self.start_s is not None or self.stop_s is not None
 
 
 @dataclass(frozen=True)
@@ -254,14 +238,6 @@ class Light:
     """Frequency at which all light is modulated, Hz."""
     wave: Waveform = "sine"
     """Waveform of the flicker: "strobe" is short flashes, "switch" on and off."""
-    shadows: bool | None = None
-    """Whether the sun or moon casts shadows."""
-    tint: Annotated[str, Colour("light")] | None = None
-    """Colour of the light: "warm", "cold", a name or an sRGB code."""
-    brightness: Literal["bright", "dim"] | None = None
-    """Exposure."""
-    direction: Literal["left", "right", "back", "front", "above"] | None = None
-    """Position of the light source, seen from the camera."""
     lamps: tuple[Lamp, ...] = ()
     """Lamps beside those of the objects; at most 16."""
 
@@ -283,8 +259,8 @@ class Place:
     """Cloud cover, 0 (clear) to 1 (covered)."""
     backdrops: tuple[Literal["mountain", "forest", "city"], ...] = ()
     """Scenery on the horizon."""
-    road: Literal["curved", "crossing"] | None = None
-    """Course of the road; left out: straight."""
+    road: Literal["crossing"] | None = None
+    """Another road that crosses the straight one."""
     is_empty: bool = False
     """Whether scenery and furniture are left out."""
     has_snow: bool = False

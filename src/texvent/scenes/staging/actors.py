@@ -12,11 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.models.anchors import has_places, locate
-from texvent.scenes.models.materials import Material
 from texvent.scenes.models.nouns import AFLOAT
 from texvent.scenes.models.people.outfit import Prop
 from texvent.scenes.models.protocol import Model, ModelPart, Noun, Pose
-from texvent.scenes.models.shapes import bounds, compose, moved, rod
+from texvent.scenes.models.shapes import bounds, compose, moved
 from texvent.scenes.scene import Float64Array, Primitives
 from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
@@ -51,32 +50,9 @@ class PlacedModel:
     """Ground-truth id; 0 = scenery."""
 
 
-@dataclass(frozen=True)
-class Tether:
-    """A string or rope to another body, or to a point that stays."""
-
-    holder: Actor | tuple[float, float, float]
-    """The other body, or a point of the world, m."""
-    anchor: str
-    """Place of the holder at which it begins."""
-    end: tuple[float, float, float]
-    """Where it ends, in the own body's coordinates, m."""
-    radius_m: float
-
-    def draw(self, to_world: Float64Array, time_s: float) -> ModelPart:
-        """The string at that instant, in the own body's coordinates."""
-        if isinstance(self.holder, Actor):
-            start = self.holder.anchor(self.anchor, time_s)[:, 3]
-        else:
-            start = np.array(self.holder)
-        x, y, z = to_world[:, :3].T @ (start - to_world[:, 3])
-        return rod(_STRING, (float(x), float(y), float(z)), self.end, self.radius_m)
-
-
 CHANGE_S = 0.35
 """How long a body takes from one activity to the next, s."""
 _HALVINGS = 24
-_STRING = Material((0.5, 0.5, 0.48))
 
 
 def lowest_point(model: Model) -> float:
@@ -101,15 +77,8 @@ class Actor:
     """Head start of its gait, m, so that a herd does not walk in step."""
     props: tuple[Prop, ...] = ()
     """What a person's activity needs, such as a guitar."""
-    tether: Tether | None = None
-    """What ties it to who flies it, or to the point that it hangs from."""
-    enters: bool = False
-    """Whether it comes into the picture only after the clip has begun."""
-    leaves: bool = False
     goes_across: bool = False
     """Whether it crosses the road."""
-    headroom_m: float = 0.0
-    """Room above it that the image should show too: for smoke, m."""
     _boxes: dict[float, tuple[Float64Array, Float64Array]] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
@@ -149,10 +118,7 @@ class Actor:
     def place(self, time_s: float) -> PlacedModel:
         """All that is drawn of it in the world at that instant."""
         to_world = self.trajectory.at(time_s).to_world()
-        parts = self.own_parts(self.pose(time_s))
-        if self.tether is not None:
-            parts.append(self.tether.draw(to_world, time_s))
-        return PlacedModel(parts, to_world, self.instance)
+        return PlacedModel(self.own_parts(self.pose(time_s)), to_world, self.instance)
 
     def pose(self, time_s: float) -> Pose:
         """What moves its limbs at that instant."""
@@ -201,7 +167,6 @@ class Actor:
         if time_s not in self._boxes:
             self._boxes[time_s] = self._box(time_s)
         low, high = self._boxes[time_s]
-        high = high + np.array([0.0, 0.0, self.headroom_m])
         middle, half = 0.5 * (low + high), 0.5 * (high - low)
         to_world = self.trajectory.at(time_s).to_world()
         return np.asarray((middle + _CORNERS * half) @ to_world[:, :3].T + to_world[:, 3])

@@ -8,10 +8,9 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from texvent.scenes.colours import rgb_of
-from texvent.scenes.description import AMID, SceneDescription
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.nouns import AFLOAT, NOUNS
-from texvent.scenes.models.places import PLACES, Place, Scenery
+from texvent.scenes.models.places import PLACES, Place
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.scene import (
     PUFF_COLUMNS,
@@ -28,7 +27,6 @@ from texvent.scenes.staging.particles.choose import (
     Staged,
     gone,
     stage_effects,
-    with_headroom,
 )
 from texvent.scenes.staging.particles.effect import Setting
 from texvent.scenes.staging.placement.object_placement import ObjectPlacer
@@ -141,14 +139,19 @@ def compose_scene(
         duration_s: length of the clip, s; moves are spread over it.
         nouns: table of models.
     """
-    description, missing = _prepare(description, duration_s)
+    missing = [
+        f"the {one.noun}'s {motion.kind} after {motion.start_s:g} s "
+        f"(the clip ends at {duration_s:g} s)"
+        for one in description.objects
+        for motion in left_out([*filter(None, [one.motion]), *one.then], duration_s)
+    ]
     place = description.surroundings.name or "grass"
     levels = _choose_levels(PLACES[place], description, nouns)
     travel = plan_travel(description, place, duration_s)
     placer = ObjectPlacer(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
-    actors = with_headroom(description, placer.place_all())
+    actors = placer.place_all()
     camera_path = place_camera(
         description, actors, place, seed=seed, aspect=size.height / size.width,
         duration_s=duration_s, travel=travel,
@@ -157,28 +160,23 @@ def compose_scene(
     if PLACES[place].has_road:
         actors = lay_across(actors, view.road)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
-    items, surrounding = _scatter_all(description, view, actors, nouns, seed)
-    named = dict(enumerate(surrounding, len(actors) + 1))
-    placed = [item.place(0) for item in items]
-    placed += [item.place(instance) for instance, (_, item) in named.items()]
+    items = _scatter_all(description, view, actors, nouns, seed)
     names = {one.instance: one.noun.name for one in actors}
-    names |= {instance: item.noun for instance, (_, item) in named.items()}
     object_of = {one.instance: one.object_index for one in actors}
-    object_of |= {instance: index for instance, (index, _) in named.items()}
-    looking = camera_path.at(0.5 * duration_s).rotation[2]
     animated_environment = build_environment(
         description, place=PLACES[place], road=view.road, distance_m=camera_path.framing.distance_m,
-        room_m=camera_path.room_m, looking=looking,
+        room_m=camera_path.room_m,
     )  # fmt: skip
     lamps = plan_lamps(
         description, actors, place=PLACES[place],
         strength=choose_lighting(PLACES[place], description.light).lamps,
-        instant_s=0.5 * duration_s, framing=camera_path.framing, looking=looking, items=items,
+        instant_s=0.5 * duration_s, framing=camera_path.framing, items=items,
     )  # fmt: skip
     setting = Setting(actors, camera_path, place, duration_s, seed)
     particles = stage_effects(description, setting)
+    still = assemble([item.place() for item in items])
     return ComposedScene(
-        tuple(actors), assemble(placed), particles, camera_path, animated_environment, lamps, names,
+        tuple(actors), still, particles, camera_path, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), object_of,
     )  # fmt: skip
 
@@ -213,24 +211,13 @@ def _scatter_all(
     actors: Sequence[Actor],
     nouns: Mapping[str, Noun],
     seed: int,
-) -> tuple[list[SceneryItem], list[tuple[int, SceneryItem]]]:
-    """Scenery of the place, and the objects that the prompt puts all around, with their index.
+) -> list[SceneryItem]:
+    """Scenery of the place.
 
     Nouns that the prompt counts are not used as scenery: "two trees" are two trees.
     """
-    said = {scene_object.noun for scene_object in description.objects}
-    allowed = {name: noun for name, noun in nouns.items() if name not in description.absent}
-    unsaid = {name: noun for name, noun in allowed.items() if name not in said}
-    around: list[tuple[int, SceneryItem]] = []
-    for relation in description.relations:
-        for target in relation.targets if relation.kind in AMID else ():
-            one = description.objects[target]
-            colour = rgb_of(one.colour)
-            sizes = (0.8 * one.scale, 1.2 * one.scale)
-            rule = Scenery(one.noun, one.count, "around", (-0.2, 3.5), sizes, (colour,))
-            rng, taken = seeded(seed, "surround", target), [item for _, item in around]
-            found = scatter([rule], view, actors, allowed, rng=rng, taken=taken)
-            around.extend((target, item) for item in found)
+    said = {*description.absent, *(scene_object.noun for scene_object in description.objects)}
+    unsaid = {name: noun for name, noun in nouns.items() if name not in said}
     surroundings = description.surroundings
     place = surroundings.name or "grass"
     rules = [
@@ -239,46 +226,7 @@ def _scatter_all(
     for backdrop in surroundings.backdrops:
         rules.extend(PLACES[backdrop].scenery)
     rules = under_snow(rules) if surroundings.has_snow else rules
-    rng, taken = seeded(seed, "scenery", place), [item for _, item in around]
-    return scatter(rules, view, actors, unsaid, rng=rng, taken=taken), around
-
-
-def _prepare(
-    description: SceneDescription, duration_s: float
-) -> tuple[SceneDescription, list[str]]:
-    """The description as it is staged, and what of it cannot be shown.
-
-    A camera that follows something which stays in its place would show nothing: it passes instead.
-    """
-    missing = [
-        f"the {one.noun}'s {motion.kind} after {motion.start_s:g} s "
-        f"(the clip ends at {duration_s:g} s)"
-        for one in description.objects
-        for motion in left_out([*filter(None, [one.motion]), *one.then], duration_s)
-    ]
-    index = _find_followed(description)
-    if index is None:
-        return description, missing
-    shot = description.shot
-    moves = tuple(
-        replace(move, kind="truck", direction="right") if move.kind == "follow" else move
-        for move in shot.moves
-    )
-    missing.append(f"following the {description.objects[index].noun}, which does not move")
-    return replace(description, shot=replace(shot, moves=moves)), missing
-
-
-def _find_followed(description: SceneDescription) -> int | None:
-    """Index of what the camera follows, if that rests; None if there is no such thing."""
-    objects, index = description.objects, description.shot.target
-    if not objects or not any(move.kind == "follow" for move in description.shot.moves):
-        return None
-    if index is None:
-        moving = [n for n, one in enumerate(objects) if one.motion and one.motion.is_moving]
-        index = moving[0] if moving else 0
-    motion = objects[index].motion
-    rests = motion is None or motion.kind in ("stand", "hang")
-    return index if rests and not objects[index].then else None
+    return scatter(rules, view, actors, unsaid, rng=seeded(seed, "scenery", place))
 
 
 def _choose_levels(

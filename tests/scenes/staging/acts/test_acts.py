@@ -29,13 +29,8 @@ WALK_RIGHT = ObjectMotion("walk", "right")
 SCENES = {
     "kick": ("kick", "man", "football"),
     "throw": ("throw", "woman", "ball"),
-    "throw to a dog": ("throw", "child", "ball", "dog"),
-    "catch": ("catch", "man", "ball"),
-    "dog catches": ("catch", "dog", "tennis ball"),
-    "hit with a racket": ("hit", "man", "tennis ball"),
     "hold": ("hold", "man", "bottle"),
-    "kite": ("hold", "child", "kite"),
-    "carry": ("carry", "worker", "box"),
+    "hold in both arms": ("hold", "worker", "box"),
     "ride a horse": ("ride", "man", "horse"),
     "push": ("push", "man", "box"),
 }
@@ -68,26 +63,19 @@ def test_the_foot_touches_the_ball_when_it_leaves(who, what, seed):
     assert (middle(ball, contact_s + 0.3) - middle(ball, contact_s)) @ ahead > 0.4
 
 
-@pytest.mark.parametrize(
-    ("names", "catcher", "place"),
-    [(("throw", "woman", "ball", "man"), 2, "hands"), (("catch", "man", "ball"), 0, "hands"),
-     (("throw", "child", "ball", "dog"), 2, "mouth"),
-     (("catch", "dog", "tennis ball"), 0, "mouth")],
-)  # fmt: skip
-def test_what_is_caught_stays_with_who_caught_it(names, catcher, place):
-    scene = act(*names)
-    ball, who = scene.actors[1], scene.actors[catcher]
-    gaps = []
-    for time_s in (1.7, 1.8, 2.0):
-        gaps.append(middle(ball, time_s) - who.anchor(place, time_s)[:, 3])
-        assert np.linalg.norm(gaps[-1]) < 0.5 * ball.model.length + 0.05
-    assert np.linalg.norm(middle(ball, 0.3) - who.anchor(place, 0.3)[:, 3]) > 0.8
+def test_what_is_thrown_leaves_the_hand_when_it_is_let_go():
+    woman, ball = act("throw", "woman", "ball").actors
+    release_s = contact_time(DURATION_S, 0.35)
+    gaps = [np.linalg.norm(middle(ball, t) - woman.anchor("right hand", t)[:, 3])
+            for t in (0.0, release_s - 1e-3, release_s + 0.5)]  # fmt: skip
+    assert gaps[0] == pytest.approx(gaps[1], abs=0.01)
+    assert gaps[2] > gaps[0] + 0.4
 
 
 @pytest.mark.parametrize("what", ["bottle", "umbrella", "box"])
 @pytest.mark.parametrize("motion", [None, WALK_RIGHT])
 def test_any_noun_can_be_held_and_stays_at_the_hands(what, motion):
-    scene = act("carry", "man", what, motion=motion)
+    scene = act("hold", "man", what, motion=motion)
     man, thing = scene.actors
     for time_s in (0.0, 0.7, 1.6):
         reach = 0.5 * max(thing.model.length, thing.model.width, thing.model.height)
@@ -153,7 +141,7 @@ def gap(one: Actor, other: Actor, time_s: float) -> float:
 @pytest.mark.parametrize(
     ("nouns", "moves"),
     [(("car", "car"), (True, True)), (("ball", "box"), (True, False)),
-     (("tree", "car"), (False, True)), (("rock", "window"), (True, False))],
+     (("tree", "car"), (False, True))],
 )  # fmt: skip
 def test_bodies_that_collide_touch_at_one_instant(nouns, moves):
     actors = act("collide", *nouns).actors

@@ -211,8 +211,6 @@ class Activity:
     """Name of the activity whose motion it has; "" = its own."""
     contact_s: float | None = None
     """Of an act with one instant of contact, when that comes if the act is repeated, s."""
-    reach_m: float = 0.0
-    """From the right palm to where what it holds meets a ball, m."""
     pair_gap_m: float | None = None
     """Distance of two adults who do it before each other, m; None = each does it alone."""
 

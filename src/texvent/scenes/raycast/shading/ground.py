@@ -48,24 +48,14 @@ Strip = tuple[float, float, float, float]
 
 @jit(error_model="numpy")
 def strip_place(instant: Record, x: float, y: float) -> Strip:
-    """Where a ground point lies on the main road's line, which is straight or an arc."""
+    """Where a ground point lies on the main road's line."""
     cosine, sine, _, x0, y0 = instant.road
-    bend = instant.road_curvature
-    if bend == 0.0:
-        return (
-            (x - x0) * cosine + (y - y0) * sine,
-            (y - y0) * cosine - (x - x0) * sine,
-            cosine,
-            sine,
-        )
-    side = 1.0 if bend > 0.0 else -1.0
-    start_x, start_y = sine / bend, -cosine / bend
-    from_x, from_y = x - x0 + start_x, y - y0 + start_y
-    radius = max(math.sqrt(from_x * from_x + from_y * from_y), 1e-9)
-    turn = side * math.atan2(start_x * from_y - start_y * from_x,
-                             start_x * from_x + start_y * from_y)  # fmt: skip
-    across = side * (side / bend - radius)
-    return turn / abs(bend), across, -side * from_y / radius, side * from_x / radius
+    return (
+        (x - x0) * cosine + (y - y0) * sine,
+        (y - y0) * cosine - (x - x0) * sine,
+        cosine,
+        sine,
+    )
 
 
 @jit(error_model="numpy", inner=True)

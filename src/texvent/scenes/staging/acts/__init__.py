@@ -1,1 +1,1 @@
-"""Acts in contact: holding, wearing, riding, pushing, kicking, throwing, catching, hitting."""
+"""Acts in contact: holding, wearing, riding, pushing, kicking, throwing, colliding."""

@@ -8,8 +8,8 @@ from functools import partial
 import numpy as np
 
 from texvent.scenes.models.people.activities import PERSON_NOUNS
-from texvent.scenes.models.protocol import Model, Noun, Pose
-from texvent.scenes.models.shapes import Affine, compose, shift
+from texvent.scenes.models.protocol import Noun
+from texvent.scenes.models.shapes import Affine
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
@@ -20,12 +20,10 @@ from texvent.scenes.staging.trajectories.trajectory import (
     rotation,
 )
 
-SINGLE = frozenset({"kick", "hit", "throw", "catch", "collide"})
+SINGLE = frozenset({"kick", "throw", "collide"})
 """Acts with one instant of contact."""
-ACTS = SINGLE | {"hold", "carry", "wear", "push", "ride"}
+ACTS = SINGLE | {"hold", "wear", "push", "ride"}
 """Relations that are acts of the subject on its first target."""
-_UPRIGHT = 0.7
-"""Least z of a part's third axis for its axes to be those of what is on it."""
 
 
 class Cast:
@@ -93,31 +91,3 @@ def held_at(
 def _upright(holder: Actor, anchor: str, time_s: float) -> Float64Array:
     yaw = holder.trajectory.at(time_s).yaw
     return np.column_stack([rotation(yaw, 0.0, 0.0), holder.anchor(anchor, time_s)[:, 3]])
-
-
-def on_part(carrier: Trajectory, model: Model, part: int, place: Vector, activity: str) -> Attached:
-    """A trajectory fixed to a part that moves in another body: the board of a swing.
-
-    `part` is its index in the model, `place` in the carrier's body coordinates at time 0, m.
-    """
-    axes = partial(_part_axes, carrier, model, part, np.array(place))
-    return Attached(carrier, axes, shift(), activity)
-
-
-def _part_axes(
-    carrier: Trajectory, model: Model, part: int, place: Float64Array, time_s: float
-) -> Affine:
-    first, now = (_part_of(carrier, model, part, time) for time in (0.0, time_s))
-    turn = now[:, :3] @ np.linalg.inv(first[:, :3])
-    # A board's own axes say how far it is tipped; those of a rod say nothing of up.
-    own = now[:, :3] / np.linalg.norm(now[:, :3], axis=0)
-    tipped = own if own[2, 2] > _UPRIGHT else turn
-    axes = np.column_stack([tipped, now[:, 3] + turn @ (place - first[:, 3])])
-    return compose(carrier.at(time_s).to_world(), axes)
-
-
-def _part_of(carrier: Trajectory, model: Model, part: int, time_s: float) -> Affine:
-    """[3, 4] the part's map to the carrier's body coordinates."""
-    state = carrier.at(time_s)
-    pose = Pose(state.tempo * time_s, state.distance_m, state.speed_m_s, state.activity)
-    return np.asarray(model.parts(pose)[part].to_body)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
@@ -18,7 +19,7 @@ from texvent.scenes.description import (
 from texvent.scenes.models.people.activities import PAIR_GAPS, PERSON_NOUNS
 from texvent.scenes.models.people.outfit import list_props
 from texvent.scenes.models.protocol import Noun
-from texvent.scenes.models.tables import nouns_with, trait_value
+from texvent.scenes.models.tables import trait_value
 from texvent.scenes.spec.scene import Direction
 from texvent.scenes.staging.actors import Actor, seeded, size_of
 from texvent.scenes.staging.acts import holding, striking
@@ -43,7 +44,6 @@ def settle_motions(
         for targets in ([(t,) for t in one.targets] if one.kind == "wear" else [one.targets])
     ]
     relations += _implied_acts(objects, relations)
-    relations = _with_thirds(objects, relations)
     for relation in relations:
         if relation.kind in ACTS and relation.targets:
             pair = relation.subject, relation.targets[0]
@@ -92,29 +92,6 @@ def _mounted(
     return relation
 
 
-def _with_thirds(objects: Sequence[SceneObject], relations: Sequence[Relation]) -> list[Relation]:
-    """The target of a throw catches it; a holder of a racket hits the ball with it."""
-    found = list(relations)
-    for act in relations:
-        if act.kind not in ("throw", "hit") or len(act.targets) != 1:
-            continue
-        for other in relations:
-            is_tool = other.subject == act.subject and _holds_tool(other, objects)
-            is_goal = other.kind == "towards" and other.subject in (act.subject, *act.targets)
-            if is_tool if act.kind == "hit" else is_goal:
-                found[found.index(act)] = replace(act, targets=act.targets + other.targets[:1])
-                if is_tool:
-                    found.remove(other)
-                break
-    return found
-
-
-def _holds_tool(relation: Relation, objects: Sequence[SceneObject]) -> bool:
-    noun = objects[relation.targets[0]].noun
-    is_tool = trait_value("struck with", noun) is not None
-    return relation.kind == "hold" and is_tool and noun not in nouns_with("played with")
-
-
 def _implied_acts(objects: Sequence[SceneObject], relations: Sequence[Relation]) -> list[Relation]:
     """Who plays a guitar that the scene names holds that one."""
     bound = {target for one in relations if one.kind in ACTS for target in one.targets}
@@ -152,10 +129,8 @@ def _choose_way(objects: Sequence[SceneObject], pair: tuple[int, int], seed: int
     return "left" if seeded(seed, "act", pair[0]).random() < 0.5 else "right"
 
 
-_ORDER = ("push", "kick", "throw", "catch", "hit", "collide", "hold", "carry", "wear")
+_ORDER = ("push", "ride", "kick", "throw", "collide", "hold", "wear")
 """What moves bodies comes before what hangs on them."""
-_TIED = frozenset({"at", "on", "in", "ride", "push"})
-"""Relations that give their subject its heading."""
 
 
 def perform_acts(
@@ -175,15 +150,9 @@ def perform_acts(
     cast = Cast(actors)
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
     bound = {one for act in acts for one in (act.subject, *act.targets)}
-    _look_at(cast, description.relations, duration_s)
     _face_each_other(cast, [n for n, one in enumerate(actors) if one.object_index not in bound])
-    ridden = {one.targets[0] for one in acts if one.kind == "ride"}
-    pushed = [r for r in acts if r.kind == "push" and r.targets[0] in ridden]
-    for relation in pushed:
-        _perform(cast, relation, duration_s)
-    holding.board(cast, acts)
     for kind in _ORDER:
-        for relation in (one for one in acts if one.kind == kind and one not in pushed):
+        for relation in (one for one in acts if one.kind == kind):
             _perform(cast, relation, duration_s)
     _take_off_doubles(cast, actors)
     return cast.actors()
@@ -192,41 +161,33 @@ def perform_acts(
 def _perform(cast: Cast, relation: Relation, duration_s: float) -> None:
     """An act of each subject on a target of its own."""
     subjects, targets = cast.copies(relation.subject), cast.copies(relation.targets[0])
-    if relation.kind == "collide":
+    if relation.kind == "ride":
+        pairs = zip(subjects, targets, strict=False)
+    elif relation.kind == "collide":
         met = list(dict.fromkeys([*subjects, *targets]))
-        for pair in zip(met[::2], met[1::2], strict=False):
-            _bind(cast, relation.kind, (*pair, None), duration_s)
-        return
-    others = cast.copies(relation.targets[1]) if len(relation.targets) > 1 else []
-    for turn, target in enumerate(targets):
-        if not subjects:
+        pairs = zip(met[::2], met[1::2], strict=False)
+    else:
+        for target in targets if not subjects else ():
             cast.put(target, None)
-        elif subjects[turn % len(subjects)] != target:
-            third = others[turn] if turn < len(others) else None
-            _bind(cast, relation.kind, (subjects[turn % len(subjects)], target, third), duration_s)
+        pairs = zip(itertools.cycle(subjects), targets, strict=False)
+    for one, other in pairs:
+        if one != other:
+            bodies = _ACTS[relation.kind](cast.get(one), cast.get(other), duration_s)
+            for number, body in zip((one, other), bodies, strict=True):
+                cast.put(number, body)
 
 
-_Act = Callable[[Actor, Actor, Actor | None, float], tuple[Actor | None, ...]]
+_Act = Callable[[Actor, Actor, float], tuple[Actor | None, Actor | None]]
 _ACTS: Mapping[str, _Act] = {
-    "push": lambda who, what, _, __: holding.push(who, what),
-    "hold": lambda who, what, _, __: holding.hold(who, what),
-    "carry": lambda who, what, _, __: holding.hold(who, what),
-    "wear": lambda who, what, _, __: holding.wear(who, what),
-    "kick": lambda who, what, _, duration_s: striking.kick(who, what, duration_s),
-    "catch": lambda who, what, _, duration_s: striking.catch(who, what, duration_s),
-    "collide": lambda who, what, _, duration_s: striking.collide(who, what, duration_s),
+    "push": lambda who, what, _: holding.push(who, what),
+    "ride": lambda who, what, _: holding.board(who, what),
+    "hold": lambda who, what, _: holding.hold(who, what),
+    "wear": lambda who, what, _: holding.wear(who, what),
+    "kick": striking.kick,
     "throw": striking.throw,
-    "hit": striking.hit,
+    "collide": striking.collide,
 }
-"""Act → the bodies as it leaves them: who acts, on what, and who catches or with what."""
-
-
-def _bind(cast: Cast, kind: str, who: tuple[int, int, int | None], duration_s: float) -> None:
-    third = None if who[2] is None else cast.get(who[2])
-    bodies = _ACTS[kind](cast.get(who[0]), cast.get(who[1]), third, duration_s)
-    for number, body in zip(who, bodies, strict=False):
-        if number is not None:
-            cast.put(number, body)
+"""Act → the bodies as it leaves them: who acts, and on what."""
 
 
 def _take_off_doubles(cast: Cast, actors: Sequence[Actor]) -> None:
@@ -237,7 +198,6 @@ def _take_off_doubles(cast: Cast, actors: Sequence[Actor]) -> None:
         for number, thing in enumerate(actors):
             if thing.noun.name in nouns and thing.object_index != person.object_index:
                 cast.put(number, None)
-                nouns.discard(thing.noun.name)
 
 
 def _face_each_other(cast: Cast, numbers: Sequence[int]) -> None:
@@ -274,20 +234,3 @@ def _face(cast: Cast, pair: tuple[int, int], apart_m: float) -> None:
         if isinstance(actor.trajectory, Stationary):
             path = replace(actor.trajectory, home=ahead((x, y, z), yaw, -half, z), yaw=yaw)
             cast.put(number, replace(actor, trajectory=path, lead_m=0.0, is_mover=True))
-
-
-def _look_at(cast: Cast, relations: Sequence[Relation], duration_s: float) -> None:
-    """Who stays in its place turns to what it looks at, where that is at mid clip."""
-    tied = {one.subject for one in relations if one.kind in _TIED}
-    for relation in relations:
-        goals = [number for target in relation.targets for number in cast.copies(target)]
-        if relation.kind != "look at" or relation.subject in tied or not goals:
-            continue
-        if relation.targets == (relation.subject,):
-            goals = goals[1:] + goals[:1]
-        for turn, number in enumerate(cast.copies(relation.subject)):
-            actor, goal = cast.get(number), cast.get(goals[turn % len(goals)])
-            if isinstance(actor.trajectory, Stationary):
-                x, y, _ = goal.middle(0.5 * duration_s) - actor.trajectory.at(0.0).position
-                path = replace(actor.trajectory, yaw=math.atan2(y, x))
-                cast.put(number, replace(actor, trajectory=path))

@@ -1,4 +1,4 @@
-"""Kick, throw, catch, hit and collide: an instant of contact, motion before and after it.
+"""Kick, throw and collide: an instant of contact, motion before and after it.
 
 Each act gives its subject an activity whose contact is at that instant, finds the place of the body
 that touches the thing then, and lets the thing fly from there, or to there.
@@ -11,20 +11,15 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.scenes.models.people.activities import ACTIVITIES
-from texvent.scenes.models.people.outfit import list_props
-from texvent.scenes.models.shapes import Affine, bounds, moved, shift
-from texvent.scenes.models.tables import trait_value
+from texvent.scenes.models.shapes import bounds, moved, shift
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor, size_of
+from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.acts import (
     held_at,
     is_person,
     moving,
 )
-from texvent.scenes.staging.acts.holding import along_tool
 from texvent.scenes.staging.trajectories.action_trajectories import (
-    Arc,
     Flight,
     about_pivot,
 )
@@ -34,7 +29,6 @@ from texvent.scenes.staging.trajectories.trajectory import (
     Performed,
     Stationary,
     Switched,
-    Trajectory,
     Vector,
     ahead,
     rotation,
@@ -43,9 +37,7 @@ from texvent.scenes.staging.trajectories.trajectory import (
 
 _FLIGHT_M = 2.4
 """Most metres that a thing flies in the rest of the clip, so that the camera can show it."""
-_REACH_S = 0.85
-"""Longest flight towards who catches, s."""
-_LOFT = {"kick": 0.45, "throw": 0.35, "hit": 0.45}
+_LOFT = {"kick": 0.45, "throw": 0.35}
 """Upward speed of what flies off, as a share of its speed along the ground."""
 _TURN_ROUND_S = 0.08
 """How long the speed takes to change at the contact."""
@@ -53,8 +45,6 @@ _REBOUND = {"roll": 0.4, "drive": 0.12, "slide": 0.25}
 """Usual motion → share of the speed with which such a body goes back."""
 _LENGTHS = (1.0, 2.0)
 """Least and most of its own length that a body covers before the contact."""
-_FLOWN_LENGTHS, _BOUNCED = 2.5, 0.3
-"""Way of what flies, in lengths of its own; share of its speed with which it falls back."""
 _THIN, _ASLANT = 0.6, 0.55
 """Share of its width up to which what is hit has a front, and the way's angle to the picture then,
 rad."""
@@ -87,10 +77,8 @@ def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]
     return subject, moving(thing, replace(flight, tumble_rad_s=rolling))
 
 
-def throw(
-    subject: Actor, thing: Actor, catcher: Actor | None, duration_s: float
-) -> tuple[Actor, Actor, Actor | None]:
-    """Let go in the middle of the swing; it flies off, or to who catches it."""
+def throw(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
+    """Let go in the middle of the swing; it flies off."""
     release_s, home = contact_time(duration_s, 0.35), subject.trajectory.at(0.0)
     path = Performed(Stationary(home.position, home.yaw), "throw", contact_s=release_s)
     subject = moving(subject, path)
@@ -98,63 +86,8 @@ def throw(
     anchor = "right hand" if is_person(subject) else "mouth"
     held = held_at(subject, anchor, shift(reach, 0.0, -thing.lift_m))
     start = about_pivot(held.at(release_s), thing.lift_m)
-    if catcher is None:
-        flight = _fly_off("throw", thing, start, home, (release_s, duration_s))
-        flight = replace(flight, tumble_rad_s=6.0)
-        return subject, moving(thing, Switched(held, flight, release_s)), None
-    catch_s = min(release_s + _REACH_S, release_s + 0.75 * (duration_s - release_s))
-    gap = 1.2 + 2.6 * (catch_s - release_s) + 0.5 * catcher.model.length
-    place = ahead(home.position, home.yaw, gap, home.position[2])
-    catcher = _stand_and_catch(catcher, place, home.yaw + math.pi, catch_s)
-    caught = held_at(catcher, *_catching(catcher, thing))
-    end = about_pivot(caught.at(catch_s), thing.lift_m)
-    arc = Arc(start, end, release_s, catch_s, 1.0)
-    whole = Switched(Switched(held, arc, release_s), caught, catch_s)
-    return subject, moving(thing, whole), catcher
-
-
-def catch(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]:
-    """The thing comes flying from ahead and stays in the hands or in the mouth."""
-    catch_s, home = contact_time(duration_s, 0.55), subject.trajectory.at(0.0)
-    subject = _stand_and_catch(subject, home.position, home.yaw, catch_s)
-    caught = held_at(subject, *_catching(subject, thing))
-    end = about_pivot(caught.at(catch_s), thing.lift_m)
-    far = np.array(end.position) + (0.8 + 1.8 * catch_s) * heading_of(home.yaw) - [0.0, 0.0, 0.2]
-    arc = Arc(replace(end, position=vector(far)), end, 0.0, catch_s, 1.0)
-    return subject, moving(thing, Switched(arc, caught, catch_s))
-
-
-def hit(
-    subject: Actor, thing: Actor, tool: Actor | None, duration_s: float
-) -> tuple[Actor, Actor, Actor | None]:
-    """The thing arrives where bat, racket or club sweep through, and flies away."""
-    by = thing if tool is None else tool
-    activity = trait_value("struck with", by.noun.name) or "swing bat"
-    is_teed = activity == "swing club"
-    contact_s, home = contact_time(duration_s, 0.5), subject.trajectory.at(0.0)
-    # Who swings to the left turns so that the ball still flies where the body was to face.
-    yaw = home.yaw if activity == "swing racket" else home.yaw - 0.5 * math.pi
-    path = Performed(Stationary(home.position, yaw), activity, contact_s=contact_s)
-    subject = moving(subject, path)
-    if tool is None:
-        props = list_props(activity, size_of(subject.model))
-        subject = replace(subject, props=tuple(props))
-    axes, heading = subject.anchor("right hand", contact_s), heading_of(home.yaw)
-    spot = axes[:, 3] + ACTIVITIES[activity].reach_m * axes[:, 2]
-    spot = spot + (0.5 * thing.model.length + 0.02) * heading
-    low = home.position[2]
-    lying = low + 0.5 * thing.model.height
-    spot[2] = lying if is_teed else max(float(spot[2]), lying)
-    start = _at(thing, spot, home.yaw)
-    flight = _fly_off("hit", thing, start, home, (contact_s, duration_s))
-    whole: Trajectory = replace(flight, tumble_rad_s=8.0)
-    if not is_teed:
-        far = np.array(start.position) + (1.0 + 1.6 * contact_s) * heading
-        arc = Arc(replace(start, position=vector(far)), start, 0.0, contact_s, -1.0)
-        whole = Switched(arc, whole, contact_s)
-    if tool is not None:
-        tool = moving(tool, held_at(subject, "right hand", along_tool(tool)))
-    return subject, moving(thing, whole), tool
+    flight = _fly_off("throw", thing, start, home, (release_s, duration_s))
+    return subject, moving(thing, Switched(held, replace(flight, tumble_rad_s=6.0), release_s))
 
 
 def _at(thing: Actor, middle: Float64Array, yaw: float) -> BodyState:
@@ -172,18 +105,6 @@ def _fly_off(
     floor = home.position[2] + 0.5 * thing.model.height - start.pivot_m
     velocity = (float(along[0]), float(along[1]), _LOFT[act] * speed)
     return Flight(start, velocity, floor, 0.55, times_s[0])
-
-
-def _stand_and_catch(catcher: Actor, home: Vector, yaw: float, catch_s: float) -> Actor:
-    """Who catches, facing the thing."""
-    return moving(catcher, Performed(Stationary(home, yaw), "catch", contact_s=catch_s))
-
-
-def _catching(catcher: Actor, thing: Actor) -> tuple[str, Affine]:
-    """Place of the body at which a thing is caught, and the thing in its axes."""
-    if is_person(catcher):
-        return "hands", shift(0.4 * thing.model.length, 0.0, -thing.lift_m)
-    return "mouth", shift(0.35 * thing.model.length, 0.0, -thing.lift_m)
 
 
 def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Actor]:
@@ -211,24 +132,13 @@ def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Act
 
 
 def _run_into(mover: Actor, still: Actor, yaw: float, contact_s: float) -> tuple[Actor, Actor]:
-    """What comes goes back or falls off; what stands has its front to it."""
+    """What comes goes back; what stands has its front to it."""
     if still.model.length < _THIN * still.model.width:
         yaw += _ASLANT if yaw == 0.0 else -_ASLANT
         place = still.trajectory.at(0.0).position
         still = replace(still, trajectory=Stationary(place, yaw + math.pi))
-    is_flying = mover.noun.habitat in ("air", "fixed")  # what cannot go by itself was thrown
-    lift, low_m = mover.lift_m, mover.trajectory.at(0.0).position[2]
-    level = float(still.middle(0.0)[2]) - lift if is_flying else low_m
-    touching = _find_contact(mover, still, yaw, level)
-    if not is_flying:
-        return moving(mover, _run_up(mover, touching, yaw, contact_s)), still
-    speed = _FLOWN_LENGTHS * mover.model.length / contact_s
-    start = ahead(touching, yaw, -speed * contact_s, touching[2])
-    coming = SteeredPath(start, yaw, (Piece(contact_s, speed),), speed)
-    hit = BodyState(touching, yaw, distance_m=speed * contact_s, pivot_m=lift)
-    back = vector(-_BOUNCED * speed * heading_of(yaw))
-    falling = Flight(hit, back, 0.5 * mover.model.height - lift, 0.55, contact_s, -3.0)
-    return moving(mover, Switched(coming, falling, contact_s)), still
+    touching = _find_contact(mover, still, yaw, mover.trajectory.at(0.0).position[2])
+    return moving(mover, _run_up(mover, touching, yaw, contact_s)), still
 
 
 def _find_contact(mover: Actor, still: Actor, yaw: float, level_m: float) -> Vector:

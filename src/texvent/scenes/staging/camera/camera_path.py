@@ -18,11 +18,9 @@ from texvent.scenes.staging.trajectories.trajectory import Trajectory
 
 PAN_RAD, TILT_RAD, ROLL_RAD = 0.36, 0.24, 0.7
 """Turns over the clip."""
-DUTCH_RAD = 0.3
-"""Roll of a camera in a Dutch angle, over all of the clip."""
-ORBIT_RAD, CRANE_RAD = 1.0, 0.5
-"""Change of azimuth and of elevation around the subject."""
-ZOOM, DOLLY, DOLLY_ZOOM = 1.7, 1.6, 2.2
+ORBIT_RAD = 1.0
+"""Change of azimuth around the subject."""
+ZOOM, DOLLY = 1.7, 1.6
 """Focal length at the near end over the far end; distance at the far end over the near end."""
 TRUCK_WIDTHS, PEDESTAL_WIDTHS = 0.4, 0.3
 """Ways aside and up, in widths of the picture at the subject."""
@@ -52,14 +50,13 @@ _NEGATIVE = ("left", "down", "out", "counter-clockwise")
 class MoveChannels:
     """Progress of all moves of a shot; each a smooth function of time.
 
-    Moves with times of their own keep to them; others of one phase happen together, and phases
-    follow each other and share the clip evenly.
+    Moves of one phase happen together, and phases follow each other and share the clip evenly.
     """
 
     def __init__(self, moves: tuple[CameraMove, ...], duration_s: float = USUAL_S) -> None:
         self.moves = moves
         self._duration_s = duration_s
-        self._phases = 1 + max((move.phase for move in moves if not move.is_timed), default=0)
+        self._phases = 1 + max((move.phase for move in moves), default=0)
 
     def centred(self, kind: str, time_s: float) -> float:
         """Sum of the moves of a kind, in usual amounts, about the middle of its range."""
@@ -70,33 +67,21 @@ class MoveChannels:
         """The same, 0 where it is largest and negative elsewhere: zoom and dolly."""
         return self._sum(kind, time_s) - self._ranges.get(kind, (0.0, 0.0))[1]
 
-    def _span_s(self, move: CameraMove) -> tuple[float, float]:
-        """When a move starts and stops, s."""
-        if not move.is_timed:
-            share = self._duration_s / self._phases
-            return move.phase * share, (move.phase + 1) * share
-        start = move.start_s or 0.0
-        stop = self._duration_s if move.stop_s is None else move.stop_s
-        return start, max(stop, start + 1e-3)
-
     def _sum(self, kind: str, time_s: float) -> float:
         return sum(self._reach(move, time_s) for move in self.moves if move.kind == kind)
 
     def _reach(self, move: CameraMove, time_s: float) -> float:
         """How far one move has gone, in usual amounts."""
-        start, stop = self._span_s(move)
-        rise = EASE if start > 0.0 else 0.0
-        fall = EASE if stop < (1.0 - 1e-9) * self._duration_s else 0.0
-        amount = min(max(math.sqrt((stop - start) / USUAL_S), 0.5), 1.3) * move.pace
+        span = self._duration_s / self._phases
+        rise, fall = EASE * (move.phase > 0), EASE * (move.phase < self._phases - 1)
+        amount = min(max(math.sqrt(span / USUAL_S), 0.5), 1.3) * move.pace
         amount *= -1.0 if move.direction in _NEGATIVE else 1.0
-        return amount * _eased((time_s - start) / (stop - start), rise, fall)
+        return amount * _eased(time_s / span - move.phase, rise, fall)
 
     @cached_property
     def _ranges(self) -> dict[str, tuple[float, float]]:
         """Kind → least and most of its sum over the clip."""
-        times = {self._duration_s * step / _STEPS for step in range(_STEPS + 1)}
-        for move in self.moves:
-            times.update(min(time, self._duration_s) for time in self._span_s(move))
+        times = [self._duration_s * step / _STEPS for step in range(_STEPS + 1)]
         sums = {move.kind: [self._sum(move.kind, time) for time in times] for move in self.moves}
         return {kind: (min(values), max(values)) for kind, values in sums.items()}
 
@@ -137,36 +122,23 @@ class Tie:
     """Of the subject."""
     rises: bool = True
     """Whether it also rises and falls with it."""
-    turns: bool = False
-    """Whether it goes round with it, behind or in front of it."""
 
     @classmethod
     def of(cls, moves: Sequence[CameraMove], subject: Actor) -> Tie | None:
         """The tie that moves make; None where the camera or its subject stays."""
-        tying = [move for move in moves if move.kind in ("follow", "orbit")]
-        if not tying or not subject.is_mover:
+        is_tied = any(move.kind in ("follow", "orbit") for move in moves)
+        if not is_tied or not subject.is_mover:
             return None
-        turns = any(one.direction in ("behind", "front") for one in tying)
-        return cls(subject.trajectory, subject.noun.habitat != "ground", turns)
+        return cls(subject.trajectory, subject.noun.habitat != "ground")
 
     def way(self, time_s: float) -> Float64Array:
         """[3] by which the camera has gone along since the start, m."""
         now, start = self.trajectory.at(time_s).position, self.trajectory.at(0.0).position
         return np.subtract(now, start) * [1.0, 1.0, float(self.rises)]
 
-    def turn(self, time_s: float) -> float:
-        """Angle by which it has gone round since the start, rad."""
-        if not self.turns:
-            return 0.0
-        return self.trajectory.at(time_s).yaw - self.trajectory.at(0.0).yaw
-
     def relative(self, points: Float64Array, time_s: float) -> Float64Array:
         """Points [n, 3], m, as the camera sees them, at the place of the start."""
-        start = np.array(self.trajectory.at(0.0).position)
-        angle = -self.turn(time_s)
-        cosine, sine = math.cos(angle), math.sin(angle)
-        turn = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]])
-        return np.asarray((points - self.way(time_s) - start) @ turn.T + start)
+        return np.asarray(points - self.way(time_s))
 
 
 @dataclass(frozen=True)
@@ -208,7 +180,6 @@ class CameraPath:
             ahead = target + slide - position
         near = self._channels.below_most
         focal = self.framing.focal * ZOOM ** near("zoom", time_s)
-        focal *= DOLLY_ZOOM ** -near("dolly zoom", time_s)
         camera = look_at(position, position + _turned(ahead, *self._turn(time_s)), focal)
         return _rolled(camera, roll + self._roll(time_s))
 
@@ -216,15 +187,11 @@ class CameraPath:
         """Position and target of a camera that looks at its subject, m."""
         framing, moved, near = self.framing, self._channels.centred, self._channels.below_most
         azimuth = framing.azimuth + ORBIT_RAD * moved("orbit", time_s)
-        elevation = framing.elevation + CRANE_RAD * moved("crane", time_s)
-        elevation = min(max(elevation, -MOST_PITCH_RAD), MOST_PITCH_RAD)
         distance = framing.distance_m * DOLLY ** -near("dolly", time_s)
-        distance *= DOLLY_ZOOM ** -near("dolly zoom", time_s)
         target = framing.target
         if self.tie is not None:
-            azimuth += self.tie.turn(time_s)
             target = target + self.tie.way(time_s)
-        return target + distance * direction(azimuth, elevation), target
+        return target + distance * direction(azimuth, framing.elevation), target
 
     def _slide(self, time_s: float, width_m: float) -> Float64Array:
         """Metres by which camera and target move together; `width_m` of the picture."""
@@ -233,8 +200,6 @@ class CameraPath:
         ahead = np.array([-right[1], right[0], 0.0])
         roam = ROAM_WIDTHS * self._roam * np.sin(_ROAM_RAD_S * time_s + [0.0, 1.0, 2.0])
         rise = PEDESTAL_WIDTHS * moved("pedestal", time_s)
-        if self.journey is not None:
-            rise += PEDESTAL_WIDTHS * moved("crane", time_s)
         said = np.array([TRUCK_WIDTHS * moved("truck", time_s), 0.0, rise])
         aside, along, up = roam + said
         return np.asarray(width_m * (aside * right + along * ahead + [0.0, 0.0, up]))
@@ -254,8 +219,7 @@ class CameraPath:
 
     def _roll(self, time_s: float) -> float:
         """Turn about the optical axis, radians."""
-        slant = DUTCH_RAD if any(move.kind == "dutch" for move in self.moves) else 0.0
-        slant += ROAM_SHARE * SHAKE_RAD * self._roam * 3.0 * math.sin(5.5 * time_s + 0.5)
+        slant = ROAM_SHARE * SHAKE_RAD * self._roam * 3.0 * math.sin(5.5 * time_s + 0.5)
         return slant + ROLL_RAD * self._channels.centred("roll", time_s)
 
     def in_room(self, points: Float64Array, times: Float64Array) -> CameraPath:

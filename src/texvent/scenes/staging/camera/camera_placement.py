@@ -38,8 +38,6 @@ _SKY_LIFT = 0.2
 _TRACKING_LENGTHS, _NEAR_LENGTHS = 3.0, 0.3
 """An object that covers more of its own lengths in the clip is followed from the side: usually, and
 in a close or medium shot."""
-_OUTSIDE_SHARES = (0.3, 0.5, 0.7)
-"""Shares of the clip at whose beginning or end what enters or leaves may be out of the picture."""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
 """Moves that can lose the subject."""
 _VISIBLE_SHARE, _CHECKS, _TRIES = 0.97, 41, 10
@@ -103,23 +101,10 @@ def place_camera(
 
 
 def _watch(shooting: _Shooting) -> CameraPath:
-    """The camera that shows the objects, without what enters at first or what leaves at last."""
-    main = choose_main(shooting.description, shooting.actors)
-    moves = _plan_moves(shooting.description, main, shooting.duration_s)
-    for share in _OUTSIDE_SHARES if main.enters or main.leaves else (0.0,):
-        first, last = sorted((share * main.enters, 1.0 - share * main.leaves))
-        times = shooting.duration_s * np.linspace(first, last, INSTANTS)
-        path = _frame(shooting, main, moves, times)
-        if _begins_and_ends_outside(path, main, shooting.aspect):
-            break
-    return path
-
-
-def _frame(
-    shooting: _Shooting, main: Actor, moves: tuple[CameraMove, ...], times: Float64Array
-) -> CameraPath:
-    """The widest camera with a large subject at these instants, s."""
+    """The widest camera that shows the objects with a large subject."""
     description, actors, aspect = shooting.description, shooting.actors, shooting.aspect
+    main, times = choose_main(description, actors), shooting.times
+    moves = _plan_moves(description, main, shooting.duration_s)
     place = shooting.place
     azimuth, elevation = choose_angles(description, main, moves, place, shooting.seed)
     is_open = shooting.has_floor and not is_room(place)
@@ -144,15 +129,6 @@ def _frame(
     return path_of(come_near(framings, prominence, [view.goal for view in views[1:]]))
 
 
-def _begins_and_ends_outside(path: CameraPath, main: Actor, aspect: float) -> bool:
-    """Whether what enters begins out of the picture, and what leaves ends there."""
-    for time in [0.0] * main.enters + [path.duration_s] * main.leaves:
-        seen = image_of(path.at(time), main.corners(time))[:, :2] / [0.5, 0.5 * aspect]
-        if not (np.any(seen.min(axis=0) > 1.0) or np.any(seen.max(axis=0) < -1.0)):
-            return False
-    return True
-
-
 def _keep_in_view(path: CameraPath, main: Actor, shooting: _Shooting) -> CameraPath:
     """The path with smaller moves if the subject would leave the picture, and clear of bodies."""
     for _ in range(_TRIES):
@@ -160,7 +136,7 @@ def _keep_in_view(path: CameraPath, main: Actor, shooting: _Shooting) -> CameraP
             framing = replace(path.framing, distance_m=1.2 * path.framing.distance_m)
             path = replace(path, framing=framing)
             continue
-        if main.enters or main.leaves or _is_visible(path, main, shooting.aspect):
+        if _is_visible(path, main, shooting.aspect):
             break
         damped = tuple(
             replace(move, pace=0.75 * move.pace) if move.kind in _LEAVING else move
@@ -214,9 +190,8 @@ def _stand_at(shooting: _Shooting) -> CameraPath:
 
 def _travel(shooting: _Shooting, travel: TravelPlan) -> CameraPath:
     """A camera on a route; what it looks at is some way ahead of the middle of the route."""
-    x, y, heading = travel.point(0.5 * travel.length_m, 0.0)
-    target = np.array([x, y, 0.5 * travel.journey.height_m])
-    framing = Framing(target, heading - 0.5 * math.pi, 0.05, max(16.0, 0.8 * travel.length_m), 0.9)
+    target = np.array([0.0, 0.0, 0.5 * travel.journey.height_m])
+    framing = Framing(target, 0.0, 0.05, max(16.0, 0.8 * travel.length_m), 0.9)
     moves = _plan_moves(shooting.description, None, shooting.duration_s)
     room = math.inf
     if is_room(shooting.place):
@@ -231,7 +206,7 @@ def _plan_moves(
     description: SceneDescription, main: Actor | None, duration_s: float
 ) -> tuple[CameraMove, ...]:
     """The moves that are said, each kind once at a time; else the subject is followed if fast."""
-    said = {(one.kind, one.phase, one.start_s): one for one in description.shot.moves}
+    said = {(one.kind, one.phase): one for one in description.shot.moves}
     if main is None or said or not main.is_mover:
         return tuple(said.values())
     has_landmark = any(
@@ -244,4 +219,4 @@ def _plan_moves(
     way = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))
     is_near = description.shot.framing in ("close", "medium")
     least = _NEAR_LENGTHS if is_near else _TRACKING_LENGTHS
-    return (CameraMove("follow", "side"),) if way > least * span else ()
+    return (CameraMove("follow"),) if way > least * span else ()

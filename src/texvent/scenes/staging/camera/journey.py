@@ -1,4 +1,4 @@
-"""Ego-motion: the route of a camera that travels along a road or through a place."""
+"""Ego-motion: the straight route of a camera that travels along a road or through a place."""
 
 from __future__ import annotations
 
@@ -11,21 +11,18 @@ import numpy as np
 
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.models.places import PLACES
-from texvent.scenes.scene import Float64Array, Ground
+from texvent.scenes.scene import Ground
 from texvent.scenes.staging.camera.camera_path import Journey
 from texvent.scenes.staging.surroundings.environment import RoadLine
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
 
+NORTH = 0.5 * math.pi
+"""Heading of a route."""
 VIEW_M = 70.0
 """How far ahead scenery stands along a route."""
-_ROAD_RADIUS_M = 27.0
-"""Least radius of a bend of a road, m."""
 _LEAST_CLEAR_M = 1.1
-_FREE_RADIUS_M = 4.0
 _ON_FOOT_M_S = 4.0
 """Speed below which a camera keeps to the pavement of a city."""
-_BEND_S = 4.5
-"""Seconds that a quarter circle takes in a bend: its radius follows from the speed."""
 
 
 class Means(NamedTuple):
@@ -61,7 +58,7 @@ _LOW_M, _AERIAL_M, _AERIAL_PITCH, _TOP_PITCH = 0.5, 16.0, 0.5, 1.4
 
 @dataclass(frozen=True)
 class TravelPlan:
-    """A route with the scenery along it."""
+    """A straight route northwards, its middle at (0, 0), with the scenery along it."""
 
     journey: Journey
     length_m: float
@@ -79,19 +76,9 @@ class TravelPlan:
         """At its beginning; negative = backwards."""
         return self.journey.route.initial_speed_m_s
 
-    def point(self, along_m: float, right_m: float) -> tuple[float, float, float]:
-        """x, y and heading of a place that far ahead of the rearmost point and to the right."""
-        route = self.journey.route
-        speed = max(abs(route.initial_speed_m_s), 1e-3)
-        back = self.length_m if route.initial_speed_m_s < 0.0 else 0.0
-        state = route.at((along_m - back) / math.copysign(speed, route.initial_speed_m_s))
-        return (*_left_of(state.position, state.yaw, -right_m), state.yaw)
-
-    def places(self, step_m: float = 1.0) -> Float64Array:
-        """[n, 2] the route, and on for as far as one sees, m."""
-        count = max(2, math.ceil((self.length_m + VIEW_M) / step_m))
-        alongs = np.linspace(0.0, self.length_m + VIEW_M, count)
-        return np.array([self.point(float(along), 0.0)[:2] for along in alongs])
+    def point(self, along_m: float, right_m: float) -> tuple[float, float]:
+        """X and y of a place that far ahead of the rearmost point and to the right."""
+        return right_m, along_m - 0.5 * self.length_m
 
 
 def plan_travel(description: SceneDescription, place: str, duration_s: float) -> TravelPlan | None:
@@ -107,54 +94,33 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     if is_aerial:
         height, pitch = max(height, _AERIAL_M), _TOP_PITCH if view == "top" else _AERIAL_PITCH
     height = min(height, _LOW_M) if view == "low" else height
-    last = max(move.phase for move in description.shot.moves)
-    phases = [[move for move in moves if move.phase == number] for number in range(last + 1)]
     speed = moves[0].speed_m_s or means.speed_m_s * moves[0].pace
-    has_road, kind = PLACES[place].has_road, description.surroundings.road
-    tightest = _ROAD_RADIUS_M if has_road else _FREE_RADIUS_M
-    route, curvature = _steer(phases, speed, duration_s, tightest, kind == "curved")
-    road_half = PLACES[place].road_m if has_road else 0.0
+    road_half = PLACES[place].road_m if PLACES[place].has_road else 0.0
     is_on_pavement = ground is Ground.CITY and not is_aerial and means.speed_m_s < _ON_FOOT_M_S
     lane = 0.5 * road_half if means.is_on_road else road_half + 1.0 if is_on_pavement else 0.0
-    times = np.linspace(0.0, duration_s, 33)
-    places = np.array([route.at(float(time)).position for time in times])
-    x, y, _ = -0.5 * (places.min(axis=0) + places.max(axis=0))
-    route = replace(route, start=(float(x), float(y), 0.0))
-    ways = [route.distance_at(float(time)) for time in times]
-    length = max(ways) - min(ways)
+    last = max(move.phase for move in description.shot.moves)
+    phases = [[move for move in moves if move.phase == number] for number in range(last + 1)]
+    route, length = _lay_route(phases, speed, duration_s)
     clear = (max(road_half + lane, _LEAST_CLEAR_M), max(road_half - lane, _LEAST_CLEAR_M))
-    bend = 1.0 / (1.0 / curvature - lane) if curvature else 0.0
-    road = RoadLine(route.yaw, _left_of(route.start, route.yaw, lane), bend)
-    if kind == "crossing" and not curvature:
-        x, y, angle = road.at(0.6 * length + 4.0)
-        road = replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
+    road = RoadLine(NORTH, (-lane, route.start[1]))
+    if description.surroundings.road == "crossing":
+        crossing = (-lane, route.start[1] + 0.6 * length + 4.0, NORTH + 0.5 * math.pi)
+        road = replace(road, crossings=(crossing,))
     return TravelPlan(Journey(route, height, pitch, means.step_m), length, clear, road)
 
 
-def _steer(
-    phases: Sequence[Sequence[CameraMove]],
-    speed: float,
-    duration_s: float,
-    tightest_m: float,
-    is_curved: bool,
+def _lay_route(
+    phases: Sequence[Sequence[CameraMove]], speed: float, duration_s: float
 ) -> tuple[SteeredPath, float]:
-    """The route from the origin northwards, and its curvature, 1/m: one for all phases."""
-    words = {move.direction for moves in phases for move in moves}
-    side = 1.0 if "left" in words else -1.0 if "right" in words else float(is_curved)
-    curvature = side * min(0.5 * math.pi / (_BEND_S * max(speed, 1e-3)), 1.0 / tightest_m)
+    """The route, and its length from end to end, m; the camera rests in phases without a move."""
     span = duration_s / len(phases)
     ramp = min(0.5, 0.4 * span)
     pieces = []
     for moves in phases:
         is_back = any(move.direction == "backward" for move in moves)
         way = -speed if is_back else speed if moves else 0.0
-        pieces.append(Piece(span, way, curvature * way, ramp_s=ramp))
-    first = pieces[0].speed_m_s
-    route = SteeredPath(
-        (0.0, 0.0, 0.0), 0.5 * math.pi, tuple(pieces), first, curvature * first
-    )  # fmt: skip
-    return route, curvature
-
-
-def _left_of(place: tuple[float, float, float], yaw: float, metres: float) -> tuple[float, float]:
-    return place[0] - metres * math.sin(yaw), place[1] + metres * math.cos(yaw)
+        pieces.append(Piece(span, way, ramp_s=ramp))
+    route = SteeredPath((0.0, 0.0, 0.0), NORTH, tuple(pieces), pieces[0].speed_m_s)
+    ways = [route.distance_at(float(time)) for time in np.linspace(0.0, duration_s, 33)]
+    start = (0.0, -0.5 * (min(ways) + max(ways)), 0.0)
+    return replace(route, start=start), max(ways) - min(ways)

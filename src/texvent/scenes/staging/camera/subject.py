@@ -23,10 +23,7 @@ _FILL, _WIDE_FILL, _FOLLOWED_FILL, _NEAR_FILL = 0.88, 0.7, 0.75, 0.95
 """Share of the image that what matters may fill: usually, in a wide shot, where the camera goes
 along with it, and in a close shot."""
 _FILL_BY_MOVE = {"pan": 0.62, "tilt": 0.7, "truck": 0.66, "pedestal": 0.7, "orbit": 0.66,
-                 "crane": 0.7, "handheld": 0.84, "roll": 0.7, "dolly zoom": 0.6}  # fmt: skip
-_APPROACHES = frozenset({"zoom", "dolly", "dolly zoom"})
-_AIM_FILLS, _LARGE_AIM = (1.3, 0.55), 1.3
-"""Fill at the far and the near end of a move in, and prominence of the aim at the near one."""
+                 "handheld": 0.84, "roll": 0.7}  # fmt: skip
 _WHOLE = 3.5
 """Other objects must fit as a whole if they are at most this many times as large as the movers."""
 _PIECE = 0.7
@@ -37,7 +34,7 @@ _LARGE_IN_WIDE = 0.75
 """How much less prominent the subject is in a wide shot."""
 KEPT_TOGETHER = frozenset(
     {"at", "on", "in", "above", "under", "behind", "front", "beside", "between", "around",
-     "left of", "right of", "look at"}
+     "left of", "right of"}
 )  # fmt: skip
 """Relations of which both things must be in the picture."""
 _UPPER = {"close": 0.62, "medium": 0.42}
@@ -51,20 +48,15 @@ _OF_WHOLE_BODY = frozenset(
     {"sit", "kneel", "crouch", "squat", "lie", "push-up", "dribble", "sweep", "row", "surf"}
 )
 """Activities of which the legs, or what is at the feet, tell."""
-ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05, "level": 0.03,
-              "high": 0.5}  # fmt: skip
+ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05}
 """View → elevation of the camera, rad."""
-_BEARINGS = {"side": 0.0, "front": 0.5 * math.pi, "back": -0.5 * math.pi}
-"""View → azimuth of the camera from the side of what it looks at, to its right; radians."""
-_FOLLOW_ELEVATIONS = {"behind": 0.22, "front": 0.22, "above": 0.7}
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
 _ROOM_ELEVATION = 0.24
 _FLAT, _FLAT_MOST_M, _FLAT_ELEVATION = 0.3, 3.0, 0.85
 """What stays in place, is flatter than this share of its length and not longer than that, is looked
 down upon."""
-_LEVEL_ELEVATION, _BETWEEN_WALLS = 0.38, 0.06
-"""Greatest elevation of a view from the front, the side or behind; and azimuth of a camera between
-two walls, which looks along them."""
+_BETWEEN_WALLS = 0.06
+"""Azimuth of a camera between two walls, which looks along them."""
 _ELONGATED, _ALONG_IT = 4.5, 0.75
 """What is so many times as long as high is seen at an angle to its side, from nearer its front."""
 _HERD, _HERD_ELEVATION = 6, 0.3
@@ -75,9 +67,8 @@ def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor
     """The object the camera is about: as said, or the first that moves or could."""
     target = description.shot.target
     asked = [one for one in actors if target is not None and one.object_index == target]
-    coming = [one for one in actors if one.enters or one.leaves]
     able = [one for one in actors if one.is_mover or _is_able(one)]
-    return [*asked[:1], *coming[:1], *able[:1], actors[0]][0]
+    return [*asked[:1], *able[:1], actors[0]][0]
 
 
 def _is_able(actor: Actor) -> bool:
@@ -114,35 +105,25 @@ def choose_angles(
     yaw = main.trajectory.at(0.0).yaw
     step = np.subtract(main.trajectory.at(0.5).position, main.trajectory.at(0.0).position)
     is_in_depth = bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
-    said, view = description.objects[main.object_index], description.shot.view
-    follow = next((move.direction or "" for move in moves if move.kind == "follow"), None)
-    if follow in ("behind", "front"):
-        azimuth = yaw + 0.1 * wander + (0.5 if follow == "front" else -0.5) * math.pi
-    elif PLACES[place].is_passage:
+    follows = any(move.kind == "follow" for move in moves)
+    if PLACES[place].is_passage:
         azimuth = math.copysign(_BETWEEN_WALLS, wander)
     elif is_in_depth:
-        azimuth = math.copysign(0.42, wander)
-        azimuth = azimuth if follow is None else yaw + math.copysign(0.5, wander)
+        azimuth = yaw + math.copysign(0.5, wander) if follows else math.copysign(0.42, wander)
     elif _is_elongated(main):
         azimuth = math.copysign(_ALONG_IT, math.cos(yaw))
     else:
         azimuth = wander
-    if view in _BEARINGS:
-        azimuth = yaw + _BEARINGS[view]
-        if view == "side" and math.cos(azimuth) < 0.0:
-            azimuth += math.pi  # its other side, which faces the default viewer
-    elevation = ELEVATIONS.get(view or "")
+    elevation = ELEVATIONS.get(description.shot.view or "")
     if elevation is None:
-        elevation = _choose_elevation(main, follow, place, is_in_depth)
-        if said.count >= _HERD and elevation > 0.0:
+        elevation = _choose_elevation(main, place, is_in_depth)
+        if description.objects[main.object_index].count >= _HERD and elevation > 0.0:
             elevation = max(elevation, _HERD_ELEVATION)
-    return azimuth, min(elevation, _LEVEL_ELEVATION) if view in _BEARINGS else elevation
+    return azimuth, elevation
 
 
-def _choose_elevation(main: Actor, follow: str | None, place: str, is_in_depth: bool) -> float:
+def _choose_elevation(main: Actor, place: str, is_in_depth: bool) -> float:
     """Height of the camera above what it looks at, radians."""
-    if follow in _FOLLOW_ELEVATIONS:
-        return _FOLLOW_ELEVATIONS[follow]
     model = main.model
     widest = max(model.length, model.width)
     is_flat = widest < _FLAT_MOST_M and model.height < _FLAT * widest
@@ -198,13 +179,11 @@ def list_views(
     """What the image may hold, from all there is to the subject alone, at instants, s."""
     shot, tie = description.shot, Tie.of(moves, main)
     relations = description.relations
-    passed = {n for r in relations if r.kind in ("past", "among", "overtake") for n in r.targets}
+    passed = {n for r in relations if r.kind in ("past", "overtake") for n in r.targets}
     first = {one.object_index: one for one in reversed(actors)}
     cut = {n for n, one in first.items() if shot.framing is None and acts_with_arms(one, times)}
     scope = _Scope(main, times, tie, passed, cut)
     near = [one for one in actors if description.objects[one.object_index].side != "far"]
-    if any(move.kind in _APPROACHES for move in moves) and main.object_index == shot.target:
-        return _approach(near, scope._replace(tie=None))
     framing = shot.framing
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
         boxes = corners_over([main], times if tie is None else times[:1])
@@ -233,17 +212,6 @@ def list_views(
 def _goes(actor: Actor) -> bool:
     """Whether it moves from where it is; a lighthouse and a swing only work there."""
     return actor.is_mover and actor.noun.habitat != "fixed"
-
-
-def _approach(actors: Sequence[Actor], scope: _Scope) -> list[View]:
-    """Views for a move in: at its far end the image shows what else there is, about the subject."""
-    near = corners_over([scope.main], scope.times)
-    rest = _points_of(actors, scope)
-    aim = 0.5 * (near.min(axis=0) + near.max(axis=0))
-    far_fill, near_fill = _AIM_FILLS
-    return [
-        View(np.vstack([rest, 2.0 * aim - rest]), far_fill), View(near, near_fill, _LARGE_AIM)
-    ]  # fmt: skip
 
 
 def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:

@@ -2,40 +2,33 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import Effect, SceneDescription
-from texvent.scenes.models.anchors import locate
 from texvent.scenes.models.effects import EFFECTS, LAMPS, EmitterStyle
-from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.tables import trait_value
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.particles.effect import (
-    FALLS,
-    ParticleEffect,
     Setting,
     Source,
-    let_fall,
 )
 from texvent.scenes.staging.particles.emitter import Emitter
 
+FALLING = ("rain", "snow")
+"""Weather that is an effect."""
 ONCE_AT = 0.4
 """When what happens once does so, if nothing says when: share of the clip."""
 _FALL_STEPS = 240
-_BREATH = (1.0, 0.0, 0.3)
-"""Direction of what comes from a mouth."""
 
 
 @dataclass(frozen=True)
 class Staged:
     """The particle systems of a scene, and which objects end when."""
 
-    effects: tuple[ParticleEffect, ...]
+    effects: tuple[Emitter, ...]
     ends_s: dict[int, float]
     """Instance of an object → when it is gone, s."""
     kinds: tuple[str, ...] = ()
@@ -43,18 +36,20 @@ class Staged:
 
 
 def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
-    """All effects of a scene, those that some nouns always have, and weather.
+    """Weather, all effects of a scene, and those that some nouns always have.
 
     An effect whose object has several copies is at each of them.
     """
-    said = list(description.effects)
+    weather = description.surroundings.weather
+    said = [Effect(weather)] if weather in FALLING else []
+    said += description.effects
     named = {(effect.kind, effect.source) for effect in said}
     for index, one in enumerate(description.objects):
         kind = trait_value("own effect", one.noun)
         if kind is not None and one.is_lit is not False and (kind, index) not in named:
             said.append(Effect(kind, index))
-    effects = _weather(description, setting)
-    kinds: list[str] = [description.surroundings.weather or ""] * len(effects)
+    effects: list[Emitter] = []
+    kinds: list[str] = []
     ends: dict[int, float] = {}
     for number, effect in enumerate(said):
         copies = [one for one in setting.actors if one.object_index == effect.source]
@@ -67,29 +62,6 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
     return Staged(tuple(effects), ends, tuple(kinds))
 
 
-def _weather(description: SceneDescription, setting: Setting) -> list[ParticleEffect]:
-    """Rain and snow."""
-    kind = description.surroundings.weather
-    if kind not in FALLS:
-        return []
-    rng = seeded(setting.seed, kind)
-    falling = let_fall(kind, setting.base, 1.4 * setting.framing.distance_m, rng)
-    travels = any(one.kind == "travel" for one in description.shot.moves)
-    return [replace(falling, camera=setting.camera) if travels else falling]
-
-
-def with_headroom(description: SceneDescription, actors: Sequence[Actor]) -> list[Actor]:
-    """The objects, with room in the image for what rises from them."""
-
-    def with_room(actor: Actor) -> Actor:
-        effects = [EFFECTS[one.kind] for one in description.effects
-                   if one.source == actor.object_index]  # fmt: skip
-        room = max((one.headroom * one.size for one in effects), default=0.0)
-        return replace(actor, headroom_m=room * _bulk(actor)) if room else actor
-
-    return [with_room(actor) for actor in actors]
-
-
 def gone(to_world: Float64Array) -> Float64Array:
     """[3, 4] the pose of an object that is no more: too small to be seen."""
     return np.column_stack([1e-6 * to_world[:, :3], to_world[:, 3]])
@@ -97,19 +69,15 @@ def gone(to_world: Float64Array) -> Float64Array:
 
 def _make(
     effect: Effect, actor: Actor | None, setting: Setting, rng: np.random.Generator
-) -> list[ParticleEffect]:
+) -> list[Emitter]:
     """What shows an effect at an object, or by itself."""
     words = EFFECTS[effect.kind]
-    colour = rgb_of(effect.colour, "effect")
     source = _source(effect.kind, actor, setting)
-    start_s = _start(effect, actor, setting) if words.happens_once else effect.start_s
-    if effect.kind == "splash":  # stays where it began, on the water
-        middle = source.at(np.array([start_s or 0.0]))[0]
-        source = Source(source.size_m, middle * [1.0, 1.0, 0.0])
+    start_s = _start(effect, actor, setting) if words.ends_source else effect.start_s
     return [
         Emitter.of(
-            _fitted(style, effect.kind, actor), source, setting, rng, colour=colour,
-            start_s=start_s, is_once=words.happens_once, volley=volley,
+            _fitted(style, effect.kind, actor), source, setting, rng,
+            start_s=start_s, is_once=words.ends_source, volley=volley,
         )
         for style in words.emitters
         if style.colours or actor is not None
@@ -125,8 +93,6 @@ def _fitted(style: EmitterStyle, kind: str, actor: Actor | None) -> EmitterStyle
     aim = trait_value("spout direction", noun) if "spout" in words.anchor_traits else None
     if aim is not None and style.body == "drop":
         style = replace(style, aim=tuple(aim))
-    if words.breathed and noun in PERSON_NOUNS:
-        style = replace(style, aim=_BREATH)
     return replace(style, light=0.0) if noun in LAMPS else style
 
 
@@ -134,7 +100,7 @@ def _start(effect: Effect, actor: Actor | None, setting: Setting) -> float:
     """When what happens once does so, s: as stated, when its object meets the ground, or early."""
     if effect.start_s is not None:
         return effect.start_s
-    if actor is not None and effect.kind in ("splash", "break"):
+    if actor is not None and effect.kind == "break":
         times = np.linspace(0.0, setting.duration_s, _FALL_STEPS)
         places = np.array([actor.trajectory.at(float(t)).position for t in times])
         heights = places[:, 2] - actor.foot_m
@@ -159,9 +125,6 @@ def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
         target[2] = target[2] + height if height else 0.0
         return Source(float(size), target + behind * setting.away)
     bulk, model, noun = _bulk(actor), actor.model, actor.noun.name
-    if words.breathed and noun in PERSON_NOUNS:
-        mouth = locate(model, "mouth", actor.pose(0.0))
-        return Source(words.size * bulk, mouth @ [0.12 * bulk, 0.0, 0.0, 1.0], actor)
     known = (trait_value(trait, noun) for trait in words.anchor_traits)
     x, y, z = next((one for one in known if one is not None), words.anchor)
     height = z * model.height - actor.foot_m

@@ -1,4 +1,4 @@
-"""Particle effects as functions of time, their sources and shapes; and rain and snow."""
+"""Sources of particles, what they need to know of a scene, and shapes in numbers."""
 
 from __future__ import annotations
 
@@ -9,8 +9,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from texvent.scenes.scene import (
-    LAMP_COLUMNS,
-    PUFF_COLUMNS,
     Colour,
     Float64Array,
     Primitives,
@@ -42,11 +40,6 @@ class Setting:
         return self.camera.framing
 
     @property
-    def base(self) -> Float64Array:
-        """[3] the point on the ground below what the camera looks at, m."""
-        return np.array([self.framing.target[0], self.framing.target[1], 0.0])
-
-    @property
     def away(self) -> Float64Array:
         """[3] horizontal unit vector away from the camera."""
         flat = -self.framing.offset * [1.0, 1.0, 0.0]
@@ -56,25 +49,6 @@ class Setting:
     def floor_m(self) -> float:
         """Height of the ground, m; -inf = none."""
         return -math.inf if self.place in _NO_GROUND else 0.0
-
-
-class ParticleEffect:
-    """An effect as a function of time; each kind overrides what it has."""
-
-    def at(self, time_s: float) -> Primitives:
-        """Its solid shapes at that instant: always as many, in the same order."""
-        del time_s
-        return many_shapes(np.zeros((0, 3, 4)), Shape.ELLIPSOID, np.zeros((0, 3)))
-
-    def puffs(self, time_s: float) -> Float64Array:
-        """[k, 19] its translucent puffs, as in `Environment.puffs`."""
-        del time_s
-        return np.zeros((0, PUFF_COLUMNS))
-
-    def lamps(self, time_s: float) -> Float64Array:
-        """[m, 15] the light it sheds, as in `Environment.lamps`."""
-        del time_s
-        return np.zeros((0, LAMP_COLUMNS))
 
 
 def many_shapes(
@@ -146,75 +120,3 @@ class Source:
         if self.actor is None:
             return np.eye(3)
         return np.asarray(self.actor.trajectory.at(time_s).to_world()[:, :3])
-
-
-_DEPTH_BELOW_M = 0.6
-"""Drops return to the top when they are this far under the ground, out of sight."""
-
-
-@dataclass(frozen=True)
-class Fall:
-    """One kind of weather that falls; lengths are shares of the width of the box that it fills."""
-
-    count: int
-    half: tuple[float, float, float]
-    """Half extents of a drop."""
-    colour: Colour
-    shape: Shape
-    speed_m_s: float = 0.0
-    speed_share: float = 0.0
-    """How fast it falls: in m/s, and in widths of the box each second."""
-    sway: float = 0.0
-
-
-FALLS = {
-    "rain": Fall(170, (0.0018, 0.0018, 0.032), (0.66, 0.72, 0.80), Shape.CYLINDER, 8.0),
-    "snow": Fall(220, (0.0052,) * 3, (0.95, 0.96, 1.0), Shape.ELLIPSOID, 0.0, 0.09, 0.015),
-}
-"""Weather that falls."""
-
-
-@dataclass(frozen=True)
-class FallingParticles(ParticleEffect):
-    """Drops that fall through a box around what the camera looks at."""
-
-    kind: Fall
-    places: Float64Array
-    """[n, 3] at t = 0, m; z counts from the bottom of the box."""
-    base: Float64Array
-    """[3] middle of the ground that it falls on, m."""
-    extent_m: float
-    """Side of the box."""
-    camera: CameraPath | None = None
-    """Path of a camera that travels: the box goes with it."""
-
-    def at(self, time_s: float) -> Primitives:
-        """All drops at that instant."""
-        kind, extent = self.kind, self.extent_m
-        speed = kind.speed_m_s + kind.speed_share * extent
-        fallen = np.mod(self.places[:, 2] - speed * time_s, _height(extent)) - _DEPTH_BELOW_M
-        flat = self.places[:, :2]
-        if self.camera is not None:
-            way = self.camera.at(time_s).position - self.camera.at(0.0).position
-            low = way[:2] - 0.5 * extent
-            flat = low + np.mod(flat - low, extent)
-        sway = kind.sway * extent * np.sin(1.9 * time_s + 17.0 * self.places[:, 0])
-        maps = np.zeros((len(self.places), 3, 4))
-        maps[:, [0, 1, 2], [0, 1, 2]] = extent * np.array(kind.half)
-        maps[:, :, 3] = np.column_stack([flat[:, 0] + sway, flat[:, 1], fallen])
-        maps[:, :, 3] += self.base
-        return many_shapes(maps, kind.shape, kind.colour)
-
-
-def _height(extent_m: float) -> float:
-    return 0.8 * extent_m + _DEPTH_BELOW_M
-
-
-def let_fall(
-    weather: str, base: Float64Array, extent_m: float, rng: np.random.Generator
-) -> FallingParticles:
-    """Weather of `FALLS` over a square of that side around `base`, m."""
-    low = np.array([-0.5 * extent_m, -0.5 * extent_m, 0.0])
-    high = np.array([0.5 * extent_m, 0.5 * extent_m, _height(extent_m)])
-    places = rng.uniform(low, high, size=(FALLS[weather].count, 3))
-    return FallingParticles(FALLS[weather], places, base, extent_m)

@@ -13,14 +13,12 @@ from texvent.scenes.models.effects import EmitterStyle
 from texvent.scenes.scene import (
     LAMP_COLUMNS,
     PUFF_COLUMNS,
-    Colour,
     Float64Array,
     Primitives,
     Shape,
 )
 from texvent.scenes.staging.particles.effect import (
     TINY_M,
-    ParticleEffect,
     Setting,
     Source,
     along,
@@ -96,8 +94,8 @@ class _Flown(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Emitter(ParticleEffect):
-    """Particles of a style from a source."""
+class Emitter:
+    """Particles of a style from a source, as a function of time."""
 
     source: Source
     style: EmitterStyle
@@ -116,7 +114,6 @@ class Emitter(ParticleEffect):
         setting: Setting,
         rng: np.random.Generator,
         *,
-        colour: Colour | None = None,
         start_s: float | None = None,
         is_once: bool = False,
         volley: int = 0,
@@ -133,18 +130,16 @@ class Emitter(ParticleEffect):
         salvo = volley / style.salvos if style.salvos else None
         lives = Lives.of(style.count, life_s, rng, start_s if is_once else None, salvo)
         colours = np.array(style.colours)
-        if colour is not None and not style.keeps_colour:
-            colours = np.array([colour])
-        elif not len(colours):
+        if not len(colours):
             colours = _colours_of(source, style.count, rng)
         start = -math.inf if start_s is None else start_s
         return cls(source, style, lives, colours, setting, start)
 
     def at(self, time_s: float) -> Primitives:
-        """Its drops or chips at that instant."""
+        """Its drops or chips at that instant: always as many, in the same order."""
         style = self.style
         if style.body == "puff":
-            return super().at(time_s)
+            return many_shapes(np.zeros((0, 3, 4)), Shape.ELLIPSOID, np.zeros((0, 3)))
         flown = self._fly(time_s)
         grown = _between(style.radius, flown.age) * (0.7 + 0.6 * flown.draws[:, 5])
         if style.body == "drop":
@@ -174,7 +169,7 @@ class Emitter(ParticleEffect):
         """[k, 19] its puffs at that instant; those just born or about to go are thin."""
         style = self.style
         if style.body != "puff":
-            return super().puffs(time_s)
+            return np.zeros((0, PUFF_COLUMNS))
         flown = self._fly(time_s)
         age, draws = flown.age, flown.draws
         radius = self.source.size_m * _between(style.radius, age) * (0.75 + 0.5 * draws[:, 5])
@@ -190,20 +185,19 @@ class Emitter(ParticleEffect):
         return rows
 
     def lamps(self, time_s: float) -> Float64Array:
-        """[m, 15] the light of its flames, or of its flash."""
+        """[m, 15] the light of its flames, or of its salvo."""
         style, size = self.style, self.source.size_m
-        if style.light == 0.0 or (time_s < self.start_s and self.lives.once_at_s is None):
-            return super().lamps(time_s)
+        if style.light == 0.0 or time_s < self.start_s:
+            return np.zeros((0, LAMP_COLUMNS))
         row = np.zeros((1, LAMP_COLUMNS))
         row[0, :3] = self.source.at(np.array([time_s]))[0] + [0.0, 0.0, 0.6 * size]
         level, hue = wave_level("flame", _FLAME_HZ * time_s, phase=0.37), _FLAME_LIGHT
-        if self.lives.once_at_s is not None or style.salvos > 0:
+        if style.salvos:
             age, draws = self.lives.at(time_s)
             age_s = max(float(age[0]), 0.0) * self.lives.life_s
             level = min(age_s / 0.02, 1.0) * math.exp(-age_s / (0.35 * math.sqrt(size / GRAVITY)))
-            if style.salvos:
-                row[0, :3] += self._offsets(draws)[0]
-                hue = self.colours[int(draws[0, 6] * len(self.colours))]
+            row[0, :3] += self._offsets(draws)[0]
+            hue = self.colours[int(draws[0, 6] * len(self.colours))]
         row[0, 3:6] = level * style.light * size * size * hue
         row[0, 6], row[0, 10:12], row[0, 12] = 12.0 * size, -2.0, 0.4 * size
         return row

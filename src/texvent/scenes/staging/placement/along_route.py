@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred
-from texvent.scenes.staging.camera.journey import TravelPlan
+from texvent.scenes.staging.camera.journey import NORTH, TravelPlan
 from texvent.scenes.staging.placement.object_groups import ObjectGroup
 
 _SEEN = 1.8
@@ -34,7 +33,7 @@ class RoutePlacer:
         """How far beyond the end of the route it is taken."""
 
     def place(self, group: ObjectGroup, height: float, *, is_goal: bool) -> Float64Array:
-        """[3] middle of a group, m, whose copies are placed and turned as the route runs there."""
+        """[3] middle of a group, m, whose copies are placed and turned along the route."""
         plan, travel = group.plan, self._travel
         crosses = plan.is_path and plan.motion.direction in ("left", "right", "across")
         if plan.is_path and not crosses and group.noun.habitat != "fixed":
@@ -47,10 +46,9 @@ class RoutePlacer:
             # Just beyond the end of the route, where the camera does not come.
             along = travel.length_m + self._beyond_m + 3.0 + 0.9 * group.size_m
             self._beyond_m += 2.0 * float(group.half[1]) + 0.5
-        x, y, heading = travel.point(along, 0.0)
         if not crosses:
-            group.plan = replace(plan, yaw=heading + (math.pi if is_goal else 0.0))
-        return np.array([x, y, height])
+            group.plan = replace(plan, yaw=-NORTH if is_goal else NORTH)
+        return np.array([*travel.point(along, 0.0), height])
 
     def _place_on_the_way(self, group: ObjectGroup, height: float) -> Float64Array:
         """Ahead of the camera or towards it: vehicles in lanes, others beside the road or aloft."""
@@ -74,15 +72,12 @@ class RoutePlacer:
             height = travel.journey.height_m - travel.journey.pitch_rad * ahead
         if is_oncoming:
             ahead += 0.25 * (travel.speed_m_s + speed) * self._duration_s
-        x, y, heading = travel.point(0.5 * travel.length_m, aside)
-        yaw = heading + (math.pi if is_oncoming else 0.0)
+        yaw = -NORTH if is_oncoming else NORTH
         group.plan = replace(plan, yaw=yaw, speed_m_s=speed, gesture=None)
-        forward = np.array([math.cos(heading), math.sin(heading), 0.0])
         spacing = 1.6 * length + 2.0
-        places = [n * spacing * forward for n in range(len(group.models))]
-        group.offsets = [(float(one[0]), float(one[1]), 0.0) for one in places]
+        group.offsets = [(0.0, number * spacing, 0.0) for number in range(len(group.models))]
         group.fit()
-        return np.array([x, y, height]) + ahead * forward
+        return np.array([*travel.point(0.5 * travel.length_m + ahead, aside), height])
 
     def _place_beside(self, group: ObjectGroup, height: float) -> Float64Array:
         """Each copy on the next free place of the emptier side."""
@@ -101,10 +96,10 @@ class RoutePlacer:
             along = max(self._taken[side], first) + 0.5 * step
             places.append(travel.point(along, side * aside))
             self._taken[side] = along + max(0.5 * step, spread - 0.5 * step)
-        spots = np.array([place[:2] for place in places])
+        spots = np.array(places)
         middle = spots.mean(axis=0)
         group.offsets = [(float(x), float(y), 0.0) for x, y in spots - middle]
         if is_square and group.plan.path is None:
-            group.plan = replace(group.plan, yaw=places[0][2])
+            group.plan = replace(group.plan, yaw=NORTH)
         group.fit()
         return np.array([*middle, height])

@@ -29,9 +29,9 @@ GAP_M = 0.25
 """Least space between two objects, in units of the smaller one's size."""
 OVERTAKEN = 0.4
 """Speed of what is overtaken, as a share of what overtakes it."""
-_CIRCLE = 1.3
+ORBIT_SIZES = 1.3
 """Radius of a circle, in sizes of who goes along it."""
-_TURNING = ("spin", "roll", "sway", "swing", "dance", "fall")
+_TURNING = ("spin", "roll", "sway", "dance", "fall")
 """Motions that need the same room at all sides."""
 
 
@@ -52,8 +52,6 @@ class ObjectGroup:
     clear_m: float = 0.0
     """Height of what it jumps over, m."""
     carrier: ObjectGroup | None = None
-    carried_on: int | None = None
-    """Index of the part of the carrier's model that it is on, where that part moves."""
     orbits: ObjectGroup | None = None
     yaws: list[float] | None = None
     """Heading of each copy, where they differ."""
@@ -118,8 +116,8 @@ def half_extents_over_clip(
         places = sample_places(plan.path, plan.duration_s)
         return np.asarray(half + spread + 0.5 * np.ptp(places, axis=0))
     travel = 0.5 * plan.travel_m * np.array([cosine, sine, abs(plan.climb)])
-    if plan.motion.direction == "circle":
-        travel = _CIRCLE * size * np.array([1.0, 1.0, 0.0])
+    if plan.motion.kind == "orbit":
+        travel = ORBIT_SIZES * size * np.array([1.0, 1.0, 0.0])
     return np.asarray(half + spread + travel)
 
 
@@ -146,9 +144,6 @@ def match_pace(group: ObjectGroup, partner: ObjectGroup, kind: str) -> None:
     the same way, slower, unless the scene says how it goes.
     """
     motion = group.plan.motion
-    if kind == "follow" and partner.plan.path is not None and group.plan.is_path:
-        group.plan = replace(group.plan, yaw=partner.plan.yaw, path=partner.plan.path)
-        return
     if not (partner.plan.is_path and group.plan.is_path):
         return
     if kind in ("follow", "with"):
@@ -161,8 +156,6 @@ def match_pace(group: ObjectGroup, partner: ObjectGroup, kind: str) -> None:
 
 
 _RESTING = frozenset({"stand", "sit", "lie", "slide"})
-_SHOULDERS_M = 0.6
-"""Room from shoulder to shoulder."""
 _APART = 0.3
 """Space between copies of small things, in their sizes: apples do not lie half a metre apart."""
 
@@ -207,7 +200,7 @@ def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, 
     length = max(model.length for model in models)
     width = max(model.width for model in models)
     size = max(length, width)
-    if plan.motion.direction == "circle":
+    if plan.motion.kind == "orbit":
         return 4.0 * size, 4.0 * size
     if noun.motion == "drive":
         return 1.45 * length + 0.5, max(width + 0.9, 2.9)
@@ -220,39 +213,15 @@ def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, 
     return 1.2 * (length if plan.is_path else size) + apart, across
 
 
-def form_up(group: ObjectGroup) -> None:
-    """Set the copies in the formation that the scene asks for."""
-    side = group.scene_object.side
-    if len(group.models) < 2:
-        return
-    if side in ("row", "together"):
-        _stand_in_row(group, is_close=side == "together")
-    elif side == "ring":
-        model = group.models[0]
-        size = max(model.length, model.width)
-        stand_in_ring(group, max(1.1 * size, 1.3 * size * len(group.models) / (2.0 * math.pi)))
-    else:
-        return
-    group.fit()
-
-
-def _stand_in_row(group: ObjectGroup, *, is_close: bool) -> None:
-    """Side by side across the image; who goes along, one by one or, if close, nearly abreast."""
+def stand_in_row(group: ObjectGroup) -> None:
+    """Side by side across the image; who goes along its depth, one by one."""
     count, model, plan = len(group.models), group.models[0], group.plan
-    long, wide = model.length, model.width
-    cosine, sine = math.cos(plan.yaw), math.sin(plan.yaw)
-    if is_close and group.noun.name in PERSON_NOUNS and plan.motion.kind != "lie":
-        long = wide = _SHOULDERS_M * size_of(model)
-    if is_close and plan.is_path:
-        ahead, aside = 0.75 * long, 1.25 * wide
-        step = (ahead * cosine - aside * sine, ahead * sine + aside * cosine)
-    elif is_close:
-        step = (1.12 * (abs(cosine) * long + abs(sine) * wide), 0.0)
-    else:
-        apart = 1.25 * (long if plan.is_path else max(long, wide)) + 0.15
-        step = (0.0, apart) if plan.is_path and abs(sine) > 0.7 else (apart, 0.0)
+    apart = 1.25 * (model.length if plan.is_path else max(model.length, model.width)) + 0.15
+    in_depth = plan.is_path and abs(math.sin(plan.yaw)) > 0.7
+    step = (0.0, apart) if in_depth else (apart, 0.0)
     places = [number - 0.5 * (count - 1) for number in range(count)]
     group.offsets = [(step[0] * at, step[1] * at, 0.0) for at in places]
+    group.fit()
 
 
 def list_around(count: int, wide_m: float, deep_m: float) -> list[tuple[float, float, float]]:
@@ -272,8 +241,8 @@ def stand_in_ring(group: ObjectGroup, radius_m: float) -> None:
     """In a ring, turned to its middle."""
     places = list_around(len(group.models), radius_m, radius_m)
     group.offsets = [(x, y, 0.0) for x, y, _ in places]
-    if not group.plan.is_path:
-        group.yaws = [yaw for _, _, yaw in places]
+    group.yaws = [yaw for _, _, yaw in places]
+    group.fit()
 
 
 def part_in_midst(group: ObjectGroup, room_m: float) -> None:

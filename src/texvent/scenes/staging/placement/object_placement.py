@@ -9,13 +9,12 @@ from dataclasses import replace
 import numpy as np
 
 from texvent.scenes.colours import rgb_of
-from texvent.scenes.description import AMID, STANDING, Relation, SceneDescription
+from texvent.scenes.description import STANDING, Relation, SceneDescription
 from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
-from texvent.scenes.staging.actors import Actor, Tether, is_centred, lowest_point, seeded
-from texvent.scenes.staging.acts.acts import on_part
+from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
 from texvent.scenes.staging.acts.perform import perform_acts, settle_motions
 from texvent.scenes.staging.camera.journey import TravelPlan
 from texvent.scenes.staging.placement.along_route import RoutePlacer
@@ -23,13 +22,13 @@ from texvent.scenes.staging.placement.object_groups import (
     ObjectGroup,
     choose_props,
     dressed,
-    form_up,
     half_extents_over_clip,
     match_pace,
     overlap,
     part_in_midst,
     rests,
     stagger,
+    stand_in_row,
 )
 from texvent.scenes.staging.placement.relations import (
     INVERSE,
@@ -42,11 +41,8 @@ from texvent.scenes.staging.placement.relations import (
 from texvent.scenes.staging.trajectories.choose_trajectory import (
     choose_trajectory,
     orbit,
-    rope_length,
 )
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
-from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
-from texvent.scenes.staging.trajectories.steered_path import bend_path
 from texvent.scenes.staging.trajectories.trajectory import Attached, Trajectory, Vector, vector
 
 _MUCH_LARGER = 1.3
@@ -82,18 +78,11 @@ class ObjectPlacer:
         self._along = None if travel is None else RoutePlacer(travel, duration_s, bodies)
 
     def place_all(self) -> list[Actor]:
-        """Every copy of every object that is no scenery, with its trajectory."""
-        scenic = {
-            target
-            for relation in self._description.relations
-            if relation.kind in AMID
-            for target in relation.targets
-        }
+        """Every copy of every object, with its trajectory."""
         objects = self._description.objects
         # Objects with positions in metres are placed first; others make way.
         for index in sorted(range(len(objects)), key=lambda one: objects[one].position_m is None):
-            if index not in scenic:
-                self._place(index, frozenset())
+            self._place(index, frozenset())
         actors: list[Actor] = []
         for index in sorted(self.groups):
             actors.extend(self._populate(self.groups[index], len(actors)))
@@ -117,16 +106,13 @@ class ObjectPlacer:
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
         motions = (scene_object.motion or STANDING, *scene_object.then)
         plan = plan_motion(motions, noun, models[0], self._duration_s, rng)
-        is_curved = self._description.surroundings.road == "curved" and self._travel is None
-        if is_curved and noun.motion == "drive" and plan.is_path:
-            path = bend_path(plan.yaw, plan.speed_m_s, ROAD_BEND_PER_M, self._duration_s)
-            plan = replace(plan, path=path, yaw=path.yaw)
         if scene_object.heading_deg is not None:
             plan = plan.turned(math.radians(scene_object.heading_deg))
         offsets = stagger(models, plan, noun, rng)
         half = half_extents_over_clip(models, offsets, plan)
         group = ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
-        form_up(group)
+        if scene_object.side == "row" and len(models) > 1:
+            stand_in_row(group)
         return group
 
     def _place(self, index: int, waiting: frozenset[int]) -> None:
@@ -245,7 +231,7 @@ class ObjectPlacer:
             return levels[name] * group.models[0].height
         level = levels.get(habitat, 0.0) or (air if kind == "fly" else 0.0)
         if level == 0.0:
-            return max(0.5 * group.size_m, 0.6) if kind == "swing" else 0.0
+            return 0.0
         clear = levels.get("clear", 0.0) if habitat == "air" or kind == "fly" else 0.0
         return level * max(group.size_m, 1.0) + clear
 
@@ -283,8 +269,6 @@ class ObjectPlacer:
                     any(motion.is_moving for motion in said),
                     before + number + 1, float(rng.uniform(0.0, 1.0)) if number else 0.0,
                     choose_props(self._description, group),
-                    _hang_rope(group, model, (x, y, z)),
-                    enters=said[0].kind == "enter", leaves=said[-1].kind == "leave",
                     goes_across=said[0].direction == "across",
                 )
             )  # fmt: skip
@@ -298,9 +282,8 @@ class ObjectPlacer:
             x, y, _ = group.orbits.centre
             reach = float(np.max(group.orbits.half[:2])) + 0.9 * group.size_m
             return orbit(
-                group.plan, model, (float(x), float(y), float(group.centre[2])),
+                group.plan, (float(x), float(y), float(group.centre[2])),
                 reach + 0.1 * group.orbits.size_m, number / len(group.models),
-                is_flying=group.noun.habitat == "air",
             )  # fmt: skip
         if group.carrier is not None:
             return self._ride_on(group, group.carrier, home)
@@ -308,22 +291,10 @@ class ObjectPlacer:
         return choose_trajectory(plan, model, home, rng, clear_m=group.clear_m)
 
     def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Trajectory:
-        """On what carries it, which moves as a whole, in a part, or only on its surface."""
+        """On what carries it, which moves as a whole."""
         rng = seeded(self._seed, "lead", below.index, below.noun.name)
         carrier = self._choose(below, below.models[0], vector(below.centre), 0, rng)
         (x, y, z), yaw = np.array(home) - below.centre, below.plan.yaw
         cosine, sine = math.cos(yaw), math.sin(yaw)
         place = (x * cosine + y * sine, y * cosine - x * sine, z)
-        activity = group.plan.gesture or "sit"
-        if group.carried_on is not None:
-            return on_part(carrier, below.models[0], group.carried_on, place, activity)
-        return Attached.seated(carrier, place, activity)
-
-
-def _hang_rope(group: ObjectGroup, model: Model, home: Vector) -> Tether | None:
-    """The rope of what swings."""
-    if group.plan.motion.kind != "swing" or group.plan.path is not None or group.plan.gesture:
-        return None
-    x, y, z = home
-    above = (x, y, z + rope_length(model))
-    return Tether(above, "", (0.0, 0.0, 0.9 * model.height), 0.012 + 0.004 * model.height)
+        return Attached.seated(carrier, place, group.plan.gesture or "sit")

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.description import Relation
-from texvent.scenes.models.anchors import Support, find_support, top_heights
+from texvent.scenes.models.anchors import Support, find_support
 from texvent.scenes.models.people.activities import (
     DONE_SEATED,
     PERSON_NOUNS,
@@ -16,8 +16,6 @@ from texvent.scenes.models.people.activities import (
     TO_AND_FROM_SEATS,
 )
 from texvent.scenes.models.people.posture import SEAT
-from texvent.scenes.models.protocol import Pose
-from texvent.scenes.models.shapes import bounds
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred, size_of
@@ -60,16 +58,12 @@ _ASIDE_RAD, _CLEAR_M = 0.25, 0.3
 _SEEN_SHARE, _ALIVE_SHARE = 0.6, 0.75
 """Share of the height of what is in something that looks out of it; of an animal, whose ears reach
 above its head."""
-_PROFILE_RAD = -0.35
-"""Heading of a seat on which a person sits down: the way down is seen from the side."""
 _FRONT_M = 0.40
 """From the front edge of a seat to the hips."""
 _SEATED_M, _STANDING_M = 0.28, 0.35
 """From the edge of a table to the middle of who sits or stands at it."""
 _PERSON_M = 0.5
 """Room for one of several people on something."""
-_EYE_M, _UNDER_TOP_M = 1.5, 0.12
-"""Height of the middle of what hangs, and least distance to the top of what it hangs on."""
 
 
 def place_on_targets(
@@ -100,7 +94,6 @@ def _place_around(group: ObjectGroup, targets: Sequence[ObjectGroup], height: fl
         within = float(max(target.half_at_rest()[:2]))
         wide = 0.5 * len(group.models) * 1.15 * own.width / math.pi
         stand_in_ring(group, max(within + 0.6 * own.length + 0.1, wide))
-        group.fit()
         return Goal(np.array([x, y, height]), _FIXED)
     group.orbits = target
     level += 0.8 * target.top_m if group.noun.habitat == "air" else 0.0
@@ -153,16 +146,11 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
 
     `height` is that of the target's origin, m; the subject is placed already.
     """
-    if kind in ("behind", "from") and subject.plan.motion.kind == "appear":
-        return _hide_before(group, subject, height)
     if kind == "through" and subject.plan.is_path:
         return _lead_through(group, subject, height)
     gap = GAP_M * min(subject.size_m, group.size_m)
     near = subject.half_at_rest()
     x, y, _ = subject.half + group.half + gap
-    if kind == "behind":
-        near = _half_below(group, subject.models[0].height)
-        y = float(subject.half[1] + near[1]) + gap
     yaw, here = subject.plan.yaw, _on_ground(subject, height)
     along = (math.cos(yaw), math.sin(yaw))
     goes = subject.plan.is_path or subject.plan.path is not None
@@ -188,16 +176,6 @@ def place_by_subject(group: ObjectGroup, kind: str, subject: ObjectGroup, height
     return Goal(_shift(here, right, back), slide)
 
 
-def _hide_before(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
-    """Before what appears, which comes out past its edge after a third of its way."""
-    model, yaw = group.models[0], subject.plan.yaw
-    way = 2.0 * subject.half[0] - subject.models[0].length
-    shown = -0.2 * way - 0.5 * max(model.length, model.width)
-    nearer = 0.5 * (subject.models[0].width + model.width) + _CLEAR_M
-    start = shown * math.copysign(1.0, math.cos(yaw))
-    return Goal(_shift(_on_ground(subject, height), start, -nearer), _FIXED)
-
-
 def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Goal:
     """Along the way of who goes through, who is out at about half of that way."""
     if group.noun.name in nouns_with("passage"):
@@ -206,15 +184,6 @@ def _lead_through(group: ObjectGroup, subject: ObjectGroup, height: float) -> Go
     way = 2.0 * float(max(subject.half[:2])) - subject.models[0].length
     back = 0.1 * way + 0.5 * group.models[0].length
     return Goal(subject.to_world(-back, 0.0, height - subject.centre[2]), _FIXED)
-
-
-def _half_below(group: ObjectGroup, height_m: float) -> Float64Array:
-    """[3] half extents of what of a group is lower than that: a tree's trunk."""
-    boxes = [bounds([part]) for part in group.models[0].parts(Pose(0.0, 0.0, 0.0, "stand"))]
-    boxes = [box for box in boxes if box[0][2] < height_m] or boxes
-    size = max(float(np.abs(corner[:2]).max()) for box in boxes for corner in box)
-    share = min(2.0 * size / max(group.models[0].length, group.models[0].width), 1.0)
-    return group.half_at_rest() * [share, share, 1.0]
 
 
 def _look_past(rear: ObjectGroup, near: Float64Array, apart_m: float) -> float:
@@ -254,13 +223,9 @@ def rest_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
     People who sit or lie take that posture and the target's heading; a target that moves carries
     the group along. `neighbours` are the indices of all objects on the target, one for each copy.
     """
-    if group.noun.name in nouns_with("hangs") and target.noun.name in nouns_with("upright face"):
-        return _hang_on(group, target, neighbours)
     kind, is_person = group.plan.motion.kind, group.noun.name in PERSON_NOUNS
     if target.plan.motion.is_moving:
         group.carrier = target
-    elif is_person and kind in TO_AND_FROM_SEATS:
-        target.plan = replace(target.plan, yaw=_PROFILE_RAD)
     if is_person and _sits(group, target):
         return _seat_on(group, target, neighbours)
     support = find_support(target.models[0])
@@ -283,17 +248,14 @@ def _sits(group: ObjectGroup, target: ObjectGroup) -> bool:
 
 
 def _seat_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
-    """People on a seat, or on the part of it that moves: the board of a swing."""
+    """People on a seat."""
     scale = size_of(group.models[0])
     is_seat = target.noun.name in nouns_with("seat")
     seat_m = SEAT * size_of(target.models[0])
     support = find_support(target.models[0], near_m=seat_m if is_seat else None)
     _line_up(group, target, support, neighbours)
     x, y = support.middle
-    part = _moving_part(target, (x, y))
-    if part is not None:
-        group.carrier, group.carried_on = target, part
-    elif support.high[0] > support.low[0]:
+    if support.high[0] > support.low[0] and target.noun.name not in nouns_with("sat on"):
         x = max(x, support.high[0] - _FRONT_M * scale)
     kind = group.plan.motion.kind
     doing = SEATED + kind if kind in DONE_SEATED else "sit"
@@ -342,33 +304,6 @@ def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int])
         group.plan = replace(group.plan, gesture=SEATED + done[0] if done else "sit", path=None)
     group.fit()
     return np.array([target.centre[0], target.centre[1], group.origin_m])
-
-
-def _hang_on(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
-    """Flat things side by side before an upright face, as pictures on a wall."""
-    model, face, yaw = group.models[0], target.models[0], target.plan.yaw
-    along_it = 0.5 * math.pi if group.plan.is_path else 0.0
-    group.plan = replace(group.plan, yaw=yaw + along_it)
-    count = len(group.models)
-    shifts = [1.2 * model.width * (number - 0.5 * (count - 1)) for number in range(count)]
-    group.offsets = [(-one * math.sin(yaw), one * math.cos(yaw), 0.0) for one in shifts]
-    group.fit()
-    share = (neighbours.index(group.index) + 0.5 * count) / len(neighbours) - 0.5
-    middle = min(_EYE_M, face.height - 0.5 * model.height - _UNDER_TOP_M)
-    foot = max(middle - 0.5 * model.height, 0.0)
-    height = foot + (0.5 * model.height if is_centred(group.noun) else 0.0)
-    place = target.to_world(0.5 * (face.length + model.length), -share * face.width, 0.0)
-    return np.array([place[0], place[1], height])
-
-
-def _moving_part(target: ObjectGroup, place: tuple[float, float]) -> int | None:
-    """Index of the part at a place of the surface, if it moves in the model: a swing's board."""
-    model = target.models[0]
-    first, later = (model.parts(Pose(time, 0.0, 0.0, "stand")) for time in (0.0, 0.61))
-    x, y = (np.array([value]) for value in place)
-    number = int(np.argmax([float(top_heights([part], x, y)[0]) for part in first]))
-    is_still = np.allclose(first[number].to_body, later[number].to_body)
-    return None if is_still else number
 
 
 def _line_up(

@@ -28,10 +28,8 @@ from texvent.scenes.staging.surroundings.lighting import (
     DEPTHS,
     Lighting,
     choose_lighting,
-    towards_light,
     wave_level,
 )
-from texvent.scenes.staging.trajectories.phases import ROAD_BEND_PER_M
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath
 from texvent.scenes.staging.trajectories.trajectory import Attached, Stationary
 
@@ -59,27 +57,19 @@ class RoadLine:
     """Direction at `offset`, from x towards y."""
     offset: tuple[float, float] = (0.0, 0.0)
     """A point (x, y) on the main road's centre line."""
-    curvature: float = 0.0
-    """1/m; positive bends to the left of `angle`; 0 = straight."""
     crossings: tuple[tuple[float, float, float], ...] = ()
     """Straight roads that cross the main one: a point (x, y) on the centre line, and direction."""
 
     def at(self, along_m: float) -> tuple[float, float, float]:
-        """Point (x, y) and direction of the main road at that arc length from `offset`."""
-        heading, half = self.angle + self.curvature * along_m, 0.5 * self.curvature * along_m
-        chord = along_m * float(np.sinc(half / math.pi))
-        x = self.offset[0] + chord * math.cos(self.angle + half)
-        return x, self.offset[1] + chord * math.sin(self.angle + half), heading
+        """Point (x, y) and direction of the main road at that distance from `offset`."""
+        x, y = self.offset
+        x, y = x + along_m * math.cos(self.angle), y + along_m * math.sin(self.angle)
+        return x, y, self.angle
 
     def across(self, spots: Float64Array) -> Float64Array:
         """[n] metres from the main road's line to ground points [n, 2], positive on its left."""
         x, y = (np.asarray(spots, dtype=np.float64) - self.offset).T
-        aside = y * math.cos(self.angle) - x * math.sin(self.angle)
-        if self.curvature == 0.0:
-            return np.asarray(aside)
-        radius = 1.0 / self.curvature
-        far = np.hypot(x + radius * math.sin(self.angle), y - radius * math.cos(self.angle))
-        return np.asarray(math.copysign(1.0, radius) * (abs(radius) - far))
+        return np.asarray(y * math.cos(self.angle) - x * math.sin(self.angle))
 
     def distance(self, spots: Float64Array) -> Float64Array:
         """[n] metres from each ground point [n, 2] to the nearest centre line."""
@@ -91,14 +81,12 @@ def find_road(
     description: SceneDescription, place: Place, actors: Sequence[Actor], usual_y: float
 ) -> RoadLine:
     """The road along the path of the first object on the ground that moves, or at `usual_y`, m."""
-    shape, lane_m = description.surroundings.road, 0.5 * place.road_m
+    lane_m = 0.5 * place.road_m
     has_pavement = place.ground is Ground.CITY and all(
         one.side != "lane" for one in description.objects
     )
     road = _straight_road(actors, usual_y, lane_m, has_pavement=has_pavement)
-    if shape == "curved" and not road.crossings:
-        return replace(road, curvature=_bend_of(actors, lane_m))
-    if shape == "crossing" and not road.crossings:
+    if description.surroundings.road == "crossing" and not road.crossings:
         x, y, angle = road.at(_CROSSING_AHEAD_M)
         return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
     return road
@@ -153,16 +141,6 @@ def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool) -> R
     return RoadLine(yaw % math.pi if lane == 0.0 else yaw, (x, y), crossings=tuple(crossings[:1]))
 
 
-def _bend_of(actors: Sequence[Actor], lane_m: float) -> float:
-    """Curvature of the road on which the first mover drives, 1/m."""
-    movers = [a for a in actors if a.is_mover and a.noun.habitat == "ground"]
-    path = movers[0].trajectory if movers else None
-    if not isinstance(path, SteeredPath) or not path.initial_turn_rad_s:
-        return ROAD_BEND_PER_M
-    lane = _lane_of(movers, lane_m)
-    return 1.0 / (path.initial_speed_m_s / path.initial_turn_rad_s - lane)
-
-
 def _lane_of(movers: Sequence[Actor], lane_m: float) -> float:
     """How far the first mover is to the right of the centre line, m."""
     is_alone = len(movers) == 1 and movers[0].noun.motion == "drive"
@@ -170,17 +148,13 @@ def _lane_of(movers: Sequence[Actor], lane_m: float) -> float:
 
 
 def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
-    """The actors, with what is painted across a road turned to it and under who crosses."""
-    crossing = next((one for one in actors if one.goes_across), None)
-    laid = []
-    for one in actors:
-        if one.noun.name in nouns_with("across a road"):
-            x, y, _ = (crossing or one).middle(0.5 * _USUAL_S) - (*road.offset, 0.0)
-            along = float(x * math.cos(road.angle) + y * math.sin(road.angle))
-            x, y, angle = road.at(along)
-            one = replace(one, trajectory=Stationary((x, y, 0.0), angle + 0.5 * math.pi))
-        laid.append(one)
-    return laid
+    """The actors, with what is painted across a road turned to it."""
+    painted, yaw = nouns_with("across a road"), road.angle + 0.5 * math.pi
+    return [
+        replace(one, trajectory=Stationary(one.trajectory.at(0.0).position, yaw))
+        if one.noun.name in painted else one
+        for one in actors
+    ]  # fmt: skip
 
 
 def water_line(place: Place, actors: Sequence[Actor], path: CameraPath) -> RoadLine:
@@ -263,12 +237,11 @@ def build_environment(
     road: RoadLine,
     distance_m: float,
     room_m: float,
-    looking: Float64Array,
 ) -> AnimatedEnvironment:
     """The surroundings of a scene.
 
     Fog is scaled to the distance of the camera from what it looks at; `room_m` is half the side of
-    the room, where the place is one; `looking` is the unit vector [3] that the camera looks along.
+    the room, where the place is one.
     """
     lighting, said = choose_lighting(place, description.light), description.surroundings
     colour, second = _ground_colours(place, said)
@@ -287,7 +260,7 @@ def build_environment(
         sky_horizon=_array(horizon),
         clouds=_cloud_share(description, place, lighting),
         wave_height=said.wave_height,
-        sun_direction=towards_light(_unit(lighting.sun_direction), looking, description.light),
+        sun_direction=_unit(lighting.sun_direction),
         sun_colour=_array(mix(lighting.sun, _BLACK, 0.4 if is_dim else 0.0)),
         ambient=_array(lighting.ambient),
         shadows=lighting.shadows,
@@ -301,7 +274,6 @@ def build_environment(
         has_stars=not place.is_backdrop,
         wall_surface=place.walls,
         wall_colour=place.wall_colour,
-        road_curvature=road.curvature,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )
     return AnimatedEnvironment(

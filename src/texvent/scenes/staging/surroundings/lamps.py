@@ -19,7 +19,6 @@ from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.surroundings.lighting import (
     FLAME_SHARES,
     hidden_lamp,
-    tint_of,
     wave_level,
 )
 from texvent.scenes.staging.surroundings.scenery import SceneryItem
@@ -219,7 +218,6 @@ def plan_lamps(
     strength: float,
     instant_s: float,
     framing: Framing,
-    looking: Float64Array,
     items: Sequence[SceneryItem],
 ) -> LampPlan:
     """Which lamps are on, and which of them cast shadows at that instant.
@@ -232,16 +230,12 @@ def plan_lamps(
         said, lamps = description.objects[one.object_index], _list_lamps(one)
         lit += [LitActor(one, said.is_lit, said.blink_hz, strength, lamps)] if lamps else []
     rows = _still_lamps(items, strength)
-    for row in rows:
-        row[3:6] *= np.array(tint_of(description.light) or 1.0)
     focus = np.asarray(framing.target, dtype=np.float64)
     is_dark = strength > 0.0 and place.ground not in _UNLIT
     if is_dark and not rows and not any(map(_lights_around, lit)):
-        light, reach = description.light, framing.distance_m
-        rows.append(hidden_lamp(focus, reach, strength, light, looking))
+        rows.append(hidden_lamp(focus, framing.distance_m, strength))
     still = np.array(rows, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
-    if description.light.shadows is not False:
-        _choose_casters(lit, still, instant_s, focus)
+    _choose_casters(lit, still, instant_s, focus)
     return LampPlan(description.light.lamps, tuple(lit), still)
 
 
@@ -267,7 +261,7 @@ def _still_lamps(items: Sequence[SceneryItem], strength: float) -> list[Float64A
     """Lamps of the scenery that are on."""
     rows = []
     for item in items if strength > 0.0 else ():
-        placed = item.place(0)
+        placed = item.place()
         for part in placed.parts:
             lamp = lamp_of(item.noun, part.colour) if part.emission > 0.0 else None
             if lamp is not None and not lamp.hue:

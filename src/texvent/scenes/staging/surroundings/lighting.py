@@ -1,4 +1,4 @@
-"""Light of a place at its time of day, as a scene says otherwise, and its modulation over time."""
+"""Light of a place at its time of day, and its modulation over time."""
 
 from __future__ import annotations
 
@@ -7,38 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.colours import TINTS, find_colour
 from texvent.scenes.description import Illumination
-from texvent.scenes.models.materials import mix
 from texvent.scenes.models.places import Place
 from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Ground
-
-_WHITE: Colour = (1.0, 1.0, 1.0)
-_BRIGHT, _DIM, _DIM_LAMPS = 1.35, 0.22, 0.35
-"""Factors on exposure, and strength of lamps in dim light."""
-_BACKLIT = 1.25
-"""Exposure where things are lit from behind."""
-_GREYED = 0.6
-"""How much of a sky's own blue light of another colour takes away."""
-_COLOURED = 1.35
-"""Exposure of light of a named colour, which lacks the others."""
-_PURE = 0.85
-"""How much of a named colour is in light of that colour."""
-_ELEVATIONS_DEG = {"left": 32.0, "right": 32.0, "back": 24.0, "front": 32.0, "above": 80.0}
-"""Direction of light → height of the sun above the horizon."""
-_BEARINGS_DEG = {"left": 90.0, "right": -90.0, "back": 12.0, "front": 165.0, "above": 0.0}
-"""The same → bearing of the sun, from where the camera looks towards its left."""
-
 
 _WARM: Colour = (1.0, 0.72, 0.40)
 _LAMP_OFFSET = np.array([-0.25, -0.25, 0.55])
 """From what the camera looks at to a lamp out of sight, in distances of the camera."""
-_TINTS: dict[str, Colour] = {
-    "warm": (1.24, 0.92, 0.54),
-    "golden": (1.28, 0.90, 0.40),
-    "cold": (0.64, 0.93, 1.30),
-}
-"""Tint → factors on red, green and blue of linear light."""
 
 
 @dataclass(frozen=True)
@@ -108,8 +83,9 @@ _DAYLIGHTS = {"room": _ROOM, "underwater": _UNDERWATER, "space": _SPACE}
 _DARK = ("night", "moonlight", "lamp")
 
 
-def usual_lighting(place: Place, kind: str) -> Lighting:
+def choose_lighting(place: Place, light: Illumination) -> Lighting:
     """The lighting of a place at a time of day, or under another light of `LIGHTINGS`."""
+    kind = light.kind or "day"
     if place.light == "underwater":
         return _UNDERWATER
     if place.light == "space" or (place.light and kind not in _DARK):
@@ -120,90 +96,17 @@ def usual_lighting(place: Place, kind: str) -> Lighting:
     return replace(chosen, lamps=0.3 * chosen.lamps) if place.ground is Ground.SNOW else chosen
 
 
-def choose_lighting(place: Place, light: Illumination) -> Lighting:
-    """The lighting of a place at that time of day, as its words say but for its direction."""
-    lighting = usual_lighting(place, light.kind or "day")
-    if light.shadows is not None:
-        lighting = replace(lighting, shadows=light.shadows)
-    lighting = _brighten(lighting, light.brightness)
-    if light.direction == "back":
-        lighting = replace(lighting, exposure=_BACKLIT * lighting.exposure)
-    tint = tint_of(light)
-    if tint is None:
-        return lighting
-    is_white = light.tint in _TINTS
-    return replace(
-        lighting,
-        sun=_times(lighting.sun, tint),
-        ambient=_times(lighting.ambient, tint),
-        sky_top=_times(_greyed(lighting.sky_top), tint),
-        sky_horizon=_times(_greyed(lighting.sky_horizon), tint),
-        exposure=lighting.exposure * (1.0 if is_white else _COLOURED),
-    )
-
-
-def tint_of(light: Illumination) -> Colour | None:
-    """Factors on red, green and blue that give light the colour that is said; None = none is."""
-    if light.tint is None:
-        return None
-    if light.tint in _TINTS:
-        return _TINTS[light.tint]
-    red, green, blue = find_colour(light.tint, TINTS)
-    most = max(red, green, blue, 1e-9)
-    return mix(_WHITE, (red / most, green / most, blue / most), _PURE)
-
-
-def _brighten(lighting: Lighting, brightness: str | None) -> Lighting:
-    """Brighter or dimmer."""
-    if brightness == "bright":
-        return replace(lighting, exposure=_BRIGHT * lighting.exposure)
-    if brightness == "dim" and lighting.lamps == 0.0:  # lamps that are on are dim enough
-        return replace(lighting, exposure=_DIM * lighting.exposure, lamps=_DIM_LAMPS)
-    return lighting
-
-
-def towards_light(usual: Float64Array, looking: Float64Array, light: Illumination) -> Float64Array:
-    """Unit vector [3] towards the sun, or a lamp out of sight, where words say where it is.
-
-    `looking` is the unit vector [3] that the camera looks along.
-    """
-    if light.direction is None:
-        return usual
-    elevation = math.radians(_ELEVATIONS_DEG[light.direction])
-    bearing = math.atan2(looking[1], looking[0]) + math.radians(_BEARINGS_DEG[light.direction])
-    flat = math.cos(elevation)
-    return np.array([flat * math.cos(bearing), flat * math.sin(bearing), math.sin(elevation)])
-
-
-def hidden_lamp(
-    target: Float64Array,
-    reach_m: float,
-    strength: float,
-    light: Illumination,
-    looking: Float64Array,
-) -> Float64Array:
+def hidden_lamp(target: Float64Array, reach_m: float, strength: float) -> Float64Array:
     """[15] a lamp out of sight, as in `Environment.lamps`, that lights the ground below it.
 
-    It is warm where it has no colour, and stands off the target [3] by shares of `reach_m`.
+    It stands off the target [3] by shares of `reach_m`.
     """
-    row, offset = np.zeros(LAMP_COLUMNS), _LAMP_OFFSET
-    if light.direction is not None:
-        far = float(np.linalg.norm(offset))
-        offset = far * towards_light(offset / far, looking, light)
-    row[:3] = target + reach_m * offset
+    row = np.zeros(LAMP_COLUMNS)
+    row[:3] = target + reach_m * _LAMP_OFFSET
     height = max(float(row[2]), 0.7)
-    row[3:6] = 1.1 * strength * height**2 * np.array(tint_of(light) or _WARM)
+    row[3:6] = 1.1 * strength * height**2 * np.array(_WARM)
     row[6], row[10], row[11], row[12] = 5.0 * height, -2.0, -2.0, 0.3
     return row
-
-
-def _greyed(sky: Colour) -> Colour:
-    grey = 0.30 * sky[0] + 0.59 * sky[1] + 0.11 * sky[2]
-    return mix(sky, (grey, grey, grey), _GREYED)
-
-
-def _times(colour: Colour, factors: Colour) -> Colour:
-    return colour[0] * factors[0], colour[1] * factors[1], colour[2] * factors[2]
 
 
 ON_SHARES = {"square": 0.5, "switch": 0.5, "strobe": 0.35}

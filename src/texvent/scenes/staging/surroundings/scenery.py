@@ -18,7 +18,7 @@ from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.models.tables import nouns_with, trait_value
 from texvent.scenes.scene import Camera, Float64Array
 from texvent.scenes.staging.actors import Actor, PlacedModel
-from texvent.scenes.staging.camera.journey import VIEW_M, TravelPlan
+from texvent.scenes.staging.camera.journey import NORTH, VIEW_M, TravelPlan
 from texvent.scenes.staging.surroundings.environment import RoadLine
 from texvent.scenes.staging.trajectories.trajectory import BodyState
 
@@ -82,11 +82,11 @@ class SceneryItem:
         """Of the ground it stands on."""
         return 0.5 * max(self.model.length, self.model.width)
 
-    def place(self, instance: int) -> PlacedModel:
+    def place(self) -> PlacedModel:
         """Its parts in the world."""
         state = BodyState((*self.position, self.height_m), self.yaw, activity="stand")
         parts = self.model.parts(Pose(0.0, 0.0, 0.0, "stand"))
-        return PlacedModel(parts, state.to_world(), instance)
+        return PlacedModel(parts, state.to_world(), 0)
 
 
 def under_snow(rules: Iterable[Scenery]) -> list[Scenery]:
@@ -104,7 +104,6 @@ def scatter(
     nouns: Mapping[str, Noun],
     *,
     rng: np.random.Generator,
-    taken: Sequence[SceneryItem] = (),
 ) -> list[SceneryItem]:
     """Scatter scenery where the camera sees it and it hides and blocks nothing.
 
@@ -114,13 +113,12 @@ def scatter(
         actors: the objects of the scene.
         nouns: table of models; a noun that is missing is left out.
         rng: decides places, sizes and turns.
-        taken: scenery that stands already.
 
     Returns:
         The pieces that found a place; fewer than wanted where it is crowded.
     """
     rules = [rule for rule in rules if rule.noun in nouns]
-    work = _Scatterer(view, actors, nouns, rng, [*taken])
+    work = _Scatterer(view, actors, nouns, rng)
     beside: list[Scenery] = []
     if view.travel is not None:
         beside = [rule for rule in rules if rule.where != "far" and not rule.is_structure]
@@ -132,7 +130,7 @@ def scatter(
             work.enclose(rule)
         elif rule.where != "route" and rule not in beside:
             work.stand_in_view(rule)
-    return work.items[len(taken) :]
+    return work.items
 
 
 class _Scatterer:
@@ -144,9 +142,8 @@ class _Scatterer:
         actors: Sequence[Actor],
         nouns: Mapping[str, Noun],
         rng: np.random.Generator,
-        items: list[SceneryItem],
     ) -> None:
-        self.items = items
+        self.items: list[SceneryItem] = []
         self._view, self._nouns, self._rng = view, nouns, rng
         self._yaw = actors[0].trajectory.at(0.0).yaw if actors else 0.0
         """Heading of the first object."""
@@ -182,7 +179,7 @@ class _Scatterer:
 
     def line_route(self, rules: Sequence[Scenery], travel: TravelPlan) -> None:
         """Pieces on both sides of a route, from behind its beginning to beyond its end."""
-        length, line = travel.length_m + VIEW_M + _BEFORE_M, travel.places(0.5)
+        length = travel.length_m + VIEW_M + _BEFORE_M
         spacing = {
             rule: float(trait_value("spacing along a road", rule.noun) or _SPACING_M)
             for rule in rules
@@ -193,8 +190,7 @@ class _Scatterer:
             for number in range(math.ceil(length / step)):
                 along = step * (number + float(self._rng.uniform(0.1, 0.9))) - _BEFORE_M
                 item = self._stand_beside(rule, number, travel, along, side)
-                away = float(np.min(np.hypot(*(line - item.position).T))) - item.radius_m
-                if away >= min(travel.clear_m) and self._is_free(item):
+                if self._is_free(item):
                     self.items.append(item)
 
     def _stand_beside(
@@ -205,13 +201,11 @@ class _Scatterer:
         near, far = trait_value("distance from a road", rule.noun) or _ASIDE_M
         aside = travel.clear(side) + 0.5 * max(model.length, model.width)
         aside += near + (far - near) * float(self._rng.uniform()) ** 2
-        x, y, heading = travel.point(along_m, side * aside)
         height = 0.0
         if self._nouns[rule.noun].habitat == "air":
             height = travel.journey.height_m + float(self._rng.uniform(-5.0, 4.0))
-        return SceneryItem(
-            rule, model, (x, y), self._turn(rule, heading + side * 0.5 * math.pi), height
-        )
+        yaw = self._turn(rule, NORTH + side * 0.5 * math.pi)
+        return SceneryItem(rule, model, travel.point(along_m, side * aside), yaw, height)
 
     def _turn(self, rule: Scenery, along_road: float) -> float:
         """Heading of a piece: along the road, or any."""
@@ -264,7 +258,7 @@ class _Scatterer:
         top = pitch - math.atan(0.33 / camera.focal)
         if top > 0.02:
             seen = float(camera.position[2]) / math.tan(top) / max(flat, 1e-6) - 1.0
-            near, far = (min(near, 0.1 - 0.8 * seen), seen) if far > seen else (near, far)
+            near, far = (min(near, 0.1 - 0.8 * seen, seen), seen) if far > seen else (near, far)
         return flat * (1.0 + float(self._rng.uniform(near, far)))
 
     def _stand_at_wall(self, rule: Scenery, model: Model, camera: Camera) -> SceneryItem:

@@ -1,4 +1,4 @@
-"""Motions in one place or under gravity: spin, swing, sway, hover, flight, arc.
+"""Motions in one place or under gravity: spin, sway, hover, flight.
 
 Like those of `trajectory`, they are pure, continuous functions of time; angles in radians,
 lengths in metres, times in seconds.
@@ -14,7 +14,6 @@ import numpy as np
 
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
-    Stationary,
     Trajectory,
     Vector,
     rotation,
@@ -75,13 +74,6 @@ class Oscillating:
             values[wave.axis] += wave.amplitude * math.sin(angle)
         x, y, z, yaw, pitch, roll = values.values()
         return replace(state, position=(x, y, z), yaw=yaw, pitch=pitch, roll=roll)
-
-
-def swing(home: Vector, length_m: float, amplitude_rad: float, pace: float = 1.0) -> Oscillating:
-    """A pendulum of small angles; its origin hangs at `home`, `length_m` below its pivot."""
-    rate_hz = pace * math.sqrt(GRAVITY_M_S2 / length_m) / (2.0 * math.pi)
-    hanging = Stationary(home, activity="swing", pivot_m=length_m)
-    return Oscillating(hanging, (Wave("pitch", amplitude_rad, rate_hz, 0.5 * math.pi),))
 
 
 def hover(path: Trajectory, amplitude_m: float, phase: float = 0.0) -> Oscillating:
@@ -150,37 +142,6 @@ def bounce_height(drop_m: float, up_m_s: float, restitution: float, elapsed_s: f
     into = elapsed - total * (1.0 - restitution**number)
     speed = impact * restitution ** (number + 1)
     return max(speed * into - 0.5 * GRAVITY_M_S2 * into**2, 0.0)
-
-
-@dataclass(frozen=True)
-class Arc:
-    """Free flight from one state to another, both with the same pivot."""
-
-    start: BodyState
-    end: BodyState
-    start_s: float
-    end_s: float
-    turns: float = 0.0
-    """Whole turns about its side axis on the way."""
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        span, elapsed = self.end_s - self.start_s, time_s - self.start_s
-        share = elapsed / span
-        x, y, z = (
-            a + share * (b - a) for a, b in zip(self.start.position, self.end.position, strict=True)
-        )
-        yaw, pitch, roll = (
-            first + share * math.remainder(last - first, 2.0 * math.pi)
-            for first, last in zip(_angles(self.start), _angles(self.end), strict=True)
-        )
-        return replace(
-            self.end,
-            position=(x, y, z + 0.5 * GRAVITY_M_S2 * elapsed * (span - elapsed)),
-            yaw=yaw,
-            pitch=pitch + 2.0 * math.pi * self.turns * share,
-            roll=roll,
-        )
 
 
 def _angles(state: BodyState) -> Vector:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from dataclasses import replace
 
 import numpy as np
@@ -13,13 +12,11 @@ from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.protocol import Model
 from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
-    Axis,
     Flight,
     Oscillating,
     Spin,
     Wave,
     hover,
-    swing,
 )
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.phases import NO_FLOOR_M, PATH_KINDS, activity_of
@@ -44,10 +41,6 @@ from texvent.scenes.staging.trajectories.trajectory import (
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTS})
 """What bodies without hands do in their place."""
-_STUNTS: Mapping[str, tuple[Axis, float, str, float]] = {
-    "flip": ("pitch", 0.8, "stand", 0.6), "roll over": ("roll", 0.5, "lie", 0.0),
-}  # fmt: skip
-"""Motion → axis, turns per second, what limbs do meanwhile, and how high it is, in its sizes."""
 _LARGEST_AFLOAT_M = 2.5
 """What is larger bobs no more than that: a moon, a cloud."""
 _ROUND_RAD, _ROUND_RAD_S = 2.6, 1.3
@@ -89,7 +82,7 @@ def choose_trajectory(
     if plan.gesture is not None:
         return Stationary(home, plan.yaw, plan.gesture, plan.motion.pace)
     phase = float(rng.uniform(0.0, 2.0 * math.pi))
-    if kind == "orbit" or (kind in PATH_KINDS and direction == "circle"):
+    if kind == "orbit":
         return _go_round(plan, model, home, phase)
     if direction in ("to and fro", "up and down") and kind != "sway":
         return _go_and_return(plan, model, home)
@@ -123,30 +116,20 @@ def _leap(plan: MotionPlan, model: Model, home: Vector, clear_m: float) -> Steer
 
 def _go_round(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
     """Along a circle, at a usual speed fast enough for a good part of the round to be seen."""
-    kind, motion = plan.motion.kind, plan.motion
+    motion = plan.motion
     rounds_hz = 0.0 if motion.speed_m_s is not None else motion.pace / plan.duration_s
     radius = 1.3 * max(model.length, model.width)
     rate = max(plan.speed_m_s / radius, min(_ROUND_RAD_S, _ROUND_RAD * rounds_hz))
-    lean = 0.35 * (kind in ("fly", "orbit"))
-    circle = Circle(home, radius, rate, phase, activity_of(kind), lean)
+    circle = Circle(home, radius, rate, phase, "move")
     return Facing(circle) if plan.is_facing else circle
 
 
-def orbit(
-    plan: MotionPlan,
-    model: Model,
-    centre: Vector,
-    radius_m: float,
-    share: float,
-    *,
-    is_flying: bool,
-) -> Circle:
+def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Circle:
     """Once round another object in the clip, from that share of the round on."""
     rate = 2.0 * math.pi / max(plan.duration_s, 2.0) * plan.motion.pace
     rate *= -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
     activity = "run" if plan.motion.kind == "run" else "move"
-    lean = 0.3 if is_flying and model.length > model.height else 0.0
-    return Circle(centre, radius_m, rate, 2.0 * math.pi * share, activity, lean)
+    return Circle(centre, radius_m, rate, 2.0 * math.pi * share, activity)
 
 
 def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
@@ -185,13 +168,6 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     if kind == "spin":
         usual = 2.0 * math.pi * (-SPIN_RATE_HZ if is_clockwise else SPIN_RATE_HZ)
         return _spin(plan, model, home, usual, phase)
-    if kind in _STUNTS:
-        axis, hz, doing, raised = _STUNTS[kind]
-        place = _raised(home, raised * max(model.length, model.height))
-        rate, pivot = 2.0 * math.pi * hz * pace, 0.5 * min(model.width, model.height)
-        return Spin(place, rate, plan.yaw, axis=axis, pivot_m=pivot, activity=doing)
-    if kind == "swing":
-        return swing(home, rope_length(model), 0.5, pace)
     if kind in ("hover", "float"):
         span = max(model.length, model.width, model.height)
         bob_m = 0.12 * min(span, _LARGEST_AFLOAT_M) * pace
@@ -202,11 +178,6 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
     way = -1.0 if plan.motion.direction == "clockwise" else 1.0
     activity = kind if kind in _STAYING else "move"
     return Stationary(home, plan.yaw, activity, way * pace, way * _gain(plan))
-
-
-def rope_length(model: Model) -> float:
-    """From the origin of what swings up to the point that it hangs from, m."""
-    return max(1.6 * model.height, 0.6)
 
 
 def _spin(

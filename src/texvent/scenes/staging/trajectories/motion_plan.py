@@ -36,8 +36,6 @@ MIN_LENGTHS_PER_S = 0.35
 LEAST_SAILED = 0.15
 """The same of ships, at 24 knots for 80 m: others are seen to rest."""
 SMALL_M = 2.5
-_DIAGONAL = 0.6
-"""Metres up per metre along a diagonal of the picture."""
 RUN_FACTOR = 2.2
 """Running over walking speed."""
 FLAT, _WIDE = 0.62, 0.7
@@ -66,7 +64,7 @@ class MotionPlan:
     @property
     def is_path(self) -> bool:
         """Whether it goes from one place to another along a straight line."""
-        is_straight = self.motion.direction not in ("circle", "to and fro", "up and down")
+        is_straight = self.motion.direction not in ("to and fro", "up and down")
         return self.path is None and self.motion.kind in PATH_KINDS and is_straight
 
     def turned(self, yaw: float) -> MotionPlan:
@@ -86,11 +84,8 @@ class MotionPlan:
     @property
     def climb(self) -> float:
         """Metres up per metre along."""
-        direction = self.motion.direction or ""
-        if self.is_facing:
-            return _DIAGONAL if direction == "diagonal" else 0.0
-        slope = {"up": 0.45, "down": -0.45, "diagonal": _DIAGONAL}.get(direction, 0.0)
-        return slope if self.motion.kind in ("fly", "swim") else 0.0
+        is_free = self.motion.kind in ("fly", "swim") and not self.is_facing
+        return {"up": 0.45, "down": -0.45}.get(self.motion.direction or "", 0.0) if is_free else 0.0
 
 
 def plan_motion(
@@ -147,22 +142,15 @@ def _choose_yaw(motions: Sequence[ObjectMotion], noun: Noun, model: Model, toss:
         return default  # what falls over does so to a side of the picture
     if not goes and (motion.direction is None or _is_seen_from_front(noun, motion)):
         return _face_camera(noun, model, motion, toss)
-    if _is_steep(noun, model, motion, direction):
-        return default
+    if motion.kind in ("fly", "swim") and direction in ("up", "down"):
+        return default  # up or down in the picture, and to a side only as it likes
     return YAWS.get(direction, default)
-
-
-def _is_steep(noun: Noun, model: Model, motion: ObjectMotion, direction: str) -> bool:
-    """Whether it goes up or down in the picture, and to a side only as it likes."""
-    if direction == "diagonal" and _faces_camera(noun, model, motion):
-        return True
-    return motion.kind in ("fly", "swim") and direction in ("up", "down", "diagonal")
 
 
 def _faces_camera(noun: Noun, model: Model, motion: ObjectMotion) -> bool:
     """Whether it shows its front while it goes or spins: a board slides so, a shape always."""
     if noun.name in nouns_with("flat pattern"):
-        return motion.kind in PATH_KINDS or motion.kind in ("spin", "rise", "sink")
+        return motion.kind in PATH_KINDS | {"orbit", "spin", "rise", "sink"}
     if motion.kind == "spin":
         return noun.name in nouns_with("flat picture")
     is_wide = model.length < _WIDE * model.width

@@ -23,7 +23,7 @@ from texvent.scenes.staging.trajectories.steered_path import (
 
 PATH_KINDS = TRAVELLING | frozenset({"drive", "fly", "sail", "paddle", "slide", "roll", "move"})
 """Motions from one place to another."""
-GOING = PATH_KINDS | {"reverse", "enter", "leave", "appear"}
+GOING = PATH_KINDS | {"reverse"}
 """Those with a direction of travel."""
 _STEERED = GOING | {"turn"}
 _PIECED = _STEERED - PATH_KINDS | {"jump", "rise", "sink", "topple"}
@@ -32,7 +32,6 @@ YAWS = {
     "right": 0.0,
     "left": math.pi,
     "away": 0.5 * math.pi,
-    "diagonal": 0.25 * math.pi,
     "up": 0.5 * math.pi,
     "towards": -0.5 * math.pi,
     "down": -0.5 * math.pi,
@@ -45,14 +44,10 @@ QUARTER = 0.5 * math.pi
 _TURN_SHARE, _HEADING_SHARE = 0.6, 0.45
 """Shares of a phase that a turn takes where it is all that happens, for it comes and goes on; and
 that the turn to another direction takes."""
-ROAD_BEND_PER_M = 1.0 / 50.0
-"""Curvature of a road that bends."""
 MOST_HASTE = 2.5
 """Most multiple of its usual speed at which an object does what its time is short for."""
 _RAMP_S = 0.3
 _BRAKING_M_S2 = 6.0
-_LONG = 0.8
-"""Share of its height from which the length of what falls lays it onto its side."""
 _CLIMB, _TAKE_OFF, _LANDING = 0.45, 0.32, 0.12
 """Metres up or down per metre along: in general, from a runway, and to it."""
 _LIFT_SHARE, _LANDING_SHARE = 0.3, 0.65
@@ -142,8 +137,6 @@ def build_path(
     """
     phases = schedule(motions, duration_s)
     usual_m_s = _fast_enough(phases, noun, model, usual_m_s)
-    if motions[0].kind == "reverse" and motions[0].direction is not None:
-        yaw += math.pi
     builder = _Builder(noun, model, usual_m_s, yaw, is_single=len(phases) == 1)
     for phase in phases:
         builder.add(phase)
@@ -153,10 +146,8 @@ def build_path(
         tuple(builder.pieces),
         builder.initial_speed,
         builder.initial_turn,
-        lean=1.0 if noun.habitat == "air" or noun.name in nouns_with("leans") else 0.0,
         usual_speed_m_s=usual_m_s,
         floor_m=0.0 if noun.habitat in ("ground", "fixed") else NO_FLOOR_M,
-        side_m=0.5 * model.width if model.length > _LONG * model.height else 0.0,
     )
     return centred(path, duration_s)
 
@@ -169,8 +160,6 @@ def _fast_enough(phases: Sequence[Phase], noun: Noun, model: Model, usual_m_s: f
         motion = phase.motion
         if motion.speed_m_s is not None:
             continue
-        if motion.kind in ("enter", "leave"):
-            needed = max(needed, 2.0 * model.length / phase.duration_s)
         if motion.kind == "turn" or motion.direction == "around":
             turning = phase.duration_s * (_TURN_SHARE if len(phases) == 1 else 0.8)
             angle = math.pi if motion.direction == "around" else QUARTER
@@ -272,9 +261,9 @@ class _Builder:
     def _choose_segments(self, motion: ObjectMotion) -> list[tuple[float, float]]:
         """Shares of the time, and by what angle each one turns, rad."""
         direction = motion.direction or ""
-        angle = {"around": math.pi, "circle": 2.0 * math.pi}.get(direction, QUARTER)
+        angle = math.pi if direction == "around" else QUARTER
         angle = -angle if direction in _CLOCKWISE else angle
-        if motion.kind == "turn" or direction in ("around", "circle"):
+        if motion.kind == "turn" or direction == "around":
             lead = 0.5 * (1.0 - _TURN_SHARE) if self._is_single and self._is_mobile else 0.0
             return [(lead, 0.0), (1.0 - 2.0 * lead, angle), (lead, 0.0)] if lead else [(1.0, angle)]
         target = YAWS.get(direction)

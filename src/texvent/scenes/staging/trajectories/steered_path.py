@@ -22,7 +22,7 @@ from texvent.scenes.staging.trajectories.trajectory import BodyState, Vector
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(12)
 _RADIANS_PER_STEP = 1.0
 """Most heading that one step of the quadrature spans."""
-_RAMP_S, _SAMPLES = 0.3, 41
+_RAMP_S, _SAMPLES, _RESTITUTION = 0.3, 41, 0.3
 
 
 @dataclass(frozen=True)
@@ -72,14 +72,9 @@ class SteeredPath:
     pieces: tuple[Piece, ...]
     initial_speed_m_s: float = 0.0
     initial_turn_rad_s: float = 0.0
-    lean: float = 0.0
-    """How far it leans into a turn: 1 = as far as a bicycle must."""
     usual_speed_m_s: float = 1.0
     floor_m: float = 0.0
     """Height of its origin when it rests on the ground, m."""
-    restitution: float = 0.3
-    side_m: float = 0.0
-    """Half the width of what falls onto its side; 0 = it falls forwards."""
 
     @property
     def duration_s(self) -> float:
@@ -100,22 +95,17 @@ class SteeredPath:
         """State at that instant."""
         knot, piece, elapsed = self._find(time_s)
         now = self._advance(knot, piece, elapsed)
-        speed, turn, climb, pitch = now.rates
-        (x, y, height), roll, act_s = now.place, 0.0, None
+        speed, _, climb, pitch = now.rates
+        (x, y, height), act_s = now.place, None
         if piece.hop_m > 0.0 and 0.0 <= elapsed <= piece.duration_s:
             hop, act_s = _hop(piece, elapsed)
             height += hop
-        if self.side_m > 0.0:
-            height += self.side_m * math.sin(pitch)
-            pitch, roll = 0.0, roll + pitch
         slow = 0.3 * max(self.usual_speed_m_s, 0.1)
         pitch -= math.atan(climb * abs(speed) / (speed**2 + slow**2))
-        roll -= math.atan(self.lean * speed * turn / GRAVITY_M_S2)
         return BodyState(
             (x, y, height),
             now.heading,
             pitch,
-            roll,
             distance_m=now.distance_m,
             speed_m_s=abs(speed),
             activity=piece.activity,
@@ -148,7 +138,7 @@ class SteeredPath:
         z = knot.place[2] + risen
         if piece.is_dropped:
             drop = max(knot.place[2] - self.floor_m, 0.0)
-            z = self.floor_m + bounce_height(drop, 0.0, self.restitution, max(elapsed, 0.0))
+            z = self.floor_m + bounce_height(drop, 0.0, _RESTITUTION, max(elapsed, 0.0))
         return _Knot(
             knot.time_s + elapsed, (x, y, max(z, self.floor_m)), knot.heading + turned,
             knot.distance_m + way, (speed, turn, climb, pitch),
@@ -235,15 +225,6 @@ def arc(span: float, speed: float, angle: float, least_m: float) -> list[Piece]:
         Piece(span - ramp, speed, turn, ramp_s=ramp),
         Piece(ramp, speed, 0.0, ramp_s=ramp),
     ]
-
-
-def bend_path(yaw: float, speed_m_s: float, curvature: float, duration_s: float) -> SteeredPath:
-    """A path along an arc at a steady speed, its box centred over (0, 0); curvature in 1/m."""
-    turn = speed_m_s * curvature
-    yaw -= 0.5 * turn * duration_s
-    piece = Piece(duration_s, speed_m_s, turn, ramp_s=0.0)
-    path = SteeredPath((0.0, 0.0, 0.0), yaw, (piece,), speed_m_s, turn)
-    return centred(path, duration_s)
 
 
 def centred(path: SteeredPath, duration_s: float) -> SteeredPath:

@@ -206,7 +206,7 @@ def _sine_path(angle: float) -> float:
 
 @dataclass(frozen=True)
 class Circle:
-    """Goes round a centre at constant speed, facing along its path and leaning into the turn."""
+    """Goes round a centre at constant speed, facing along its path."""
 
     centre: Vector
     radius_m: float
@@ -214,7 +214,6 @@ class Circle:
     """Positive = anticlockwise seen from above."""
     phase: float = 0.0
     activity: str = "move"
-    lean_rad: float = 0.0
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
@@ -225,7 +224,6 @@ class Circle:
         return BodyState(
             (x + self.radius_m * math.cos(angle), y + self.radius_m * math.sin(angle), z),
             angle + turn,
-            roll=-math.copysign(self.lean_rad, self.rate_rad_s),
             distance_m=speed * time_s,
             speed_m_s=speed,
             activity=self.activity,

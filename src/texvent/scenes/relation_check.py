@@ -1,7 +1,7 @@
-"""Geometry check: relations and directions of a scene that its bodies do not realise.
+"""Relation check: relations and directions of a scene that its bodies do not realise.
 
-Boxes around the bodies at a few instants decide; what holds at one instant holds. Left, right,
-front and behind are those of the image.
+Boxes around the bodies at a few instants decide; what holds at one instant holds, but for "on" and
+"in". Left, right, front and behind are those of the image.
 """
 
 from __future__ import annotations
@@ -12,25 +12,26 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.description import RELATIONS, SceneDescription
+from texvent.scenes.description import RELATIONS, SceneDescription, SceneObject
+from texvent.scenes.models.places import is_room
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Camera, Float64Array, Primitives, Shape
 
 _TRAVELS = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
                       "roll", "crawl", "rise", "sink"})  # fmt: skip
+_DIRECTED = _TRAVELS | {"hover", "float", "bounce", "jump", "fall"}
 _LEAST_WAY, _MOST_COPIES = 0.1, 0.75
 """Way, in sizes of a body, that is motion; share of a subject's copies in a relation."""
 _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
          "away": (2, 1), "across": (0, 0)}  # fmt: skip
 """Direction → axis of the camera (right, down, forward) and sign; 0: either one."""
-_SENDING = ("kick", "hit", "throw")
 
 
 class Unheld(NamedTuple):
     """A word of a scene that no instant shows."""
 
     kind: str
-    """"relation", "direction", "motion", "weather", "effect" or a field of light or place."""
+    """"relation", "direction", "motion", "noun", "effect" or a field of light or place."""
     value: str
     """Such as "under", "left" or "snow"."""
     line: str
@@ -50,6 +51,12 @@ class Body(NamedTuple):
     """Middle in the image: tangents to the right and downwards, and depth, m."""
     way: Float64Array
     """[3] from the first place to the last along the camera's axes of mid clip, m."""
+
+    @property
+    def is_still(self) -> bool:
+        """Whether it stays in its place."""
+        far = np.linalg.norm(self.middle - self.middle[0], axis=1).max()
+        return bool(far <= _LEAST_WAY * self.size.max())
 
 
 def bodies_of(
@@ -81,6 +88,10 @@ def _boxes(shapes: Primitives) -> Float64Array:
     return np.stack([middle - half, middle + half], axis=1)
 
 
+Copies = Sequence[Sequence[Body]]
+"""Bodies of each object."""
+
+
 def find_unheld(
     description: SceneDescription, bodies: Mapping[int, Body], object_of: Mapping[int, int]
 ) -> Iterator[Unheld]:
@@ -89,24 +100,33 @@ def find_unheld(
         [body for one, body in bodies.items() if object_of[one] == index]
         for index in range(len(description.objects))
     ]
-    names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
+    yield from _unrelated(description, copies)
     led = {target for one in description.relations for target in one.targets}
-    sent = {
-        one.subject: one.targets[0]
-        for one in description.relations
-        if one.kind in ("kick", "hit", "throw")
-    }
+    for index, thing in enumerate(description.objects):
+        others = [body for n, group in enumerate(copies) if n != index for body in group]
+        if copies[index]:
+            yield from _unmoved(thing, copies[index], others, is_led=index in led)
+        is_part = thing.noun in nouns_with("part of a building")
+        if is_part and is_room(description.surroundings.name or "grass"):
+            yield Unheld("noun", thing.noun, f"the {thing.noun} as a part of the room")
+
+
+def _unrelated(description: SceneDescription, copies: Copies) -> Iterator[Unheld]:
+    names = [f"the {one.noun.removeprefix('parked ')}" for one in description.objects]
+    sent = {one.subject: one.targets[0] for one in description.relations
+            if one.kind in ("kick", "throw")}  # fmt: skip
     for one in description.relations:
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
-        rule, target = _RULES.get(one.kind), description.objects[one.targets[0]].noun
-        is_flat = {description.objects[one.subject].noun, target} <= nouns_with("flat pattern")
-        rule = _RULES["in"] if is_flat and one.kind == "on" else rule
+        nouns = [description.objects[n].noun for n in (one.subject, one.targets[0])]
         side = description.objects[one.subject].side
         if one.kind in ("past", "overtake") and side in ("left", "right"):
             yield Unheld("placement", side, f"{names[one.subject]} passing on the {side}")
-        is_seat = one.kind == "on" and target in nouns_with("sat on")  # within its frame
-        if rule is None or one.subject in one.targets or is_seat:
+        is_flat = one.kind == "on" and nouns_with("flat pattern").issuperset(nouns)
+        rule = _RULES.get("in" if is_flat else one.kind)
+        if one.kind == "wear" and not own:
+            yield Unheld("noun", nouns[1], f"{names[one.targets[0]]} on {names[who]}")
+        if rule is None or one.subject in one.targets or (one.kind == "ride" and not own):
             continue
         if not own or not others:
             yield Unheld("relation", one.kind, "")
@@ -114,28 +134,28 @@ def find_unheld(
             said = RELATIONS.get(one.kind, one.kind)
             targets = " and ".join(names[target] for target in one.targets)
             yield Unheld("relation", one.kind, f"{names[one.subject]} {said} {targets}")
-    for index, thing in enumerate(description.objects):
-        motion, own = thing.motion, copies[index]
-        if motion is None or motion.kind not in _TRAVELS or thing.then or index in led or not own:
-            continue
-        if not any(_goes(body) for body in own):
-            line = f"{names[index]}'s way: it stays in its place"
-            yield Unheld("motion", motion.kind, line)
-        elif motion.direction in _AXES and not any(_leads(motion.direction, body) for body in own):
-            yield Unheld("direction", motion.direction, f"{names[index]} going {motion.direction}")
 
 
-def _goes(body: Body) -> bool:
-    """Whether it leaves its place."""
-    far = np.linalg.norm(body.middle - body.middle[0], axis=1).max()
-    return bool(far > _LEAST_WAY * body.size.max())
-
-
-def _leads(direction: str, body: Body) -> bool:
-    """Whether a third of its way goes there."""
-    axis, sign = _AXES[direction]
-    way = sign * body.way[axis] if sign else abs(body.way[axis])
-    return bool(way >= 0.33 * np.linalg.norm(body.way))
+def _unmoved(
+    thing: SceneObject, own: Sequence[Body], others: Sequence[Body], *, is_led: bool
+) -> Iterator[Unheld]:
+    """Side, way and direction of an object that its copies do not have."""
+    name, motion = f"the {thing.noun.removeprefix('parked ')}", thing.motion
+    if thing.side in ("left", "right") and others:
+        middle, rest = (np.mean([one.seen[:, 0] for one in group]) for group in (own, others))
+        if (middle < rest) != (thing.side == "left"):
+            yield Unheld("placement", thing.side, f"{name} on the {thing.side}")
+    if motion is None or is_led:
+        return
+    gone = [one.kind for one in (motion, *thing.then) if one.kind in _TRAVELS]
+    if gone and all(one.is_still for one in own):
+        yield from (Unheld("motion", kind, f"{name}'s way: it stays in its place") for kind in gone)
+    elif not thing.then and motion.kind in _DIRECTED and motion.direction in _AXES:
+        axis, sign = _AXES[motion.direction]
+        ways = [sign * one.way[axis] if sign else abs(one.way[axis]) for one in own]
+        sizes = [max(float(np.linalg.norm(one.way)), 1e-6) for one in own]
+        if not any(way >= 0.33 * size for way, size in zip(ways, sizes, strict=True)):
+            yield Unheld("direction", motion.direction, f"{name} going {motion.direction}")
 
 
 _Flags = NDArray[np.bool_]
@@ -145,6 +165,11 @@ _Rule = Callable[[Body, Sequence[Body]], bool]
 def _at_once(rule: Callable[[Body, Body], _Flags]) -> _Rule:
     """Whether a rule of instants [t] holds at one of them, for one of the targets."""
     return lambda one, others: any(bool(rule(one, other).any()) for other in others)
+
+
+def _mostly(rule: Callable[[Body, Body], _Flags]) -> _Rule:
+    """Whether it holds at half of the instants at least, for one of the targets."""
+    return lambda one, others: any(bool(rule(one, other).mean() >= 0.5) for other in others)
 
 
 def _within(one: Body, other: Body, axes: int, share: float = 0.0) -> _Flags:
@@ -240,12 +265,13 @@ def _is_between(one: Body, others: Sequence[Body]) -> bool:
 def _is_around(one: Body, other: Body) -> _Flags:
     """Whether it goes half of the way around, or stays, as in a ring."""
     x, y = (one.middle - other.middle)[:, :2].T
-    return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= 1.05 * np.pi or not _goes(one)])
+    return np.array([np.ptp(np.unwrap(np.arctan2(y, x))) >= 1.05 * np.pi or one.is_still])
 
 
 _RULES: Mapping[str, _Rule] = {
-    "on": _at_once(_is_on), "under": _at_once(_is_under), "between": _is_between,
-    "in": _at_once(lambda one, other: _within(one, other, 3)),
+    "on": _mostly(_is_on), "under": _at_once(_is_under), "between": _is_between,
+    "in": _mostly(lambda one, other: _within(one, other, 3)),
+    "ride": _mostly(lambda one, other: _within(one, other, 2, 0.5)),
     "above": _at_once(lambda one, other: _within(one, other, 2, 0.5)
                       & (_clears(one, other, 0.4) >= 0.0)),
     "behind": _is_deeper(1), "front": _is_deeper(-1),
@@ -255,4 +281,4 @@ _RULES: Mapping[str, _Rule] = {
     "through": _passes(0.5, 0.0), "towards": _recedes(-1), "away from": _recedes(1),
     "from": _recedes(1),
 }  # fmt: skip
-"""Kind of relation → whether a body is so to others; "surround", "with" and acts have none."""
+"""Kind of relation → whether a body is so to others; "with" and acts have none."""
