@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.dataset.conftest import make_set
 from tests.dataset.loading.written_set import (
     DURATION_US,
     LABELS,
@@ -30,8 +29,6 @@ from texvent.dataset.generation.make import find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.loading import shard_files
 from texvent.dataset.loading.stored_samples import StoredSamples
-from texvent.dataset.merge import merge
-from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.samples import SimulatedSamples
 from texvent.dataset.specification.reading import specification_from
 from texvent.errors import FileFormatError, InputError
@@ -216,29 +213,12 @@ def test_only_some_shards_stay_open(samples, written, monkeypatch):
 def test_a_published_folder_loads_and_a_shard_without_a_record_does_not_count(tmp_path):
     write_set(tmp_path)
     (tmp_path / "paper" / "train-000001.json").unlink()  # still being made
-    (tmp_path / "croissant.json").write_text("{}")
     (tmp_path / "paper" / "notes.json").write_text("{}")
     (tmp_path / "videos").mkdir()
     (tmp_path / "videos" / "train-000000.json").write_text("{}")
     samples = texvent.dataset.open(tmp_path)
     assert len(samples) == 21
     assert samples.labels == (*LABELS, "dog")
-
-
-def test_a_merged_set_loads_with_its_own_numbers_of_classes(cars, tmp_path):
-    """Merging adds a class before the others, so their numbers in the tars change too."""
-    ape = {"sources": [{"prompts": ["a bird flies up"], "label": "bird"}], "splits": {"train": 1.0}}
-    birds = make_set(tmp_path / "birds", **ape)
-    merge([StoredDataset.open(cars), StoredDataset.open(birds)], tmp_path / "merged")
-    samples = texvent.dataset.open(tmp_path / "merged")
-    assert samples.labels == ("bird", "bus", "car")
-    parts = [*texvent.dataset.open(cars), *texvent.dataset.open(birds)]
-    assert len(samples) == len(parts)
-    originals = {part.key: part.events for part in parts}
-    for number, sample in enumerate(samples):
-        assert sample.class_number == int(samples.members(number, ("cls",))["cls"])
-        assert sample.label == samples.labels[sample.class_number]
-        assert sample.events.equals(originals[sample.key])
 
 
 def test_missing_and_changed_files_give_one_line(tmp_path):

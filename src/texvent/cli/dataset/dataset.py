@@ -14,10 +14,9 @@ STEPS: Mapping[str, str] = {
     "make": "make a data set from a specification, or go on with one",
     "status": "how far a data set is, while it is made or afterwards",
     "verify": "check every file of a data set, and every sample",
-    "stats": "count what a data set holds, with plots",
-    "sample": "look at some samples, as an image and a page",
-    "publish": "write the index, the card and the description of a data set",
-    "merge": "put data sets together",
+    "stats": "count what a data set holds",
+    "sample": "a page with some samples",
+    "publish": "write the card of a data set",
     "export": "write the samples of a data set in another layout",
 }
 """Name, which is its module beside this one → what it does."""

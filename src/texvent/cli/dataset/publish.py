@@ -1,4 +1,4 @@
-"""`texvent dataset publish DIR`: the index, the card and the description of a data set."""
+"""`texvent dataset publish DIR`: the card of a data set."""
 
 from __future__ import annotations
 
@@ -10,22 +10,20 @@ from typing import ClassVar
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.dataset.publishing.card import PublicationInfo
-from texvent.dataset.publishing.publish import publish
+from texvent.dataset.publish import CARD_FILE, publish
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import InputError, one_line
 
-DESCRIPTION = """Write what a data set is published with, into its folder: index.parquet (one row
-per sample), README.md (the card, with what Hugging Face reads) and croissant.json. Nothing is
-uploaded. Equal shards give equal files, so it can be run again.
+DESCRIPTION = """Write the card that a data set is published with into its folder: README.md, with
+what Hugging Face reads. Nothing is uploaded. Equal shards give equal files.
 
-  texvent dataset publish cars --license cc-by-4.0 --creator "A. Author"
+  texvent dataset publish cars --license cc-by-4.0
   hf upload NAME/cars cars --repo-type dataset --exclude "logs/*"      then, for the Hub"""
 
 
 @dataclass(frozen=True, kw_only=True)
 class PublishOptions:
-    """What the card says besides what the shards tell."""
+    """Contents of the card besides the counts."""
 
     positional: ClassVar[tuple[str, ...]] = ("folder",)
     outputs: ClassVar[tuple[str, ...]] = ("folder",)
@@ -34,14 +32,8 @@ class PublishOptions:
     """Folder of the data set."""
     license: str | None = None
     """Licence, such as cc-by-4.0; default: that of the specification."""
-    creator: str | None = None
-    """Who made it."""
-    url: str | None = None
-    """Its page."""
-    date: str | None = None
-    """When it is published, such as 2026-11-21."""
     notes: Path | None = None
-    """A Markdown file whose text stands in the card."""
+    """A Markdown file whose text is added to the card."""
     partial: bool = False
     """Publish although shards are missing."""
 
@@ -54,19 +46,16 @@ def run(arguments: Sequence[str]) -> int:
         prog="texvent dataset publish",
         description=DESCRIPTION,
     )
-    info = PublicationInfo(
+    statistics, missing = publish(
+        StoredDataset.open(options.folder),
         license=options.license,
-        creator=options.creator,
-        url=options.url,
-        date=options.date,
         notes=_text(options.notes),
+        partial=options.partial,
     )
-    published = publish(StoredDataset.open(options.folder), info, partial=options.partial)
-    names = ", ".join(path.name for path in published.files)
-    total = published.statistics.total
+    total = statistics.total
     write_out(
-        f"{options.folder}: {total.samples:,} samples in {total.shards:,} shards described in "
-        f"{names}{f'; {published.missing} shards are missing' if published.missing else ''}\n"
+        f"{options.folder / CARD_FILE}: {total.samples:,} samples in {total.shards:,} shards"
+        f"{f'; {missing} shards are missing' if missing else ''}\n"
     )
     return 0
 

@@ -51,7 +51,6 @@ EXTRAS = {
     "exr": ("OpenEXR", "OpenEXR frames and passes of a renderer"),
     "bags": ("rosbags", "ROS bags and mcap"),
     "parquet": ("pyarrow", "Parquet event files"),
-    "dataset": ("pyarrow", "the index of a published data set"),
     "ray": ("ray", "data sets made on a cluster: texvent dataset make --ray"),
     "blosc": ("hdf5plugin", "HDF5 files packed with blosc, as DSEC's own"),
     "zstd": ("backports.zstd", "AEDAT4 packed with zstd (Python 3.14 has it)"),

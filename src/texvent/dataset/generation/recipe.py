@@ -164,8 +164,7 @@ class Recipe:
         else:
             change = describe_differences(before, now) or "the order of prompts"
         raise ConfigError(
-            f"{folder} was made from another specification: {change}; name another folder with -o "
-            "(texvent dataset merge puts two together)"
+            f"{folder} was made from another specification: {change}; name another folder with -o"
         )
 
 
@@ -180,14 +179,9 @@ def load_recipe(folder: Path) -> Recipe:
     Raises:
         InputError: the folder holds no data set.
         FileFormatError: its specification is damaged.
-        ConfigError: it was begun by another version of texvent, or put together from others.
+        ConfigError: it was begun by another version of texvent.
     """
     facts = read_facts(folder)
-    if "merged" in facts:
-        raise ConfigError(
-            f"{folder} was merged from other data sets and cannot be made further; make those, and "
-            "merge them again (texvent dataset verify and stats work on it)"
-        )
     made_by = facts.get("texvent_version")
     if made_by != full_version():
         raise ConfigError(

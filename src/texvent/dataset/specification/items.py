@@ -95,10 +95,7 @@ def read_items(specification: Specification) -> Items:
                 )
     items = Items(tuple(found.values()), duplicates)
     if len({item.video is None for item in items.all}) > 1:
-        raise ConfigError(
-            "the sources give prompts and videos; make two data sets and merge them with "
-            "texvent dataset merge"
-        )
+        raise ConfigError("the sources give prompts and videos; make a data set of each")
     labelled = sum(item.label is not None for item in items.all)
     if 0 < labelled < len(items.all):
         raise ConfigError(
