@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from texvent.dataset.generation.engines import in_this_process
+from texvent.batch.engines import SerialEngine
 from texvent.dataset.generation.make import find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.reading import specification_from
@@ -42,7 +42,7 @@ def make_set(folder: Path, **changes: Any) -> Path:
     recipe = Recipe.of(specification_from({**CARS, **changes}, folder=Path()))
     recipe.begin(folder)
     work = find_work(recipe, folder)
-    with closing(in_this_process()) as engine:
+    with closing(SerialEngine()) as engine:
         make_shards(work, engine, lambda outcome: None)
     assert not work.failures
     return folder

@@ -50,7 +50,7 @@ DONE = {
     "prompt": "a car",
     "video": None,
     "events": 12,
-    "files": {"one.h5": [120, "00ff"]},
+    "files": {"one.h5": 120},
 }
 MASK_SIZE = SensorSize(12, 9)
 TEXTS: dict[str, tuple[str, Any]] = {

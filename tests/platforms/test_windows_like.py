@@ -7,7 +7,6 @@ import os
 import re
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
@@ -105,19 +104,6 @@ def test_memory_that_the_system_does_not_tell_is_assumed(monkeypatch: pytest.Mon
     assert memory.machine_bytes() is None
     assert memory.peak_bytes() is None
     assert memory.usable_bytes.__wrapped__() == int(memory.SHARE * memory.UNKNOWN_BYTES)
-
-
-@pytest.mark.usefixtures("no_posix")
-def test_threads_read_parts_of_one_shard_without_pread(tmp_path: Path) -> None:
-    from texvent.dataset.loading.shard_files import ShardFiles
-
-    content = os.urandom(1 << 16)
-    (tmp_path / "shard.tar").write_bytes(content)
-    files = ShardFiles(tmp_path, ["shard.tar"])
-    offsets = [(7919 * number) % 60_000 for number in range(4000)]
-    with ThreadPoolExecutor(8) as threads:
-        read = list(threads.map(lambda begin: files.read(0, begin, 50), offsets))
-    assert read == [content[begin : begin + 50] for begin in offsets]
 
 
 @pytest.mark.parametrize(("system", "words"), [("win32", "dshow"), ("darwin", "avfoundation")])

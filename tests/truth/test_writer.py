@@ -187,7 +187,7 @@ class MotionFrames:
 
 def test_truth_that_comes_with_frames_passes_through_unchanged(tmp_path):
     frames = MotionFrames()
-    names = "flow,flow-back,depth,ids,boxes,events,overlay"
+    names = "flow,flow-back,depth,ids,boxes,events"
     parts = texvent.TruthFolder(tmp_path / "m.truth", names)
     events = texvent.simulate(frames, interpolate="none", noise="none", truth_folder=parts)
     truth = texvent.load_truth(tmp_path / "m.truth")

@@ -247,7 +247,7 @@ def _limits(total: Statistics) -> list[str]:
         )
     if total.left_out or total.failed:
         lines.append(
-            f"{len(total.left_out):,} samples were left out and {total.failed:,} failed; the "
+            f"{total.left_out:,} samples were left out and {total.failed:,} failed; the "
             "records beside the shards name each with its reason."
         )
     if len(total.versions) > 1:

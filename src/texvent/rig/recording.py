@@ -25,7 +25,6 @@ from texvent.rig.imu import (
     ImuSamples,
     sample_times_us,
     true_samples,
-    warn_of_corners,
     with_noise,
 )
 from texvent.rig.kalibr import camera_entries, read_noise, read_rig, stereo_rig
@@ -144,17 +143,11 @@ class Recording:
 
     @cached_property
     def imu(self) -> ImuSamples | None:
-        """Samples of the IMU; None without one.
-
-        Warns:
-            TexventWarning: the camera's path has corners.
-        """
+        """Samples of the IMU; None without one."""
         rate = self.config.imu
         if rate is None:
             return None
-        scene, first_from_imu = self.video.scene, self.rig.first_from_imu
-        warn_of_corners(scene, first_from_imu, self.stop_us / MICROSECONDS)
-        exact = true_samples(scene, first_from_imu, self.pose_times)
+        exact = true_samples(self.video.scene, self.rig.first_from_imu, self.pose_times)
         return with_noise(exact, self.noise, rate, self.seed_of("imu"))
 
 

@@ -25,7 +25,7 @@ from texvent.truth.layout import PARTS
 from texvent.video import Frame, FrameStream, Motion
 from texvent.view.drawing.panels import GroundTruthStream
 
-ON_FRAMES = {"flow", "flow-back", "depth", "ids", "boxes", "overlay"}
+ON_FRAMES = {"flow", "flow-back", "depth", "ids", "boxes"}
 """Parts that take an image of the truth."""
 UNNAMED_OBJECT = "object"
 MOST_INSTANCES = 2**16
@@ -183,7 +183,6 @@ class TruthSource:
             "flow-back": motion.backward is None and previous_us is not None,
             "depth": motion.depth is None,
             **dict.fromkeys(("ids", "boxes", "events"), motion.instance is None),
-            "overlay": frame.motion is None,
         }
         lacking = [part for part in self.parts if missing.get(part)]
         if lacking:

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from texvent.dataset.generation.engines import Engine, in_this_process
+from texvent.batch.engines import Engine, SerialEngine
 from texvent.dataset.generation.make import Work, find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.reading import specification_from
@@ -38,7 +38,7 @@ def make(recipe: Recipe, folder: Path, engine: Engine | None = None) -> Work:
     """Make a data set, by one process if no engine is given."""
     recipe.begin(folder)
     work = find_work(recipe, folder)
-    with closing(engine or in_this_process()) as running:
+    with closing(engine or SerialEngine()) as running:
         make_shards(work, running, lambda outcome: None)
     return work
 

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.dataset.generation.engines import Engine, ProcessEngine, in_this_process
+from texvent.batch.engines import Engine, ProcessEngine, SerialEngine
 from texvent.dataset.generation.make import Work, find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.sample import simulate_sample
@@ -50,7 +50,7 @@ def recipe_of(folder: Path = Path(), **changes: Any) -> Recipe:
 def make(recipe: Recipe, folder: Path, engine: Engine | None = None, **options: Any) -> Work:
     recipe.begin(folder)
     work = find_work(recipe, folder, **options)
-    with closing(engine or in_this_process()) as running:
+    with closing(engine or SerialEngine()) as running:
         make_shards(work, running, lambda outcome: None)
     return work
 

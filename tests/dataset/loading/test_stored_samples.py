@@ -24,10 +24,9 @@ from tests.dataset.loading.written_set import (
 
 import texvent.dataset
 from texvent import Augment
-from texvent.dataset.generation.engines import in_this_process
+from texvent.batch.engines import SerialEngine
 from texvent.dataset.generation.make import find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.loading import shard_files
 from texvent.dataset.loading.stored_samples import StoredSamples
 from texvent.dataset.samples import SimulatedSamples
 from texvent.dataset.specification.reading import specification_from
@@ -200,16 +199,6 @@ def test_copies_forks_fresh_processes_and_threads_read_the_same(samples):
         assert list(threads.map(lambda _: read_keys(samples), range(8))) == [expected] * 8
 
 
-def test_only_some_shards_stay_open(samples, written, monkeypatch):
-    monkeypatch.setattr(shard_files, "MAX_OPEN", 2)
-    fresh = pickle.loads(pickle.dumps(samples))
-    with ThreadPoolExecutor(4) as threads:
-        streams = list(threads.map(fresh.events, [*range(24)] * 3))
-    for events, expected in zip(streams, list(written.values()) * 3, strict=True):
-        assert events.equals(expected)
-    assert fresh.files._file.cache_info().currsize == 2
-
-
 def test_a_published_folder_loads_and_a_shard_without_a_record_does_not_count(tmp_path):
     write_set(tmp_path)
     (tmp_path / "paper" / "train-000001.json").unlink()  # still being made
@@ -280,7 +269,7 @@ def test_stored_and_simulated_samples_are_the_same_arrays(tmp_path):
     }
     recipe = Recipe.of(specification_from(tables, folder=Path()))
     recipe.begin(tmp_path / "one")
-    engine = in_this_process()
+    engine = SerialEngine()
     make_shards(find_work(recipe, tmp_path / "one"), engine, lambda outcome: None)
     engine.close()
     stored = texvent.dataset.open(tmp_path / "one", representation="voxel-e2vid", slice_us=40_000)

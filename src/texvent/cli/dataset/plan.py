@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,13 +11,13 @@ from typing import ClassVar
 
 from rich.table import Table
 
-from texvent.cli.dataset.live_table import time_text
+from texvent.batch.prompts import tally_prompts
 from texvent.cli.dry_run import size_text
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.dataset.generation.dry_run import MOST_READ, StageEstimate, tally_prompts, try_samples
+from texvent.dataset.generation.dry_run import StageEstimate, try_samples
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.generation.shards import FILTERED
 from texvent.dataset.specification.reading import read_specification
@@ -26,6 +27,8 @@ from texvent.runtime.threads import count_threads
 
 HOUR_S = 3600.0
 DEFAULT_TRIAL = 32
+MOST_READ = 2_000
+"""Prompts that are read, drawn by chance from more; 2,000 take a few seconds."""
 DESCRIPTION = """Check a specification and say what it gives: prompts, clips, splits, classes, and
 from a trial of a few samples the size and the time. Nothing is kept.
 
@@ -56,17 +59,15 @@ class PlanOptions:
         check_range("seconds_per_video", self.seconds_per_video, 0.0, 1e6)
 
 
-def run(arguments: Sequence[str]) -> int:
+def run_plan(arguments: Sequence[str]) -> int:
     """Run the command; returns 0."""
     (options,) = parse_configs(
         arguments, {"plan": PlanOptions()}, prog="texvent dataset plan", description=DESCRIPTION
     )
     recipe = Recipe.of(read_specification(options.specification))
     write_out("\n".join(describe_contents(recipe)) + "\n")
-    tally = tally_prompts(recipe)
-    if tally is not None:
-        drawn = f", drawn from {len(recipe.items.all):,}" if tally.prompts == MOST_READ else ""
-        write_out(f"prompts  {tally.line(verb='understood word for word')}{drawn}\n")
+    if not recipe.items.are_videos:
+        write_out(_prompts(recipe))
     trial = options.trial
     if trial is None:
         trial = 0 if recipe.stores_videos else DEFAULT_TRIAL
@@ -82,6 +83,18 @@ def run(arguments: Sequence[str]) -> int:
     if recipe.stores_videos:
         write_out(_video_cost(recipe, options.seconds_per_video))
     return 0
+
+
+def _prompts(recipe: Recipe) -> str:
+    """Counts of understood prompts, of at most `MOST_READ`; nothing for learned generators."""
+    items, drawn = recipe.items.all, ""
+    if len(items) > MOST_READ:
+        chance = random.Random(recipe.specification.seed)
+        items, drawn = tuple(chance.sample(items, MOST_READ)), f", drawn from {len(items):,}"
+    tally = tally_prompts([item.subject for item in items], recipe.prompt_settings)
+    if tally is None:
+        return ""
+    return f"prompts  {tally.line(verb='understood word for word')}{drawn}\n"
 
 
 def describe_contents(recipe: Recipe) -> list[str]:
@@ -120,7 +133,7 @@ def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
     table = Table(box=None, pad_edge=False)
     noun = "worker" if workers == 1 else "workers"
     for name in ("", "samples", "left out", "events each", "size", "s each",
-                 f"time, {workers} {noun}", "±"):  # fmt: skip
+                 f"time, {workers} {noun}"):  # fmt: skip
         table.add_column(name, justify="left" if not name else "right")
     for stage in stages:
         processes = 1 if stage.name == VIDEOS else workers
@@ -132,7 +145,6 @@ def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
             size_text(stage.bytes * stage.samples),
             f"{stage.seconds:.2f}",
             time_text(stage.seconds * stage.samples / processes),
-            f"{100 * stage.seconds_error / stage.seconds:.0f} %" if stage.tried > 1 else "?",
         )
     with result_console() as console:
         console.print(table)
@@ -154,3 +166,13 @@ def _video_cost(recipe: Recipe, seconds: float | None) -> str:
     return (
         f"cost     {videos:,} videos of {seconds:g} s: {videos * seconds / HOUR_S:,.1f} GPU-hours\n"
     )
+
+
+def time_text(seconds: float) -> str:
+    """A duration for people, such as "2 h 05 min"."""
+    minutes = round(seconds / 60)
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    if minutes < 60:
+        return f"{minutes} min"
+    return f"{minutes // 60} h {minutes % 60:02} min"

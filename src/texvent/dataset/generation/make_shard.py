@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from texvent._version import full_version
+from texvent.batch.engines import ENDING_ALL
 from texvent.batch.identity import digest
-from texvent.batch.runner import ENDING_ALL
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.sample import (
     prepare_clip,

@@ -17,12 +17,14 @@ from texvent.batch.manifest import describe_differences
 from texvent.dataset.generation.shards import EXTENSION
 from texvent.dataset.specification.clips import Clip, Clips, check_options
 from texvent.dataset.specification.items import Item, Items, read_items
+from texvent.dataset.specification.option_ranges import is_range
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Specification, Variant
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, one_line
 from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file, is_hidden_part
 from texvent.settings.config_files import Command
+from texvent.settings.resolution import Settings, resolve
 
 SPECIFICATION_FILE, ITEMS_FILE = "specification.json", "items.jsonl"
 VIDEOS = "videos"
@@ -101,6 +103,17 @@ class Recipe:
             return self.specification.store_videos
         name = self.specification.options.get("generator", next(iter(GENERATORS.builtin)))
         return not renders_instants(GENERATORS.load(name))
+
+    @property
+    def prompt_settings(self) -> Settings:
+        """The settings that all prompts share; ranges are left out."""
+        options = self.specification.options
+        return resolve("generate", {n: one for n, one in options.items() if not is_range(one)})
+
+    @property
+    def stages(self) -> tuple[str, ...]:
+        """The videos, where they are stored, then the variants, in the order they are made."""
+        return (*([VIDEOS] if self.stores_videos else []), *self.variants)
 
     @property
     def variants(self) -> Mapping[str, Variant]:

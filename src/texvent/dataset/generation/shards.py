@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 import json
 import tarfile
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -197,8 +197,27 @@ def size_in_tar(size: int) -> int:
     return tarfile.BLOCKSIZE * (1 - (-size // tarfile.BLOCKSIZE))
 
 
+def read_part(shard: Path, begin: int, size: int) -> bytes:
+    """`size` bytes of a shard from `begin` on.
+
+    Raises:
+        FileFormatError: the file is gone, or shorter than its record says.
+    """
+    try:
+        with shard.open("rb") as file:
+            file.seek(begin)
+            content = file.read(size)
+    except OSError as error:
+        raise FileFormatError(f"cannot read {shard}: {one_line(error)}") from error
+    if len(content) < size:
+        raise FileFormatError(
+            f"{shard} is shorter than its record says; run texvent dataset verify"
+        )
+    return content
+
+
 def read_members(
-    shard: Path, places: Mapping[str, tuple[int, int]], only: tuple[str, ...] | None = None
+    shard: Path, places: Mapping[str, tuple[int, int]], only: Sequence[str] | None = None
 ) -> dict[str, bytes]:
     """The members of one sample.
 
@@ -208,17 +227,10 @@ def read_members(
         only: extensions that are wanted; None: all.
 
     Raises:
-        FileFormatError: the file is gone or shorter than it was.
+        FileFormatError: as `read_part`.
     """
-    try:
-        with shard.open("rb") as file:
-            members = {}
-            for extension, (begin, size) in places.items():
-                if only is None or extension in only:
-                    file.seek(begin)
-                    members[extension] = file.read(size)
-    except OSError as error:
-        raise FileFormatError(f"cannot read {shard}: {one_line(error)}") from error
-    if any(len(members[name]) < places[name][1] for name in members):
-        raise FileFormatError(f"{shard} is shorter than it was; run texvent dataset verify")
-    return members
+    return {
+        extension: read_part(shard, begin, size)
+        for extension, (begin, size) in places.items()
+        if only is None or extension in only
+    }

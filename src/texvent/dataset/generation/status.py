@@ -94,44 +94,43 @@ class StageStatus:
     seconds: float = 0.0
     """Working time of complete shards."""
 
+    def add(self, done: ShardSummary) -> None:
+        """Count a complete shard."""
+        self.complete += 1
+        self.samples += done.samples
+        self.failed += done.failed
+        self.filtered += done.filtered
+        self.events += done.events
+        self.bytes += done.bytes
+        self.seconds += done.seconds
 
-def read_status(
-    recipe: Recipe, folder: Path, seen: dict[Shard, ShardSummary] | None = None
-) -> list[StageStatus]:
+
+def read_status(recipe: Recipe, folder: Path) -> list[StageStatus]:
     """The state of every stage: the videos, if they are stored, then the variants.
 
     Args:
         recipe: of the data set.
         folder: of the data set.
-        seen: shards known to be complete, which are not read; those found complete are added.
 
     Raises:
         FileFormatError: the record of a shard is damaged.
     """
     clips = sum(recipe.clips.counts.values())
-    stages, seen = [], {} if seen is None else seen
-    for name in [*([VIDEOS] if recipe.stores_videos else []), *recipe.variants]:
+    stages = []
+    for name in recipe.stages:
         seeds = 1 if name == VIDEOS else recipe.variants[name].seeds
         stage = StageStatus(name, clips * seeds, 0)
         for shard in recipe.shards(name):
             stage.shards += 1
-            done = seen.get(shard)
-            if done is None and (record := is_complete(recipe, folder, shard)) is not None:
-                done = seen[shard] = record.summary
-            if done is not None:
-                stage.complete += 1
-                stage.samples += done.samples
-                stage.failed += done.failed
-                stage.filtered += done.filtered
-                stage.events += done.events
-                stage.bytes += done.bytes
-                stage.seconds += done.seconds
-            elif log_path(folder, shard).exists():
-                log = read_log(folder, shard)
-                if log is not None and time.time() - log.changed_s < QUIET_S:
-                    stage.at_work += 1
-                    stage.samples += log.samples
-                    stage.failed += log.failed
-                    stage.events += log.events
+            record = is_complete(recipe, folder, shard)
+            if record is not None:
+                stage.add(record.summary)
+                continue
+            log = read_log(folder, shard)
+            if log is not None and time.time() - log.changed_s < QUIET_S:
+                stage.at_work += 1
+                stage.samples += log.samples
+                stage.failed += log.failed
+                stage.events += log.events
         stages.append(stage)
     return stages

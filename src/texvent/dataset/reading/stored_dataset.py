@@ -141,8 +141,7 @@ class StoredDataset:
         if not (self.folder / ITEMS_FILE).is_file():
             return None
         recipe = read_recipe(self.folder)
-        stages = [*([VIDEOS] if recipe.stores_videos else []), *recipe.variants]
-        return {str(shard.path) for stage in stages for shard in recipe.shards(stage)}
+        return {str(shard.path) for stage in recipe.stages for shard in recipe.shards(stage)}
 
     def missing(self, *variants: str) -> list[str]:
         """Places of shards of some variants (default: all but the videos) that are not complete.
