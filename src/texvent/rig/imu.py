@@ -20,8 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.rig.description import Float64Array, ImuNoise
-from texvent.rig.mount import body_poses
+from texvent.rig.description import Float64Array, ImuNoise, body_poses
 from texvent.scenes.scene import Scene
 from texvent.simulate.random.draws import draw_normals, frame_key
 from texvent.video import MICROSECONDS

@@ -20,7 +20,15 @@ from texvent.options.fields import option_names
 from texvent.options.values import plain
 from texvent.pipeline import Simulation, text_to_video
 from texvent.rig.config import RigConfig, check_generator
-from texvent.rig.description import IMU_NOISES, ImuNoise, Rig, RigCamera
+from texvent.rig.description import (
+    IMU_NOISES,
+    ImuNoise,
+    MountedScene,
+    Rig,
+    RigCamera,
+    body_poses,
+    path_lens,
+)
 from texvent.rig.imu import (
     ImuSamples,
     sample_times_us,
@@ -28,7 +36,6 @@ from texvent.rig.imu import (
     with_noise,
 )
 from texvent.rig.kalibr import camera_entries, read_noise, read_rig, stereo_rig
-from texvent.rig.mount import MountedScene, body_poses, path_lens
 from texvent.rig.shutter import ExposedFrame, Shutter, expose_frames, frame_times_us, make_shutter
 from texvent.run.prepare import check_run, prepare_video
 from texvent.runtime.progress import Progress

@@ -17,9 +17,8 @@ from texvent.batch.manifest import describe_differences
 from texvent.dataset.generation.shards import EXTENSION
 from texvent.dataset.specification.clips import Clip, Clips, check_options
 from texvent.dataset.specification.items import Item, Items, read_items
-from texvent.dataset.specification.option_ranges import is_range
 from texvent.dataset.specification.reading import specification_from
-from texvent.dataset.specification.specification import Specification, Variant
+from texvent.dataset.specification.specification import Specification, Variant, is_range
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, one_line
 from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file, is_hidden_part
