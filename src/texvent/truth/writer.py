@@ -251,7 +251,8 @@ class TruthWriter(AtomicOutput):
         if index == 0:
             facts = json.dumps(camera_facts(camera, size), indent=1) + "\n"
             (self._part / "camera.json").write_text(facts, encoding="ascii")
-        self._texts["poses"].write(pose_row(truth.t_us, camera))
+        to_world = np.asarray(camera.rotation).T
+        self._texts["poses"].write(pose_row(truth.t_us, camera.position, to_world))
         self._texts["intrinsics"].write(intrinsics_row(truth.t_us, camera, size))
 
 

@@ -24,7 +24,12 @@ def test_poses_and_depth_show_what_the_moved_camera_sees(prompt, tmp_path):
     large = texvent.video(prompt, sensor="384x288", duration=0.5)
     poses = tmp_path / "poses.txt"
     times = range(0, END_US + 1, 20_000)
-    poses.write_text("".join(pose_row(t_us, scene.camera_at(t_us)) for t_us in times))
+    cameras = [scene.camera_at(t_us) for t_us in times]
+    rows = [
+        pose_row(t_us, one.position, one.rotation.T)
+        for t_us, one in zip(times, cameras, strict=True)
+    ]
+    poses.write_text("".join(rows))
     fov = math.degrees(2 * math.atan(0.5 / large.camera_at(0).focal))
     photo = np.clip(large.at(0).luma, 0, 255).astype(np.float32)
     options = CaptureConfig(camera=str(poses), camera_fov=fov)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import signal
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -189,22 +188,15 @@ def whole(tmp_path_factory):
     return folder / "whole"
 
 
-@pytest.mark.parametrize(("number", "jobs"), [(signal.SIGTERM, 1), (signal.SIGKILL, 2)])
-def test_a_killed_batch_goes_on_without_loss(folder, whole, spawn, number, jobs):
+def test_a_killed_batch_goes_on_without_loss(folder, whole, spawn):
     (folder / "p.txt").write_text(TREES)
-    words = [sys.executable, "-m", "texvent.cli.app", "batch", "p.txt", "--jobs", str(jobs)]
-    words += [*SMALL, "-o", "killed"]
-    process = spawn(words, stderr=subprocess.PIPE, start_new_session=True)
+    words = [sys.executable, "-m", "texvent.cli.app", "batch", "p.txt", "--jobs", "2"]
+    process = spawn([*words, *SMALL, "-o", "killed"], start_new_session=True)
     manifest = Path("killed", "samples.jsonl")
     while process.poll() is None and not (manifest.exists() and manifest.read_text()):
         time.sleep(0.02)
-    if number == signal.SIGKILL:
-        os.killpg(process.pid, number)
-    else:
-        process.send_signal(number)
-    _, said = process.communicate(timeout=300)
-    if number == signal.SIGTERM:
-        assert b"of 4 samples; the same command goes on" in said
+    os.killpg(process.pid, signal.SIGKILL)
+    process.communicate(timeout=300)
     done = [json.loads(line)["name"] for line in manifest.read_text().splitlines()]
     assert len(done) >= 1
     assert run("batch", "p.txt", *SMALL, "-o", "killed", "-q") == 0

@@ -34,10 +34,10 @@ def clips_recipe(folder: Path, *, clips: int = 6, **changes: Any) -> Recipe:
     return Recipe.of(specification_from({**tables, **changes}, folder=folder))
 
 
-def make(recipe: Recipe, folder: Path, engine: Engine | None = None) -> Work:
-    """Make a data set, by one process if no engine is given."""
+def make(recipe: Recipe, folder: Path, engine: Engine | None = None, **options: Any) -> Work:
+    """Make a data set, by one process if no engine is given; options as `find_work`."""
     recipe.begin(folder)
-    work = find_work(recipe, folder)
+    work = find_work(recipe, folder, **options)
     with closing(engine or SerialEngine()) as running:
         make_shards(work, running, lambda outcome: None)
     return work

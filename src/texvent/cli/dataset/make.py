@@ -52,8 +52,6 @@ class MakeOptions:
     ray: str | None = None
     """Ray cluster that makes the shards: its address, such as head:6379; "auto", the one this
     machine belongs to; "local", one of --workers processes for this run."""
-    ray_memory_gb: float | None = None
-    """Memory that each shard of events reserves on its Ray node, GB."""
     shards: str | None = None
     """K/N: of N parts of all shards, the K-th only, from 1."""
     retry_failed: bool = False
@@ -66,9 +64,6 @@ class MakeOptions:
 
     def __post_init__(self) -> None:
         check_range("workers", self.workers, 1, 1024)
-        check_range("ray_memory_gb", self.ray_memory_gb, 0.001, 1e6)
-        if self.ray_memory_gb is not None and self.ray is None:
-            raise ConfigError("ray_memory_gb is for a Ray cluster; name it with --ray")
         if self.workers is not None and self.ray not in (None, "local"):
             raise ConfigError(
                 "workers is for this machine; --ray uses all CPUs that the cluster offers"
@@ -156,7 +151,7 @@ def _engine(options: MakeOptions, work: Work) -> Engine:
     if options.ray is not None and shards:
         from texvent.dataset.generation.ray_cluster import RayEngine
 
-        return RayEngine(options.ray, workers=options.workers, memory_gb=options.ray_memory_gb)
+        return RayEngine(options.ray, workers=options.workers)
     workers = count_threads() if options.workers is None else options.workers
     return local_engine(workers if shards > 1 else 1)
 

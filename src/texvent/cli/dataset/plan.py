@@ -25,15 +25,13 @@ from texvent.dataset.statistics import Statistics, summary_lines
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.threads import count_threads
 
-HOUR_S = 3600.0
 DEFAULT_TRIAL = 32
 MOST_READ = 2_000
 """Prompts that are read, drawn by chance from more; 2,000 take a few seconds."""
 DESCRIPTION = """Check a specification and say what it gives: prompts, clips, splits, classes, and
 from a trial of a few samples the size and the time. Nothing is kept.
 
-  texvent dataset plan cars.toml --workers 8
-  texvent dataset plan films.toml --seconds-per-video 380     a learned model, without a trial"""
+  texvent dataset plan cars.toml --workers 8"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,13 +48,10 @@ class PlanOptions:
     model would have to make their videos."""
     workers: int | None = None
     """Processes that will share this machine's cores; default: one per core."""
-    seconds_per_video: float | None = None
-    """Time of a learned model for one video, s, where it is known."""
 
     def __post_init__(self) -> None:
         check_range("trial", self.trial, 0, 1000)
         check_range("workers", self.workers, 1, 1024)
-        check_range("seconds_per_video", self.seconds_per_video, 0.0, 1e6)
 
 
 def run_plan(arguments: Sequence[str]) -> int:
@@ -80,8 +75,6 @@ def run_plan(arguments: Sequence[str]) -> int:
         write_out(
             "no trial: give --trial 1 to measure size and time of a sample, and what is left out\n"
         )
-    if recipe.stores_videos:
-        write_out(_video_cost(recipe, options.seconds_per_video))
     return 0
 
 
@@ -123,7 +116,9 @@ def describe_contents(recipe: Recipe) -> list[str]:
         each = f"{min(sizes):,}" if min(sizes) == max(sizes) else f"{min(sizes):,}-{max(sizes):,}"
         lines.append(f"classes  {len(items.labels):,}, {each} {kind} each")
     if recipe.stores_videos:
-        lines.append("videos   made and stored first; every variant is simulated from them")
+        lines.append(
+            f"videos   {clips:,}, made and stored first; every variant is simulated from them"
+        )
     if not specification.license:
         lines.append("note     no license is named; a set that is published needs one")
     return lines
@@ -153,19 +148,6 @@ def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
     of_events = (stage for stage in stages if stage.name != VIDEOS)
     tried = Statistics.of(record for stage in of_events for record in stage.records)
     write_out("".join(f"{line}\n" for line in summary_lines(tried)))
-
-
-def _video_cost(recipe: Recipe, seconds: float | None) -> str:
-    """GPU-hours of a learned model."""
-    videos = sum(recipe.clips.counts.values())
-    if seconds is None:
-        return (
-            f"cost     {videos:,} videos by a learned model; give --seconds-per-video, or "
-            "--trial 1 to make one here\n"
-        )
-    return (
-        f"cost     {videos:,} videos of {seconds:g} s: {videos * seconds / HOUR_S:,.1f} GPU-hours\n"
-    )
 
 
 def time_text(seconds: float) -> str:

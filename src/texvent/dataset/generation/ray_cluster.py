@@ -29,7 +29,6 @@ MOST_SUBMITTED = 2_000
 """Shards that Ray knows of at once: it looks through all of them for each that ends."""
 PATIENCE_S = 10.0
 """Seconds that running shards get to clean up when the run is stopped."""
-GIGABYTE = 10**9
 DECIDING = ("numpy", "numba", "opencv-python-headless")
 """Packages that may change events, beside texvent."""
 
@@ -40,37 +39,28 @@ class RayEngine:
     A worker process keeps its model from task to task.
     """
 
-    def __init__(
-        self, address: str, *, workers: int | None = None, memory_gb: float | None = None
-    ) -> None:
+    def __init__(self, address: str, *, workers: int | None = None) -> None:
         """Connect to a cluster.
 
         Args:
             address: host:port; "auto": the cluster of this machine; "local": one for this run.
             workers: CPUs of a "local" one; None: all.
-            memory_gb: memory that a shard of events reserves on its node, GB.
 
         Raises:
             MissingDependencyError: Ray is not installed.
-            ConfigError: there is no such cluster, or no node has so much memory.
+            ConfigError: there is no such cluster.
         """
         self._ray = connect(address, workers)
         self._running: dict[Any, Task] = {}
         self._waiting = deque[Task]()
         self._versions = package_versions()
-        memory = {} if memory_gb is None else {"memory": round(memory_gb * GIGABYTE)}
         has_gpus = self._ray.cluster_resources().get("GPU", 0) > 0
         of_videos = {"num_gpus": 1, "num_cpus": 0} if has_gpus else {"num_cpus": 1}
         function = _code_for_nodes()
         self._make = {
             is_video: self._ray.remote(max_retries=ATTEMPTS - 1, max_calls=0, **needs)(function)
-            for is_video, needs in ((True, of_videos), (False, {"num_cpus": 1, **memory}))
+            for is_video, needs in ((True, of_videos), (False, {"num_cpus": 1}))
         }
-        try:
-            self._check_memory(memory_gb)
-        except ConfigError:
-            self.close()
-            raise
 
     def submit(self, task: Task) -> None:
         """Have a shard made."""
@@ -105,7 +95,9 @@ class RayEngine:
 
     def _why(self, error: Exception) -> str:
         if isinstance(error, self._ray.exceptions.OutOfMemoryError):
-            return "Ray ended it again and again for want of memory; reserve more: --ray-memory-gb"
+            return (
+                "Ray ended it again and again for want of memory; start nodes with fewer --num-cpus"
+            )
         name = type(error).__name__
         return f"its process or node died {ATTEMPTS} times ({name}); see Ray's logs"
 
@@ -121,15 +113,6 @@ class RayEngine:
         # Where another thread frees a reference while Ray shuts down, Ray ends the process.
         gc.collect()
         self._ray.shutdown()
-
-    def _check_memory(self, wanted_gb: float | None) -> None:
-        nodes = [node for node in self._ray.nodes() if node["Alive"]]
-        most = max((node["Resources"].get("memory", 0.0) for node in nodes), default=0.0)
-        if wanted_gb is not None and wanted_gb * GIGABYTE > most:
-            raise ConfigError(
-                f"ray_memory_gb is {wanted_gb:g}, and no node of the cluster offers more than "
-                f"{most / GIGABYTE:.1f} GB; ask for less"
-            )
 
 
 def connect(address: str, workers: int | None = None) -> Any:

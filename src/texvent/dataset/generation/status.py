@@ -6,25 +6,13 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from io import StringIO
 from pathlib import Path
 
 from texvent.dataset.generation.make_shard import is_complete
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.shards import FAILED, SampleRecord, ShardSummary
+from texvent.dataset.generation.shards import SampleRecord, ShardSummary
 
 LOGS = "logs"
-
-
-@dataclass(frozen=True)
-class LogState:
-    """Progress of a running shard."""
-
-    samples: int
-    events: int
-    failed: int
-    changed_s: float
-    """Unix time of the last line."""
 
 
 def log_path(folder: Path, shard: Shard) -> Path:
@@ -49,23 +37,6 @@ def shard_log(folder: Path, shard: Shard) -> Iterator[Callable[[SampleRecord], N
             )
 
         yield note
-
-
-def read_log(folder: Path, shard: Shard) -> LogState | None:
-    """Progress of a shard, or None if it has not begun."""
-    path = log_path(folder, shard)
-    try:
-        text, changed = path.read_text(encoding="utf-8"), path.stat().st_mtime
-    except OSError:
-        return None
-    words = [line.split() for line in StringIO(text)]
-    lines = [line for line in words if len(line) >= 6]
-    return LogState(
-        samples=len(lines),
-        events=sum(int(line[4]) for line in lines if line[4].isdigit()),
-        failed=sum(line[2] == FAILED for line in lines),
-        changed_s=changed,
-    )
 
 
 QUIET_S = 600.0
@@ -125,12 +96,15 @@ def read_status(recipe: Recipe, folder: Path) -> list[StageStatus]:
             record = is_complete(recipe, folder, shard)
             if record is not None:
                 stage.add(record.summary)
-                continue
-            log = read_log(folder, shard)
-            if log is not None and time.time() - log.changed_s < QUIET_S:
+            elif _is_at_work(log_path(folder, shard)):
                 stage.at_work += 1
-                stage.samples += log.samples
-                stage.failed += log.failed
-                stage.events += log.events
         stages.append(stage)
     return stages
+
+
+def _is_at_work(log: Path) -> bool:
+    """True if a log has news."""
+    try:
+        return time.time() - log.stat().st_mtime < QUIET_S
+    except OSError:
+        return False

@@ -24,7 +24,7 @@ from texvent.rig.shutter import ExposedFrame
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.progress import Progress
 from texvent.truth.layout import parse_parts
-from texvent.truth.poses import POSE_HEADER, quaternion, seconds_text
+from texvent.truth.poses import POSE_HEADER, pose_row, quaternion
 from texvent.truth.writer import TruthWriter
 from texvent.video import Frame
 
@@ -143,14 +143,10 @@ def write_facts(recording: Recording, folder: Path, tally: Tally) -> None:
 
 def write_tum(path: Path, t_us: NDArray[np.int64], poses: tuple[Any, Any]) -> None:
     """Poses to the world as rows `timestamp tx ty tz qx qy qz qw`, s and m (TUM's format)."""
-    place, turn = poses
-    rows = np.concatenate([place, quaternions(turn)], axis=1)
     with path.open("w", encoding="utf-8") as file:
         file.write(POSE_HEADER)
-        file.writelines(
-            f"{seconds_text(int(time))} {' '.join(f'{one:.9f}' for one in row)}\n"
-            for time, row in zip(t_us, rows, strict=True)
-        )
+        for time, place, turn in zip(t_us, *poses, strict=True):
+            file.write(pose_row(int(time), place, turn))
 
 
 def quaternions(rotations: NDArray[Any]) -> NDArray[Any]:
