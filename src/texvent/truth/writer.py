@@ -15,7 +15,7 @@ from texvent.errors import ConfigError, InputError, OutputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_folder
 from texvent.options.values import plain
-from texvent.truth.boxes import labelled, open_boxes
+from texvent.truth.boxes import open_boxes
 from texvent.truth.event_ids import (
     Interval,
     ids_of_frames,
@@ -196,8 +196,14 @@ class TruthWriter(AtomicOutput):
         if truth.camera is not None and "poses" in self._parts:
             self._write_camera(truth, index)
         if self._boxes is not None and truth.instance is not None:
-            boxes = labelled(truth.boxes, truth.instance, self._source.class_of)
-            self._boxes.add(index, truth.t_us, boxes)
+            ids = np.array([box.instance for box in truth.boxes], dtype=np.int32)
+            self._boxes.add(
+                index,
+                truth.t_us,
+                truth.boxes,
+                class_ids=self._source.class_of(ids).tolist(),
+                areas=np.bincount(truth.instance.ravel(), minlength=1)[ids].tolist(),
+            )
         self._write_ids(truth, intervals)
         self._before = truth
 

@@ -24,12 +24,7 @@ from tests.dataset.loading.written_set import (
 
 import texvent.dataset
 from texvent import Augment
-from texvent.batch.engines import SerialEngine
-from texvent.dataset.generation.make import find_work, make_shards
-from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.loading.stored_samples import StoredSamples
-from texvent.dataset.samples import SimulatedSamples
-from texvent.dataset.specification.reading import specification_from
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.represent.named import represent_window
@@ -68,13 +63,6 @@ def test_every_sample_comes_back_with_all_that_is_known(samples, written):
         )
     assert [sample.key for sample in samples] == list(written)
     assert samples[-1].key == list(written)[-1]
-
-
-def test_a_console_shows_counts_of_the_set_and_no_tables(samples):
-    shown = repr(samples)
-    assert shown.startswith("StoredSamples(24 of ")
-    assert f"{len(samples.labels)} classes" in shown
-    assert "facts" not in repr(samples[0])
 
 
 def test_a_number_that_does_not_exist_is_an_index_error(samples):
@@ -256,39 +244,6 @@ def test_damaged_columns_are_named_with_their_sample(tmp_path, name, offset, val
         file.write(value)
     with pytest.raises(FileFormatError, match=message):
         texvent.dataset.open(tmp_path).events(0)
-
-
-def test_stored_and_simulated_samples_are_the_same_arrays(tmp_path):
-    """What `texvent dataset make` stores, sliced here, is what the simulation gives when asked."""
-    options = {"duration": 0.125, "sensor": "32x24", "samples": 1, "shadows": False}
-    tables = {
-        "name": "one",
-        "filters": {"min_events": 1},
-        "sources": [{"prompts": ["a red ball flies left"]}],
-        "options": options,
-    }
-    recipe = Recipe.of(specification_from(tables, folder=Path()))
-    recipe.begin(tmp_path / "one")
-    engine = SerialEngine()
-    make_shards(find_work(recipe, tmp_path / "one"), engine, lambda outcome: None)
-    engine.close()
-    stored = texvent.dataset.open(tmp_path / "one", representation="voxel-e2vid", slice_us=40_000)
-    # The seed of a simulated sample follows from its number, that of a stored one from its key.
-    simulated = SimulatedSamples(
-        prompts=["a red ball flies left"], slice_us=40_000, simulation=options
-    )
-    events = texvent.generate("a red ball flies left", seed=simulated.seed_of(0), **options)
-    write_shard(tmp_path / "again", "paper", "train", 0, {"one": events})
-    path = tmp_path / "again" / "paper" / "train-000000.json"
-    record = json.loads(path.read_text())
-    record["samples"][1] |= {"width": 32, "height": 24, "duration_us": 125_000}
-    path.write_text(json.dumps(record))
-    again = texvent.dataset.open(tmp_path / "again", representation="voxel-e2vid", slice_us=40_000)
-    expected = simulated.make(0)
-    for name in ("representation", "stop_us"):
-        np.testing.assert_array_equal(again.make(0)[name], expected[name])
-        assert stored.make(0)[name].shape == expected[name].shape
-    assert stored.index.duration_us[0] == 125_000
 
 
 def test_opening_and_reading_loads_no_heavy_package(folder, written):

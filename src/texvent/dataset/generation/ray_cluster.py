@@ -95,9 +95,7 @@ class RayEngine:
 
     def _why(self, error: Exception) -> str:
         if isinstance(error, self._ray.exceptions.OutOfMemoryError):
-            return (
-                "Ray ended it again and again for want of memory; start nodes with fewer --num-cpus"
-            )
+            return "Ray ended it again and again for want of memory; use fewer CPUs per node"
         name = type(error).__name__
         return f"its process or node died {ATTEMPTS} times ({name}); see Ray's logs"
 
