@@ -25,7 +25,7 @@ from texvent.dataset.statistics import Statistics, summary_lines
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.threads import count_threads
 
-DEFAULT_TRIAL = 32
+DEFAULT_TRIAL = 8
 MOST_READ = 2_000
 """Prompts that are read, drawn by chance from more; 2,000 take a few seconds."""
 DESCRIPTION = """Check a specification and say what it gives: prompts, clips, splits, classes, and
@@ -44,7 +44,7 @@ class PlanOptions:
     specification: Path = REQUIRED
     """The specification: TOML or YAML."""
     trial: int | None = None
-    """Clips that are made to measure time and size; 0: none. Default: 32, and none where a learned
+    """Clips that are made to measure time and size; 0: none. Default: 8, and none where a learned
     model would have to make their videos."""
     workers: int | None = None
     """Processes that will share this machine's cores; default: one per core."""

@@ -2,27 +2,22 @@
 
 from __future__ import annotations
 
-import bisect
 import contextlib
 import dataclasses
-import itertools
 import random
+import statistics
 import tempfile
-import time
-from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent.batch.engines import Engine, local_engine
-from texvent.dataset.generation.make import ShardTask
-from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
+from texvent.batch.engines import Outcome, local_engine
+from texvent.dataset.generation.make import find_work, make_shards
+from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.generation.shards import FAILED, MADE, ShardRecord, size_in_tar
+from texvent.dataset.specification.items import Items
 from texvent.errors import TexventError
 from texvent.runtime.progress import Progress
 from texvent.runtime.threads import count_threads
-
-LIMIT_S = 30.0
-"""From then on, a stage begins no further sample."""
 
 
 @dataclass(frozen=True)
@@ -39,7 +34,7 @@ class StageEstimate:
     bytes: float
     """Mean bytes per sample in the shards."""
     seconds: float
-    """Mean working time per sample."""
+    """Median working time per sample."""
 
     @property
     def tried(self) -> int:
@@ -57,72 +52,44 @@ def try_samples(
     """Make a few clips in every variant, in a folder that is removed.
 
     Several processes make them as in the whole run, because cores that share caches and memory are
-    slower than one of them alone. A stage of slow samples is tried with fewer of them.
+    slower than one of them alone.
 
     Args:
         recipe: of the data set.
-        clips: how many of them, at least one per process.
-        progress: receives the number of finished stages.
+        clips: how many of them, at least one per process; drawn by chance and yet the same every
+            time.
+        progress: receives the number of finished shards.
         workers: processes, at most one per core.
 
     Raises:
         ConfigError, OutputError, MissingDependencyError: what all samples would meet.
+        TexventError: a shard could not be made, or every sample of a variant failed.
     """
-    processes = min(workers, count_threads())
-    # One clip per shard, so that any can be had.
-    single = Recipe(dataclasses.replace(recipe.specification, samples_per_shard=1), recipe.items)
-    places = _draw_places(single, max(clips, processes))
-    results: list[StageEstimate] = []
+    processes, items = min(workers, count_threads()), recipe.items.all
+    chance = random.Random(recipe.specification.seed)
+    chosen = chance.sample(items, min(max(clips, processes), len(items)))
+    specification = dataclasses.replace(
+        recipe.specification, samples_per_shard=1, repeats=1, splits={"trial": 1.0}
+    )
+    trial = Recipe(
+        specification, Items(tuple(dataclasses.replace(item, split=None) for item in chosen))
+    )
+    records: dict[str, list[ShardRecord]] = {stage: [] for stage in recipe.stages}
+
+    def note(outcome: Outcome) -> None:
+        if outcome.failure is not None:
+            raise TexventError(f"the trial failed: {outcome.failure}")
+        records[outcome.task.shard.variant].append(outcome.result)
+        progress.advance("trial", sum(map(len, records.values())), len(chosen) * len(records))
+
     with (
         tempfile.TemporaryDirectory() as name,
         contextlib.closing(local_engine(processes)) as engine,
     ):
         folder = Path(name).absolute() / "set"
-        single.begin(folder)
-        for stage in recipe.stages:
-            tasks = [ShardTask(folder, Shard(stage, *place)) for place in places]
-            _make(tasks[:processes], engine)  # compiles the kernels
-            records, stop = list[ShardRecord](), time.monotonic() + LIMIT_S
-            for begin in range(0, len(tasks), processes):
-                records += _make(tasks[begin : begin + processes], engine)
-                if time.monotonic() > stop:
-                    break
-            if stage == VIDEOS:
-                places = places[: len(records)]
-            results.append(_estimate(recipe, stage, records))
-            progress.advance("trial", len(results), len(recipe.stages))
-    return results
-
-
-def _make(tasks: Sequence[ShardTask], engine: Engine) -> list[ShardRecord]:
-    """Records of shards that are made at once.
-
-    Raises:
-        TexventError: one could not be made.
-    """
-    for task in tasks:
-        engine.submit(task)
-    outcomes = [engine.next() for _ in tasks]
-    for outcome in outcomes:
-        if outcome.failure is not None:
-            raise TexventError(f"the trial failed: {outcome.failure}")
-    return [outcome.result for outcome in outcomes]
-
-
-def _draw_places(recipe: Recipe, clips: int) -> list[tuple[str, int]]:
-    """Places of clips, drawn by chance and yet the same every time.
-
-    Evenly spaced ones would meet some words of a template only.
-    """
-    counts = recipe.clips.counts
-    ends = list(itertools.accumulate(counts.values()))
-    chance = random.Random(recipe.specification.seed)
-    chosen = []
-    for number in chance.sample(range(ends[-1]), min(clips, ends[-1])):
-        place = bisect.bisect_right(ends, number)
-        split = list(counts)[place]
-        chosen.append((split, number - ends[place] + counts[split]))
-    return chosen
+        trial.begin(folder)
+        make_shards(find_work(trial, folder), engine, note)
+    return [_estimate(recipe, stage, records[stage]) for stage in recipe.stages]
 
 
 def _estimate(recipe: Recipe, stage: str, records: list[ShardRecord]) -> StageEstimate:
@@ -139,5 +106,6 @@ def _estimate(recipe: Recipe, stage: str, records: list[ShardRecord]) -> StageEs
         events=sum(one.events for one in made) / max(len(made), 1),
         bytes=sum(size_in_tar(size) for one in made for _, size in one.members.values())
         / max(len(samples), 1),
-        seconds=sum(record.seconds for record in records) / max(len(samples), 1),
+        # Not the mean: the first sample of each process compiles the kernels.
+        seconds=statistics.median(record.seconds / len(record.samples) for record in records),
     )
