@@ -72,7 +72,7 @@ def test_slices_and_unequal_shapes_become_lists(folder, tmp_path):
     assert [one.shape[0] for one in batch["representation"]] == [3, 4]
 
 
-@pytest.mark.parametrize("options", [{}, {"shuffle": True}, {"shuffle": True, "shuffle_buffer": 4}])
+@pytest.mark.parametrize("options", [{}, {"shuffle": True}])
 @pytest.mark.parametrize("drop_last", [False, True])
 def test_ranks_get_every_sample_once(samples, options, drop_last):
     for world_size in (1, 2, 5):
@@ -157,7 +157,6 @@ def test_an_epoch_goes_on_where_it_stopped(samples, workers):
         {"rank": 0},
         {"world_size": 3},
         {"shuffle": False},
-        {"shuffle_buffer": 4},
     ],
 )
 def test_a_state_of_another_order_is_refused(samples, change):

@@ -245,7 +245,7 @@ class Loader:
 
     def __len__(self) -> int:
         """Number of batches of a whole epoch."""
-        return -(-len(self.sampler.numbers(self.samples.index.shard, 0)) // self.sampler.batch_size)
+        return -(-len(self.sampler.numbers(len(self.samples), 0)) // self.sampler.batch_size)
 
     @property
     def epoch(self) -> int:
@@ -308,12 +308,12 @@ class _Batches:
 
     def __iter__(self) -> Iterator[list[tuple[int, int]]]:
         epoch, size = self.epoch, self.sampler.batch_size
-        numbers = self.sampler.numbers(self.samples.index.shard, epoch)
+        numbers = self.sampler.numbers(len(self.samples), epoch)
         for begin in range(self.begin, len(numbers), size):
             yield [(number, epoch) for number in numbers[begin : begin + size].tolist()]
 
     def __len__(self) -> int:
-        count = len(self.sampler.numbers(self.samples.index.shard, self.epoch)) - self.begin
+        count = len(self.sampler.numbers(len(self.samples), self.epoch)) - self.begin
         return -(-count // self.sampler.batch_size)
 
 
