@@ -42,13 +42,13 @@ class BatchPlan:
 
 @dataclass(frozen=True)
 class MadeSample:
-    """What is known of a sample when its files are complete."""
+    """Result of a sample whose files are complete."""
 
     events: int
     warnings: tuple[str, ...]
     """Doubts, such as words that are not understood."""
     report: PromptReport | None
-    """What became of the prompt's words, where the generator says so."""
+    """Report on the words of its prompt; None where the generator gives none."""
 
 
 @dataclass(frozen=True, eq=False)

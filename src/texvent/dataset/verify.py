@@ -11,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from texvent.dataset.generation.recipe import ITEMS_FILE, SPECIFICATION_FILE, VIDEOS
+from texvent.dataset.generation.recipe import VIDEOS
 from texvent.dataset.generation.sample import COLUMNS
 from texvent.dataset.generation.shards import (
     EXTENSION,
@@ -22,17 +22,11 @@ from texvent.dataset.generation.shards import (
     read_members,
     read_record,
 )
-from texvent.dataset.generation.status import LOGS
-from texvent.dataset.publish import CARD_FILE
 from texvent.dataset.reading.stored_dataset import SHARD_FILE, StoredDataset, StoredShard
 from texvent.dataset.reading.stored_events import read_events, read_sample_facts
 from texvent.dataset.statistics import in_several_splits
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.atomic import is_hidden_part
-
-OWN = (SPECIFICATION_FILE, ITEMS_FILE, CARD_FILE, LOGS, "samples.html",
-       ".git", ".gitattributes", ".cache")  # fmt: skip
-"""Files of a data set besides its shards."""
 
 
 @dataclass
@@ -111,7 +105,7 @@ def verify(dataset: StoredDataset, *, workers: int = 1, contents: bool = True) -
                 findings.count(shard, keys)
     findings.twice = sorted(key for key, count in keys.items() if count > 1)
     findings.foreign = _foreign_files(dataset, kinds, set(findings.missing))
-    findings.notes = [*_other_files(dataset), *_notes(dataset)]
+    findings.notes = list(_notes(dataset))
     return findings
 
 
@@ -185,16 +179,6 @@ def _foreign_files(dataset: StoredDataset, kinds: Iterable[str], missing: set[st
             if not (is_shard and place in own | missing) and not is_hidden_part(path):
                 found.append(f"{kind}/{path.name}")
     return found
-
-
-def _other_files(dataset: StoredDataset) -> Iterator[str]:
-    for path in sorted(dataset.folder.iterdir()):
-        if path.name in OWN or path.name in dataset.variants or path.name == VIDEOS:
-            continue
-        if is_hidden_part(path):
-            yield f"{path.name} is what a killed process left; it may be deleted"
-        else:
-            yield f"{path.name} is not of texvent"
 
 
 def _notes(dataset: StoredDataset) -> Iterator[str]:

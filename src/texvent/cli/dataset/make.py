@@ -101,7 +101,7 @@ def run_make(arguments: Sequence[str]) -> int:
 
 
 def _announce(outcome: Outcome, progress: Progress) -> None:
-    """Say what became of a shard."""
+    """Print the result of a shard."""
     shard, record = outcome.task.shard, outcome.result
     if record is None:
         progress.announce(f"failed   {shard.path}: {outcome.failure}")

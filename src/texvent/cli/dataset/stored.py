@@ -122,7 +122,7 @@ def run_status(arguments: Sequence[str]) -> int:
 
 @dataclass(frozen=True, kw_only=True)
 class VerifyOptions(JsonOptions):
-    """What to check."""
+    """Extent of the check."""
 
     contents: bool = True
     """Whether samples are read too, or digests of shards compared alone."""
@@ -287,7 +287,7 @@ def run_publish(arguments: Sequence[str]) -> int:
 
 @dataclass(frozen=True, kw_only=True)
 class ExportOptions(StoredOptions):
-    """What to write, and where."""
+    """Layout and its folder."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
     outputs: ClassVar[tuple[str, ...]] = ("out",)

@@ -150,7 +150,7 @@ def _made(record: SampleRecord, make: Make, writer: TarShardWriter) -> SampleRec
 
 
 class _ShardSamples:
-    """The samples of a shard: their records but for what only making them tells, and a `Make`."""
+    """The samples of a shard: a record that lacks its results, and a `Make`, for each."""
 
     def __init__(self, recipe: Recipe, folder: Path, shard: Shard, scratch: Path) -> None:
         self._recipe, self._shard, self._scratch = recipe, shard, scratch
