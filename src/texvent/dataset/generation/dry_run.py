@@ -5,7 +5,6 @@ from __future__ import annotations
 import contextlib
 import dataclasses
 import random
-import statistics
 import tempfile
 from dataclasses import dataclass
 from pathlib import Path
@@ -34,7 +33,7 @@ class StageEstimate:
     bytes: float
     """Mean bytes per sample in the shards."""
     seconds: float
-    """Median working time per sample."""
+    """Mean working time per sample."""
 
     @property
     def tried(self) -> int:
@@ -67,14 +66,14 @@ def try_samples(
     """
     processes, items = min(workers, count_threads()), recipe.items.all
     chance = random.Random(recipe.specification.seed)
-    chosen = chance.sample(items, min(max(clips, processes), len(items)))
+    drawn = chance.sample(items, min(max(clips, processes), len(items)))
+    chosen = tuple(dataclasses.replace(item, split=None) for item in drawn)
     specification = dataclasses.replace(
         recipe.specification, samples_per_shard=1, repeats=1, splits={"trial": 1.0}
     )
-    trial = Recipe(
-        specification, Items(tuple(dataclasses.replace(item, split=None) for item in chosen))
-    )
-    records: dict[str, list[ShardRecord]] = {stage: [] for stage in recipe.stages}
+    # The first round compiles the kernels in every process; videos of a model are made once.
+    rounds = [chosen] if recipe.stores_videos else [chosen[:processes], chosen]
+    records: dict[str, list[ShardRecord]] = {}
 
     def note(outcome: Outcome) -> None:
         if outcome.failure is not None:
@@ -86,9 +85,11 @@ def try_samples(
         tempfile.TemporaryDirectory() as name,
         contextlib.closing(local_engine(processes)) as engine,
     ):
-        folder = Path(name).absolute() / "set"
-        trial.begin(folder)
-        make_shards(find_work(trial, folder), engine, note)
+        for number, some in enumerate(rounds):
+            trial, folder = Recipe(specification, Items(some)), Path(name).absolute() / str(number)
+            records.update((stage, []) for stage in recipe.stages)
+            trial.begin(folder)
+            make_shards(find_work(trial, folder), engine, note)
     return [_estimate(recipe, stage, records[stage]) for stage in recipe.stages]
 
 
@@ -106,6 +107,5 @@ def _estimate(recipe: Recipe, stage: str, records: list[ShardRecord]) -> StageEs
         events=sum(one.events for one in made) / max(len(made), 1),
         bytes=sum(size_in_tar(size) for one in made for _, size in one.members.values())
         / max(len(samples), 1),
-        # Not the mean: the first sample of each process compiles the kernels.
-        seconds=statistics.median(record.seconds / len(record.samples) for record in records),
+        seconds=sum(record.seconds for record in records) / max(len(samples), 1),
     )

@@ -226,7 +226,7 @@ class Loader:
         self.sampler = _sampler(rank, world_size, order)
         self._position = 0
         # It knows nothing of this object: a cycle of references would keep worker processes.
-        self._batches = _Batches(samples, self.sampler)
+        self._batches = _Batches(len(samples), self.sampler)
         options = {}
         if workers:
             options = {
@@ -300,7 +300,8 @@ class Loader:
 class _Batches:
     """Number and epoch of the samples of each batch of an epoch, for the DataLoader."""
 
-    samples: StoredSamples
+    count: int
+    """Of all samples."""
     sampler: EpochSampler
     epoch: int = 0
     begin: int = 0
@@ -308,12 +309,12 @@ class _Batches:
 
     def __iter__(self) -> Iterator[list[tuple[int, int]]]:
         epoch, size = self.epoch, self.sampler.batch_size
-        numbers = self.sampler.numbers(len(self.samples), epoch)
+        numbers = self.sampler.numbers(self.count, epoch)
         for begin in range(self.begin, len(numbers), size):
             yield [(number, epoch) for number in numbers[begin : begin + size].tolist()]
 
     def __len__(self) -> int:
-        count = len(self.sampler.numbers(len(self.samples), self.epoch)) - self.begin
+        count = len(self.sampler.numbers(self.count, self.epoch)) - self.begin
         return -(-count // self.sampler.batch_size)
 
 
