@@ -145,18 +145,6 @@ def test_only_a_recording_is_replaced(native: Path, tmp_path: Path) -> None:
         rig.record(PROMPT, out, overwrite=True, **small)
 
 
-def test_a_recording_that_fails_leaves_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(*arguments: object) -> None:
-        raise InputError("stop")
-
-    monkeypatch.setattr("texvent.rig.recorder.write_facts", fail)
-    with pytest.raises(InputError, match="stop"):
-        rig.record(PROMPT, tmp_path / "out", sensor="32x24", duration=0.1, progress=False)
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_dsec_frames_return_to_the_raw_pixels(tmp_path: Path, native: Path) -> None:
     """Through rectification and back, frames differ from the raw ones by interpolation only."""
     lenses = """

@@ -221,27 +221,6 @@ def test_truth_that_comes_with_frames_passes_through_unchanged(tmp_path):
         truth.occluded(0)
 
 
-def test_arrays_of_a_renderer_pass_through_too(tmp_path):
-    frames = list(MotionFrames())
-    flow = np.stack([np.nan_to_num(frame.motion.forward) for frame in frames])
-    texvent.simulate(
-        np.stack([frame.pixels for frame in frames]),
-        fps=25,
-        motion=flow,
-        motion_back=-flow,
-        depth=np.stack([frame.motion.depth for frame in frames]),
-        instances=np.stack([frame.motion.instance for frame in frames]),
-        truth_folder=texvent.TruthFolder(tmp_path / "a.truth", "flow,depth,ids,boxes,events"),
-        noise="none",
-    )
-    truth = texvent.load_truth(tmp_path / "a.truth")
-    for index, frame in enumerate(frames):
-        np.testing.assert_array_equal(truth.instance(index), frame.motion.instance)
-        np.testing.assert_array_equal(truth.depth(index), frame.motion.depth)
-    np.testing.assert_array_equal(truth.flow(2), flow[2])
-    assert (truth.event_instance == 5).mean() > 0.98
-
-
 @pytest.mark.parametrize("by_part", [True, False])
 def test_a_folder_of_truth_is_motion_that_simulate_reads(written, tmp_path, by_part):
     folder, truth, _ = written

@@ -113,14 +113,6 @@ def test_no_number_of_workers_changes_a_batch_and_epochs_differ(folder):
                 assert torch.equal(batch["events"].t, other["events"].t)
 
 
-def test_spawned_workers_read_the_same(samples):
-    expected = list(samples.loader(batch_size=7))
-    loader = samples.loader(batch_size=7, workers=2, prefetch=1)
-    for _ in range(2):
-        for batch, other in zip(expected, loader, strict=True):
-            assert torch.equal(batch["representation"], other["representation"])
-
-
 @pytest.mark.parametrize("workers", [0, 2])
 def test_an_epoch_goes_on_where_it_stopped(samples, workers):
     def loader():
