@@ -189,7 +189,7 @@ def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
     folder = tmp_path / "out"
     work = make(recipe, folder)
     assert not work.failures
-    assert {(one.made, one.filtered, one.failed) for one in work.complete.values()} == {
+    assert {(one[MADE], one[FILTERED], one[FAILED]) for one in work.complete.values()} == {
         (4, 2, 2),  # a still video has the noise of the sensor, and no signal
         (2, 1, 1),
     }
@@ -201,7 +201,7 @@ def test_one_bad_video_harms_no_other_and_is_made_later(tmp_path: Path) -> None:
     assert not find_work(recipe, folder).todo
     work = make(recipe, folder, retry_failed=True)
     after = {shard.variant: counts for shard, counts in work.complete.items()}
-    assert after["esim"].made == 3
+    assert after["esim"][MADE] == 3
     whole = tmp_path / "again"
     make(recipe, whole)
     assert digests(whole) == digests(folder)

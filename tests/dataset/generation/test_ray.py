@@ -162,7 +162,7 @@ def test_a_node_that_is_lost_changes_no_byte(cluster: Any, tmp_path: Path) -> No
     remove_dead_parts(recipe, folder)
     assert not work.failures
     assert len(seen) == len(work.complete) == 6
-    assert sum(record.samples for record in work.complete.values()) == 24
+    assert sum(counts.total() for counts in work.complete.values()) == 24
     assert digests(folder) == digests(tmp_path / "wanted")
     assert not list(folder.rglob(".texvent-*"))
 

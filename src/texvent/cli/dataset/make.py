@@ -157,7 +157,7 @@ def _engine(options: MakeOptions, work: Work) -> Engine:
 
 
 def _finish(folder: Path, work: Work, options: MakeOptions, *, is_whole: bool) -> int:
-    failed = sum(one.failed for one in work.complete.values())
+    failed = sum(counts[FAILED] for counts in work.complete.values())
     places = {str(shard.path) for shard in work.complete}
     shards = (one.record for one in StoredDataset.open(folder).shards() if one.place in places)
     made = Statistics.of(shards)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, field, replace
@@ -17,7 +18,7 @@ from texvent.dataset.generation.recipe import (
     Shard,
     load_recipe_once,
 )
-from texvent.dataset.generation.shards import FAILED, ShardRecord, ShardSummary
+from texvent.dataset.generation.shards import FAILED, ShardRecord
 from texvent.dataset.generation.status import shard_log
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
@@ -66,7 +67,8 @@ class ShardTask:
 class Work:
     """Shards to make, complete shards and failures."""
 
-    complete: dict[Shard, ShardSummary] = field(default_factory=dict)
+    complete: dict[Shard, Counter[str]] = field(default_factory=dict)
+    """Complete shards: status → number of samples."""
     todo: list[ShardTask] = field(default_factory=list)
     """Shards of events, in order."""
     videos_todo: list[ShardTask] = field(default_factory=list)
@@ -103,7 +105,7 @@ def find_work(
             if record is None or again:
                 tasks.append(ShardTask(folder, shard, retry_failed=again))
             else:
-                work.complete[shard] = record.summary
+                work.complete[shard] = record.statuses
     return work
 
 
@@ -137,7 +139,7 @@ def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
         if outcome.failure is not None:
             work.failures[shard] = outcome.failure
         else:
-            work.complete[shard] = outcome.result.summary
+            work.complete[shard] = outcome.result.statuses
             for task in waiting.pop(shard, ()):
                 engine.submit(task)
                 running += 1

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import json
 import tarfile
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
@@ -52,23 +53,6 @@ class SampleRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShardSummary:
-    """The counts of a complete shard; small, where its record is not."""
-
-    made: int
-    filtered: int
-    failed: int
-    events: int
-    bytes: int
-    seconds: float
-
-    @property
-    def samples(self) -> int:
-        """All of them, also those that are not there."""
-        return self.made + self.filtered + self.failed
-
-
-@dataclass(frozen=True, kw_only=True)
 class ShardRecord:
     """A complete shard."""
 
@@ -90,24 +74,17 @@ class ShardRecord:
 
     def count(self, status: str) -> int:
         """Number of its samples with a status."""
-        return sum(sample.status == status for sample in self.samples)
+        return self.statuses[status]
+
+    @property
+    def statuses(self) -> Counter[str]:
+        """Status → number of its samples."""
+        return Counter(sample.status for sample in self.samples)
 
     @property
     def events(self) -> int:
         """Events of all its samples."""
         return sum(sample.events for sample in self.samples)
-
-    @property
-    def summary(self) -> ShardSummary:
-        """Its counts."""
-        return ShardSummary(
-            made=self.count(MADE),
-            filtered=self.count(FILTERED),
-            failed=self.count(FAILED),
-            events=self.events,
-            bytes=self.bytes,
-            seconds=self.seconds,
-        )
 
 
 def record_path(shard: Path) -> Path:

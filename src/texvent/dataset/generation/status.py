@@ -10,7 +10,7 @@ from pathlib import Path
 
 from texvent.dataset.generation.make_shard import is_complete
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.shards import SampleRecord, ShardSummary
+from texvent.dataset.generation.shards import FAILED, FILTERED, SampleRecord, ShardRecord
 
 LOGS = "logs"
 
@@ -65,15 +65,15 @@ class StageStatus:
     seconds: float = 0.0
     """Working time of complete shards."""
 
-    def add(self, done: ShardSummary) -> None:
+    def add(self, record: ShardRecord) -> None:
         """Count a complete shard."""
         self.complete += 1
-        self.samples += done.samples
-        self.failed += done.failed
-        self.filtered += done.filtered
-        self.events += done.events
-        self.bytes += done.bytes
-        self.seconds += done.seconds
+        self.samples += len(record.samples)
+        self.failed += record.count(FAILED)
+        self.filtered += record.count(FILTERED)
+        self.events += record.events
+        self.bytes += record.bytes
+        self.seconds += record.seconds
 
 
 def read_status(recipe: Recipe, folder: Path) -> list[StageStatus]:
@@ -95,7 +95,7 @@ def read_status(recipe: Recipe, folder: Path) -> list[StageStatus]:
             stage.shards += 1
             record = is_complete(recipe, folder, shard)
             if record is not None:
-                stage.add(record.summary)
+                stage.add(record)
             elif _is_at_work(log_path(folder, shard)):
                 stage.at_work += 1
         stages.append(stage)
