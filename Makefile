@@ -208,8 +208,8 @@ $(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml lab/pyproject.toml
 	@touch $@
 
 $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.txt
-	@echo "installing texvent, Ray, pyarrow and loaders of data sets into $(DATASET_VENV) (once; 1.5 GB)"
-	$(DATASET_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,dataset,ray,loaders,parquet,blosc]'
+	@echo "installing texvent, Ray and loaders of data sets into $(DATASET_VENV) (once; 1.5 GB)"
+	$(DATASET_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,ray,loaders,parquet,blosc]'
 	@touch $@
 
 $(DOCS_VENV)/.docs: $(DOCS_VENV)/bin/python pyproject.toml lab/pyproject.toml constraints.txt

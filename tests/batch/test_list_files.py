@@ -80,7 +80,7 @@ def test_json_lines_hold_texts_or_objects(tmp_path):
         (
             "p.csv",
             "prompt\na car, fast, drives\n",
-            "line 2 has 3 values for 1 column; put a prompt with commas in double quotes",
+            "line 2 has 3 values for 1 columns; put a prompt with commas in double quotes",
         ),
         ("p.csv", "name,prompt,seed\na,a car,1\nb,a dog\n", "line 3 has 2 values for 3 columns"),
         ("p.jsonl", '"a car"\n{"prompt": \n', "line 2 is not JSON"),

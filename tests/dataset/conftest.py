@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 import shutil
-from contextlib import closing
 from pathlib import Path
 from typing import Any
 
 import pytest
+from tests.dataset.generation.small_sets import make
 
-from texvent.dataset.generation.engines import in_this_process
-from texvent.dataset.generation.make import find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.reading import specification_from
 
@@ -40,11 +38,7 @@ CARS: dict[str, Any] = {
 def make_set(folder: Path, **changes: Any) -> Path:
     """The data set `CARS`, changed, made in a new folder."""
     recipe = Recipe.of(specification_from({**CARS, **changes}, folder=Path()))
-    recipe.begin(folder)
-    work = find_work(recipe, folder)
-    with closing(in_this_process()) as engine:
-        make_shards(work, engine, lambda outcome: None)
-    assert not work.failures
+    assert not make(recipe, folder).failures
     return folder
 
 

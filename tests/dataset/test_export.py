@@ -6,7 +6,6 @@ import re
 from pathlib import Path
 from typing import Any
 
-import h5py
 import numpy as np
 import pytest
 from tests.dataset.conftest import make_set
@@ -51,26 +50,6 @@ def test_n_imagenet_as_its_loader_opens_it(cars: Path, tmp_path: Path) -> None:
     assert done.samples == len(seen)
     assert "does not hold captions" in done.doubts[0]
     assert "640x480 pixels for granted, and these are 32x24" in done.doubts[1]
-
-
-def test_dsec_as_h5py_reads_it(cars: Path, tmp_path: Path) -> None:
-    export(StoredDataset.open(cars), "dsec", tmp_path / "D", variant="paper")
-    for key, (split, _, events) in samples_of(cars).items():
-        left = tmp_path / "D" / split / key / "events" / "left"
-        with h5py.File(left / "events.h5") as file:
-            columns = {name: file[f"events/{name}"][:] for name in "xytp"}
-            assert columns["t"].dtype == np.uint32
-            offset = int(file["t_offset"][()])
-            columns["t"] = columns["t"] + offset
-            assert_same(columns, events)
-            starts = file["ms_to_idx"][:]
-            np.testing.assert_array_equal(
-                starts[:-1],
-                np.searchsorted(events.t - offset, np.arange(len(starts) - 1) * 1000),
-            )
-        with h5py.File(left / "rectify_map.h5") as file:
-            assert file["rectify_map"].shape == (24, 32, 2)
-            assert tuple(file["rectify_map"][5, 7]) == (7.0, 5.0)
 
 
 def test_hdf5_holds_everything_and_is_made_again_from_itself(

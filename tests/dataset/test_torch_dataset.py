@@ -14,7 +14,7 @@ for _index in range(4):
 
 
 def dataset(count=5, **options):
-    from texvent.dataset.loading.torch_loader import SimulatedDataset
+    from texvent.dataset.loading.torch_loader import SampleDataset
 
     samples = SimulatedSamples(
         videos=[CLIP, CLIP[::-1].copy()],
@@ -23,12 +23,18 @@ def dataset(count=5, **options):
         simulation={"fps": 20, "interpolate": "none", "randomize": "stoffregen"},
         seed=3,
     )
-    return SimulatedDataset(samples, count=count, **options)
+    return SampleDataset(samples, count=count, **options)
 
 
 def test_batches_do_not_depend_on_the_number_of_workers():
-    alone = list(dataset().loader(batch_size=2))
-    shared = list(dataset().loader(batch_size=2, workers=2))
+    from texvent.dataset.loading.torch_loader import collate
+
+    def batches(**options):
+        return list(
+            torch.utils.data.DataLoader(dataset(), batch_size=2, collate_fn=collate, **options)
+        )
+
+    alone, shared = batches(), batches(num_workers=2, multiprocessing_context="spawn")
     assert [batch["number"].tolist() for batch in shared] == [[0, 1], [2, 3], [4]]
     for one, other in zip(alone, shared, strict=True):
         assert one.keys() == other.keys()

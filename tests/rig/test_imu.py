@@ -9,7 +9,6 @@ import numpy as np
 import pytest
 from tests.scenes.hand_scenes import HandScene, turned
 
-from texvent.errors import TexventWarning
 from texvent.generate.scene_input import list_nouns, understand
 from texvent.rig.description import IMU_NOISES, ImuNoise
 from texvent.rig.imu import (
@@ -17,7 +16,6 @@ from texvent.rig.imu import (
     ImuSamples,
     sample_times_us,
     true_samples,
-    warn_of_corners,
     with_noise,
 )
 from texvent.scenes.scene import Camera, Scene
@@ -154,13 +152,10 @@ def test_times_are_whole_microseconds_of_the_rate() -> None:
     assert len(sample_times_us(1000.0, 2_000_000)) == 2001
 
 
-def test_a_corner_of_the_path_is_named() -> None:
+def test_across_a_corner_of_the_path_it_leads_to_the_same_pose() -> None:
     def camera_at(time: float) -> Camera:
         return Camera(np.array([0.0, 0.0, abs(time - 0.5)]), LEVEL, 1.0)
 
-    with pytest.warns(TexventWarning, match=r"corner at 0\.50 s"):
-        warn_of_corners(HandScene(camera_at=camera_at), np.eye(4), 1.0)
     samples = true_samples(HandScene(camera_at=camera_at), np.eye(4), sample_times_us(RATE, 10**6))
     place, _ = integrate(samples, np.array([0.0, 0.0, -1.0]))
     np.testing.assert_allclose(place, samples.position[-1], atol=1e-3)
-    warn_of_corners(scene_of("a tree, handheld camera"), np.eye(4), DURATION)

@@ -127,9 +127,9 @@ def test_a_folder_that_is_no_recording_is_named(tmp_path: Path) -> None:
     with pytest.raises(FileFormatError, match="damaged"):
         rig.load(tmp_path)
     (tmp_path / "rig.json").write_text(
-        '{"rig": {"options": {"layout": "ecd"}}, "pixel_seeds": {"cam0": 1}}'
+        '{"rig": {"options": {"layout": "mcap"}}, "pixel_seeds": {"cam0": 1}}'
     )
-    with pytest.raises(InputError, match="layout 'ecd'"):
+    with pytest.raises(InputError, match="layout 'mcap'"):
         rig.load(tmp_path)
 
 
@@ -143,34 +143,6 @@ def test_only_a_recording_is_replaced(native: Path, tmp_path: Path) -> None:
     (out / "notes.txt").write_text("mine")
     with pytest.raises(OutputError, match="other files"):
         rig.record(PROMPT, out, overwrite=True, **small)
-
-
-def test_a_recording_that_fails_leaves_nothing(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    def fail(*arguments: object) -> None:
-        raise InputError("stop")
-
-    monkeypatch.setattr("texvent.rig.recorder.write_facts", fail)
-    with pytest.raises(InputError, match="stop"):
-        rig.record(PROMPT, tmp_path / "out", sensor="32x24", duration=0.1, progress=False)
-    assert list(tmp_path.iterdir()) == []
-
-
-def test_ecd_text_is_read_as_the_data_set_is(tmp_path: Path) -> None:
-    out = rig.record(PROMPT, tmp_path / "ecd", layout="ecd", **OPTIONS)
-    own = out / "cam1"
-    assert len(texvent.load(own / "events.txt")) == facts_of(out)["events"]["cam1"]
-    images = [line.split() for line in (own / "images.txt").read_text().splitlines()]
-    assert images[0] == ["0.050000", "images/frame_00000000.png"]
-    assert cv2.imread(str(own / images[0][1]), cv2.IMREAD_UNCHANGED).shape == (48, 64)
-    assert np.loadtxt(own / "imu.txt").shape == (26, 7)
-    assert np.loadtxt(own / "groundtruth.txt").shape == (26, 8)
-    calibration = np.loadtxt(own / "calib.txt")
-    assert calibration.shape == (9,)
-    assert calibration[2:4].tolist() == [31.5, 23.5]
-    stored = open_frames(own, CaptureConfig(), size=None)
-    assert [frame.t_us for frame in stored][:2] == [50_000, 100_000]
 
 
 def test_dsec_frames_return_to_the_raw_pixels(tmp_path: Path, native: Path) -> None:
@@ -267,7 +239,7 @@ def types_with_events():  # type: ignore[no-untyped-def]
     ("words", "complaint"),
     [
         (["--layout", "dsec"], "layout dsec is for two cameras"),
-        (["--layout", "ecd", "--truth", "flow"], "truth is written beside layout hdf5"),
+        (["--layout", "mcap", "--truth", "flow"], "truth is written beside layout hdf5"),
         (["--stereo", "-1"], "stereo is -1"),
         (["--generator", "wan-1.3b"], "generator 'wan-1.3b' makes videos"),
         (["--generator", "procedure"], "procedural"),
@@ -296,13 +268,6 @@ def test_bad_input_is_one_clear_line(
 def test_a_zooming_camera_is_refused(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match="the camera zooms"):
         rig.record("a car, the camera zooms in", tmp_path / "out", progress=False)
-
-
-def test_a_lens_of_an_equidistant_camera_is_refused_by_ecd(tmp_path: Path) -> None:
-    path = tmp_path / "fisheye.yaml"
-    path.write_text("cam0: {field_of_view: 120, distortion_model: equidistant}")
-    with pytest.raises(ConfigError, match=r"calib\.txt knows radtan only"):
-        rig.record("a ball", tmp_path / "out", rig=path, layout="ecd", sensor="64x48")
 
 
 def test_the_command_says_what_it_made(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

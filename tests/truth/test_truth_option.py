@@ -34,15 +34,6 @@ def test_all_of_it_beside_the_events(folder, capsys):
     assert len(truth.event_instance) == len(texvent.load("b.raw"))
     assert set(np.unique(truth.event_instance)) <= {0, *truth.instances}
     assert (truth.metadata["prompt"], truth.metadata["seed"]) == ("a red ball bounces", 3)
-    assert (folder / "b.truth" / "overlay.mp4").stat().st_size > 1000
-
-
-def test_truth_changes_no_event(capsys):
-    assert run("generate", "a red ball bounces", "-o", "a.csv", *QUICK) == 0
-    assert (
-        run("generate", "a red ball bounces", "-o", "b.csv", "--truth", "flow,events", *QUICK) == 0
-    )
-    assert texvent.load("a.csv").equals(texvent.load("b.csv"))
 
 
 @pytest.mark.parametrize("extension", ["h5", "npz"])
@@ -76,15 +67,6 @@ def test_a_dry_run_writes_no_truth(folder):
     words = ("-o", "b.h5", "--truth", "all", "--dry-run")
     assert run("generate", "a red ball bounces", *words, *QUICK) == 0
     assert not list(folder.iterdir())
-
-
-def test_nothing_is_replaced_without_overwrite(folder, capsys):
-    words = ("generate", "a red ball bounces", "-o", "b.h5", "--truth", "boxes", *QUICK)
-    assert run(*words) == 0
-    (folder / "b.h5").unlink()
-    assert run(*words) != 0
-    assert "b.truth exists already" in capsys.readouterr().err
-    assert run(*words, "--overwrite") == 0
 
 
 @pytest.mark.parametrize(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import csv
 import io
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -24,6 +24,8 @@ NAME_COLUMNS = ("name", "id")
 LABEL_COLUMNS = ("label", "class")
 """Names of the column or key with the class of a sample."""
 _COLUMNS = f"{', '.join((*PROMPT_COLUMNS, SCENE_COLUMN))} or {VIDEO_COLUMN}"
+Row = tuple[int, Mapping[Any, Any]]
+"""Number of a line, and its values by column."""
 LIST_EXTENSIONS = (".txt", ".csv", ".jsonl")
 COMMENT = "#"
 MAX_NAME_BYTES = 200
@@ -65,9 +67,8 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
         ConfigError: a field of a scene file is wrong.
     """
     usable_path(path)
-    readers = {".txt": _read_text, ".csv": _read_csv, ".jsonl": _read_jsonl}
-    reader = readers.get(path.suffix.lower())
-    if reader is None:
+    rows_of = {".txt": _text_rows, ".csv": _csv_rows, ".jsonl": _json_rows}.get(path.suffix.lower())
+    if rows_of is None:
         raise InputError(f"{path} is no list; its name must end in {', '.join(LIST_EXTENSIONS)}")
     try:
         text = path.read_bytes().decode("utf-8-sig")
@@ -75,16 +76,10 @@ def read_list(path: Path) -> tuple[ListEntry, ...]:
         raise InputError(f"cannot read the list {path}: {error.strerror}") from error
     except UnicodeDecodeError as error:
         raise FileFormatError(f"{path} is not UTF-8 text: {error.reason}") from error
-    entries = tuple(reader(path, text))
+    entries = tuple(_entry(path, number, row) for number, row in rows_of(path, text))
     if not entries:
         raise InputError(f"{path} holds no prompt")
     return entries
-
-
-def _read_text(path: Path, text: str) -> Iterator[ListEntry]:
-    for number, line in enumerate(io.StringIO(text, newline=None), start=1):
-        if line.strip() and not line.lstrip().startswith(COMMENT):
-            yield _from_text(path, number, line.strip())
 
 
 def scene_entry(where: str, path: Path, **known: Any) -> ListEntry:
@@ -94,14 +89,13 @@ def scene_entry(where: str, path: Path, **known: Any) -> ListEntry:
     return ListEntry(where, scene.prompt or None, scene=scene, name=name, **known)
 
 
-def _from_text(path: Path, number: int, text: str) -> ListEntry:
-    where = _where(path, number)
-    if is_scene_file(text):
-        return scene_entry(where, path.parent / text)
-    return ListEntry(where, text)
+def _text_rows(path: Path, text: str) -> Iterator[Row]:
+    for number, line in enumerate(io.StringIO(text, newline=None), start=1):
+        if line.strip() and not line.lstrip().startswith(COMMENT):
+            yield number, {"prompt": line}
 
 
-def _read_csv(path: Path, text: str) -> Iterator[ListEntry]:
+def _csv_rows(path: Path, text: str) -> Iterator[Row]:
     reader = csv.DictReader(io.StringIO(text, newline=""), strict=True)
     try:
         columns = tuple(reader.fieldnames or ())
@@ -110,49 +104,39 @@ def _read_csv(path: Path, text: str) -> Iterator[ListEntry]:
                 f"{path} has no column {_COLUMNS}; it has: {', '.join(columns)[:100]}"
             )
         for row in reader:
-            _check_width(path, reader.line_num, row, len(columns))
-            yield _from_mapping(path, reader.line_num, row)
+            # A comma too many cuts a prompt.
+            extra, missing = row.get(None) or (), sum(value is None for value in row.values())
+            if extra or missing:
+                raise FileFormatError(
+                    f"{_where(path, reader.line_num)} has {len(columns) + len(extra) - missing} "
+                    f"values for {len(columns)} columns; put a prompt with commas in double "
+                    "quotes, and leave a column empty by two commas"
+                )
+            yield reader.line_num, row
     except csv.Error as error:
         raise FileFormatError(f"{path} after line {reader.line_num}: {one_line(error)}") from error
 
 
-def _check_width(path: Path, number: int, row: Mapping[Any, Any], columns: int) -> None:
-    """Refuse a row with more or fewer values than columns: a comma too many cuts a prompt.
-
-    Raises:
-        FileFormatError: see above.
-    """
-    extra, missing = row.get(None) or (), sum(value is None for value in row.values())
-    if extra or missing:
-        values = columns + len(extra) - missing
-        raise FileFormatError(
-            f"{_where(path, number)} has {values} value{'s' * (values != 1)} for {columns} "
-            f"column{'s' * (columns != 1)}; put a prompt with commas in double quotes, and leave "
-            "a column empty by two commas"
-        )
-
-
-def _read_jsonl(path: Path, text: str) -> Iterator[ListEntry]:
+def _json_rows(path: Path, text: str) -> Iterator[Row]:
     for number, line in enumerate(io.StringIO(text, newline=None), start=1):
         if not line.strip():
             continue
+        where = _where(path, number)
         try:
-            entry = json.loads(line)
+            row = json.loads(line)
         except (ValueError, RecursionError) as error:
-            raise FileFormatError(
-                f"{_where(path, number)} is not JSON: {one_line(error)}"
-            ) from error
-        if isinstance(entry, str):
-            entry = {"prompt": entry}
-        if not isinstance(entry, Mapping):
-            raise FileFormatError(f"{_where(path, number)} is neither a text nor an object")
-        yield _from_mapping(path, number, entry)
+            raise FileFormatError(f"{where} is not JSON: {one_line(error)}") from error
+        if isinstance(row, str):
+            row = {"prompt": row}
+        if not isinstance(row, Mapping):
+            raise FileFormatError(f"{where} is neither a text nor an object")
+        yield number, row
 
 
-def _from_mapping(path: Path, number: int, entry: Mapping[Any, Any]) -> ListEntry:
+def _entry(path: Path, number: int, row: Mapping[Any, Any]) -> ListEntry:
     where = _where(path, number)
-    prompt = next((entry[name] for name in PROMPT_COLUMNS if entry.get(name)), None)
-    video, scene = (_path_of(where, entry, column) for column in (VIDEO_COLUMN, SCENE_COLUMN))
+    prompt = _first(row, PROMPT_COLUMNS)
+    video, scene = (_path_of(where, row, column) for column in (VIDEO_COLUMN, SCENE_COLUMN))
     if prompt is not None and not (isinstance(prompt, str) and prompt.strip()):
         raise FileFormatError(f"{where}: prompt is {shown(prompt)}; it must be a text")
     if scene is not None and (prompt is not None or video is not None):
@@ -160,9 +144,9 @@ def _from_mapping(path: Path, number: int, entry: Mapping[Any, Any]) -> ListEntr
     if prompt is None and scene is None and video is None:
         raise FileFormatError(f"{where} has no {_COLUMNS}")
     known: dict[str, Any] = {
-        "name": _name(where, next((entry[one] for one in NAME_COLUMNS if entry.get(one)), None)),
-        "seed": _seed(where, entry.get("seed")),
-        "label": _label(where, entry),
+        "name": _name(where, _first(row, NAME_COLUMNS)),
+        "seed": _seed(where, row.get("seed")),
+        "label": _label(where, row),
     }
     if scene is None and video is None and prompt is not None and is_scene_file(prompt.strip()):
         scene = prompt.strip()
@@ -174,6 +158,11 @@ def _from_mapping(path: Path, number: int, entry: Mapping[Any, Any]) -> ListEntr
         path.parent / video if video else None,
         **known,
     )
+
+
+def _first(row: Mapping[Any, Any], columns: Sequence[str]) -> Any:
+    """The value of the first of some columns that has one."""
+    return next((row[name] for name in columns if row.get(name)), None)
 
 
 def _path_of(where: str, entry: Mapping[Any, Any], column: str) -> str | None:
@@ -210,8 +199,8 @@ def _seed(where: str, value: Any) -> int | None:
     return seed
 
 
-def _label(where: str, entry: Mapping[Any, Any]) -> str | None:
-    label = next((entry[name] for name in LABEL_COLUMNS if entry.get(name) not in (None, "")), None)
+def _label(where: str, row: Mapping[Any, Any]) -> str | None:
+    label = next((row[name] for name in LABEL_COLUMNS if row.get(name) not in (None, "")), None)
     if isinstance(label, (list, dict)):
         raise FileFormatError(f"{where}: label is {shown(label)}; it must be a text")
     return None if label is None else str(label).strip()

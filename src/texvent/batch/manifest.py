@@ -1,16 +1,14 @@
 """Manifest of a batch in its folder: options in `batch.json`, samples in `samples.jsonl`.
 
 `batch.json` holds the resolved options; a later run with others is refused. `samples.jsonl` gets a
-line when all files of a sample are complete, with their sizes and sha256.
+line when all files of a sample are complete, with their sizes.
 """
 
 from __future__ import annotations
 
-import hashlib
 import json
 import os
 from collections.abc import Callable, Iterator, Mapping, Sequence
-from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
@@ -26,22 +24,6 @@ MAX_DIFFERENCES, MAX_VALUE = 120, 40
 """Characters of all differences that an error tells, and of a value."""
 
 
-@dataclass(frozen=True)
-class Done:
-    """A complete sample."""
-
-    key: str
-    name: str
-    seed: int
-    prompt: str | None
-    video: str | None
-    events: int
-    files: Mapping[str, tuple[int, str]]
-    """File name → bytes and sha256."""
-    prompt_report: Mapping[str, Any] | None = None
-    """What became of the prompt's words, a `PromptReport` as JSON; None where it is not known."""
-
-
 class Manifest:
     """The state of a batch folder.
 
@@ -52,7 +34,7 @@ class Manifest:
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._options = _read_options(folder / OPTIONS_FILE)
-        self._done = {done.key: done for done in _read_done(folder / SAMPLES_FILE)}
+        self._done = {row["key"]: row for row in _read_rows(folder / SAMPLES_FILE)}
 
     def begin(self, options: Mapping[str, Any], *, overwrite: bool) -> None:
         """Note what is asked for; with `overwrite` nothing counts as done.
@@ -75,30 +57,29 @@ class Manifest:
             self._done = {}
         # Written anew: a line that was cut off by a power failure goes.
         with atomic_file(self._folder / SAMPLES_FILE, overwrite=True) as part:
-            part.write_text("".join(map(_line, self._done.values())), encoding="utf-8")
+            text = "".join(f"{json.dumps(row)}\n" for row in self._done.values())
+            part.write_text(text, encoding="utf-8")
 
     def is_done(self, sample: Sample) -> bool:
         """True if all files of the sample are there, as large as when they were complete."""
-        done = self._done.get(sample.key)
-        return done is not None and all(
-            _size(self._folder / name) == size for name, (size, _) in done.files.items()
+        row = self._done.get(sample.key)
+        return row is not None and all(
+            _size(self._folder / name) == size for name, size in row["files"].items()
         )
-
-    def report_of(self, sample: Sample) -> PromptReport | None:
-        """The report of a complete sample's prompt; None where it has none."""
-        done = self._done.get(sample.key)
-        if done is None or done.prompt_report is None:
-            return None
-        return PromptReport.from_json(done.prompt_report)
 
     def is_known(self, sample: Sample) -> bool:
         """True if the sample was complete once, so that what is left of it may be replaced."""
         return sample.key in self._done
 
+    def report_of(self, sample: Sample) -> PromptReport | None:
+        """The report of a complete sample's prompt; None where it has none."""
+        report = self._done.get(sample.key, {}).get("prompt_report")
+        return None if report is None else PromptReport.from_json(report)
+
     def others(self, samples: Sequence[Sample]) -> list[str]:
         """Names of complete samples that the list no longer has."""
         keys = {sample.key for sample in samples}
-        return [done.name for key, done in self._done.items() if key not in keys]
+        return [str(row["name"]) for key, row in self._done.items() if key not in keys]
 
     def add(
         self,
@@ -109,27 +90,21 @@ class Manifest:
         report: PromptReport | None = None,
     ) -> None:
         """Note that a sample is complete; durable before it returns."""
-        files = {path.name: (_size(path) or 0, _sha256(path)) for path in paths}
-        video = None if sample.video is None else str(sample.video)
-        done = Done(
-            sample.key,
-            sample.name,
-            sample.seed,
-            sample.prompt,
-            video,
-            events,
-            files,
-            None if report is None else report.to_json(),
-        )
-        self._done[sample.key] = done
+        row = {
+            "key": sample.key,
+            "name": sample.name,
+            "seed": sample.seed,
+            "prompt": sample.prompt,
+            "video": None if sample.video is None else str(sample.video),
+            "events": events,
+            "files": {path.name: _size(path) for path in paths},
+            "prompt_report": None if report is None else report.to_json(),
+        }
+        self._done[sample.key] = row
         with (self._folder / SAMPLES_FILE).open("a", encoding="utf-8") as file:
-            file.write(_line(done))
+            file.write(f"{json.dumps(row)}\n")
             file.flush()
             os.fsync(file.fileno())
-
-
-def _line(done: Done) -> str:
-    return json.dumps(asdict(done)) + "\n"
 
 
 def _read_options(path: Path) -> Any:
@@ -143,17 +118,14 @@ def _read_options(path: Path) -> Any:
         ) from error
 
 
-def _read_done(path: Path) -> Iterator[Done]:
+def _read_rows(path: Path) -> Iterator[dict[str, Any]]:
     """Complete lines; a last one that was cut off by a power failure is not complete."""
-    if not path.is_file():
-        return
-    lines = path.read_bytes().split(b"\n")
+    lines = path.read_bytes().split(b"\n") if path.is_file() else []
     for number, line in enumerate(lines[:-1], start=1):
         try:
-            entry = json.loads(line)
-            files = {str(name): (int(one[0]), str(one[1])) for name, one in entry["files"].items()}
-            yield Done(**{**entry, "files": files})
-        except (ValueError, TypeError, KeyError, AttributeError, IndexError, RecursionError):
+            row = json.loads(line)
+            yield {**row, "key": str(row["key"]), "name": row["name"], "files": {**row["files"]}}
+        except (ValueError, TypeError, KeyError, RecursionError):
             if number < len(lines) - 1:
                 raise FileFormatError(
                     f"{path} line {number} is damaged; name another folder with -o"
@@ -215,12 +187,3 @@ def _size(path: Path) -> int | None:
     if path.is_dir():
         return sum(one.stat().st_size for one in path.iterdir())
     return path.stat().st_size if path.is_file() else None
-
-
-def _sha256(path: Path) -> str:
-    """Digest of a file; of a folder format, that of its files' digests by name."""
-    if path.is_dir():
-        listing = "".join(f"{_sha256(one)}  {one.name}\n" for one in sorted(path.iterdir()))
-        return hashlib.sha256(listing.encode()).hexdigest()
-    with path.open("rb") as file:
-        return hashlib.file_digest(file, "sha256").hexdigest()

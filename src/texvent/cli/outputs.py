@@ -36,7 +36,7 @@ class OutputOptions:
     rate and facts (.events.html)."""
     truth: str = ""
     """Write ground truth of the scene beside the events (out.h5: out.truth/): flow, flow-back,
-    depth, ids, boxes, poses, events, overlay, with commas between, or all. See docs/truth.md."""
+    depth, ids, boxes, poses, events, with commas between, or all. See docs/truth.md."""
     overwrite: bool = False
     """Replace files that exist already."""
     config: Path | None = None

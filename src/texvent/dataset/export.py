@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-
-import numpy as np
 
 from texvent._registry import suggest
 from texvent.dataset.generation.shards import SampleRecord
@@ -17,22 +15,9 @@ from texvent.dataset.reading.stored_events import read_events
 from texvent.errors import ConfigError, InputError, OutputError, one_line, shown
 from texvent.io.atomic import atomic_file
 from texvent.io.files import save
-from texvent.sensor import SensorSize
 
-Files = Mapping[str, str]
-"""Path in the exported folder → content."""
 EVALUATION = ("val", "valid", "validation", "test", "testing")
-"""Names of splits that N-ImageNet and DSEC know under one name only."""
-
-
-@dataclass(frozen=True)
-class Exported:
-    """A sample that was written."""
-
-    path: Path
-    """In the exported folder."""
-    split: str
-    label: str | None
+"""Names of splits that N-ImageNet knows as val."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -41,17 +26,48 @@ class Layout:
 
     format: str
     """Name of the codec of event files."""
-    place: Callable[[str, str | None, str], Path]
-    """Split, class and key of a sample → its path in the exported folder."""
-    lists: Callable[[Path, list[Exported]], Files] = lambda folder, exported: {}
-    """Exported folder and what is in it → further files."""
-    needs_classes: bool = False
+    place: str
+    """Path of a sample in the exported folder, of its {split}, {label} and {key}."""
+    list_file: str = ""
+    """Name of a file, of the {split}, that lists the samples of each split; "": none."""
+    lists_absolute: bool = False
+    """Whether the lists hold absolute paths: the layout's loader opens them from anywhere."""
     has_two_splits: bool = False
-    """Whether all splits of `EVALUATION` become one."""
+    """Whether all splits of `EVALUATION` become val."""
     size: tuple[int, int] | None = None
     """Width and height that its readers take for granted, pixels."""
     lost: str = ""
     """Content that the layout cannot hold."""
+
+    @property
+    def needs_classes(self) -> bool:
+        """True if each class has a folder."""
+        return "{label}" in self.place
+
+    def split_of(self, split: str) -> str:
+        """The layout's name of a split."""
+        return "val" if self.has_two_splits and split in EVALUATION else split
+
+
+LAYOUTS: Mapping[str, Layout] = {
+    "hdf5": Layout(format="hdf5", place="{split}/{key}.h5"),
+    "n-imagenet": Layout(
+        format="n-imagenet",
+        place="extracted_{split}/{label}/{key}.npz",
+        list_file="{split}_list.txt",
+        lists_absolute=True,
+        has_two_splits=True,
+        size=(640, 480),
+        lost="captions (its readers have classes alone)",
+    ),
+    "n-caltech101": Layout(
+        format="atis",
+        place="Caltech101/{label}/{key}.bin",
+        list_file="{split}.txt",
+        lost="captions, splits (lists beside it say them), sensors over 256x240, times from "
+        "8.39 s on",
+    ),
+}
 
 
 def folder_name(label: str) -> str:
@@ -81,69 +97,6 @@ def find_layout(name: str) -> Layout:
     return LAYOUTS[name]
 
 
-def _train_or(name: str, split: str) -> str:
-    """The two splits of others; further ones keep their names."""
-    if split == "train":
-        return "train"
-    return name if split in EVALUATION else split
-
-
-def _n_imagenet(split: str, label: str | None, key: str) -> Path:
-    folder = f"extracted_{_train_or('val', split)}"
-    return Path(folder) / folder_name(label or "") / f"{key}.npz"
-
-
-def _n_imagenet_lists(folder: Path, exported: list[Exported]) -> Files:
-    """Absolute paths, as its own lists have them: its loader opens them from anywhere."""
-    lines: dict[str, list[str]] = {"train": [], "val": []}
-    for one in exported:
-        lines.setdefault(_train_or("val", one.split), []).append(str(folder / one.path))
-    return {f"{name}_list.txt": "".join(f"{line}\n" for line in lines[name]) for name in lines}
-
-
-def _n_caltech101(split: str, label: str | None, key: str) -> Path:
-    return Path("Caltech101") / folder_name(label or "") / f"{key}.bin"
-
-
-def _split_lists(folder: Path, exported: list[Exported]) -> Files:
-    """The layout has no splits, so lists beside it say them."""
-    lines: dict[str, list[str]] = {}
-    for one in exported:
-        lines.setdefault(one.split, []).append(str(one.path))
-    return {f"{split}.txt": "".join(f"{line}\n" for line in lines[split]) for split in lines}
-
-
-LAYOUTS: Mapping[str, Layout] = {
-    "hdf5": Layout(format="hdf5", place=lambda split, label, key: Path(split) / f"{key}.h5"),
-    "n-imagenet": Layout(
-        format="n-imagenet",
-        place=_n_imagenet,
-        has_two_splits=True,
-        lists=_n_imagenet_lists,
-        needs_classes=True,
-        size=(640, 480),
-        lost="captions (its readers have classes alone)",
-    ),
-    "dsec": Layout(
-        format="dsec",
-        has_two_splits=True,
-        place=lambda split, label, key: (
-            Path(_train_or("test", split)) / key / "events" / "left" / "events.h5"
-        ),
-        size=(640, 480),
-        lost="captions and classes; there is one camera, and no images, disparity or flow",
-    ),
-    "n-caltech101": Layout(
-        format="atis",
-        place=_n_caltech101,
-        lists=_split_lists,
-        needs_classes=True,
-        lost="captions, splits (lists beside it say them), sensors over 256x240, times from "
-        "8.39 s on",
-    ),
-}
-
-
 NOTE_FILE = "texvent-export.json"
 
 
@@ -164,7 +117,6 @@ def export(
     folder: Path,
     *,
     variant: str | None = None,
-    on_sample: Callable[[SampleRecord], None] = lambda sample: None,
 ) -> Exports:
     """Write all samples of a variant; a second run goes on where the first was stopped.
 
@@ -173,7 +125,6 @@ def export(
         format: name of a layout; `LAYOUTS` has them.
         folder: to write to; new, or of the same export.
         variant: which; None: the only one.
-        on_sample: called for every sample.
 
     Raises:
         ConfigError: an unknown format.
@@ -183,21 +134,25 @@ def export(
     layout, variant = find_layout(format), dataset.check_variant(variant)
     _check(dataset, layout, format, variant)
     _begin(dataset, format, folder, variant)
-    exported, kept, labelled = [], 0, False
+    lists: dict[str, list[str]] = {layout.split_of(split): [] for split in dataset.splits}
+    samples, kept, labelled = 0, 0, False
     for shard in dataset.shards(variant):
+        split = layout.split_of(shard.record.split)
         for sample in shard.samples:
-            path = layout.place(shard.record.split, sample.label, sample.key)
+            label = folder_name(sample.label or "") if layout.needs_classes else ""
+            place = layout.place.format(split=split, label=label, key=sample.key)
+            lists[split].append(str(folder.absolute() / place) if layout.lists_absolute else place)
             labelled = labelled or "label.npy" in sample.members
-            if (folder / path).exists():
+            if (folder / place).exists():
                 kept += 1
             else:
-                _write(shard, sample, layout, folder / path)
-            exported.append(Exported(path, shard.record.split, sample.label))
-            on_sample(sample)
-    for name, text in layout.lists(folder.absolute(), exported).items():
-        with atomic_file(folder / name, overwrite=True) as part:
-            part.write_text(text, encoding="utf-8")
-    return Exports(len(exported), kept, _doubts(dataset, layout, variant, labelled=labelled))
+                _write(shard, sample, layout, folder / place)
+            samples += 1
+    for split, places in lists.items() if layout.list_file else ():
+        path = folder / layout.list_file.format(split=split)
+        with atomic_file(path, overwrite=True) as part:
+            part.write_text("".join(f"{place}\n" for place in places), encoding="utf-8")
+    return Exports(samples, kept, _doubts(dataset, layout, variant, labelled=labelled))
 
 
 def _check(dataset: StoredDataset, layout: Layout, format: str, variant: str) -> None:
@@ -249,39 +204,17 @@ def _begin(dataset: StoredDataset, format: str, folder: Path, variant: str) -> N
 
 def _write(shard: StoredShard, sample: SampleRecord, layout: Layout, path: Path) -> None:
     events = read_events(shard.path, sample)
-    if layout.format not in KEEP_NOISE:
+    if layout.format != "hdf5":
         events = replace(events, label=None)
     path.parent.mkdir(parents=True, exist_ok=True)
     save(path, events, format=layout.format)
-    if layout.format == "dsec":
-        _write_identity_map(path.with_name("rectify_map.h5"), events.size)
-
-
-KEEP_NOISE = ("hdf5", "dsec")
-"""Codecs that store which events are noise."""
-
-
-def _write_identity_map(path: Path, size: SensorSize) -> None:
-    """DSEC's map from pixels to rectified ones; a simulated lens has no distortion."""
-    import h5py
-
-    columns, rows = np.meshgrid(
-        np.arange(size.width, dtype=np.float32), np.arange(size.height, dtype=np.float32)
-    )
-    # Through an open file: HDF5 cannot lock what atomic_file has locked.
-    with (
-        atomic_file(path, overwrite=True) as part,
-        part.open("wb") as place,
-        h5py.File(place, "w") as file,
-    ):
-        file.create_dataset("rectify_map", data=np.stack([columns, rows], axis=-1))
 
 
 def _doubts(
     dataset: StoredDataset, layout: Layout, variant: str, *, labelled: bool
 ) -> tuple[str, ...]:
     doubts = [f"it does not hold {layout.lost}"] if layout.lost else []
-    if labelled and layout.format not in KEEP_NOISE:
+    if labelled and layout.format != "hdf5":
         doubts.append("it does not hold which events are noise")
     evaluation = [split for split in dataset.splits if split in EVALUATION]
     if len(evaluation) > 1 and layout.has_two_splits:

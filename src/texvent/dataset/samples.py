@@ -174,6 +174,11 @@ class SimulatedSamples:
         size = self._resolve(0).size
         check_representation(self.representation, self.representation_options, size)
 
+    @property
+    def source_count(self) -> int:
+        """Number of prompts or videos."""
+        return len(self.prompts or self.videos)
+
     def seed_of(self, number: int) -> int:
         """Seed of the simulation of sample `number`."""
         return int(frame_key(self.seed, number)) >> 1
@@ -207,7 +212,7 @@ class SimulatedSamples:
         arrays = parts[0]
         if self.slice_us is not None:
             arrays = stack_windows(parts)
-        source = number % len(self.prompts or self.videos)
+        source = number % self.source_count
         return {**arrays, "source": source, "number": number, "seed": self.seed_of(number)}
 
     def _part(self, clip: SlicedClip, window: tuple[int, int]) -> Sample:

@@ -6,7 +6,7 @@ import re
 from collections import Counter
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 
@@ -18,28 +18,13 @@ from texvent.dataset.generation.shards import (
     ShardRecord,
 )
 from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
-from texvent.errors import shown
 from texvent.scenes.report import PromptReport, ReportTally, ranked
 
 QUANTILES = (0.05, 0.5, 0.95)
 MOST_REASONS = 10
-MOST_NAMED = 10
-"""Samples that the summary names of those left out for one reason."""
 MICROSECONDS = 1_000_000
 COUNTS = ("variant", "split", "samples", "left out", "failed", "events", "median events",
           "median s", "median events/s", "MB")  # fmt: skip
-
-
-class LeftOut(NamedTuple):
-    """A sample that the filters leave out."""
-
-    signal_events: int
-    """Events of its video without noise."""
-    key: str
-    shows: str
-    """Its prompt, or the key of its video."""
-    variant: str
-    reason: str
 
 
 @dataclass
@@ -50,7 +35,8 @@ class Statistics:
     bytes: int = 0
     seconds: float = 0.0
     """Working time that the shards took."""
-    left_out: list[LeftOut] = field(default_factory=list)
+    left_out: int = 0
+    """Samples that the filters leave out."""
     failed: int = 0
     events: list[int] = field(default_factory=list)
     """Number of events of each sample."""
@@ -85,12 +71,13 @@ class Statistics:
         self.bytes += record.bytes
         self.seconds += record.seconds
         self.failed += record.count(FAILED)
+        self.left_out += record.count(FILTERED)
         self.versions[record.versions.get("texvent", "unknown")] += 1
         for sample in record.samples:
             self.warnings.update(map(without_numbers, sample.warnings))
             self._add_report(sample)
             if sample.status == FILTERED:
-                self._leave_out(sample, record.variant)
+                self.reasons[f"left out: {sample.reason}"] += 1
             if sample.status == FAILED:
                 self.reasons[f"failed: {without_numbers(sample.reason or '')}"] += 1
             if sample.status != MADE:
@@ -101,11 +88,6 @@ class Statistics:
             self.sensors[f"{sample.width}x{sample.height}"] += 1
             if sample.label is not None:
                 self.classes[sample.label] += 1
-
-    def _leave_out(self, sample: SampleRecord, variant: str) -> None:
-        reason, shows = sample.reason or "", sample.prompt or sample.clip
-        self.left_out.append(LeftOut(sample.signal_events, sample.key, shows, variant, reason))
-        self.reasons[f"left out: {reason}"] += 1
 
     def _add_report(self, sample: SampleRecord) -> None:
         if sample.prompt_report is None:
@@ -142,7 +124,7 @@ class Statistics:
         """Plain values, ready for JSON."""
         return {
             "samples": self.samples,
-            "left_out": [one._asdict() for one in sorted(self.left_out)],
+            "left_out": self.left_out,
             "failed": self.failed,
             "clips": len(self.clips),
             "shards": self.shards,
@@ -202,7 +184,7 @@ def counts_rows(statistics: DatasetStatistics) -> list[list[str]]:
             facts[name].get("median", 0.0)
             for name in ("events_per_sample", "duration_s_per_sample", "events_per_second")
         )
-        counts = (part.samples, len(part.left_out), part.failed, facts["events"])
+        counts = (part.samples, part.left_out, part.failed, facts["events"])
         rows.append(
             [
                 *(variant, split),
@@ -263,24 +245,13 @@ def summary_lines(statistics: Statistics) -> list[str]:
         >>> summary_lines(Statistics())
         ['samples  0 made, 0 left out, 0 failed']
     """
-    left_out = sorted(statistics.left_out)
     lines = [
-        f"samples  {statistics.samples:,} made, {len(left_out):,} left out, "
+        f"samples  {statistics.samples:,} made, {statistics.left_out:,} left out, "
         f"{statistics.failed:,} failed"
     ]
     for reason, count in ranked(statistics.reasons)[:MOST_REASONS]:
         kind, _, why = reason.partition(": ")
         lines.append(f"{kind:8} {count:,}: {why}")
-        named = [one for one in left_out if reason == f"left out: {one.reason}"]
-        lines += [
-            f"         {one.variant}/{one.key} {shown(one.shows)}: {one.signal_events:,}"
-            for one in named[:MOST_NAMED]
-        ]
-        if len(named) > MOST_NAMED:
-            lines.append(
-                f"         and {len(named) - MOST_NAMED:,} more: texvent dataset stats --json "
-                "names all"
-            )
     if statistics.prompts is not None:
         lines.append(f"prompts  {statistics.prompts.line('clips')}")
     return lines

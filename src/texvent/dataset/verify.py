@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import hashlib
 import itertools
-import json
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
@@ -12,7 +11,7 @@ from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 
-from texvent.dataset.generation.recipe import ITEMS_FILE, SPECIFICATION_FILE, VIDEOS
+from texvent.dataset.generation.recipe import VIDEOS
 from texvent.dataset.generation.sample import COLUMNS
 from texvent.dataset.generation.shards import (
     EXTENSION,
@@ -23,19 +22,11 @@ from texvent.dataset.generation.shards import (
     read_members,
     read_record,
 )
-from texvent.dataset.generation.status import LOGS
-from texvent.dataset.publishing.card import CARD_FILE
-from texvent.dataset.publishing.croissant import CROISSANT_FILE
-from texvent.dataset.publishing.index import INDEX_FILE
 from texvent.dataset.reading.stored_dataset import SHARD_FILE, StoredDataset, StoredShard
 from texvent.dataset.reading.stored_events import read_events, read_sample_facts
 from texvent.dataset.statistics import in_several_splits
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.atomic import is_hidden_part
-
-OWN = (SPECIFICATION_FILE, ITEMS_FILE, CARD_FILE, CROISSANT_FILE, INDEX_FILE, LOGS, "samples.html",
-       "samples.png", ".git", ".gitattributes", ".cache")  # fmt: skip
-"""Files of a data set besides its shards."""
 
 
 @dataclass
@@ -114,8 +105,7 @@ def verify(dataset: StoredDataset, *, workers: int = 1, contents: bool = True) -
                 findings.count(shard, keys)
     findings.twice = sorted(key for key, count in keys.items() if count > 1)
     findings.foreign = _foreign_files(dataset, kinds, set(findings.missing))
-    findings.notes = [*_other_files(dataset), *_notes(dataset)]
-    findings.changed += _differing_description(dataset)
+    findings.notes = list(_notes(dataset))
     return findings
 
 
@@ -191,16 +181,6 @@ def _foreign_files(dataset: StoredDataset, kinds: Iterable[str], missing: set[st
     return found
 
 
-def _other_files(dataset: StoredDataset) -> Iterator[str]:
-    for path in sorted(dataset.folder.iterdir()):
-        if path.name in OWN or path.name in dataset.variants or path.name == VIDEOS:
-            continue
-        if is_hidden_part(path):
-            yield f"{path.name} is what a killed process left; it may be deleted"
-        else:
-            yield f"{path.name} is not of texvent"
-
-
 def _notes(dataset: StoredDataset) -> Iterator[str]:
     shared = in_several_splits(dataset.shards())
     if shared:
@@ -211,28 +191,5 @@ def _notes(dataset: StoredDataset) -> Iterator[str]:
     expected = dataset.expected()
     if not dataset.has_videos and any(one.startswith(f"{VIDEOS}/") for one in expected or ()):
         yield "its videos are not here; no loader needs them"
-    if expected is None and not (dataset.folder / CROISSANT_FILE).is_file():
-        yield (
-            "there is neither items.jsonl nor croissant.json, so shards missing at the end of a "
-            "split are not noticed"
-        )
-
-
-def _differing_description(dataset: StoredDataset) -> Iterator[str]:
-    """Shards that the published description does not fit."""
-    path = dataset.folder / CROISSANT_FILE
-    if not path.is_file():
-        return
-    try:
-        files = json.loads(path.read_text("utf-8"))["distribution"]
-        said = {one["@id"]: one["sha256"] for one in files if one["@id"].endswith(EXTENSION)}
-    except (ValueError, KeyError, TypeError, OSError, AttributeError):
-        yield f"{path.name}: no description that texvent dataset publish wrote"
-        return
-    found = {shard.place: shard.record.sha256 for shard in dataset.shards()}
-    differing = sorted(place for place in said | found if said.get(place) != found.get(place))
-    if differing:
-        yield (
-            f"{path.name}: it describes other shards (such as {differing[0]}); run texvent dataset "
-            "publish again"
-        )
+    if expected is None:
+        yield "there is no items.jsonl, so shards missing at the end of a split are not noticed"

@@ -14,7 +14,7 @@ from texvent.truth.layout import parse_parts
 MOST_BASELINE_M = 100.0
 IMU_RATE_HZ = (1.0, 1000.0)
 
-Layout = Literal["hdf5", "dsec", "ecd", "rosbag1", "mcap"]
+Layout = Literal["hdf5", "dsec", "rosbag1", "mcap"]
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -40,10 +40,10 @@ class RigConfig:
     """Noise of the IMU: adis16448 (EuRoC's), none, or a file as Kalibr's imu.yaml. What a rig file
     states under imu0 comes before the default."""
     layout: Layout = "hdf5"
-    """Layout of the folder: hdf5 (a file per camera), dsec, ecd (text), rosbag1 or mcap."""
+    """Layout of the folder: hdf5 (a file per camera), dsec, rosbag1 or mcap."""
     truth: str = ""
     """Layout hdf5: ground truth of each camera, in cam0/truth/: flow, depth, ids, boxes,
-    poses, events, overlay, with commas between, or all (docs/truth.md)."""
+    poses, events, with commas between, or all (docs/truth.md)."""
 
     def __post_init__(self) -> None:
         if parse_parts(self.truth) and self.layout != "hdf5":

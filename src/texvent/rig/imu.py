@@ -9,7 +9,8 @@ deviation density · √rate, b a bias that starts at 0 and takes a step of dens
 sample to sample (Woodman 2007; Kalibr's IMU noise model).
 
 Derivatives are central differences of eighth order of the path, which is a function of time: for
-a shake of 3.3 Hz they differ from the exact ones by 10⁻⁹ of their value.
+a shake of 3.3 Hz they differ from the exact ones by 10⁻⁹ of their value. A blow, as where a camera
+that follows an object bounces with it, is smoothed over 16 ms.
 """
 
 from __future__ import annotations
@@ -19,9 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import few, warn
-from texvent.rig.description import Float64Array, ImuNoise
-from texvent.rig.mount import body_poses
+from texvent.rig.description import Float64Array, ImuNoise, body_poses
 from texvent.scenes.scene import Scene
 from texvent.simulate.random.draws import draw_normals, frame_key
 from texvent.video import MICROSECONDS
@@ -36,10 +35,6 @@ SECOND = np.array(
     [-1 / 560, 8 / 315, -1 / 5, 8 / 5, -205 / 72, 8 / 5, -1 / 5, 8 / 315, -1 / 560]
 )  # fmt: skip
 """Weights of the second derivative."""
-ROUGH_M_S2 = 0.05
-"""Accelerations that two steps of differences give differ by less where the path is smooth."""
-SEARCH_S = 4e-3
-"""Spacing of the instants where the path is searched for corners, s."""
 _BLOCK = 65_536
 
 
@@ -69,7 +64,7 @@ def sample_times_us(rate_hz: float, stop_us: int) -> NDArray[np.int64]:
 def true_samples(scene: Scene, first_from_imu: Float64Array, t_us: NDArray[np.int64]) -> ImuSamples:
     """Samples of an IMU without noise."""
     t_s = t_us / MICROSECONDS
-    position, to_world, acceleration, turning = _derivatives(scene, first_from_imu, t_s, STEP_S)
+    position, to_world, acceleration, turning = _derivatives(scene, first_from_imu, t_s)
     force = acceleration + np.array([0.0, 0.0, GRAVITY])
     spin = np.swapaxes(to_world, 1, 2) @ turning
     rate = 0.5 * np.stack(
@@ -111,35 +106,14 @@ def _noise(
     return np.asarray(white * np.sqrt(rate_hz) * drawn[0] + walk / np.sqrt(rate_hz) * bias)
 
 
-def warn_of_corners(scene: Scene, first_from_imu: Float64Array, duration_s: float) -> None:
-    """Say where the path has a corner: an IMU there measures it smoothed over 16 ms.
-
-    Warns:
-        TexventWarning: velocity or acceleration jumps, as where a camera that follows an object
-            bounces with it or meets the ground.
-    """
-    t_s = np.arange(0.0, duration_s + SEARCH_S, SEARCH_S)
-    wide = _derivatives(scene, first_from_imu, t_s, STEP_S)[2]
-    narrow = _derivatives(scene, first_from_imu, t_s, 0.5 * STEP_S)[2]
-    size = np.linalg.norm(wide, axis=1)
-    rough = np.linalg.norm(wide - narrow, axis=1) > ROUGH_M_S2 + 1e-3 * size
-    starts = t_s[rough & ~np.append(False, rough[:-1])]
-    if len(starts):
-        times = few([f"{time:.2f} s" for time in starts])
-        warn(
-            f"the camera's path has a corner at {times}: there the IMU measures a blow, smoothed "
-            "over 16 ms; integrated, it leads to the same pose"
-        )
-
-
 def _derivatives(
-    scene: Scene, first_from_imu: Float64Array, t_s: Float64Array, step_s: float
+    scene: Scene, first_from_imu: Float64Array, t_s: Float64Array
 ) -> tuple[Float64Array, Float64Array, Float64Array, Float64Array]:
     """Position, rotation to the world, acceleration, and the rotation's derivative."""
-    around = t_s[:, None] + step_s * np.arange(-4, 5)
+    around = t_s[:, None] + STEP_S * np.arange(-4, 5)
     position, to_world = body_poses(scene, first_from_imu, around.ravel())
     position = position.reshape(len(t_s), 9, 3)
     to_world = to_world.reshape(len(t_s), 9, 3, 3)
-    acceleration = np.einsum("k,nki->ni", SECOND, position) / step_s**2
-    turning = np.einsum("k,nkij->nij", FIRST, to_world) / step_s
+    acceleration = np.einsum("k,nki->ni", SECOND, position) / STEP_S**2
+    turning = np.einsum("k,nkij->nij", FIRST, to_world) / STEP_S
     return position[:, 4], to_world[:, 4], acceleration, turning

@@ -5,37 +5,22 @@ from __future__ import annotations
 import json
 from collections.abc import Callable
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 
 from texvent.generate.scene_input import Subject
 from texvent.io.atomic import atomic_folder, check_output_folder
 from texvent.options.fields import option_names
 from texvent.options.values import with_options
 from texvent.rig.config import RigConfig
-from texvent.rig.layouts import bag, dsec, ecd, native
+from texvent.rig.layouts import bag, dsec, native
 from texvent.rig.layouts.parts import FACTS, Tally, write_facts
-from texvent.rig.recording import Recording, prepare_recording
+from texvent.rig.recording import prepare_recording
 from texvent.runtime.progress import Progress, ProgressOption, open_progress
 from texvent.settings.resolution import Settings, resolve
 
-
-class LayoutWriter(NamedTuple):
-    """One layout."""
-
-    check: Callable[[Recording], None]
-    """Refuses what it cannot hold, before any work."""
-    write: Callable[[Recording, Path, Tally, Progress], None]
-    """Writes into an empty folder."""
-
-
-LAYOUTS: dict[str, LayoutWriter] = {
-    "hdf5": LayoutWriter(native.check, native.write),
-    "dsec": LayoutWriter(dsec.check, dsec.write),
-    "ecd": LayoutWriter(ecd.check, ecd.write),
-    "rosbag1": LayoutWriter(bag.check, bag.write),
-    "mcap": LayoutWriter(bag.check, bag.write),
-}
-"""By the name that option `layout` takes."""
+LAYOUTS = {"hdf5": native, "dsec": dsec, "rosbag1": bag, "mcap": bag}
+"""By the name that option `layout` takes: modules with `check`, which refuses rigs that the layout
+cannot hold before any work, and `write`, which fills an empty folder."""
 
 
 def record(

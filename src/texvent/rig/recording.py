@@ -20,16 +20,22 @@ from texvent.options.fields import option_names
 from texvent.options.values import plain
 from texvent.pipeline import Simulation, text_to_video
 from texvent.rig.config import RigConfig, check_generator
-from texvent.rig.description import IMU_NOISES, ImuNoise, Rig, RigCamera
+from texvent.rig.description import (
+    IMU_NOISES,
+    ImuNoise,
+    MountedScene,
+    Rig,
+    RigCamera,
+    body_poses,
+    path_lens,
+)
 from texvent.rig.imu import (
     ImuSamples,
     sample_times_us,
     true_samples,
-    warn_of_corners,
     with_noise,
 )
 from texvent.rig.kalibr import camera_entries, read_noise, read_rig, stereo_rig
-from texvent.rig.mount import MountedScene, body_poses, path_lens
 from texvent.rig.shutter import ExposedFrame, Shutter, expose_frames, frame_times_us, make_shutter
 from texvent.run.prepare import check_run, prepare_video
 from texvent.runtime.progress import Progress
@@ -144,17 +150,11 @@ class Recording:
 
     @cached_property
     def imu(self) -> ImuSamples | None:
-        """Samples of the IMU; None without one.
-
-        Warns:
-            TexventWarning: the camera's path has corners.
-        """
+        """Samples of the IMU; None without one."""
         rate = self.config.imu
         if rate is None:
             return None
-        scene, first_from_imu = self.video.scene, self.rig.first_from_imu
-        warn_of_corners(scene, first_from_imu, self.stop_us / MICROSECONDS)
-        exact = true_samples(scene, first_from_imu, self.pose_times)
+        exact = true_samples(self.video.scene, self.rig.first_from_imu, self.pose_times)
         return with_noise(exact, self.noise, rate, self.seed_of("imu"))
 
 

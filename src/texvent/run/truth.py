@@ -31,7 +31,7 @@ class TruthFolder:
     path: str | Path
     """The folder."""
     parts: str | Iterable[str] = ALL
-    """flow, flow-back, depth, ids, boxes, poses, events, overlay, with commas between, or
+    """flow, flow-back, depth, ids, boxes, poses, events, with commas between, or
     "all"."""
     overwrite: bool = False
     """Whether a folder of truth may be replaced."""

@@ -10,15 +10,13 @@ from __future__ import annotations
 
 import json
 import shutil
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
 from itertools import count
 from pathlib import Path
 from typing import IO, Any
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.io.arrays.npy_file import growing_array
 from texvent.scenes.raycast.ground_truth import Box
@@ -34,16 +32,6 @@ BOX_RECORD = np.dtype(
 """Time in µs, left, top, width, height in pixels; `track_id` is the instance."""
 
 
-@dataclass(frozen=True)
-class LabelledBox:
-    """A box, with what COCO wants to know besides."""
-
-    box: Box
-    class_id: int
-    area: int
-    """Visible pixels."""
-
-
 class BoxFiles:
     """Open box files; use `open_boxes`."""
 
@@ -52,8 +40,24 @@ class BoxFiles:
         self._images, self._annotations, self._append = images, annotations, append
         self._numbers = count(1)
 
-    def add(self, index: int, t_us: int, boxes: Sequence[LabelledBox]) -> None:
-        """Write the boxes of a frame."""
+    def add(
+        self,
+        index: int,
+        t_us: int,
+        boxes: Sequence[Box],
+        *,
+        class_ids: Sequence[int],
+        areas: Sequence[int],
+    ) -> None:
+        """Write the boxes of a frame.
+
+        Args:
+            index: of the frame, from 0.
+            t_us: its time, µs.
+            boxes: visible objects.
+            class_ids: class of each.
+            areas: visible pixels of each.
+        """
         image = {
             "id": index,
             "file_name": f"{index:06d}.png",
@@ -62,22 +66,23 @@ class BoxFiles:
             "t_us": t_us,
         }
         _write_item(self._images, image)
-        for one in boxes:
-            _write_item(self._annotations, self._annotation(index, one))
-        self._append(np.array([_record(t_us, one) for one in boxes], dtype=BOX_RECORD))
-
-    def _annotation(self, index: int, one: LabelledBox) -> Mapping[str, Any]:
-        box = one.box
-        facts = {
-            "id": next(self._numbers),
-            "image_id": index,
-            "category_id": one.class_id,
-            "bbox": [box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0],
-            "area": one.area,
-            "iscrowd": 0,
-            "track_id": box.instance,
-        }
-        return facts if np.isnan(box.visibility) else {**facts, "visibility": box.visibility}
+        records = []
+        for box, class_id, area in zip(boxes, class_ids, areas, strict=True):
+            sides = box.x1 - box.x0, box.y1 - box.y0
+            facts = {
+                "id": next(self._numbers),
+                "image_id": index,
+                "category_id": class_id,
+                "bbox": [box.x0, box.y0, *sides],
+                "area": area,
+                "iscrowd": 0,
+                "track_id": box.instance,
+            }
+            if not np.isnan(box.visibility):
+                facts["visibility"] = box.visibility
+            _write_item(self._annotations, facts)
+            records.append((t_us, box.x0, box.y0, *sides, class_id, box.instance, 1.0))
+        self._append(np.array(records, dtype=BOX_RECORD))
 
 
 @contextmanager
@@ -111,32 +116,6 @@ def open_boxes(
             file.write("\n]")
             part.unlink()
         file.write("}\n")
-
-
-def labelled(
-    boxes: Sequence[Box],
-    instance: NDArray[np.int32],
-    class_of: Callable[[NDArray[np.int32]], NDArray[np.uint16]],
-) -> list[LabelledBox]:
-    """The boxes with class and visible area.
-
-    Args:
-        boxes: of an instant.
-        instance: [H, W] ids at the same instant.
-        class_of: instance ids → class ids.
-    """
-    area = np.bincount(instance.ravel())
-    classes = class_of(np.array([box.instance for box in boxes], dtype=np.int32))
-    return [
-        LabelledBox(box, int(number), int(area[box.instance]))
-        for box, number in zip(boxes, classes, strict=True)
-    ]
-
-
-def _record(t_us: int, one: LabelledBox) -> tuple[float, ...]:
-    box = one.box
-    sides = box.x1 - box.x0, box.y1 - box.y0
-    return (t_us, box.x0, box.y0, *sides, one.class_id, box.instance, 1.0)
 
 
 def _write_item(file: IO[str], facts: Mapping[str, Any]) -> None:

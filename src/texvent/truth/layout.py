@@ -20,7 +20,6 @@ PARTS: Mapping[str, str] = MappingProxyType(
         "boxes": "2-D boxes: COCO JSON, and Prophesee's .npy",
         "poses": "camera intrinsics and poses",
         "events": "instance and class of each event",
-        "overlay": "a video with all of it drawn over the frames",
     }
 )
 """Name → what it is."""

@@ -1,4 +1,4 @@
-"""Optical flow as 16-bit PNG, as DSEC stores it.
+"""Ground truth read back; optical flow as 16-bit PNG, as DSEC stores it.
 
 Three channels, in the order of the file (RGB): `u · 128 + 2¹⁵`, `v · 128 + 2¹⁵`, 1 where the
 flow is valid. Steps are 1/128 px; displacements are within ±256 px.
@@ -50,13 +50,6 @@ def encode_flow(flow: NDArray[np.floating[Any]]) -> NDArray[np.uint16]:
     pixels[is_valid, :2] = steps[is_valid]
     pixels[..., 2] = is_valid
     return pixels
-
-
-def decode_flow(pixels: NDArray[np.uint16]) -> NDArray[np.float32]:
-    """DSEC's pixels as flow: [H, W, 2] px, NaN where it is not valid."""
-    flow = ((pixels[..., :2].astype(np.float64) - ZERO) / STEPS_PER_PX).astype(np.float32)
-    flow[pixels[..., 2] == 0] = np.nan
-    return flow
 
 
 _FACT_TYPES = {
@@ -204,11 +197,6 @@ class Truth:
         self._need("events")
         ids: NDArray[np.uint16] = self._array("events.npz", "class_id")
         return ids
-
-    def flow_png(self, index: int) -> NDArray[np.float32]:
-        """As `flow`, from the 16-bit PNG: steps of 1/128 px."""
-        self._need("flow", index, last=-1)
-        return decode_flow(self._image(f"flow/forward/{index:06d}.png"))
 
     def _flow(self, part: str, index: int) -> dict[str, Any]:
         if part not in DIRECTIONS:

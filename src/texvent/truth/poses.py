@@ -72,9 +72,15 @@ def pose_matrix(camera: Camera) -> NDArray[np.float64]:
     return pose
 
 
-def pose_row(t_us: int, camera: Camera) -> str:
-    """A row of the TUM trajectory format: time in seconds, position in metres, quaternion."""
-    values = [*camera.position, *quaternion(np.asarray(camera.rotation).T)]
+def pose_row(t_us: int, position: NDArray[Any], to_world: NDArray[Any]) -> str:
+    """A row of the TUM trajectory format: time in seconds, position in metres, quaternion.
+
+    Args:
+        t_us: time, µs.
+        position: [3] in the world, m.
+        to_world: [3, 3] rotation to the world.
+    """
+    values = [*position, *quaternion(to_world)]
     return f"{seconds_text(t_us)} {' '.join(f'{value:.9f}' for value in values)}\n"
 
 

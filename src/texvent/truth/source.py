@@ -9,7 +9,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
@@ -25,7 +25,7 @@ from texvent.truth.layout import PARTS
 from texvent.video import Frame, FrameStream, Motion
 from texvent.view.drawing.panels import GroundTruthStream
 
-ON_FRAMES = {"flow", "flow-back", "depth", "ids", "boxes", "overlay"}
+ON_FRAMES = {"flow", "flow-back", "depth", "ids", "boxes"}
 """Parts that take an image of the truth."""
 UNNAMED_OBJECT = "object"
 MOST_INSTANCES = 2**16
@@ -85,32 +85,26 @@ class Snapshot:
     camera: Camera | None = None
 
 
-@dataclass(frozen=True, eq=False)
 class TruthSource:
     """Ground truth of a stream, frame by frame.
+
+    Attributes:
+        video: the frames.
+        parts: names of the parts that are wanted.
+        class_names: instance id → class name.
+        class_ids: class name → id, of all objects that have a name.
+        classes: class id → name; objects without a name join when one is seen.
 
     Raises:
         ConfigError: the stream does not know one of the parts.
     """
 
-    video: FrameStream
-    parts: Sequence[str]
-    """Parts that are wanted."""
-    class_ids: Mapping[str, int] = field(init=False)
-    """Class name → id, of all objects that have a name."""
-    class_names: Mapping[int, str] = field(init=False)
-    """Instance id → class name."""
-    classes: dict[int, str] = field(init=False)
-    """Class id → name; objects without a name join when one is seen."""
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "video", without_preparation(self.video))
-        names = dict(getattr(self.video, "class_names", {}))
-        object.__setattr__(self, "class_names", names)
-        ids = class_ids_of(names.values())
-        object.__setattr__(self, "class_ids", ids)
-        named = sorted((number, name) for name, number in ids.items())
-        object.__setattr__(self, "classes", dict(named))
+    def __init__(self, video: FrameStream, parts: Sequence[str]) -> None:
+        self.video, self.parts = without_preparation(video), parts
+        names: Mapping[int, str] = dict(getattr(self.video, "class_names", {}))
+        self.class_names = names
+        self.class_ids: Mapping[str, int] = class_ids_of(names.values())
+        self.classes = dict(sorted((number, name) for name, number in self.class_ids.items()))
         if "poses" in self.parts and not isinstance(self.video, CameraStream):
             others = ",".join(part for part in PARTS if part != "poses")
             raise ConfigError(
@@ -183,7 +177,6 @@ class TruthSource:
             "flow-back": motion.backward is None and previous_us is not None,
             "depth": motion.depth is None,
             **dict.fromkeys(("ids", "boxes", "events"), motion.instance is None),
-            "overlay": frame.motion is None,
         }
         lacking = [part for part in self.parts if missing.get(part)]
         if lacking:

@@ -15,7 +15,7 @@ from texvent.errors import ConfigError, InputError, OutputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_folder
 from texvent.options.values import plain
-from texvent.truth.boxes import labelled, open_boxes
+from texvent.truth.boxes import open_boxes
 from texvent.truth.event_ids import (
     Interval,
     ids_of_frames,
@@ -33,7 +33,6 @@ from texvent.truth.layout import (
     parse_parts,
 )
 from texvent.truth.loading import encode_flow
-from texvent.truth.overlay import OverlayVideo
 from texvent.truth.poses import (
     INTRINSICS_HEADER,
     POSE_HEADER,
@@ -93,7 +92,6 @@ class TruthWriter(AtomicOutput):
         self._path = Path(path)
         check_truth_folder(self._path, overwrite=overwrite)
         self._source = TruthSource(video, parts)
-        self._fps = video.fps
         self._parts = parts
         self._metadata = dict(metadata or {})
         self._overwrite = overwrite
@@ -133,7 +131,7 @@ class TruthWriter(AtomicOutput):
             for name in _FOLDERS.get(part, ()):
                 (self._part / name).mkdir(parents=True, exist_ok=True)
         self._files = stack.enter_context(ExitStack())
-        self._boxes = self._add_ids = self._overlay = None
+        self._boxes = self._add_ids = None
         self._texts = {TIMES: self._text(TIMES)}
         for part, direction in DIRECTIONS.items():
             if part in self._parts:
@@ -153,16 +151,13 @@ class TruthWriter(AtomicOutput):
         if "events" in self._parts:
             ids = open_event_ids(self._part, self._source)
             self._add_ids = self._files.enter_context(ids)
-        if "overlay" in self._parts:
-            video = OverlayVideo(self._part / "overlay.mp4", size=self._source.size, fps=self._fps)
-            self._overlay = self._files.enter_context(video)
 
     def _complete(self) -> None:
         if self._pending is None:
             raise InputError("no frame was given, so there is no truth to write")
         self._write(*self._pending, None)
         if self._before is not None:
-            self._ids_of(self._before, self._taken_intervals())
+            self._write_ids(self._before, self._taken_intervals())
         self._files.close()
         facts = {
             "format": FORMAT,
@@ -201,32 +196,30 @@ class TruthWriter(AtomicOutput):
         if truth.camera is not None and "poses" in self._parts:
             self._write_camera(truth, index)
         if self._boxes is not None and truth.instance is not None:
-            boxes = labelled(truth.boxes, truth.instance, self._source.class_of)
-            self._boxes.add(index, truth.t_us, boxes)
-        ids = self._ids_of(truth, intervals)
-        if self._overlay is not None:
-            nothing = EventStream.empty(self._source.size)
-            events = EventStream.concat([nothing, *(one.events for one in intervals)])
-            self._overlay.show(frame, truth, events, ids)
+            ids = np.array([box.instance for box in truth.boxes], dtype=np.int32)
+            self._boxes.add(
+                index,
+                truth.t_us,
+                truth.boxes,
+                class_ids=self._source.class_of(ids).tolist(),
+                areas=np.bincount(truth.instance.ravel(), minlength=1)[ids].tolist(),
+            )
+        self._write_ids(truth, intervals)
         self._before = truth
 
-    def _ids_of(self, truth: Snapshot, intervals: list[Interval]) -> NDArray[np.int32]:
-        """The instances of the events before a frame, written where they are asked for."""
-        found = [np.zeros(0, dtype=np.int32)]
-        if self._add_ids is not None or self._overlay is not None:
-            for interval in intervals:
-                ids = self._ids_in(truth, interval)
-                self._store_ids(interval.events, ids)
-                found.append(ids)
-        return np.concatenate(found)
-
-    def _store_ids(self, events: EventStream, ids: NDArray[np.int32]) -> None:
+    def _write_ids(self, truth: Snapshot, intervals: list[Interval]) -> None:
+        """Write the instances of the events before a frame, where they are asked for."""
         if self._add_ids is None:
             return
-        check_instances(ids)
-        self._add_ids(ids)
-        if self._on_events is not None:
-            self._on_events(events.with_ids(ids.astype(np.uint16), self._source.class_of(ids)))
+        for interval in intervals:
+            ids = self._ids_in(truth, interval)
+            check_instances(ids)
+            self._add_ids(ids)
+            if self._on_events is not None:
+                labelled = interval.events.with_ids(
+                    ids.astype(np.uint16), self._source.class_of(ids)
+                )
+                self._on_events(labelled)
 
     def _ids_in(self, truth: Snapshot, interval: Interval) -> NDArray[np.int32]:
         scene = self._source.video
@@ -264,7 +257,8 @@ class TruthWriter(AtomicOutput):
         if index == 0:
             facts = json.dumps(camera_facts(camera, size), indent=1) + "\n"
             (self._part / "camera.json").write_text(facts, encoding="ascii")
-        self._texts["poses"].write(pose_row(truth.t_us, camera))
+        to_world = np.asarray(camera.rotation).T
+        self._texts["poses"].write(pose_row(truth.t_us, camera.position, to_world))
         self._texts["intrinsics"].write(intrinsics_row(truth.t_us, camera, size))
 
 
@@ -312,7 +306,7 @@ def save_truth(
         video: frames whose truth is known: those of `texvent.video(prompt)`, or a stream of yours
             with `ground_truth(t0_us, t1_us)`, or with `Frame.motion`.
         folder: where to, such as "out.truth".
-        parts: flow, flow-back, depth, ids, boxes, poses, overlay, with commas between; default:
+        parts: flow, flow-back, depth, ids, boxes, poses, with commas between; default:
             all of them.
         overwrite: whether a folder of truth may be replaced.
 

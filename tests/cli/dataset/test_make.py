@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import signal
 import subprocess
 import sys
 import time
@@ -109,7 +108,7 @@ def test_prompts_that_are_not_shown_as_they_say_are_counted_and_fail_the_set(fol
     assert "failed   1: nothing in the prompt was understood: qwerty, zxcv" in said_of_set
 
 
-def test_plan_make_and_stats_say_the_same_of_samples_and_name_those_left_out(folder, capsys):
+def test_plan_make_and_stats_say_the_same_of_samples(folder, capsys):
     wugs = WUGS.replace('"qwerty zxcv"', '"qwerty zxcv", "a white sailboat approaches"')
     (folder / "wugs.toml").write_text(wugs.replace("min_events = 1", "min_events = 20"))
     said = []
@@ -125,11 +124,7 @@ def test_plan_make_and_stats_say_the_same_of_samples_and_name_those_left_out(fol
     assert said[0] == said[1] == said[2]
     assert said[0].startswith("samples  2 made, 1 left out, 1 failed\n")
     assert "left out 1: fewer than 20 signal events\n" in said[0]
-    assert " 'a white sailboat approaches': " in said[0]
     assert "prompts  2 of 4 clips shown as they say" in said[0]
-    assert run("stats", "wugs", "--json") == 0
-    (left_out,) = json.loads(capsys.readouterr().out)["total"]["left_out"]
-    assert f"events/{left_out['key']} " in said[0]
 
 
 def test_a_strict_data_set_is_refused_before_any_work(folder, capsys):
@@ -165,12 +160,6 @@ def test_making_again_changes_nothing_and_going_on_needs_the_folder_alone(folder
     assert run("status", "cars") == 0
 
 
-def test_parts_of_a_job_array_make_the_whole(folder, whole):
-    for part in ("1/2", "2/2"):
-        assert run("make", "cars.toml", "-o", "parts", "--shards", part, "--workers", 1, "-q") == 0
-    assert digests(folder / "parts") == whole
-
-
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -190,16 +179,15 @@ def test_what_cannot_be_is_refused_in_one_line(folder, capsys, words, message):
     assert len(said) < 300
 
 
-@pytest.mark.parametrize(("number", "workers"), [(signal.SIGKILL, 1), (signal.SIGTERM, 2)])
-def test_a_killed_data_set_goes_on_without_loss(folder, whole, spawn, workers, number):
+def test_a_killed_data_set_goes_on_without_loss(folder, whole, spawn):
     words = [sys.executable, "-m", "texvent.cli.app", "dataset", "make", "cars.toml",
-             "--workers", str(workers)]  # fmt: skip
+             "--workers", "2"]  # fmt: skip
     process = spawn([*words, "-o", "killed"], stderr=subprocess.PIPE)
     while process.poll() is None and not list(Path("killed").rglob("*.tar")):
         time.sleep(0.02)
-    process.send_signal(number)  # to the one that leads: its workers must end by themselves
+    process.kill()  # to the one that leads: its workers must end by themselves
     process.communicate(timeout=300)
-    assert run("make", "cars.toml", "-o", "killed", "--workers", workers, "-q") == 0
+    assert run("make", "cars.toml", "-o", "killed", "--workers", 2, "-q") == 0
     assert digests(folder / "killed") == whole
     hidden = [path for path in Path("killed").rglob(".texvent-*") if not is_locked(path)]
     assert hidden == []

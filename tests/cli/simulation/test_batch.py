@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 import os
 import signal
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -40,13 +39,11 @@ def test_every_prompt_gets_its_own_file_with_its_own_seed(folder, capsys):
     assert (folder / "out" / "dog.h5").exists()
 
 
-def test_a_strict_batch_lists_the_rows_that_it_refuses_and_makes_nothing(folder, capsys):
+def test_a_strict_batch_names_a_row_that_it_refuses_and_makes_nothing(folder, capsys):
     (folder / "p.txt").write_text("a wug and a dog run\na red ball bounces\nqwerty zxcv\n")
     assert run("batch", "p.txt", "-o", "out", "--strict", *QUICK) == 2
     said = capsys.readouterr().err
-    assert "refused  p.txt line 1: strict: the prompt is not shown as it says: not under" in said
-    assert "refused  p.txt line 3: nothing in the prompt was understood: qwerty, zxcv" in said
-    assert "--strict refuses 2 of 3 prompts; nothing is made" in said
+    assert "2 of 3 prompts are refused, such as p.txt line 1: strict: the prompt is not" in said
     assert not (folder / "out").exists()
 
 
@@ -190,22 +187,15 @@ def whole(tmp_path_factory):
     return folder / "whole"
 
 
-@pytest.mark.parametrize(("number", "jobs"), [(signal.SIGTERM, 1), (signal.SIGKILL, 2)])
-def test_a_killed_batch_goes_on_without_loss(folder, whole, spawn, number, jobs):
+def test_a_killed_batch_goes_on_without_loss(folder, whole, spawn):
     (folder / "p.txt").write_text(TREES)
-    words = [sys.executable, "-m", "texvent.cli.app", "batch", "p.txt", "--jobs", str(jobs)]
-    words += [*SMALL, "-o", "killed"]
-    process = spawn(words, stderr=subprocess.PIPE, start_new_session=True)
+    words = [sys.executable, "-m", "texvent.cli.app", "batch", "p.txt", "--jobs", "2"]
+    process = spawn([*words, *SMALL, "-o", "killed"], start_new_session=True)
     manifest = Path("killed", "samples.jsonl")
     while process.poll() is None and not (manifest.exists() and manifest.read_text()):
         time.sleep(0.02)
-    if number == signal.SIGKILL:
-        os.killpg(process.pid, number)
-    else:
-        process.send_signal(number)
-    _, said = process.communicate(timeout=300)
-    if number == signal.SIGTERM:
-        assert b"of 4 samples; the same command goes on" in said
+    os.killpg(process.pid, signal.SIGKILL)
+    process.communicate(timeout=300)
     done = [json.loads(line)["name"] for line in manifest.read_text().splitlines()]
     assert len(done) >= 1
     assert run("batch", "p.txt", *SMALL, "-o", "killed", "-q") == 0

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from texvent.dataset.generation.engines import Engine, in_this_process
+from texvent.batch.engines import Engine, SerialEngine
 from texvent.dataset.generation.make import Work, find_work, make_shards
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.reading import specification_from
@@ -34,11 +34,11 @@ def clips_recipe(folder: Path, *, clips: int = 6, **changes: Any) -> Recipe:
     return Recipe.of(specification_from({**tables, **changes}, folder=folder))
 
 
-def make(recipe: Recipe, folder: Path, engine: Engine | None = None) -> Work:
-    """Make a data set, by one process if no engine is given."""
+def make(recipe: Recipe, folder: Path, engine: Engine | None = None, **options: Any) -> Work:
+    """Make a data set, by one process if no engine is given; options as `find_work`."""
     recipe.begin(folder)
-    work = find_work(recipe, folder)
-    with closing(engine or in_this_process()) as running:
+    work = find_work(recipe, folder, **options)
+    with closing(engine or SerialEngine()) as running:
         make_shards(work, running, lambda outcome: None)
     return work
 

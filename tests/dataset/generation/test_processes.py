@@ -12,10 +12,9 @@ from contextlib import closing
 from pathlib import Path
 
 from tests.dataset.generation.small_sets import clips_recipe, digests, make
-from tests.soak.dataset_kills import descendants
 
-from texvent.dataset.generation.engines import ATTEMPTS, ProcessEngine, Task
-from texvent.dataset.generation.make import find_work, make_shards, remove_dead_parts
+from texvent.batch.engines import ATTEMPTS, ProcessEngine
+from texvent.dataset.generation.make import ShardTask, find_work, make_shards, remove_dead_parts
 from texvent.dataset.generation.recipe import Shard
 from texvent.dataset.generation.status import log_path
 
@@ -45,13 +44,13 @@ def test_an_idle_process_that_was_killed_is_replaced(tmp_path: Path) -> None:
     recipe.begin(folder)
     first, second = list(recipe.shards("esim"))[:2]
     with closing(ProcessEngine(1)) as engine:
-        engine.submit(Task(folder, first))
-        assert engine.next().record is not None
+        engine.submit(ShardTask(folder, first))
+        assert engine.next().failure is None
         for pid in descendants(os.getpid()):
             if is_worker(pid):
                 os.kill(pid, signal.SIGKILL)
-        engine.submit(Task(folder, second))
-        assert engine.next().record is not None
+        engine.submit(ShardTask(folder, second))
+        assert engine.next().failure is None
 
 
 def test_no_more_processes_than_asked_for(tmp_path: Path) -> None:
@@ -66,6 +65,22 @@ def test_no_more_processes_than_asked_for(tmp_path: Path) -> None:
     with closing(ProcessEngine(2)) as engine:
         make_shards(find_work(recipe, folder), engine, count)
     assert most == 2
+
+
+def descendants(pid: int) -> list[int]:
+    """Process ids below a process, from /proc."""
+    children: dict[int, list[int]] = {}
+    for entry in Path("/proc").glob("[0-9]*/stat"):
+        with contextlib.suppress(OSError):
+            words = entry.read_text().rpartition(")")[2].split()
+            if words[0] != "Z":
+                children.setdefault(int(words[1]), []).append(int(entry.parent.name))
+    found, todo = [], [pid]
+    while todo:
+        below = children.get(todo.pop(), [])
+        found += below
+        todo += below
+    return found
 
 
 def is_worker(pid: int) -> bool:

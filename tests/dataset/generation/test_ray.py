@@ -13,8 +13,8 @@ import pytest
 from tests.dataset.generation.small_sets import clips_recipe, digests, make
 
 import texvent
-from texvent.dataset.generation.engines import Outcome, Task
-from texvent.dataset.generation.make import find_work, make_shards, remove_dead_parts
+from texvent.batch.engines import Outcome
+from texvent.dataset.generation.make import ShardTask, find_work, make_shards, remove_dead_parts
 from texvent.dataset.generation.ray_cluster import RayEngine
 from texvent.dataset.generation.recipe import Recipe, Shard
 from texvent.errors import ConfigError, MissingDependencyError, OutputError
@@ -72,10 +72,9 @@ def video_recipe(folder: Path, videos: int) -> Recipe:
     )
 
 
-def test_videos_are_made_by_actors_that_then_give_way(cluster: Any, tmp_path: Path) -> None:
+def test_videos_come_before_what_is_simulated_of_them(cluster: Any, tmp_path: Path) -> None:
     recipe = video_recipe(tmp_path, 2)
     make(recipe, tmp_path / "wanted")
-    # The only CPU is the actor's until the last video is made.
     work = make(recipe, tmp_path / "out", RayEngine(cluster.address))
     assert not work.failures
     assert digests(tmp_path / "out") == digests(tmp_path / "wanted")
@@ -84,11 +83,11 @@ def test_videos_are_made_by_actors_that_then_give_way(cluster: Any, tmp_path: Pa
 
 def test_a_node_without_the_folder_is_named(cluster: Any, tmp_path: Path) -> None:
     with closing(RayEngine(cluster.address)) as engine:
-        engine.submit(Task(tmp_path / "elsewhere", Shard("paper", "train", 0)))
+        engine.submit(ShardTask(tmp_path / "elsewhere", Shard("paper", "train", 0)))
         with pytest.raises(OutputError, match="elsewhere is not here; all workers need") as found:
             engine.next()
         (tmp_path / "local").mkdir()
-        engine.submit(Task(tmp_path / "local", Shard("paper", "train", 0)))
+        engine.submit(ShardTask(tmp_path / "local", Shard("paper", "train", 0)))
         with pytest.raises(ConfigError, match="holds no data set of texvent"):
             engine.next()
     assert str(found.value).startswith(f"node {socket.gethostname()}: ")
@@ -138,9 +137,7 @@ def test_a_node_without_texvent_or_with_other_packages_ends_the_run_in_one_line(
     assert not list(folder.rglob(".texvent-*"))
 
 
-def test_memory_that_no_node_has_and_a_cluster_that_is_not_there(cluster: Any) -> None:
-    with pytest.raises(ConfigError, match=r"ray_memory_gb is 900000, and no node .* more than"):
-        RayEngine(cluster.address, memory_gb=900_000)
+def test_a_cluster_that_is_not_there() -> None:
     with pytest.raises(ConfigError, match=r"cannot use the Ray cluster 'nowhere'") as found:
         RayEngine("nowhere")
     assert "\n" not in str(found.value)
@@ -161,17 +158,16 @@ def test_a_node_that_is_lost_changes_no_byte(cluster: Any, tmp_path: Path) -> No
             cluster.remove_node(second, allow_graceful=False)
 
     with closing(RayEngine(cluster.address)) as engine:
-        assert engine.capacity(videos=False) >= 4
         make_shards(work, engine, lose_a_node)
     remove_dead_parts(recipe, folder)
     assert not work.failures
     assert len(seen) == len(work.complete) == 6
-    assert sum(record.samples for record in work.complete.values()) == 24
+    assert sum(counts.total() for counts in work.complete.values()) == 24
     assert digests(folder) == digests(tmp_path / "wanted")
     assert not list(folder.rglob(".texvent-*"))
 
 
-def test_actors_have_a_gpu_each_and_outlive_its_node(cluster: Any, tmp_path: Path) -> None:
+def test_videos_have_a_gpu_each_and_outlive_its_node(cluster: Any, tmp_path: Path) -> None:
     # GPUs that Ray counts; nothing looks for the device.
     recipe, folder = video_recipe(tmp_path, 5), tmp_path / "out"
     make(recipe, tmp_path / "wanted")
@@ -185,7 +181,6 @@ def test_actors_have_a_gpu_each_and_outlive_its_node(cluster: Any, tmp_path: Pat
             cluster.remove_node(nodes.pop(), allow_graceful=False)
 
     with closing(RayEngine(cluster.address)) as engine:
-        assert engine.capacity(videos=True) == 4
         make_shards(work, engine, lose_a_node)
     remove_dead_parts(recipe, folder)
     assert not work.failures

@@ -9,6 +9,7 @@ from tests.dataset.generation.small_sets import clips_recipe, digests, make
 
 from texvent.dataset.generation import make_shard
 from texvent.dataset.generation.make import find_work
+from texvent.dataset.generation.shards import FAILED
 
 
 def test_a_record_of_before_never_stands_beside_the_new_file(
@@ -20,7 +21,7 @@ def test_a_record_of_before_never_stands_beside_the_new_file(
     bad.write_bytes(b"no array")
     folder = tmp_path / "out"
     (counts,) = make(recipe, folder).complete.values()
-    assert counts.failed == 1
+    assert counts[FAILED] == 1
     bad.write_bytes(good)
     (task,) = find_work(recipe, folder, retry_failed=True).todo
     shard = folder / task.shard.path

@@ -13,7 +13,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from tests.dataset.conftest import make_set
 from tests.dataset.loading.written_set import (
     DURATION_US,
     LABELS,
@@ -25,15 +24,7 @@ from tests.dataset.loading.written_set import (
 
 import texvent.dataset
 from texvent import Augment
-from texvent.dataset.generation.engines import in_this_process
-from texvent.dataset.generation.make import find_work, make_shards
-from texvent.dataset.generation.recipe import Recipe
-from texvent.dataset.loading import shard_files
 from texvent.dataset.loading.stored_samples import StoredSamples
-from texvent.dataset.merge import merge
-from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.samples import SimulatedSamples
-from texvent.dataset.specification.reading import specification_from
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
 from texvent.represent.named import represent_window
@@ -72,13 +63,6 @@ def test_every_sample_comes_back_with_all_that_is_known(samples, written):
         )
     assert [sample.key for sample in samples] == list(written)
     assert samples[-1].key == list(written)[-1]
-
-
-def test_a_console_shows_counts_of_the_set_and_no_tables(samples):
-    shown = repr(samples)
-    assert shown.startswith("StoredSamples(24 of ")
-    assert f"{len(samples.labels)} classes" in shown
-    assert "facts" not in repr(samples[0])
 
 
 def test_a_number_that_does_not_exist_is_an_index_error(samples):
@@ -203,42 +187,15 @@ def test_copies_forks_fresh_processes_and_threads_read_the_same(samples):
         assert list(threads.map(lambda _: read_keys(samples), range(8))) == [expected] * 8
 
 
-def test_only_some_shards_stay_open(samples, written, monkeypatch):
-    monkeypatch.setattr(shard_files, "MAX_OPEN", 2)
-    fresh = pickle.loads(pickle.dumps(samples))
-    with ThreadPoolExecutor(4) as threads:
-        streams = list(threads.map(fresh.events, [*range(24)] * 3))
-    for events, expected in zip(streams, list(written.values()) * 3, strict=True):
-        assert events.equals(expected)
-    assert fresh.files._file.cache_info().currsize == 2
-
-
 def test_a_published_folder_loads_and_a_shard_without_a_record_does_not_count(tmp_path):
     write_set(tmp_path)
     (tmp_path / "paper" / "train-000001.json").unlink()  # still being made
-    (tmp_path / "croissant.json").write_text("{}")
     (tmp_path / "paper" / "notes.json").write_text("{}")
     (tmp_path / "videos").mkdir()
     (tmp_path / "videos" / "train-000000.json").write_text("{}")
     samples = texvent.dataset.open(tmp_path)
     assert len(samples) == 21
     assert samples.labels == (*LABELS, "dog")
-
-
-def test_a_merged_set_loads_with_its_own_numbers_of_classes(cars, tmp_path):
-    """Merging adds a class before the others, so their numbers in the tars change too."""
-    ape = {"sources": [{"prompts": ["a bird flies up"], "label": "bird"}], "splits": {"train": 1.0}}
-    birds = make_set(tmp_path / "birds", **ape)
-    merge([StoredDataset.open(cars), StoredDataset.open(birds)], tmp_path / "merged")
-    samples = texvent.dataset.open(tmp_path / "merged")
-    assert samples.labels == ("bird", "bus", "car")
-    parts = [*texvent.dataset.open(cars), *texvent.dataset.open(birds)]
-    assert len(samples) == len(parts)
-    originals = {part.key: part.events for part in parts}
-    for number, sample in enumerate(samples):
-        assert sample.class_number == int(samples.members(number, ("cls",))["cls"])
-        assert sample.label == samples.labels[sample.class_number]
-        assert sample.events.equals(originals[sample.key])
 
 
 def test_missing_and_changed_files_give_one_line(tmp_path):
@@ -287,39 +244,6 @@ def test_damaged_columns_are_named_with_their_sample(tmp_path, name, offset, val
         file.write(value)
     with pytest.raises(FileFormatError, match=message):
         texvent.dataset.open(tmp_path).events(0)
-
-
-def test_stored_and_simulated_samples_are_the_same_arrays(tmp_path):
-    """What `texvent dataset make` stores, sliced here, is what the simulation gives when asked."""
-    options = {"duration": 0.125, "sensor": "32x24", "samples": 1, "shadows": False}
-    tables = {
-        "name": "one",
-        "filters": {"min_events": 1},
-        "sources": [{"prompts": ["a red ball flies left"]}],
-        "options": options,
-    }
-    recipe = Recipe.of(specification_from(tables, folder=Path()))
-    recipe.begin(tmp_path / "one")
-    engine = in_this_process()
-    make_shards(find_work(recipe, tmp_path / "one"), engine, lambda outcome: None)
-    engine.close()
-    stored = texvent.dataset.open(tmp_path / "one", representation="voxel-e2vid", slice_us=40_000)
-    # The seed of a simulated sample follows from its number, that of a stored one from its key.
-    simulated = SimulatedSamples(
-        prompts=["a red ball flies left"], slice_us=40_000, simulation=options
-    )
-    events = texvent.generate("a red ball flies left", seed=simulated.seed_of(0), **options)
-    write_shard(tmp_path / "again", "paper", "train", 0, {"one": events})
-    path = tmp_path / "again" / "paper" / "train-000000.json"
-    record = json.loads(path.read_text())
-    record["samples"][1] |= {"width": 32, "height": 24, "duration_us": 125_000}
-    path.write_text(json.dumps(record))
-    again = texvent.dataset.open(tmp_path / "again", representation="voxel-e2vid", slice_us=40_000)
-    expected = simulated.make(0)
-    for name in ("representation", "stop_us"):
-        np.testing.assert_array_equal(again.make(0)[name], expected[name])
-        assert stored.make(0)[name].shape == expected[name].shape
-    assert stored.index.duration_us[0] == 125_000
 
 
 def test_opening_and_reading_loads_no_heavy_package(folder, written):

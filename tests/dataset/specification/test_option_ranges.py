@@ -6,7 +6,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.dataset.specification.option_ranges import draw_options, extreme_options
+from texvent.dataset.specification.specification import draw_options, extreme_options
 
 
 @given(

@@ -115,7 +115,7 @@ class Batches:
         """The batches of an epoch, 0 or more; see `collate`."""
         numbers: NDArray[np.int64] = np.arange(self.count)
         if self.shuffle:
-            numbers = epoch_order(np.zeros(self.count, np.int64), seed=self.seed, epoch=number)
+            numbers = epoch_order(self.count, seed=self.seed, epoch=number)
         # Workers end with the epoch: they hold its number.
         loader = _data.DataLoader(
             _Epoch(self, number),

@@ -1,4 +1,4 @@
-"""`texvent dataset`: one step of a data set's life per file, chosen by its name."""
+"""`texvent dataset STEP`: the steps of a data set's life."""
 
 from __future__ import annotations
 
@@ -14,13 +14,12 @@ STEPS: Mapping[str, str] = {
     "make": "make a data set from a specification, or go on with one",
     "status": "how far a data set is, while it is made or afterwards",
     "verify": "check every file of a data set, and every sample",
-    "stats": "count what a data set holds, with plots",
-    "sample": "look at some samples, as an image and a page",
-    "publish": "write the index, the card and the description of a data set",
-    "merge": "put data sets together",
+    "stats": "count what a data set holds",
+    "sample": "a page with some samples",
+    "publish": "write the card of a data set",
     "export": "write the samples of a data set in another layout",
 }
-"""Name, which is its module beside this one → what it does."""
+"""Name → what it does. `plan` and `make` have modules of their own; the others are in `stored`."""
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -31,8 +30,11 @@ def run(arguments: Sequence[str]) -> int:
     name, *rest = arguments
     if name not in STEPS:
         raise ConfigError(f"unknown step {shown(name)}; {suggest(name, tuple(STEPS))}")
-    module = importlib.import_module(f"texvent.cli.dataset.{name.replace('-', '_')}")
-    code: int = module.run(rest)
+    if name in ("plan", "make"):
+        module = importlib.import_module(f"texvent.cli.dataset.{name}")
+    else:
+        module = importlib.import_module("texvent.cli.dataset.stored")
+    code: int = getattr(module, f"run_{name}")(rest)
     return code
 
 

@@ -10,19 +10,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.cli.dataset.live_table import LiveTable
+from texvent.batch.engines import Engine, Outcome, local_engine
 from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.dataset.generation.dry_run import refuse_prompts
-from texvent.dataset.generation.engines import Engine, in_this_process
-from texvent.dataset.generation.make import Work, find_work, make_shards, remove_dead_parts
+from texvent.dataset.generation.make import Work, begin, find_work, make_shards, remove_dead_parts
 from texvent.dataset.generation.recipe import Recipe, load_recipe
+from texvent.dataset.generation.shards import FAILED, MADE
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.statistics import Statistics, summary_lines
 from texvent.errors import ConfigError, TexventError, shown
+from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.progress import Progress
 from texvent.runtime.threads import count_threads
 
 DESCRIPTION = """Make a data set from a specification (TOML or YAML). What is complete is kept: the
@@ -51,8 +52,6 @@ class MakeOptions:
     ray: str | None = None
     """Ray cluster that makes the shards: its address, such as head:6379; "auto", the one this
     machine belongs to; "local", one of --workers processes for this run."""
-    ray_memory_gb: float | None = None
-    """Memory that each shard of events reserves on its Ray node, GB."""
     shards: str | None = None
     """K/N: of N parts of all shards, the K-th only, from 1."""
     retry_failed: bool = False
@@ -65,16 +64,13 @@ class MakeOptions:
 
     def __post_init__(self) -> None:
         check_range("workers", self.workers, 1, 1024)
-        check_range("ray_memory_gb", self.ray_memory_gb, 0.001, 1e6)
-        if self.ray_memory_gb is not None and self.ray is None:
-            raise ConfigError("ray_memory_gb is for a Ray cluster; name it with --ray")
         if self.workers is not None and self.ray not in (None, "local"):
             raise ConfigError(
                 "workers is for this machine; --ray uses all CPUs that the cluster offers"
             )
 
 
-def run(arguments: Sequence[str]) -> int:
+def run_make(arguments: Sequence[str]) -> int:
     """Run the command; returns 0, or raises if a shard could not be made."""
     (options,) = parse_configs(
         arguments,
@@ -84,18 +80,39 @@ def run(arguments: Sequence[str]) -> int:
     )
     part = parse_part(options.shards)
     recipe, folder = _open(options)
-    refuse_prompts(recipe, folder)
-    recipe.begin(folder)
+    begin(recipe, folder)
     work = find_work(recipe, folder, part=part, retry_failed=options.retry_failed)
     with (
         _told_how_to_go_on(folder),
         contextlib.ExitStack() as later,
         closing(_engine(options, work)) as engine,
-        LiveTable(recipe, folder, work, is_quiet=options.quiet) as table,
+        ConsoleProgress(is_quiet=options.quiet) as progress,
     ):
         later.callback(remove_dead_parts, recipe, folder)
-        make_shards(work, engine, table.note)
+        total = len(work.complete) + len(work.todo) + len(work.videos_todo)
+        progress.advance("shards", len(work.complete), total)
+
+        def note(outcome: Outcome) -> None:
+            _announce(outcome, progress)
+            progress.advance("shards", len(work.complete), total)
+
+        make_shards(work, engine, note)
     return _finish(folder, work, options, is_whole=part[1] == 1)
+
+
+def _announce(outcome: Outcome, progress: Progress) -> None:
+    """Print the result of a shard."""
+    shard, record = outcome.task.shard, outcome.result
+    if record is None:
+        progress.announce(f"failed   {shard.path}: {outcome.failure}")
+        return
+    for sample in record.samples:
+        if sample.status == FAILED:
+            progress.announce(f"failed   {shard.path} {sample.key}: {sample.reason}")
+    progress.announce(
+        f"made     {shard.path}: {record.count(MADE)} samples, {record.events:,} events, "
+        f"{record.seconds:.1f} s"
+    )
 
 
 @contextlib.contextmanager
@@ -134,17 +151,13 @@ def _engine(options: MakeOptions, work: Work) -> Engine:
     if options.ray is not None and shards:
         from texvent.dataset.generation.ray_cluster import RayEngine
 
-        return RayEngine(options.ray, workers=options.workers, memory_gb=options.ray_memory_gb)
+        return RayEngine(options.ray, workers=options.workers)
     workers = count_threads() if options.workers is None else options.workers
-    if workers == 1 or shards < 2:
-        return in_this_process()
-    from texvent.dataset.generation.engines import ProcessEngine
-
-    return ProcessEngine(workers)
+    return local_engine(workers if shards > 1 else 1)
 
 
 def _finish(folder: Path, work: Work, options: MakeOptions, *, is_whole: bool) -> int:
-    failed = sum(one.failed for one in work.complete.values())
+    failed = sum(counts[FAILED] for counts in work.complete.values())
     places = {str(shard.path) for shard in work.complete}
     shards = (one.record for one in StoredDataset.open(folder).shards() if one.place in places)
     made = Statistics.of(shards)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,13 +11,13 @@ from typing import ClassVar
 
 from rich.table import Table
 
-from texvent.cli.dataset.live_table import time_text
+from texvent.batch.prompts import tally_prompts
 from texvent.cli.dry_run import size_text
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.dataset.generation.dry_run import MOST_READ, StageEstimate, tally_prompts, try_samples
+from texvent.dataset.generation.dry_run import StageEstimate, try_samples
 from texvent.dataset.generation.recipe import VIDEOS, Recipe
 from texvent.dataset.generation.shards import FILTERED
 from texvent.dataset.specification.reading import read_specification
@@ -24,13 +25,13 @@ from texvent.dataset.statistics import Statistics, summary_lines
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.threads import count_threads
 
-HOUR_S = 3600.0
-DEFAULT_TRIAL = 32
+DEFAULT_TRIAL = 8
+MOST_READ = 2_000
+"""Prompts that are read, drawn by chance from more; 2,000 take a few seconds."""
 DESCRIPTION = """Check a specification and say what it gives: prompts, clips, splits, classes, and
 from a trial of a few samples the size and the time. Nothing is kept.
 
-  texvent dataset plan cars.toml --workers 8
-  texvent dataset plan films.toml --seconds-per-video 380     a learned model, without a trial"""
+  texvent dataset plan cars.toml --workers 8"""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -43,30 +44,25 @@ class PlanOptions:
     specification: Path = REQUIRED
     """The specification: TOML or YAML."""
     trial: int | None = None
-    """Clips that are made to measure time and size; 0: none. Default: 32, and none where a learned
+    """Clips that are made to measure time and size; 0: none. Default: 8, and none where a learned
     model would have to make their videos."""
     workers: int | None = None
     """Processes that will share this machine's cores; default: one per core."""
-    seconds_per_video: float | None = None
-    """Time of a learned model for one video, s, where it is known."""
 
     def __post_init__(self) -> None:
         check_range("trial", self.trial, 0, 1000)
         check_range("workers", self.workers, 1, 1024)
-        check_range("seconds_per_video", self.seconds_per_video, 0.0, 1e6)
 
 
-def run(arguments: Sequence[str]) -> int:
+def run_plan(arguments: Sequence[str]) -> int:
     """Run the command; returns 0."""
     (options,) = parse_configs(
         arguments, {"plan": PlanOptions()}, prog="texvent dataset plan", description=DESCRIPTION
     )
     recipe = Recipe.of(read_specification(options.specification))
     write_out("\n".join(describe_contents(recipe)) + "\n")
-    tally = tally_prompts(recipe)
-    if tally is not None:
-        drawn = f", drawn from {len(recipe.items.all):,}" if tally.prompts == MOST_READ else ""
-        write_out(f"prompts  {tally.line(verb='understood word for word')}{drawn}\n")
+    if not recipe.items.are_videos:
+        write_out(_prompts(recipe))
     trial = options.trial
     if trial is None:
         trial = 0 if recipe.stores_videos else DEFAULT_TRIAL
@@ -79,9 +75,19 @@ def run(arguments: Sequence[str]) -> int:
         write_out(
             "no trial: give --trial 1 to measure size and time of a sample, and what is left out\n"
         )
-    if recipe.stores_videos:
-        write_out(_video_cost(recipe, options.seconds_per_video))
     return 0
+
+
+def _prompts(recipe: Recipe) -> str:
+    """Counts of understood prompts, of at most `MOST_READ`; nothing for learned generators."""
+    items, drawn = recipe.items.all, ""
+    if len(items) > MOST_READ:
+        chance = random.Random(recipe.specification.seed)
+        items, drawn = tuple(chance.sample(items, MOST_READ)), f", drawn from {len(items):,}"
+    tally = tally_prompts([item.subject for item in items], recipe.prompt_settings)
+    if tally is None:
+        return ""
+    return f"prompts  {tally.line(verb='understood word for word')}{drawn}\n"
 
 
 def describe_contents(recipe: Recipe) -> list[str]:
@@ -110,7 +116,9 @@ def describe_contents(recipe: Recipe) -> list[str]:
         each = f"{min(sizes):,}" if min(sizes) == max(sizes) else f"{min(sizes):,}-{max(sizes):,}"
         lines.append(f"classes  {len(items.labels):,}, {each} {kind} each")
     if recipe.stores_videos:
-        lines.append("videos   made and stored first; every variant is simulated from them")
+        lines.append(
+            f"videos   {clips:,}, made and stored first; every variant is simulated from them"
+        )
     if not specification.license:
         lines.append("note     no license is named; a set that is published needs one")
     return lines
@@ -120,7 +128,7 @@ def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
     table = Table(box=None, pad_edge=False)
     noun = "worker" if workers == 1 else "workers"
     for name in ("", "samples", "left out", "events each", "size", "s each",
-                 f"time, {workers} {noun}", "±"):  # fmt: skip
+                 f"time, {workers} {noun}"):  # fmt: skip
         table.add_column(name, justify="left" if not name else "right")
     for stage in stages:
         processes = 1 if stage.name == VIDEOS else workers
@@ -132,7 +140,6 @@ def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
             size_text(stage.bytes * stage.samples),
             f"{stage.seconds:.2f}",
             time_text(stage.seconds * stage.samples / processes),
-            f"{100 * stage.seconds_error / stage.seconds:.0f} %" if stage.tried > 1 else "?",
         )
     with result_console() as console:
         console.print(table)
@@ -143,14 +150,11 @@ def _print_trial(stages: Sequence[StageEstimate], workers: int) -> None:
     write_out("".join(f"{line}\n" for line in summary_lines(tried)))
 
 
-def _video_cost(recipe: Recipe, seconds: float | None) -> str:
-    """GPU-hours of a learned model."""
-    videos = sum(recipe.clips.counts.values())
-    if seconds is None:
-        return (
-            f"cost     {videos:,} videos by a learned model; give --seconds-per-video, or "
-            "--trial 1 to make one here\n"
-        )
-    return (
-        f"cost     {videos:,} videos of {seconds:g} s: {videos * seconds / HOUR_S:,.1f} GPU-hours\n"
-    )
+def time_text(seconds: float) -> str:
+    """A duration for people, such as "2 h 05 min"."""
+    minutes = round(seconds / 60)
+    if seconds < 100:
+        return f"{seconds:.0f} s"
+    if minutes < 60:
+        return f"{minutes} min"
+    return f"{minutes // 60} h {minutes % 60:02} min"

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
 
 from texvent._registry import GENERATORS
 from texvent._version import full_version
+from texvent.batch.engines import Outcome, local_engine
 from texvent.batch.manifest import Manifest
-from texvent.batch.runner import BatchPlan, check_scenes, find_refused, run_batch
+from texvent.batch.prompts import refuse_prompts, tally_prompts
+from texvent.batch.runner import BatchPlan, SampleTask
 from texvent.batch.samples import Sample, are_videos, read_samples
 from texvent.cli.command import resolve_command
 from texvent.cli.dry_run import measure_start
@@ -20,12 +23,13 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
 from texvent.cli.run import print_settings
 from texvent.config import check_range
-from texvent.errors import ConfigError, InputError, OutputError, TexventError
+from texvent.errors import ConfigError, OutputError, TexventError
 from texvent.generate.video_models.known_models import warn_low_fps
 from texvent.io.files import codec_for, extension_of
 from texvent.run.files import RunFiles
-from texvent.run.prepare import check_run, prepare_prompt, prepare_source, report_prompt
+from texvent.run.prepare import check_run, prepare_prompt, prepare_source
 from texvent.runtime.displays.console_progress import ConsoleProgress
+from texvent.runtime.progress import Progress
 from texvent.scenes.report import ReportTally
 from texvent.settings.resolution import Settings
 from texvent.truth.layout import check_generator
@@ -101,10 +105,10 @@ def run(arguments: Sequence[str]) -> int:
         raise ConfigError("name the videos first: texvent batch VIDEOS ... [OPTIONS]")
     plan = _plan(settings, own, output)
     manifest = Manifest(plan.folder)
-    check_scenes(plan, samples)
     if output.dry_run:
         return _describe(plan, samples, manifest)
-    _refuse_prompts(plan, samples)
+    if not is_of_videos:
+        refuse_prompts([(sample.where, sample.subject) for sample in samples], settings)
     if isinstance(own, PromptBatchOptions):
         warn_low_fps(own.generator)
     plan.folder.mkdir(parents=True, exist_ok=True)
@@ -140,20 +144,6 @@ def _plan(settings: Settings, own: BatchOptions, output: OutputOptions) -> Batch
     return BatchPlan(settings, folder, extension, files)
 
 
-def _refuse_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> None:
-    """List the prompts that `strict` refuses.
-
-    Raises:
-        InputError: there are some.
-    """
-    refused = 0
-    for outcome in find_refused(plan, samples):
-        refused += 1
-        say(f"refused  {outcome.sample.where}: {outcome.failure}")
-    if refused:
-        raise InputError(f"--strict refuses {refused} of {len(samples)} prompts; nothing is made")
-
-
 def _options(plan: BatchPlan, is_of_videos: bool) -> Mapping[str, Any]:
     """Options that must be the same when the batch goes on."""
     truth = {"truth": list(plan.files.truth)} if plan.files.truth else {}
@@ -171,7 +161,10 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
     """Print the number of samples left and an estimate of the first."""
     todo = [sample for sample in samples if not manifest.is_done(sample)]
     write_out(f"{len(samples)} samples, {len(samples) - len(todo)} done already\n")
-    write_out("".join(f"prompts  {line}\n" for line in _read_prompts(plan, samples)))
+    if samples[0].video is None:
+        tally = tally_prompts([sample.subject for sample in samples], plan.settings)
+        if tally is not None:
+            write_out(f"prompts  {tally.line(verb='understood word for word')}\n")
     if todo:
         first = todo[0]
         settings = plan.settings_of(first)
@@ -184,23 +177,6 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
     return 0
 
 
-def _read_prompts(plan: BatchPlan, samples: Sequence[Sample]) -> Iterator[str]:
-    """Count of prompts understood word for word; a line, or none."""
-    tally = ReportTally()
-    if samples[0].video is None:
-        for sample in samples:
-            try:
-                report = report_prompt(sample.subject, plan.settings, is_staged=False)
-            except InputError:
-                tally.add(None)
-                continue
-            if report is None:
-                return
-            tally.add(report)
-    if tally.prompts:
-        yield tally.line(verb="understood word for word")
-
-
 def _make_all(
     plan: BatchPlan,
     samples: Sequence[Sample],
@@ -209,11 +185,17 @@ def _make_all(
     jobs: int,
     is_quiet: bool,
 ) -> int:
-    todo = [sample for sample in samples if not manifest.is_done(sample)]
-    replaceable = {sample.key for sample in todo if manifest.is_known(sample)}
-    done, failed = len(samples) - len(todo), 0
+    tasks = [
+        SampleTask(plan, sample, manifest.is_known(sample))
+        for sample in samples
+        if not manifest.is_done(sample)
+    ]
+    done, failed = len(samples) - len(tasks), 0
     try:
-        with ConsoleProgress(is_quiet=is_quiet) as progress:
+        with (
+            ConsoleProgress(is_quiet=is_quiet) as progress,
+            closing(local_engine(min(jobs, len(tasks) or 1))) as engine,
+        ):
             if done:
                 progress.announce(f"kept     {done} of {len(samples)} samples, done before")
             others = manifest.others(samples)
@@ -223,21 +205,22 @@ def _make_all(
                     f"{others[0]}; they stay"
                 )
             progress.advance("samples", done, len(samples))
-            for outcome in run_batch(plan, todo, replaceable=replaceable, jobs=jobs):
-                sample = outcome.sample
-                for text in outcome.warnings:
-                    say_warning(f"{sample.where}: {text}")
-                if outcome.failure is not None:
+            for task in tasks:
+                engine.submit(task)
+            for _ in tasks:
+                outcome = engine.next()
+                if outcome.failure is None:
+                    done += 1
+                    _note(plan, manifest, outcome, progress)
+                    progress.advance("samples", done, len(samples))
+                else:
                     failed += 1
-                    say(f"failed   {sample.where}: {outcome.failure}")
-                    continue
-                done += 1
-                paths = plan.files_of(sample).paths
-                manifest.add(sample, paths, events=outcome.events, report=outcome.report)
-                progress.announce(f"made     {paths[0]}, {outcome.events:,} events")
-                progress.advance("samples", done, len(samples))
-            for line in _count_reports(manifest, samples):
-                progress.announce(line)
+                    say(f"failed   {outcome.task.sample.where}: {outcome.failure}")
+            tally = ReportTally()
+            for report in filter(None, map(manifest.report_of, samples)):
+                tally.add(report)
+            if tally.prompts:
+                progress.announce(f"prompts  {tally.line()}")
     except KeyboardInterrupt:
         say(f"kept     {done} of {len(samples)} samples; the same command goes on")
         raise
@@ -248,12 +231,11 @@ def _make_all(
     return 0
 
 
-def _count_reports(manifest: Manifest, samples: Sequence[Sample]) -> Iterator[str]:
-    """Count of complete samples that show their whole prompt; a line, or none."""
-    tally = ReportTally()
-    for sample in samples:
-        report = manifest.report_of(sample)
-        if report is not None:
-            tally.add(report)
-    if tally.prompts:
-        yield f"prompts  {tally.line()}"
+def _note(plan: BatchPlan, manifest: Manifest, outcome: Outcome, progress: Progress) -> None:
+    """Note a complete sample, and say so."""
+    sample, made = outcome.task.sample, outcome.result
+    for text in made.warnings:
+        say_warning(f"{sample.where}: {text}")
+    paths = plan.files_of(sample).paths
+    manifest.add(sample, paths, events=made.events, report=made.report)
+    progress.announce(f"made     {paths[0]}, {made.events:,} events")

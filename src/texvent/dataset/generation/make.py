@@ -2,34 +2,76 @@
 
 from __future__ import annotations
 
-from collections import deque
-from collections.abc import Callable, Iterable
+from collections import Counter
+from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from texvent.dataset.generation.dry_run import refuse_prompts
-from texvent.dataset.generation.engines import Engine, Outcome, ProcessEngine, Task, in_this_process
-from texvent.dataset.generation.make_shard import is_complete
-from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.shards import FAILED, ShardSummary
+from texvent.batch.engines import Engine, Outcome, local_engine
+from texvent.batch.prompts import refuse_prompts
+from texvent.dataset.generation.make_shard import is_complete, make_shard
+from texvent.dataset.generation.recipe import (
+    SPECIFICATION_FILE,
+    VIDEOS,
+    Recipe,
+    Shard,
+    load_recipe_once,
+)
+from texvent.dataset.generation.shards import FAILED, ShardRecord
+from texvent.dataset.generation.status import shard_log
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
-from texvent.errors import ConfigError
+from texvent.errors import ConfigError, OutputError, TexventError, shown
 from texvent.io.atomic import sweep
 from texvent.runtime.progress import ProgressOption, open_progress
 
 OnOutcome = Callable[[Outcome], None]
 
 
+@dataclass(frozen=True)
+class ShardTask:
+    """A shard to make, for an engine."""
+
+    folder: Path
+    shard: Shard
+    retry_failed: bool = False
+
+    @property
+    def is_video(self) -> bool:
+        """True for a shard of videos."""
+        return self.shard.variant == VIDEOS
+
+    def run(self) -> ShardRecord:
+        """Make the shard in this process, with a log of its samples.
+
+        Raises:
+            ConfigError, OutputError, MissingDependencyError: what all shards would meet.
+        """
+        if not self.folder.is_dir():
+            raise OutputError(
+                f"{self.folder} is not here; all workers need the folder of the data set under the "
+                "same path, on a shared file system"
+            )
+        try:
+            recipe = load_recipe_once(self.folder)
+        except TexventError as error:
+            raise ConfigError(str(error)) from error
+        with shard_log(self.folder, self.shard) as note:
+            return make_shard(
+                recipe, self.folder, self.shard, retry_failed=self.retry_failed, on_sample=note
+            )
+
+
 @dataclass
 class Work:
     """Shards to make, complete shards and failures."""
 
-    complete: dict[Shard, ShardSummary] = field(default_factory=dict)
-    todo: list[Task] = field(default_factory=list)
+    complete: dict[Shard, Counter[str]] = field(default_factory=dict)
+    """Complete shards: status → number of samples."""
+    todo: list[ShardTask] = field(default_factory=list)
     """Shards of events, in order."""
-    videos_todo: list[Task] = field(default_factory=list)
+    videos_todo: list[ShardTask] = field(default_factory=list)
     failures: dict[Shard, str] = field(default_factory=dict)
     """Shards that could not be made."""
 
@@ -53,8 +95,7 @@ def find_work(
     if not 1 <= which <= parts:
         raise ConfigError(f"shards is {which}/{parts}; it must be K/N with 1 ≤ K ≤ N")
     work = Work()
-    stages = [*([VIDEOS] if recipe.stores_videos else []), *recipe.variants]
-    for stage in stages:
+    for stage in recipe.stages:
         tasks = work.videos_todo if stage == VIDEOS else work.todo
         for number, shard in enumerate(recipe.shards(stage)):
             if number % parts != which - 1:
@@ -62,9 +103,9 @@ def find_work(
             record = is_complete(recipe, folder, shard)
             again = retry_failed and record is not None and record.count(FAILED) > 0
             if record is None or again:
-                tasks.append(Task(folder, shard, retry_failed=again))
+                tasks.append(ShardTask(folder, shard, retry_failed=again))
             else:
-                work.complete[shard] = record.summary
+                work.complete[shard] = record.statuses
     return work
 
 
@@ -79,44 +120,53 @@ def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
     Raises:
         ConfigError, OutputError, MissingDependencyError: what all shards would meet.
     """
-    videos, waiting = deque(work.videos_todo), _by_video(work.todo)
-    in_work = {_video_of(task.shard) for task in videos}
-    ready = deque(task for task in work.todo if _video_of(task.shard) not in in_work)
-    running = {True: 0, False: 0}
-    while True:
-        for is_video, queue in ((True, videos), (False, ready)):
-            while queue and running[is_video] < engine.capacity(videos=is_video):
-                engine.submit(queue.popleft())
-                running[is_video] += 1
-        if not any(running.values()):
-            return
+    waiting: dict[Shard, list[ShardTask]] = {}
+    running = len(work.videos_todo)
+    for task in work.videos_todo:
+        waiting[task.shard] = []
+        engine.submit(task)
+    for task in work.todo:
+        of_video = waiting.get(replace(task.shard, variant=VIDEOS))
+        if of_video is not None:
+            of_video.append(task)
+            continue
+        engine.submit(task)
+        running += 1
+    while running:
         outcome = engine.next()
+        running -= 1
         shard = outcome.task.shard
-        is_video = shard.variant == VIDEOS
-        running[is_video] -= 1
-        if outcome.record is not None:
-            work.complete[shard] = outcome.record.summary
-            ready.extend(waiting.get(shard, ()) if is_video else ())
+        if outcome.failure is not None:
+            work.failures[shard] = outcome.failure
         else:
-            work.failures[shard] = outcome.failure or "unknown"
+            work.complete[shard] = outcome.result.statuses
+            for task in waiting.pop(shard, ()):
+                engine.submit(task)
+                running += 1
         on_outcome(outcome)
+
+
+def begin(recipe: Recipe, folder: Path) -> None:
+    """Note in a folder what will be made there, after a look at the prompts of a new data set.
+
+    Raises:
+        InputError: prompts that `strict` refuses, or scenes that name files that are not there.
+        ConfigError: a field of a scene is wrong, or the folder holds another data set.
+        OutputError: the folder is a file or cannot be written.
+    """
+    if not recipe.items.are_videos and not (folder / SPECIFICATION_FILE).exists():
+        subjects = [
+            (shown(item.prompt) if item.prompt else "a scene", item.subject)
+            for item in recipe.items.all
+        ]
+        refuse_prompts(subjects, recipe.prompt_settings)
+    recipe.begin(folder)
 
 
 def remove_dead_parts(recipe: Recipe, folder: Path) -> None:
     """Remove what processes that were killed left behind; shards at work elsewhere are kept."""
     for stage in (VIDEOS, *recipe.variants):
         sweep(folder / stage)
-
-
-def _video_of(shard: Shard) -> Shard:
-    return replace(shard, variant=VIDEOS)
-
-
-def _by_video(tasks: Iterable[Task]) -> dict[Shard, list[Task]]:
-    waiting: dict[Shard, list[Task]] = {}
-    for task in tasks:
-        waiting.setdefault(_video_of(task.shard), []).append(task)
-    return waiting
 
 
 def make(
@@ -146,13 +196,11 @@ def make(
     if not isinstance(specification, Specification):
         specification = read_specification(specification)
     recipe, folder = Recipe.of(specification), Path(folder).absolute()
-    refuse_prompts(recipe, folder)
-    recipe.begin(folder)
+    begin(recipe, folder)
     work = find_work(recipe, folder, retry_failed=retry_failed)
     total = len(work.complete) + len(work.todo) + len(work.videos_todo)
-    engine: Engine = in_this_process() if workers == 1 else ProcessEngine(workers)
-    with open_progress(progress) as shown, closing(engine):
+    with open_progress(progress) as display, closing(local_engine(workers)) as engine:
         make_shards(
-            work, engine, lambda outcome: shown.advance("shards", len(work.complete), total)
+            work, engine, lambda outcome: display.advance("shards", len(work.complete), total)
         )
     return work

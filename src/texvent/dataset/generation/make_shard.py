@@ -6,7 +6,7 @@ import hashlib
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 
 from texvent._version import full_version
+from texvent.batch.engines import ENDING_ALL
 from texvent.batch.identity import digest
-from texvent.batch.runner import ENDING_ALL
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.sample import (
     prepare_clip,
@@ -37,11 +37,10 @@ from texvent.dataset.generation.shards import (
 )
 from texvent.dataset.specification.clips import Clip, clip_settings, simulation_seed, video_settings
 from texvent.dataset.specification.items import KEY_DIGITS
-from texvent.dataset.specification.specification import Variant
 from texvent.errors import InputError, TexventError, warnings_to
 from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
 from texvent.io.atomic import atomic_file
-from texvent.pipeline import Simulation, fit_to_sensor
+from texvent.pipeline import fit_to_sensor
 from texvent.run.prepare import make_video, prepare_video
 from texvent.scenes.report import REPORT_KEY
 from texvent.settings.resolution import Settings
@@ -49,16 +48,8 @@ from texvent.video import FrameStream
 
 OnSample = Callable[[SampleRecord], None]
 Members = Mapping[str, bytes]
-
-
-@dataclass(frozen=True)
-class _Job:
-    """A sample to make."""
-
-    record: SampleRecord
-    """All but its status."""
-    make: Callable[[], tuple[Members, dict[str, Any]]]
-    """Its members, none of one that is left out, and further facts for its record."""
+Make = Callable[[], tuple[Members, dict[str, Any]]]
+"""Gives the members of a sample, none of one that is left out, and further facts for its record."""
 
 
 def make_shard(
@@ -92,11 +83,12 @@ def make_shard(
     with atomic_file(path, overwrite=True) as part:
         with part.open("wb") as file, tempfile.TemporaryDirectory() as scratch:
             writer = TarShardWriter(file)
-            for job in _jobs(recipe, folder, shard, Path(scratch)):
-                old_sample = kept.get(job.record.key)
-                sample = (
-                    _made(job, writer) if old_sample is None else _keep(path, old_sample, writer)
-                )
+            for planned, make in _ShardSamples(recipe, folder, shard, Path(scratch)):
+                old_sample = kept.get(planned.key)
+                if old_sample is None:
+                    sample = _made(planned, make, writer)
+                else:
+                    sample = _keep(path, old_sample, writer)
                 samples.append(sample)
                 if on_sample is not None:
                     on_sample(sample)
@@ -142,88 +134,81 @@ def _keep(path: Path, record: SampleRecord, writer: TarShardWriter) -> SampleRec
     return replace(record, members=writer.add(record.key, members))
 
 
-def _made(job: _Job, writer: TarShardWriter) -> SampleRecord:
+def _made(record: SampleRecord, make: Make, writer: TarShardWriter) -> SampleRecord:
     """Make a sample and add it; one that fails is noted."""
     found: list[str] = []
     try:
         with warnings_to(found.append):
-            members, facts = job.make()
+            members, facts = make()
     except ENDING_ALL:
         raise
     except (TexventError, MemoryError) as error:
         reason = str(error) or "memory ran out"
-        return replace(job.record, status=FAILED, reason=reason, warnings=tuple(found))
-    places = writer.add(job.record.key, members)
-    return replace(job.record, **facts, members=places, warnings=tuple(found))
+        return replace(record, status=FAILED, reason=reason, warnings=tuple(found))
+    places = writer.add(record.key, members)
+    return replace(record, **facts, members=places, warnings=tuple(found))
 
 
-def _jobs(recipe: Recipe, folder: Path, shard: Shard, scratch: Path) -> Iterator[_Job]:
-    if shard.variant == VIDEOS:
-        for clip in recipe.clips_of(shard):
-            yield _video_job(recipe, clip, scratch)
-        return
-    variant = recipe.variants[shard.variant]
-    source = _source(recipe, folder, shard, scratch)
-    labels = {label: number for number, label in enumerate(recipe.items.labels)}
-    for clip in recipe.clips_of(shard):
-        settings = clip_settings(
-            recipe.specification,
-            variant,
-            clip,
-            recipe.command,
-            is_stored=recipe.stores_videos,
-        )
-        for number in range(variant.seeds):
-            yield _events_job(recipe, variant, clip, number, settings, source, labels)
+class _ShardSamples:
+    """The samples of a shard: a record that lacks its results, and a `Make`, for each."""
 
+    def __init__(self, recipe: Recipe, folder: Path, shard: Shard, scratch: Path) -> None:
+        self._recipe, self._shard, self._scratch = recipe, shard, scratch
+        self._labels = {label: number for number, label in enumerate(recipe.items.labels)}
+        self._stored: _StoredVideos | None = None
+        if recipe.stores_videos and shard.variant != VIDEOS:
+            self._stored = _StoredVideos(folder, replace(shard, variant=VIDEOS), scratch)
 
-def _video_job(recipe: Recipe, clip: Clip, scratch: Path) -> _Job:
-    settings = video_settings(recipe.specification, clip, recipe.command)
+    def __iter__(self) -> Iterator[tuple[SampleRecord, Make]]:
+        for clip in self._recipe.clips_of(self._shard):
+            if self._shard.variant == VIDEOS:
+                yield _record(clip.key, clip, clip.seed), partial(self._make_video, clip)
+                continue
+            variant = self._recipe.variants[self._shard.variant]
+            settings = clip_settings(
+                self._recipe.specification,
+                variant,
+                clip,
+                self._recipe.command,
+                is_stored=self._stored is not None,
+            )
+            for number in range(variant.seeds):
+                key = digest([clip.key, variant.name, number])[:KEY_DIGITS]
+                seed = simulation_seed(clip, number)
+                make = partial(self._make_events, key, clip, with_seed(settings, seed))
+                yield _record(key, clip, seed), make
 
-    def make() -> tuple[Members, dict[str, Any]]:
-        video = make_video(clip.item.subject, settings)
-        path = scratch / f"{clip.key}{EXTENSION}"
-        stored = write_stream(video, path, overwrite=True)
+    def _make_video(self, clip: Clip) -> tuple[Members, dict[str, Any]]:
+        settings = video_settings(self._recipe.specification, clip, self._recipe.command)
+        path = self._scratch / f"{clip.key}{EXTENSION}"
+        stored = write_stream(make_video(clip.item.subject, settings), path, overwrite=True)
         content = path.read_bytes()
         path.unlink()
         width, height = stored.size
-        return {EXTENSION[1:]: content, "txt": (clip.item.prompt or "").encode()}, {
-            "width": width,
-            "height": height,
-            REPORT_KEY: stored.metadata.get(REPORT_KEY),
-        }
+        report = stored.metadata.get(REPORT_KEY)
+        return (
+            {EXTENSION[1:]: content, "txt": (clip.item.prompt or "").encode()},
+            {"width": width, "height": height, REPORT_KEY: report},
+        )
 
-    return _Job(_record(clip.key, clip, clip.seed), make)
-
-
-Source = Callable[[Clip, Settings], Simulation]
-
-
-def _events_job(
-    recipe: Recipe,
-    variant: Variant,
-    clip: Clip,
-    number: int,
-    settings: Settings,
-    source: Source,
-    labels: Mapping[str, int],
-) -> _Job:
-    key = digest([clip.key, variant.name, number])[:KEY_DIGITS]
-    seed = simulation_seed(clip, number)
-    record = _record(key, clip, seed)
-
-    def make() -> tuple[Members, dict[str, Any]]:
-        simulation = source(clip, with_seed(settings, seed))
-        simulated = simulate_sample(simulation, recipe.specification.filters)
-        facts_of_run = {
+    def _make_events(
+        self, key: str, clip: Clip, settings: Settings
+    ) -> tuple[Members, dict[str, Any]]:
+        item, specification = clip.item, self._recipe.specification
+        if self._stored is None:
+            simulation = prepare_clip(self._recipe, clip, settings)
+        else:
+            video = fit_to_sensor(self._stored.open(clip), settings)
+            simulation = prepare_video(video, settings, prompt=item.prompt)
+        simulated = simulate_sample(simulation, specification.filters)
+        known = {
             "signal_events": simulated.signal_events,
             REPORT_KEY: simulation.provenance.get(REPORT_KEY),
         }
         if simulated.left_out is not None:
-            return {}, {"status": FILTERED, "reason": simulated.left_out, **facts_of_run}
+            return {}, {"status": FILTERED, "reason": simulated.left_out, **known}
         width, height = simulation.video.size
-        known = {
-            **facts_of_run,
+        known |= {
             "events": len(simulated.events),
             "start_us": simulated.start_us,
             "duration_us": simulated.duration_us,
@@ -236,18 +221,16 @@ def _events_job(
             "key": key,
             "clip": clip.key,
             "split": clip.split,
-            "variant": variant.name,
-            "label": clip.item.label,
+            "variant": self._shard.variant,
+            "label": item.label,
         }
         members = sample_members(
             simulated,
             facts,
-            class_number=None if clip.item.label is None else labels[clip.item.label],
-            preview=recipe.specification.previews,
+            class_number=None if item.label is None else self._labels[item.label],
+            preview=specification.previews,
         )
         return members, known
-
-    return _Job(record, make)
 
 
 def _record(key: str, clip: Clip, seed: int) -> SampleRecord:
@@ -261,16 +244,6 @@ def _record(key: str, clip: Clip, seed: int) -> SampleRecord:
         label=item.label,
         is_scene=item.scene is not None,
     )
-
-
-def _source(recipe: Recipe, folder: Path, shard: Shard, scratch: Path) -> Source:
-    """Source of the clips of a shard: recorded, stored, or made now."""
-    if recipe.stores_videos:
-        stored = _StoredVideos(folder, replace(shard, variant=VIDEOS), scratch)
-        return lambda clip, settings: prepare_video(
-            fit_to_sensor(stored.open(clip), settings), settings, prompt=clip.item.prompt
-        )
-    return partial(prepare_clip, recipe)
 
 
 class _StoredVideos:

@@ -1,4 +1,4 @@
-"""Shards made on a Ray cluster: a task for each shard of events, actors for those of videos."""
+"""Shards made on a Ray cluster: a task for each, which Ray runs again where a node is lost."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ import contextlib
 import gc
 import importlib
 import os
+import pickle
 import signal
 import socket
-import time
-from collections import Counter, deque
+from collections import deque
 from collections.abc import Callable, Mapping
 from importlib import metadata
 from pathlib import Path
@@ -17,10 +17,7 @@ from typing import Any
 
 from texvent._require import require
 from texvent._version import full_version
-from texvent.batch.runner import ENDING_ALL
-from texvent.dataset.generation.engines import Outcome, Task, outcome_of, run_task
-from texvent.dataset.generation.recipe import VIDEOS, Shard, load_recipe_once
-from texvent.dataset.generation.shards import ShardRecord
+from texvent.batch.engines import ENDING_ALL, Outcome, Task, attempt
 from texvent.errors import ConfigError, MissingDependencyError, TexventError, one_line, shown
 from texvent.runtime.threads import THREADS_VARIABLE
 
@@ -28,74 +25,50 @@ ATTEMPTS = 5
 """Attempts at a shard whose process or node dies."""
 MEMORY_RETRIES = 8
 """Attempts at a shard that Ray ended for want of memory; the pauses double from 1 s."""
-AHEAD = 2
-"""Shards at work or waiting, per CPU or per actor: none of them waits for the driver."""
-RESOURCES_S = 5.0
-"""Seconds for which the size of the cluster is cached."""
+MOST_SUBMITTED = 2_000
+"""Shards that Ray knows of at once: it looks through all of them for each that ends."""
 PATIENCE_S = 10.0
 """Seconds that running shards get to clean up when the run is stopped."""
-GIGABYTE = 10**9
 DECIDING = ("numpy", "numba", "opencv-python-headless")
 """Packages that may change events, beside texvent."""
 
 
 class RayEngine:
-    """Tasks of one CPU for events. Actors for videos: one per GPU, else on half of the CPUs.
+    """Tasks of one CPU; those of videos have a GPU each, where the cluster has any.
 
-    An actor keeps its process, and with it the model. Where a node is lost, Ray makes its shards of
-    events again on another one, and the engine those of videos.
+    A worker process keeps its model from task to task.
     """
 
-    def __init__(
-        self, address: str, *, workers: int | None = None, memory_gb: float | None = None
-    ) -> None:
+    def __init__(self, address: str, *, workers: int | None = None) -> None:
         """Connect to a cluster.
 
         Args:
             address: host:port; "auto": the cluster of this machine; "local": one for this run.
             workers: CPUs of a "local" one; None: all.
-            memory_gb: memory that a shard of events reserves on its node, GB.
 
         Raises:
             MissingDependencyError: Ray is not installed.
-            ConfigError: there is no such cluster, or no node has so much memory.
+            ConfigError: there is no such cluster.
         """
         self._ray = connect(address, workers)
-        memory = {} if memory_gb is None else {"memory": round(memory_gb * GIGABYTE)}
-        self._actors: dict[int, Any] = {}
-        self._loads = Counter[int]()
-        self._proven: set[int] = set()
-        self._started = 0
-        self._deaths = Counter[Task]()
-        self._running: dict[Any, tuple[Task, int | None]] = {}
-        self._ready: deque[Any] = deque()
-        self._resources: tuple[float, Mapping[str, float]] = (-RESOURCES_S, {})
+        self._running: dict[Any, Task] = {}
+        self._waiting = deque[Task]()
         self._versions = package_versions()
-        self._has_gpus = self._count("GPU") > 0
-        make_on_node, video_worker = _code_for_nodes()
-        self._make = self._ray.remote(num_cpus=1, max_retries=ATTEMPTS - 1, **memory)(make_on_node)
-        self._video_worker = video_worker
-        try:
-            self._check_memory(memory_gb)
-        except ConfigError:
-            self.close()
-            raise
-
-    def capacity(self, *, videos: bool) -> int:
-        """Two per actor, or per CPU of the cluster as it is now."""
-        return AHEAD * (self._actor_count() if videos else max(1, self._count("CPU")))
+        has_gpus = self._ray.cluster_resources().get("GPU", 0) > 0
+        of_videos = {"num_gpus": 1, "num_cpus": 0} if has_gpus else {"num_cpus": 1}
+        function = _code_for_nodes()
+        self._make = {
+            is_video: self._ray.remote(max_retries=ATTEMPTS - 1, max_calls=0, **needs)(function)
+            for is_video, needs in ((True, of_videos), (False, {"num_cpus": 1}))
+        }
 
     def submit(self, task: Task) -> None:
         """Have a shard made."""
-        shard = task.shard
-        words = (str(task.folder), shard.variant, shard.split, shard.number, task.retry_failed)
-        if shard.variant != VIDEOS:
-            self._running[self._make.remote(self._versions, words)] = (task, None)
-            return
-        number = self._idlest_actor()
-        self._loads[number] += 1
-        reference = self._actors[number].make.remote(self._versions, words)
-        self._running[reference] = (task, number)
+        self._waiting.append(task)
+        while self._waiting and len(self._running) < MOST_SUBMITTED:
+            first = self._waiting.popleft()
+            make = self._make[first.is_video]
+            self._running[make.remote(self._versions, pickle.dumps(first))] = first
 
     def next(self) -> Outcome:
         """The next outcome.
@@ -103,25 +76,16 @@ class RayEngine:
         Raises:
             ConfigError, OutputError, MissingDependencyError: what all shards would meet.
         """
-        while True:
-            reference = self._next_ready()
-            task, number = self._running.pop(reference)
-            if number in self._actors:
-                self._loads[number] -= 1
-            try:
-                result = self._ray.get(reference)
-            except self._ray.exceptions.RayTaskError as error:
-                raise error.cause from None
-            except self._ray.exceptions.RayError as error:
-                self._deaths[task] += 1
-                if number is not None and self._deaths[task] < ATTEMPTS:
-                    self._drop_actor(number)
-                    self.submit(task)
-                    continue
-                return Outcome(task, failure=self._why(error))
-            break
-        if number is not None:
-            self._proven.add(number)
+        (reference,), _ = self._ray.wait(list(self._running))
+        task = self._running.pop(reference)
+        if self._waiting:
+            self.submit(self._waiting.popleft())
+        try:
+            result = self._ray.get(reference)
+        except self._ray.exceptions.RayTaskError as error:
+            raise error.cause from None
+        except self._ray.exceptions.RayError as error:
+            return Outcome(task, failure=self._why(error))
         if isinstance(result, str):
             raise MissingDependencyError(result)
         if isinstance(result, TexventError):
@@ -129,85 +93,24 @@ class RayEngine:
         outcome: Outcome = result
         return outcome
 
-    def _next_ready(self) -> Any:
-        """Reference to a result, or to an error; waits for one."""
-        if not any(self._loads.values()):
-            self._release_actors()
-        while not self._ready:
-            done, others = self._ray.wait(list(self._running), timeout=RESOURCES_S)
-            if not done:
-                self._drop_surplus()
-                continue
-            more = self._ray.wait(others, num_returns=len(others), timeout=0)[0] if others else []
-            self._ready.extend((*done, *more))
-        return self._ready.popleft()
-
     def _why(self, error: Exception) -> str:
         if isinstance(error, self._ray.exceptions.OutOfMemoryError):
-            return "Ray ended it again and again for want of memory; reserve more: --ray-memory-gb"
+            return "Ray ended it again and again for want of memory; use fewer CPUs per node"
         name = type(error).__name__
         return f"its process or node died {ATTEMPTS} times ({name}); see Ray's logs"
 
     def close(self) -> None:
         """Drop what is at work, let it clean up, and leave the cluster."""
-        references = [one for one, (_, number) in self._running.items() if number is None]
+        references = list(self._running)
         for reference in references:
             self._ray.cancel(reference)
-        self._release_actors()
         if references:
             self._ray.wait(references, num_returns=len(references), timeout=PATIENCE_S)
         self._running.clear()
+        references.clear()
         # Where another thread frees a reference while Ray shuts down, Ray ends the process.
         gc.collect()
         self._ray.shutdown()
-
-    def _count(self, resource: str) -> int:
-        """Amount of a resource on all nodes together."""
-        read_at, known = self._resources
-        if time.monotonic() - read_at > RESOURCES_S:
-            known = self._ray.cluster_resources()
-            self._resources = (time.monotonic(), known)
-        return int(known.get(resource, 0))
-
-    def _actor_count(self) -> int:
-        return max(1, self._count("GPU") if self._has_gpus else self._count("CPU") // 2)
-
-    def _idlest_actor(self) -> int:
-        """Number of the actor with the fewest shards; a new one if there may be more."""
-        idlest = min(self._actors, key=lambda number: self._loads[number], default=None)
-        if idlest is not None and (
-            self._loads[idlest] == 0 or len(self._actors) >= self._actor_count()
-        ):
-            return idlest
-        needs = {"num_gpus": 1, "num_cpus": 0} if self._has_gpus else {"num_cpus": 1}
-        self._started += 1
-        self._actors[self._started] = self._ray.remote(**needs)(self._video_worker).remote()
-        return self._started
-
-    def _drop_actor(self, number: int) -> None:
-        if number in self._actors:
-            self._ray.kill(self._actors.pop(number))
-            del self._loads[number]
-
-    def _drop_surplus(self) -> None:
-        """Drop actors that wait for a GPU which is lost; others make their shards."""
-        waiting = [number for number in self._actors if number not in self._proven]
-        for number in waiting[: max(0, len(self._actors) - self._actor_count())]:
-            self._drop_actor(number)
-
-    def _release_actors(self) -> None:
-        """End the actors: what they hold goes to the tasks."""
-        for number in list(self._actors):
-            self._drop_actor(number)
-
-    def _check_memory(self, wanted_gb: float | None) -> None:
-        nodes = [node for node in self._ray.nodes() if node["Alive"]]
-        most = max((node["Resources"].get("memory", 0.0) for node in nodes), default=0.0)
-        if wanted_gb is not None and wanted_gb * GIGABYTE > most:
-            raise ConfigError(
-                f"ray_memory_gb is {wanted_gb:g}, and no node of the cluster offers more than "
-                f"{most / GIGABYTE:.1f} GB; ask for less"
-            )
 
 
 def connect(address: str, workers: int | None = None) -> Any:
@@ -271,33 +174,22 @@ def package_versions() -> dict[str, str]:
     return versions
 
 
-def make_here(words: tuple[str, str, str, int, bool]) -> Outcome | TexventError:
+def make_here(pickled: bytes) -> Outcome | TexventError:
     """Make a shard on a node: its outcome, or what all shards would meet there."""
-    folder, variant, split, number, retry_failed = words
-    task = Task(Path(folder), Shard(variant, split, number), retry_failed)
-
-    def run(task: Task) -> ShardRecord:
-        return run_task(task)
-
     try:
-        if task.folder.is_dir():
-            try:
-                load_recipe_once(task.folder)
-            except TexventError as error:
-                raise ConfigError(str(error)) from error
-        return outcome_of(task, run)
+        return attempt(pickle.loads(pickled))
     except ENDING_ALL as error:
         return type(error)(f"node {socket.gethostname()}: {error}")
 
 
-def _code_for_nodes() -> tuple[Callable[..., Any], type]:
-    """A function and an actor that need nothing of texvent before they say that it is missing.
+def _code_for_nodes() -> Callable[..., Any]:
+    """A function that needs nothing of texvent before it finds that it is missing.
 
     Ray sends the code of what is defined inside a function; what a module defines, nodes import.
     """
     module, version_module = __name__, full_version.__module__
 
-    def make_on_node(versions: Mapping[str, str], words: tuple[Any, ...]) -> Any:
+    def make_on_node(versions: Mapping[str, str], pickled: bytes) -> Any:
         os.environ[THREADS_VARIABLE] = "1"
         try:
             version = importlib.import_module(version_module).full_version()
@@ -314,10 +206,6 @@ def _code_for_nodes() -> tuple[Callable[..., Any], type]:
                 f"node {socket.gethostname()} has {other[0]} {found.get(other[0])}, and this "
                 f"machine {versions[other[0]]}; events may differ: install the same on every node"
             )
-        return code.make_here(words) if code is not None else None
+        return code.make_here(pickled) if code is not None else None
 
-    class VideoWorker:
-        def make(self, versions: Mapping[str, str], words: tuple[Any, ...]) -> Any:
-            return make_on_node(versions, words)
-
-    return make_on_node, VideoWorker
+    return make_on_node

@@ -18,11 +18,12 @@ from texvent.dataset.generation.shards import EXTENSION
 from texvent.dataset.specification.clips import Clip, Clips, check_options
 from texvent.dataset.specification.items import Item, Items, read_items
 from texvent.dataset.specification.reading import specification_from
-from texvent.dataset.specification.specification import Specification, Variant
+from texvent.dataset.specification.specification import Specification, Variant, is_range
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, one_line
 from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file, is_hidden_part
 from texvent.settings.config_files import Command
+from texvent.settings.resolution import Settings, resolve
 
 SPECIFICATION_FILE, ITEMS_FILE = "specification.json", "items.jsonl"
 VIDEOS = "videos"
@@ -103,6 +104,17 @@ class Recipe:
         return not renders_instants(GENERATORS.load(name))
 
     @property
+    def prompt_settings(self) -> Settings:
+        """The settings that all prompts share; ranges are left out."""
+        options = self.specification.options
+        return resolve("generate", {n: one for n, one in options.items() if not is_range(one)})
+
+    @property
+    def stages(self) -> tuple[str, ...]:
+        """The videos, where they are stored, then the variants, in the order they are made."""
+        return (*([VIDEOS] if self.stores_videos else []), *self.variants)
+
+    @property
     def variants(self) -> Mapping[str, Variant]:
         """By name."""
         return {variant.name: variant for variant in self.specification.variants}
@@ -164,8 +176,7 @@ class Recipe:
         else:
             change = describe_differences(before, now) or "the order of prompts"
         raise ConfigError(
-            f"{folder} was made from another specification: {change}; name another folder with -o "
-            "(texvent dataset merge puts two together)"
+            f"{folder} was made from another specification: {change}; name another folder with -o"
         )
 
 
@@ -180,14 +191,9 @@ def load_recipe(folder: Path) -> Recipe:
     Raises:
         InputError: the folder holds no data set.
         FileFormatError: its specification is damaged.
-        ConfigError: it was begun by another version of texvent, or put together from others.
+        ConfigError: it was begun by another version of texvent.
     """
     facts = read_facts(folder)
-    if "merged" in facts:
-        raise ConfigError(
-            f"{folder} was merged from other data sets and cannot be made further; make those, and "
-            "merge them again (texvent dataset verify and stats work on it)"
-        )
     made_by = facts.get("texvent_version")
     if made_by != full_version():
         raise ConfigError(

@@ -5,7 +5,8 @@ from __future__ import annotations
 import io
 import json
 import tarfile
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, fields
 from pathlib import Path
 from typing import Any, BinaryIO
@@ -52,23 +53,6 @@ class SampleRecord:
 
 
 @dataclass(frozen=True, kw_only=True)
-class ShardSummary:
-    """The counts of a complete shard; small, where its record is not."""
-
-    made: int
-    filtered: int
-    failed: int
-    events: int
-    bytes: int
-    seconds: float
-
-    @property
-    def samples(self) -> int:
-        """All of them, also those that are not there."""
-        return self.made + self.filtered + self.failed
-
-
-@dataclass(frozen=True, kw_only=True)
 class ShardRecord:
     """A complete shard."""
 
@@ -90,24 +74,17 @@ class ShardRecord:
 
     def count(self, status: str) -> int:
         """Number of its samples with a status."""
-        return sum(sample.status == status for sample in self.samples)
+        return self.statuses[status]
+
+    @property
+    def statuses(self) -> Counter[str]:
+        """Status → number of its samples."""
+        return Counter(sample.status for sample in self.samples)
 
     @property
     def events(self) -> int:
         """Events of all its samples."""
         return sum(sample.events for sample in self.samples)
-
-    @property
-    def summary(self) -> ShardSummary:
-        """Its counts."""
-        return ShardSummary(
-            made=self.count(MADE),
-            filtered=self.count(FILTERED),
-            failed=self.count(FAILED),
-            events=self.events,
-            bytes=self.bytes,
-            seconds=self.seconds,
-        )
 
 
 def record_path(shard: Path) -> Path:
@@ -197,8 +174,27 @@ def size_in_tar(size: int) -> int:
     return tarfile.BLOCKSIZE * (1 - (-size // tarfile.BLOCKSIZE))
 
 
+def read_part(shard: Path, begin: int, size: int) -> bytes:
+    """`size` bytes of a shard from `begin` on.
+
+    Raises:
+        FileFormatError: the file is gone, or shorter than its record says.
+    """
+    try:
+        with shard.open("rb") as file:
+            file.seek(begin)
+            content = file.read(size)
+    except OSError as error:
+        raise FileFormatError(f"cannot read {shard}: {one_line(error)}") from error
+    if len(content) < size:
+        raise FileFormatError(
+            f"{shard} is shorter than its record says; run texvent dataset verify"
+        )
+    return content
+
+
 def read_members(
-    shard: Path, places: Mapping[str, tuple[int, int]], only: tuple[str, ...] | None = None
+    shard: Path, places: Mapping[str, tuple[int, int]], only: Sequence[str] | None = None
 ) -> dict[str, bytes]:
     """The members of one sample.
 
@@ -208,17 +204,10 @@ def read_members(
         only: extensions that are wanted; None: all.
 
     Raises:
-        FileFormatError: the file is gone or shorter than it was.
+        FileFormatError: as `read_part`.
     """
-    try:
-        with shard.open("rb") as file:
-            members = {}
-            for extension, (begin, size) in places.items():
-                if only is None or extension in only:
-                    file.seek(begin)
-                    members[extension] = file.read(size)
-    except OSError as error:
-        raise FileFormatError(f"cannot read {shard}: {one_line(error)}") from error
-    if any(len(members[name]) < places[name][1] for name in members):
-        raise FileFormatError(f"{shard} is shorter than it was; run texvent dataset verify")
-    return members
+    return {
+        extension: read_part(shard, begin, size)
+        for extension, (begin, size) in places.items()
+        if only is None or extension in only
+    }

@@ -6,25 +6,13 @@ import time
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
-from io import StringIO
 from pathlib import Path
 
 from texvent.dataset.generation.make_shard import is_complete
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
-from texvent.dataset.generation.shards import FAILED, SampleRecord, ShardSummary
+from texvent.dataset.generation.shards import FAILED, FILTERED, SampleRecord, ShardRecord
 
 LOGS = "logs"
-
-
-@dataclass(frozen=True)
-class LogState:
-    """Progress of a running shard."""
-
-    samples: int
-    events: int
-    failed: int
-    changed_s: float
-    """Unix time of the last line."""
 
 
 def log_path(folder: Path, shard: Shard) -> Path:
@@ -49,23 +37,6 @@ def shard_log(folder: Path, shard: Shard) -> Iterator[Callable[[SampleRecord], N
             )
 
         yield note
-
-
-def read_log(folder: Path, shard: Shard) -> LogState | None:
-    """Progress of a shard, or None if it has not begun."""
-    path = log_path(folder, shard)
-    try:
-        text, changed = path.read_text(encoding="utf-8"), path.stat().st_mtime
-    except OSError:
-        return None
-    words = [line.split() for line in StringIO(text)]
-    lines = [line for line in words if len(line) >= 6]
-    return LogState(
-        samples=len(lines),
-        events=sum(int(line[4]) for line in lines if line[4].isdigit()),
-        failed=sum(line[2] == FAILED for line in lines),
-        changed_s=changed,
-    )
 
 
 QUIET_S = 600.0
@@ -94,44 +65,46 @@ class StageStatus:
     seconds: float = 0.0
     """Working time of complete shards."""
 
+    def add(self, record: ShardRecord) -> None:
+        """Count a complete shard."""
+        self.complete += 1
+        self.samples += len(record.samples)
+        self.failed += record.count(FAILED)
+        self.filtered += record.count(FILTERED)
+        self.events += record.events
+        self.bytes += record.bytes
+        self.seconds += record.seconds
 
-def read_status(
-    recipe: Recipe, folder: Path, seen: dict[Shard, ShardSummary] | None = None
-) -> list[StageStatus]:
+
+def read_status(recipe: Recipe, folder: Path) -> list[StageStatus]:
     """The state of every stage: the videos, if they are stored, then the variants.
 
     Args:
         recipe: of the data set.
         folder: of the data set.
-        seen: shards known to be complete, which are not read; those found complete are added.
 
     Raises:
         FileFormatError: the record of a shard is damaged.
     """
     clips = sum(recipe.clips.counts.values())
-    stages, seen = [], {} if seen is None else seen
-    for name in [*([VIDEOS] if recipe.stores_videos else []), *recipe.variants]:
+    stages = []
+    for name in recipe.stages:
         seeds = 1 if name == VIDEOS else recipe.variants[name].seeds
         stage = StageStatus(name, clips * seeds, 0)
         for shard in recipe.shards(name):
             stage.shards += 1
-            done = seen.get(shard)
-            if done is None and (record := is_complete(recipe, folder, shard)) is not None:
-                done = seen[shard] = record.summary
-            if done is not None:
-                stage.complete += 1
-                stage.samples += done.samples
-                stage.failed += done.failed
-                stage.filtered += done.filtered
-                stage.events += done.events
-                stage.bytes += done.bytes
-                stage.seconds += done.seconds
-            elif log_path(folder, shard).exists():
-                log = read_log(folder, shard)
-                if log is not None and time.time() - log.changed_s < QUIET_S:
-                    stage.at_work += 1
-                    stage.samples += log.samples
-                    stage.failed += log.failed
-                    stage.events += log.events
+            record = is_complete(recipe, folder, shard)
+            if record is not None:
+                stage.add(record)
+            elif _is_at_work(log_path(folder, shard)):
+                stage.at_work += 1
         stages.append(stage)
     return stages
+
+
+def _is_at_work(log: Path) -> bool:
+    """True if a log has news."""
+    try:
+        return time.time() - log.stat().st_mtime < QUIET_S
+    except OSError:
+        return False

@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.config import check_range
-from texvent.errors import ConfigError
 from texvent.simulate.random.draws import frame_key, frame_keys
 
 MAX_SEED = 2**63 - 1
-_SHARDS, _PLACES = 0, 1
-_UNITS = 2.0**64
+_PLACES = 1
+"""Purpose of the draws; another one gives other orders."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -21,7 +20,7 @@ class EpochSampler:
     """Samples of a training process in an epoch: which, in which order and batches.
 
     Raises:
-        ConfigError: a value out of range, or a shuffle_buffer without shuffle.
+        ConfigError: a value out of range.
     """
 
     batch_size: int = 1
@@ -30,9 +29,6 @@ class EpochSampler:
     """Whether each epoch has an order of its own."""
     seed: int = 0
     """Seed of the orders."""
-    shuffle_buffer: int | None = None
-    """Shuffle as a buffer of this size does, and read shards in sequence, as slow discs and
-    networks like it; None: every order is as likely."""
     drop_last: bool = False
     """True: every process gets the same number of whole batches, as DistributedDataParallel needs
     it, and up to batch_size · world_size − 1 samples at the end of the order are left out. False:
@@ -45,26 +41,19 @@ class EpochSampler:
     def __post_init__(self) -> None:
         check_range("batch_size", self.batch_size, 1)
         check_range("seed", self.seed, 0, MAX_SEED)
-        check_range("shuffle_buffer", self.shuffle_buffer, 1)
         check_range("world_size", self.world_size, 1)
         check_range("rank", self.rank, 0, self.world_size - 1)
-        if self.shuffle_buffer is not None and not self.shuffle:
-            raise ConfigError("shuffle_buffer belongs to shuffle; give shuffle=True with it")
 
-    def numbers(self, shard: NDArray[np.int64], epoch: int) -> NDArray[np.int64]:
+    def numbers(self, count: int, epoch: int) -> NDArray[np.int64]:
         """Numbers of the samples of this process, in order.
 
-        Processes get consecutive parts of the order, so each reads shards of its own.
-
         Args:
-            shard: [n] shard of each sample.
+            count: of all samples.
             epoch: 0 or more.
         """
-        order: NDArray[np.int64] = np.arange(len(shard))
+        order: NDArray[np.int64] = np.arange(count)
         if self.shuffle:
-            order = epoch_order(
-                shard, seed=self.seed, epoch=epoch, shuffle_buffer=self.shuffle_buffer
-            )
+            order = epoch_order(count, seed=self.seed, epoch=epoch)
         if self.drop_last:
             length = len(order) // (self.world_size * self.batch_size) * self.batch_size
             return order[self.rank * length : (self.rank + 1) * length]
@@ -72,32 +61,16 @@ class EpochSampler:
         return order[begin:end]
 
 
-def epoch_order(
-    shard: NDArray[np.int64], *, seed: int, epoch: int, shuffle_buffer: int | None = None
-) -> NDArray[np.int64]:
-    """All samples once, shuffled: a function of the arguments alone.
-
-    Without `shuffle_buffer`, every order is as likely. With it, shards come in a random order and
-    are read in sequence, and each sample moves by at most `shuffle_buffer` places.
+def epoch_order(count: int, *, seed: int, epoch: int) -> NDArray[np.int64]:
+    """The numbers 0..count−1 once, shuffled: a function of the arguments alone.
 
     Args:
-        shard: [n] shard of each sample.
+        count: number of samples.
         seed: 0..2⁶³−1.
         epoch: 0 or more.
-        shuffle_buffer: see above.
 
     Returns:
-        [n] numbers of samples.
+        [count] numbers of samples; every order is as likely.
     """
-    places = np.arange(len(shard))
-    draws = _draws(seed, epoch, _PLACES, places)
-    if shuffle_buffer is None:
-        return np.argsort(draws, kind="stable")
-    in_sequence = np.argsort(_draws(seed, epoch, _SHARDS, shard), kind="stable")
-    moved = places + draws[in_sequence] / _UNITS * shuffle_buffer
-    return in_sequence[np.argsort(moved, kind="stable")]
-
-
-def _draws(seed: int, epoch: int, purpose: int, numbers: NDArray[np.int64]) -> NDArray[np.uint64]:
-    key = int(frame_key(int(frame_key(seed, epoch)) >> 1, purpose)) >> 1
-    return frame_keys(key, numbers)
+    key = int(frame_key(int(frame_key(seed, epoch)) >> 1, _PLACES)) >> 1
+    return np.argsort(frame_keys(key, np.arange(count)), kind="stable")

@@ -13,11 +13,11 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from texvent.config import check_range
-from texvent.dataset.loading.index import ABSENT, MEMBERS, Choice, Index, choose, read_index
-from texvent.dataset.loading.shard_files import ShardFiles
+from texvent.dataset.generation.shards import read_members
+from texvent.dataset.loading.index import MEMBERS, Choice, Index, choose, read_index
 from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.reading.stored_events import COLUMN_MEMBERS, events_of, npy_column
-from texvent.errors import ConfigError, FileFormatError, InputError, shown
+from texvent.dataset.reading.stored_events import read_columns
+from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.represent.named import load_representation, represent_window
 from texvent.sensor import SensorSize
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
 NO_CLASS = -1
 Window: TypeAlias = tuple[int, int]
 """Start (included) and end (excluded), µs."""
-_COLUMNS = len(COLUMN_MEMBERS)
 
 
 def open(
@@ -76,7 +75,6 @@ def open(
         folder=folder,
         index=index,
         labels=labels,
-        files=ShardFiles(folder, index.shards),
         representation=representation,
         representation_options=representation_options or {},
         slice_us=slice_us,
@@ -108,7 +106,7 @@ class StoredSamples:
     """A table of samples that were made, in the order of their files.
 
     `texvent.dataset.open` makes one. Reading by number takes one read of the shard, from any
-    number of threads or processes; a pickled copy opens its own files.
+    number of threads or processes.
 
     Raises:
         ConfigError: an unknown representation or option, or two kinds of slices.
@@ -122,8 +120,6 @@ class StoredSamples:
     others."""
     labels: tuple[str, ...]
     """All classes of the data set; a sample's class number is its place here."""
-    files: ShardFiles
-    """Its shards."""
     representation: str | None = None
     """As `SimulatedSamples.representation`; None: the events themselves."""
     representation_options: Mapping[str, Any] = field(default_factory=dict)
@@ -191,25 +187,9 @@ class StoredSamples:
             IndexError, FileFormatError: as for `[number]`.
         """
         number = self._checked(number)
-        shard, places = int(self.index.shard[number]), self.index.members[number, :_COLUMNS]
-        there = [place for place in places.tolist() if place != list(ABSENT)]
-        # The columns are adjacent: one read for all.
-        begin = min((first for first, _ in there), default=0)
-        end = max((first + size for first, size in there), default=0)
-        content = memoryview(self.files.read(shard, begin, end - begin))
         size = SensorSize(*self.index.size[number].tolist())
-        try:
-            columns = {
-                name.partition(".")[0]: npy_column(content[first - begin : first - begin + length])
-                for name, (first, length) in zip(COLUMN_MEMBERS, places.tolist(), strict=True)
-                if first >= 0
-            }
-            return events_of(columns, size)
-        except (FileFormatError, InputError) as error:
-            raise FileFormatError(
-                f"sample {self.index.key[number]} of {self.files.path(shard)} is damaged: {error}; "
-                "run texvent dataset verify"
-            ) from error
+        key = str(self.index.key[number])
+        return read_columns(self._shard(number), key, self._places(number), size)
 
     def class_number(self, number: int) -> int:
         """Place of the class of a sample in `labels`; −1 without a class."""
@@ -222,13 +202,7 @@ class StoredSamples:
             IndexError, FileFormatError: as for `[number]`.
         """
         number = self._checked(number)
-        shard = int(self.index.shard[number])
-        places = zip(MEMBERS, self.index.members[number].tolist(), strict=True)
-        return {
-            name: self.files.read(shard, begin, size)
-            for name, (begin, size) in places
-            if begin >= 0 and name in only
-        }
+        return read_members(self._shard(number), self._places(number), only)
 
     def make(self, number: int, *, epoch: int = 0) -> dict[str, Any]:
         """Arrays by name for training, as `SimulatedSamples.make`.
@@ -321,6 +295,14 @@ class StoredSamples:
         numbers = {label: number for number, label in enumerate(self.labels)}
         known = [NO_CLASS if label is None else numbers[label] for label in self.index.labels]
         return np.array(known, np.int64)
+
+    def _shard(self, number: int) -> Path:
+        return self.folder / self.index.shards[int(self.index.shard[number])]
+
+    def _places(self, number: int) -> dict[str, tuple[int, int]]:
+        """Member → position in the shard and bytes."""
+        places = zip(MEMBERS, self.index.members[number].tolist(), strict=True)
+        return {name: (begin, size) for name, (begin, size) in places if begin >= 0}
 
     def _checked(self, number: int) -> int:
         if not -len(self) <= number < len(self):

@@ -137,42 +137,22 @@ def _new_tensor(count: int, like: Tensor) -> Tensor:
 
 
 class SampleDataset(_Dataset):
-    """Stored samples as a map-style dataset, for samplers and loaders of your own.
+    """Samples as a map-style dataset, for samplers and loaders of your own.
 
-    `[i]` gives `StoredSamples.make(i)`; `collate` puts such samples together. `[i, epoch]` draws
-    the augmentation of that epoch, `[i]` that of epoch 0: let a sampler give pairs `(i, epoch)`,
-    or use `Loader`.
-    """
-
-    def __init__(self, samples: StoredSamples) -> None:
-        """Nothing is read yet."""
-        super().__init__()
-        self.samples = samples
-
-    def __len__(self) -> int:
-        """Number of samples."""
-        return len(self.samples)
-
-    def __getitem__(self, number: int | tuple[int, int]) -> dict[str, Any]:
-        """The arrays of a sample."""
-        number, epoch = number if isinstance(number, tuple) else (number, 0)
-        return self.samples.make(int(number), epoch=epoch)
-
-
-class SimulatedDataset(_Dataset):
-    """Samples `first` .. `first + count − 1` of `SimulatedSamples`, simulated when asked for.
-
-    Give `first = epoch · count` for new samples in every epoch.
+    `[i]` gives `samples.make(first + i)`; `collate` puts such samples together. Of stored samples,
+    `[i, epoch]` draws the augmentation of that epoch, `[i]` that of epoch 0: let a sampler give
+    pairs `(i, epoch)`, or use `Loader`. Of simulated ones, give `first = epoch · count` for new
+    samples in every epoch.
     """
 
     def __init__(
-        self, samples: SimulatedSamples, *, count: int | None = None, first: int = 0
+        self, samples: StoredSamples | SimulatedSamples, *, count: int | None = None, first: int = 0
     ) -> None:
-        """Choose the samples; nothing is simulated yet.
+        """Choose the samples; nothing is read or simulated yet.
 
         Args:
             samples: where they come from.
-            count: how many; None: one per source.
+            count: how many; None: all stored ones, or one per source.
             first: number of the first.
 
         Raises:
@@ -180,35 +160,27 @@ class SimulatedDataset(_Dataset):
         """
         super().__init__()
         self.samples, self.first = samples, first
-        self.count = len(samples.prompts or samples.videos) if count is None else count
-        check_range("count", self.count, 1)
+        if count is None:
+            count = len(samples) if isinstance(samples, StoredSamples) else samples.source_count
+        self.count = count
+        check_range("count", count, 0 if isinstance(samples, StoredSamples) else 1)
         check_range("first", first, 0)
 
     def __len__(self) -> int:
         """Number of samples."""
         return self.count
 
-    def __getitem__(self, number: int) -> dict[str, Any]:
-        """The arrays of sample `first + number`.
+    def __getitem__(self, number: int | tuple[int, int]) -> dict[str, Any]:
+        """The arrays of a sample.
 
         Raises:
             IndexError: there is no such sample.
         """
-        if not 0 <= number < self.count:
-            raise IndexError(f"sample {number} does not exist; there are {self.count}")
-        return self.samples.make(self.first + number)
-
-    def loader(self, *, workers: int = 0, **options: Any) -> Any:
-        """A torch DataLoader of these samples.
-
-        Args:
-            workers: processes that simulate; 0: this one. They are spawned, not forked: a fork of
-                a process in which Numba has run threads can hang.
-            **options: further options of DataLoader, such as `batch_size=8`.
-        """
-        context = "spawn" if workers else None
-        settings = {"num_workers": workers, "multiprocessing_context": context, **options}
-        return _data.DataLoader(self, collate_fn=collate, **settings)
+        place, *epoch = number if isinstance(number, tuple) else (number,)
+        if not 0 <= place < self.count:
+            raise IndexError(f"sample {place} does not exist; there are {self.count}")
+        options = {"epoch": epoch[0]} if epoch else {}
+        return self.samples.make(self.first + int(place), **options)
 
 
 class Loader:
@@ -254,7 +226,7 @@ class Loader:
         self.sampler = _sampler(rank, world_size, order)
         self._position = 0
         # It knows nothing of this object: a cycle of references would keep worker processes.
-        self._batches = _Batches(samples, self.sampler)
+        self._batches = _Batches(len(samples), self.sampler)
         options = {}
         if workers:
             options = {
@@ -273,7 +245,7 @@ class Loader:
 
     def __len__(self) -> int:
         """Number of batches of a whole epoch."""
-        return -(-len(self.sampler.numbers(self.samples.index.shard, 0)) // self.sampler.batch_size)
+        return -(-len(self.sampler.numbers(len(self.samples), 0)) // self.sampler.batch_size)
 
     @property
     def epoch(self) -> int:
@@ -328,7 +300,8 @@ class Loader:
 class _Batches:
     """Number and epoch of the samples of each batch of an epoch, for the DataLoader."""
 
-    samples: StoredSamples
+    count: int
+    """Of all samples."""
     sampler: EpochSampler
     epoch: int = 0
     begin: int = 0
@@ -336,12 +309,12 @@ class _Batches:
 
     def __iter__(self) -> Iterator[list[tuple[int, int]]]:
         epoch, size = self.epoch, self.sampler.batch_size
-        numbers = self.sampler.numbers(self.samples.index.shard, epoch)
+        numbers = self.sampler.numbers(self.count, epoch)
         for begin in range(self.begin, len(numbers), size):
             yield [(number, epoch) for number in numbers[begin : begin + size].tolist()]
 
     def __len__(self) -> int:
-        count = len(self.sampler.numbers(self.samples.index.shard, self.epoch)) - self.begin
+        count = len(self.sampler.numbers(self.count, self.epoch)) - self.begin
         return -(-count // self.sampler.batch_size)
 
 

@@ -9,7 +9,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeGuard
 
-from texvent._registry import SIMULATORS, suggest
+from texvent._registry import suggest
 from texvent.dataset.generation.recipe import ITEMS_FILE, VIDEOS, read_facts, read_recipe
 from texvent.dataset.generation.shards import (
     EXTENSION,
@@ -21,8 +21,6 @@ from texvent.dataset.generation.shards import (
 from texvent.errors import FileFormatError, InputError, shown
 
 SHARD_FILE = re.compile(r"(?P<split>[A-Za-z0-9][A-Za-z0-9_-]*)-(?P<number>\d{6,})\.(tar|json)")
-SHARDS = "shards"
-"""Key of the shard counts in the facts of a merged set."""
 
 
 @dataclass(frozen=True)
@@ -69,7 +67,7 @@ class StoredDataset:
 
     @property
     def specification(self) -> Mapping[str, Any]:
-        """Its specification as plain values; of a merged set name, splits and variants alone."""
+        """Its specification as plain values."""
         tables: Mapping[str, Any] = self.facts["specification"]
         return tables
 
@@ -99,25 +97,9 @@ class StoredDataset:
         return {str(one["name"]): one for one in self.specification["variants"]}
 
     @property
-    def is_merged(self) -> bool:
-        """True if it was put together from others."""
-        return "merged" in self.facts
-
-    @property
     def has_videos(self) -> bool:
         """True if its videos are stored."""
         return (self.folder / VIDEOS).is_dir()
-
-    def simulator_of(self, variant: str) -> str | None:
-        """Name of the simulator of a variant; None where samples differ in it."""
-        default = next(iter(SIMULATORS.builtin))
-        options = self.specification.get("options", {})
-        name = (
-            self.variants[variant]
-            .get("options", {})
-            .get("simulator", options.get("simulator", default))
-        )
-        return name if isinstance(name, str) else None
 
     def shards(self, *variants: str) -> Iterator[StoredShard]:
         """The complete shards of some variants (default: all but the videos), in order.
@@ -156,19 +138,10 @@ class StoredDataset:
 
     def expected(self) -> set[str] | None:
         """Places of all shards that belong to it, or None where the folder does not state them."""
-        if self.is_merged:
-            counts = self.facts[SHARDS]
-            return {
-                f"{variant}/{split}-{number:06d}{EXTENSION}"
-                for variant, splits in counts.items()
-                for split, count in splits.items()
-                for number in range(count)
-            }
         if not (self.folder / ITEMS_FILE).is_file():
             return None
         recipe = read_recipe(self.folder)
-        stages = [*([VIDEOS] if recipe.stores_videos else []), *recipe.variants]
-        return {str(shard.path) for stage in stages for shard in recipe.shards(stage)}
+        return {str(shard.path) for stage in recipe.stages for shard in recipe.shards(stage)}
 
     def missing(self, *variants: str) -> list[str]:
         """Places of shards of some variants (default: all but the videos) that are not complete.

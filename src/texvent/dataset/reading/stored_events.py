@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.generation.shards import SampleRecord, read_members
+from texvent.dataset.generation.shards import SampleRecord, read_members, read_part
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -74,6 +74,36 @@ def _are_events(columns: Mapping[str, NDArray[Any]], size: SensorSize) -> bool:
     )
 
 
+def read_columns(
+    shard: Path, key: str, places: Mapping[str, tuple[int, int]], size: SensorSize
+) -> EventStream:
+    """The events of a sample, checked, without metadata; one read, as the columns are adjacent.
+
+    Args:
+        shard: the tar.
+        key: of the sample, for messages.
+        places: member → position and bytes; those beside `COLUMN_MEMBERS` are not read.
+        size: of the sensor.
+
+    Raises:
+        FileFormatError: the shard is cut off or changed, or the events are not sound.
+    """
+    own = {name: places[name] for name in COLUMN_MEMBERS if name in places}
+    start = min((begin for begin, _ in own.values()), default=0)
+    end = max((begin + length for begin, length in own.values()), default=0)
+    content = memoryview(read_part(shard, start, end - start))
+    try:
+        columns = {
+            name.removesuffix(".npy"): npy_column(content[begin - start : begin - start + length])
+            for name, (begin, length) in own.items()
+        }
+        return events_of(columns, size)
+    except (FileFormatError, InputError) as error:
+        raise FileFormatError(
+            f"sample {key} of {shard} is damaged: {error}; run texvent dataset verify"
+        ) from error
+
+
 def read_events(shard: Path, sample: SampleRecord) -> EventStream:
     """The events of a sample, checked, with all that is known of them as metadata.
 
@@ -82,17 +112,10 @@ def read_events(shard: Path, sample: SampleRecord) -> EventStream:
         sample: its record.
 
     Raises:
-        FileFormatError: the shard is cut off or changed, or the events are not sound.
+        FileFormatError: as `read_columns`.
     """
-    members = read_members(shard, sample.members, COLUMN_MEMBERS)
-    try:
-        columns = {
-            name.removesuffix(".npy"): npy_column(memoryview(content))
-            for name, content in members.items()
-        }
-        events = events_of(columns, SensorSize(sample.width, sample.height))
-    except InputError as error:
-        raise FileFormatError(f"{shard}: sample {sample.key} is damaged ({error})") from error
+    size = SensorSize(sample.width, sample.height)
+    events = read_columns(shard, sample.key, sample.members, size)
     return events.with_metadata(read_sample_facts(shard, sample))
 
 

@@ -11,8 +11,12 @@ from typing import Any
 from texvent.batch.identity import derived_seed, digest
 from texvent.config import InterpolateConfig
 from texvent.dataset.specification.items import KEY_DIGITS, Item, Items
-from texvent.dataset.specification.option_ranges import draw_options, extreme_options
-from texvent.dataset.specification.specification import Specification, Variant
+from texvent.dataset.specification.specification import (
+    Specification,
+    Variant,
+    draw_options,
+    extreme_options,
+)
 from texvent.errors import ConfigError
 from texvent.options.fields import option_names
 from texvent.run.prepare import check_run

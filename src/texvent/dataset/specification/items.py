@@ -14,8 +14,12 @@ from typing import Any
 from texvent.batch.identity import derived_seed, digest
 from texvent.batch.list_files import ListEntry
 from texvent.batch.samples import entries_of, moved_together
-from texvent.dataset.specification.option_ranges import draw_options, is_range
-from texvent.dataset.specification.specification import SampleSource, Specification
+from texvent.dataset.specification.specification import (
+    SampleSource,
+    Specification,
+    draw_options,
+    is_range,
+)
 from texvent.errors import ConfigError, InputError, shown
 from texvent.scenes.spec.data import get_field, scene_from_data, scene_to_data, with_fields
 from texvent.scenes.spec.scene import Scene
@@ -95,10 +99,7 @@ def read_items(specification: Specification) -> Items:
                 )
     items = Items(tuple(found.values()), duplicates)
     if len({item.video is None for item in items.all}) > 1:
-        raise ConfigError(
-            "the sources give prompts and videos; make two data sets and merge them with "
-            "texvent dataset merge"
-        )
+        raise ConfigError("the sources give prompts and videos; make a data set of each")
     labelled = sum(item.label is not None for item in items.all)
     if 0 < labelled < len(items.all):
         raise ConfigError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import typing
 from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
 from pathlib import Path
@@ -16,7 +17,7 @@ from texvent.dataset.specification.specification import (
     Variant,
 )
 from texvent.errors import ConfigError, InputError, shown
-from texvent.options.values import with_options
+from texvent.options.values import convert, with_options
 from texvent.settings.config_files import read_document
 
 _SCALARS = ("name", "description", "license", "seed", "repeats", "samples_per_shard", "previews",
@@ -126,29 +127,23 @@ def _source(value: Any, folder: Path, where: str) -> SampleSource:
         words = _table(table.get("words", {}), f"{where}: words")
         table["words"] = {**words, "class": table.pop("classes")}
         table.setdefault("label", "{class}")
+    for name in ("words", "vary"):
+        if name in table:
+            table[name] = _table(table[name], f"{where}: {name}")
+    if "words" in table:
+        words = table["words"].items()
+        table["words"] = {word: _words(one, folder, f"{where}: {word}") for word, one in words}
+    hints = typing.get_type_hints(SampleSource)
+    table = {name: convert(one, hints[name], f"{where}: {name}") for name, one in table.items()}
+    for name in ("videos", "scene"):
+        if name in table:
+            table[name] = tuple(str(folder / one) for one in table[name])
+    if "file" in table:
+        table["file"] = folder / table["file"]
     try:
-        return SampleSource(
-            **{name: _part(name, one, folder, where) for name, one in table.items()}
-        )
+        return SampleSource(**table)
     except ConfigError as error:
         raise ConfigError(_with_place(str(error), where)) from error
-
-
-def _part(name: str, value: Any, folder: Path, where: str) -> Any:
-    """A field of a source, its paths relative to the folder of the specification."""
-    place = f"{where}: {name}"
-    if name == "words":
-        words = _table(value, place)
-        return {word: _words(one, folder, f"{where}: {word}") for word, one in words.items()}
-    if name == "prompts":
-        return _texts(value, place)
-    if name == "vary":
-        return _table(value, place)
-    if name in ("videos", "scene"):
-        return tuple(str(folder / one) for one in _texts(value, place))
-    if name == "file":
-        return folder / _text(value, place)
-    return value if name == "count" else _text(value, place)
 
 
 def _words(value: Any, folder: Path, where: str) -> tuple[str, ...]:
@@ -161,17 +156,7 @@ def _words(value: Any, folder: Path, where: str) -> tuple[str, ...]:
                 f"{where} is {shown(value)}: {error}; give a list of words, or a .txt with one "
                 "per line"
             ) from error
-    return _texts(value, where)
-
-
-def _texts(value: Any, where: str) -> tuple[str, ...]:
-    values = (value,) if isinstance(value, str) else value
-    if not isinstance(values, Sequence) or not values:
-        raise ConfigError(f"{where} is {shown(value)}; it must be a list of at least one text")
-    return tuple(_text(one, where) for one in values)
-
-
-def _text(value: Any, where: str) -> str:
-    if isinstance(value, bool | list | dict) or value is None or not str(value).strip():
-        raise ConfigError(f"{where} has {shown(value)}; it must be a text")
-    return str(value)
+    is_list = isinstance(value, Sequence)
+    if not is_list or not all(isinstance(one, str | int | float) for one in value):
+        raise ConfigError(f"{where} is {shown(value)}; it must be a list of texts")
+    return tuple(map(str, value))

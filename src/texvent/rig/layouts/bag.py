@@ -20,6 +20,7 @@ import numpy as np
 
 from texvent._require import require
 from texvent.errors import ConfigError
+from texvent.events import EventStream
 from texvent.io.metadata import sidecar_text
 from texvent.io.ros.bag_writer import (
     EXTENSIONS,
@@ -28,18 +29,20 @@ from texvent.io.ros.bag_writer import (
     SensorBag,
     open_sensor_bag,
 )
+from texvent.pipeline import Simulation
 from texvent.rig.description import RigCamera
 from texvent.rig.layouts.parts import (
     IMU_TOPIC,
     Tally,
     counted_frames,
+    counter,
     image_topic,
     intrinsic_values,
     quaternions,
-    steps_of,
     write_calibration,
 )
 from texvent.rig.recording import Recording
+from texvent.run.files import OnStep
 from texvent.runtime.progress import Progress
 
 LARGEST_EVT3 = 2048
@@ -70,8 +73,8 @@ def write(recording: Recording, folder: Path, tally: Tally, progress: Progress) 
         bag.add_text(sidecar_text(recording.rig.cameras[0].size, facts), 0)
         for camera in recording.rig.cameras:
             simulation = recording.simulation(camera, progress)
-            packets = (packet for _, packet in steps_of(simulation, camera, tally, progress))
-            bag.add_events(f"/{camera.name}/events", packets, camera.size)
+            count = counter(simulation, camera, tally, progress)
+            bag.add_events(f"/{camera.name}/events", _packets(simulation, count), camera.size)
             _add_frames(bag, recording, camera, tally, progress)
         if recording.imu is not None:
             imu = recording.imu
@@ -79,6 +82,12 @@ def write(recording: Recording, folder: Path, tally: Tally, progress: Progress) 
         place, turn = recording.poses()
         bag.add_poses("/groundtruth", "world", recording.pose_times, place, quaternions(turn))
     write_calibration(recording, folder)
+
+
+def _packets(simulation: Simulation, count: OnStep) -> Iterator[EventStream]:
+    for frame, packet in simulation.steps():
+        count(frame, packet)
+        yield packet
 
 
 def _add_frames(

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from contextlib import ExitStack
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.events import EventStream
-from texvent.io.files import open_writer
 from texvent.options.values import plain
 from texvent.pipeline import Simulation
 from texvent.rig.description import Rig, RigCamera
@@ -21,11 +19,10 @@ from texvent.rig.imu import ImuSamples
 from texvent.rig.kalibr import camchain, camera_entries, imu_yaml
 from texvent.rig.recording import Recording
 from texvent.rig.shutter import ExposedFrame
-from texvent.runtime.background_writer import BackgroundWriter
+from texvent.run.files import OnStep, RunFiles, write_run
 from texvent.runtime.progress import Progress
 from texvent.truth.layout import parse_parts
-from texvent.truth.poses import POSE_HEADER, quaternion, seconds_text
-from texvent.truth.writer import TruthWriter
+from texvent.truth.poses import POSE_HEADER, pose_row, quaternion
 from texvent.video import Frame
 
 CALIBRATION, IMU_NOISE, FACTS = "calib.yaml", "imu.yaml", "rig.json"
@@ -53,17 +50,17 @@ def intrinsic_values(camera: RigCamera) -> tuple[str, list[float], list[float]]:
     return entry["distortion_model"], entry["distortion_coeffs"], entry["intrinsics"]
 
 
-def steps_of(
-    simulation: Simulation, camera: RigCamera, tally: Tally, progress: Progress
-) -> Iterator[tuple[Frame, EventStream]]:
-    """Every dense frame of a camera with the packet that ends at it, counted."""
-    done, count = 0, 0
-    for frame, packet in simulation.steps():
+def counter(simulation: Simulation, camera: RigCamera, tally: Tally, progress: Progress) -> OnStep:
+    """A function that counts every dense frame of a camera and the packet that ends at it."""
+    tally.events[camera.name] = done = 0
+
+    def count(frame: Frame, packet: EventStream) -> None:
+        nonlocal done
         done += frame.is_source
-        count += len(packet)
+        tally.events[camera.name] += len(packet)
         progress.advance(f"events of {camera.name}", done, simulation.video.frame_count)
-        yield frame, packet
-    tally.events[camera.name] = count
+
+    return count
 
 
 def write_events(
@@ -78,28 +75,15 @@ def write_events(
     """Simulate a camera into an event file with provenance; truth goes into `truth` beside it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     simulation = recording.simulation(camera, progress)
-    facts = {**simulation.provenance, "rig": recording.facts(camera)}
-    parts = parse_parts(recording.config.truth)
-    with ExitStack() as outputs:
-        writer = open_writer(path, size=camera.size, metadata=facts, format=format, overwrite=False)
-        sink = outputs.enter_context(BackgroundWriter(outputs.enter_context(writer)))
-        # With the ids of their objects, events come from the truth.
-        has_ids = "events" in parts and getattr(writer, "keeps_labels", False)
-        truth = None
-        if parts:
-            truth = TruthWriter(
-                path.parent / "truth",
-                simulation.video,
-                parts,
-                metadata=facts,
-                on_events=sink.append if has_ids else None,
-            )
-            outputs.enter_context(truth)
-        for frame, packet in steps_of(simulation, camera, tally, progress):
-            if not has_ids:
-                sink.append(packet)
-            if truth is not None:
-                truth.append(frame, packet)
+    files = RunFiles((path,), formats=(format,), truth=parse_parts(recording.config.truth))
+    write_run(
+        simulation,
+        files,
+        metadata={**simulation.provenance, "rig": recording.facts(camera)},
+        on_step=counter(simulation, camera, tally, progress),
+    )
+    if files.truth_folder is not None:
+        files.truth_folder.rename(path.parent / "truth")
 
 
 def counted_frames(
@@ -143,14 +127,10 @@ def write_facts(recording: Recording, folder: Path, tally: Tally) -> None:
 
 def write_tum(path: Path, t_us: NDArray[np.int64], poses: tuple[Any, Any]) -> None:
     """Poses to the world as rows `timestamp tx ty tz qx qy qz qw`, s and m (TUM's format)."""
-    place, turn = poses
-    rows = np.concatenate([place, quaternions(turn)], axis=1)
     with path.open("w", encoding="utf-8") as file:
         file.write(POSE_HEADER)
-        file.writelines(
-            f"{seconds_text(int(time))} {' '.join(f'{one:.9f}' for one in row)}\n"
-            for time, row in zip(t_us, rows, strict=True)
-        )
+        for time, place, turn in zip(t_us, *poses, strict=True):
+            file.write(pose_row(int(time), place, turn))
 
 
 def quaternions(rotations: NDArray[Any]) -> NDArray[Any]:

@@ -107,7 +107,7 @@ def _batches(
     """Shuffled and shifted batches, without end."""
     epoch = 0
     while True:
-        order = epoch_order(np.zeros(len(labels), np.int64), seed=seed, epoch=epoch)
+        order = epoch_order(len(labels), seed=seed, epoch=epoch)
         chance = np.random.default_rng((seed, epoch))
         for first in range(0, len(order), size):
             chosen = order[first : first + size]

@@ -1,21 +1,22 @@
-"""Card of a data set: README.md as the Hugging Face Hub shows and reads it."""
+"""Publication of a data set: its card, README.md, as the Hugging Face Hub shows and reads it."""
 
 from __future__ import annotations
 
-import datetime
 import json
-from dataclasses import dataclass
-from typing import Any, ClassVar
+from typing import Any
 
 import yaml
 
 from texvent.dataset.generation.shards import EXTENSION
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.statistics import COUNTS, DatasetStatistics, Statistics, counts_rows
-from texvent.errors import ConfigError, shown
+from texvent.errors import InputError, OutputError, warn
+from texvent.io.atomic import atomic_file
 
 CARD_FILE = "README.md"
-TAGS = ("event-camera", "neuromorphic", "synthetic", "webdataset", "croissant", "texvent")
+MARK = "<!-- written by texvent dataset publish -->"
+"""In cards of ours, which may be replaced."""
+TAGS = ("event-camera", "neuromorphic", "synthetic", "webdataset", "texvent")
 SIZES = (("n<1K", 10**3), ("1K<n<10K", 10**4), ("10K<n<100K", 10**5), ("100K<n<1M", 10**6),
          ("1M<n<10M", 10**7), ("10M<n<100M", 10**8))  # fmt: skip
 NUMBER = "??????"
@@ -77,9 +78,6 @@ samples = load_dataset("DIR", "{variant}", split="{hub_split}")
 times = samples.select_columns(["t.npy"]).with_format("numpy")[0]["t.npy"]
 ```
 
-Any sample is read with one seek by `index.parquet`: its columns `x_offset`, `x_bytes` ... locate
-.npy files in the shard.
-
 ## How it was made
 
 {making}
@@ -91,60 +89,67 @@ Any sample is read with one seek by `index.parquet`: its columns `x_offset`, `x_
 - Captions are the prompts that the videos were made from; a video may show less.
 {limits}
 """
+MOST_NAMED = 3
 
 
-@dataclass(frozen=True, kw_only=True)
-class PublicationInfo:
-    """Author, licence and address of a published data set.
+def publish(
+    dataset: StoredDataset, *, license: str | None = None, notes: str = "", partial: bool = False
+) -> tuple[DatasetStatistics, int]:
+    """Write the card of a data set; equal shards give equal bytes.
+
+    Args:
+        dataset: the data set.
+        license: such as "cc-by-4.0"; None: that of the specification.
+        notes: further text of the card, Markdown.
+        partial: whether shards may be missing.
+
+    Returns:
+        The statistics, and the number of shards that are missing.
 
     Raises:
-        ConfigError: the date is no day.
+        InputError: shards are missing, or there are no samples.
+        OutputError: the card cannot be written, or is another's.
     """
-
-    MARK: ClassVar[str] = "<!-- written by texvent dataset publish -->"
-    """In cards of ours, which may be replaced."""
-
-    license: str | None = None
-    """Such as "cc-by-4.0"; None: that of the specification."""
-    url: str | None = None
-    """Its page."""
-    creator: str | None = None
-    """Person or organisation."""
-    date: str | None = None
-    """Day of publication, such as "2026-11-21"."""
-    notes: str = ""
-    """Markdown for the card."""
-
-    def __post_init__(self) -> None:
-        try:
-            datetime.date.fromisoformat(self.date or "2000-01-01")
-        except ValueError as error:
-            raise ConfigError(
-                f"date is {shown(self.date)}; it must be a day, such as 2026-11-21"
-            ) from error
-
-    def license_of(self, dataset: StoredDataset) -> str:
-        """The licence, or nothing."""
-        return self.license or str(dataset.specification.get("license") or "")
+    missing = dataset.missing()
+    statistics = DatasetStatistics.of(dataset)
+    if missing and not partial:
+        raise InputError(
+            f"{len(missing)} shards are missing, such as {', '.join(missing[:MOST_NAMED])}; make "
+            "them (texvent dataset make), or publish what there is with --partial"
+        )
+    if not statistics.total.samples:
+        raise InputError(f"{dataset.folder} holds no samples to publish")
+    card = dataset.folder / CARD_FILE
+    if card.exists() and MARK not in card.read_text("utf-8", errors="replace"):
+        raise OutputError(
+            f"{card} was not written by texvent; move it away, or put its text into a file and "
+            "give that with --notes"
+        )
+    license = license or str(dataset.specification.get("license") or "")
+    if not license:
+        warn("no licence is stated, so others may not use the data set; state one with --license")
+    text = card_text(dataset, statistics, license=license, notes=notes, missing=len(missing))
+    with atomic_file(card, overwrite=True) as part:
+        part.write_text(text, encoding="utf-8")
+    return statistics, len(missing)
 
 
 def card_text(
-    dataset: StoredDataset, statistics: DatasetStatistics, info: PublicationInfo, *, missing: int
+    dataset: StoredDataset, statistics: DatasetStatistics, *, license: str, notes: str, missing: int
 ) -> str:
     """The card, header included.
 
     Args:
         dataset: the data set.
         statistics: of it.
-        info: author, licence, notes.
+        license: such as "cc-by-4.0"; "" if none is stated.
+        notes: further text, Markdown.
         missing: number of shards that are not there.
     """
     total, (variant, split) = statistics.total, next(iter(statistics.parts))
     first = next(one for one in dataset.shards(variant) if one.record.split == split)
-    notes = [
-        f"{missing} shards are missing: this is a part of the data set." if missing else "",
-        info.notes.strip(),
-    ]
+    if missing:
+        notes = f"{missing} shards are missing: this is a part of the data set.\n\n{notes}"
     body = BODY.format(
         name=dataset.name,
         description=dataset.specification.get("description") or "",
@@ -153,7 +158,7 @@ def card_text(
         events=f"{sum(total.events):,}",
         seconds=f"{sum(total.durations_us) / 1e6:,.1f}",
         sensors=", ".join(total.sensors),
-        notes="\n\n".join(note for note in notes if note),
+        notes=notes.strip(),
         counts="\n".join(_table(statistics)),
         variant=variant,
         split=split,
@@ -163,14 +168,12 @@ def card_text(
         limits="\n".join(f"- {line}" for line in _limits(total)),
     )
     header = yaml.safe_dump(
-        _header(dataset, statistics, info), sort_keys=False, allow_unicode=True, width=100
+        _header(dataset, statistics, license), sort_keys=False, allow_unicode=True, width=100
     )
-    return f"---\n{header}---\n\n{info.MARK}\n\n{body}"
+    return f"---\n{header}---\n\n{MARK}\n\n{body}"
 
 
-def _header(
-    dataset: StoredDataset, statistics: DatasetStatistics, info: PublicationInfo
-) -> dict[str, Any]:
+def _header(dataset: StoredDataset, statistics: DatasetStatistics, license: str) -> dict[str, Any]:
     configs, features = [], []
     for number, variant in enumerate(dict.fromkeys(one for one, _ in statistics.parts)):
         splits = [split for one, split in statistics.parts if one == variant]
@@ -183,7 +186,7 @@ def _header(
         features.append({"config_name": variant, "features": _features(dataset, variant)})
     samples = statistics.total.samples
     return {
-        "license": info.license_of(dataset) or "unknown",
+        "license": license or "unknown",
         "pretty_name": dataset.name,
         "task_categories": ["text-to-video", "other"],
         "size_categories": [next((name for name, least in SIZES if samples < least), "n>100M")],
@@ -232,9 +235,6 @@ def _making(dataset: StoredDataset, total: Statistics) -> str:
         "source of that sample; `specification.json` holds what decided all of them:",
         f"```json\n{json.dumps(kept, indent=1, ensure_ascii=False)}\n```",
     ]
-    if dataset.is_merged:
-        names = ", ".join(str(one["specification"]["name"]) for one in dataset.facts["merged"])
-        lines.insert(0, f"Merged from {names} with `texvent dataset merge`.")
     return "\n\n".join(lines)
 
 
@@ -242,10 +242,12 @@ def _limits(total: Statistics) -> list[str]:
     lines = []
     doubtful = sum(total.warnings.values())
     if doubtful:
-        lines.append(f"{doubtful:,} samples carry a warning: see `warnings` in the index.")
+        lines.append(
+            f"{doubtful:,} samples carry a warning, which the records beside the shards state."
+        )
     if total.left_out or total.failed:
         lines.append(
-            f"{len(total.left_out):,} samples were left out and {total.failed:,} failed; the "
+            f"{total.left_out:,} samples were left out and {total.failed:,} failed; the "
             "records beside the shards name each with its reason."
         )
     if len(total.versions) > 1:

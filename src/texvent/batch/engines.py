@@ -1,0 +1,177 @@
+"""Engines that run tasks: this process, and processes of this machine."""
+
+from __future__ import annotations
+
+from collections import Counter, deque
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
+from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
+from typing import Any, Protocol
+
+from texvent.batch.processes import interruptible, start_pool, stop_pools
+from texvent.errors import ConfigError, MissingDependencyError, OutputError, TexventError
+
+ENDING_ALL = (ConfigError, OutputError, MissingDependencyError)
+"""Errors that every further task would meet too."""
+ATTEMPTS = 3
+"""Attempts at a task whose process dies, as by want of memory."""
+
+
+class Task(Protocol):
+    """A sample or a shard to make; hashable, and pickled on its way to another process."""
+
+    @property
+    def is_video(self) -> bool:
+        """True if it makes videos alone: such tasks have a process that loads a model once."""
+        ...
+
+    def run(self) -> Any:
+        """Make it.
+
+        Raises:
+            TexventError: it cannot be made.
+        """
+        ...
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """Result of a task: what it returned, or a failure."""
+
+    task: Any
+    result: Any = None
+    failure: str | None = None
+    """Reason why it could not be made."""
+
+
+class Engine(Protocol):
+    """Runs any number of tasks, several at once."""
+
+    def submit(self, task: Task) -> None:
+        """Have a task run."""
+        ...
+
+    def next(self) -> Outcome:
+        """The next outcome of the tasks submitted; waits for it.
+
+        Raises:
+            ConfigError, OutputError, MissingDependencyError: what all tasks would meet.
+        """
+        ...
+
+    def close(self) -> None:
+        """Drop what is at work and end."""
+        ...
+
+
+def attempt(task: Task) -> Outcome:
+    """Run a task; an error that only this one meets becomes its outcome.
+
+    Raises:
+        ConfigError, OutputError, MissingDependencyError: what all tasks would meet.
+    """
+    try:
+        return Outcome(task, task.run())
+    except ENDING_ALL:
+        raise
+    except TexventError as error:
+        return Outcome(task, failure=" ".join(str(error).split()))
+
+
+class SerialEngine:
+    """This process, one task after the other."""
+
+    def __init__(self) -> None:
+        self._tasks = deque[Task]()
+
+    def submit(self, task: Task) -> None:
+        """Have a task run."""
+        self._tasks.append(task)
+
+    def next(self) -> Outcome:
+        """The outcome of the next task, run now."""
+        return attempt(self._tasks.popleft())
+
+    def close(self) -> None:
+        """Forget the tasks."""
+        self._tasks.clear()
+
+
+class ProcessEngine:
+    """Processes of this machine, and one for videos, which loads a model once.
+
+    Each is a pool of one, given one task at a time: where it dies, only that task is lost, and no
+    other is blamed.
+    """
+
+    def __init__(self, workers: int) -> None:
+        self._limits = {False: workers, True: 1}
+        self._pools: dict[bool, list[ProcessPoolExecutor]] = {False: [], True: []}
+        self._idle: dict[bool, list[ProcessPoolExecutor]] = {False: [], True: []}
+        self._waiting: dict[bool, deque[Task]] = {False: deque(), True: deque()}
+        self._running: dict[Future[Outcome], tuple[Task, ProcessPoolExecutor]] = {}
+        self._deaths: Counter[Task] = Counter()
+
+    def submit(self, task: Task) -> None:
+        """Have a task run."""
+        self._waiting[task.is_video].append(task)
+        self._start_waiting(task.is_video)
+
+    def next(self) -> Outcome:
+        """The next outcome; a task whose process died is run again."""
+        while True:
+            done, _ = wait(self._running, return_when=FIRST_COMPLETED)
+            future = next(iter(done))
+            task, pool = self._running.pop(future)
+            try:
+                outcome = future.result()
+                self._idle[task.is_video].append(pool)
+            except BrokenProcessPool:
+                self._drop(task.is_video, pool)
+                self._deaths[task] += 1
+                if self._deaths[task] < ATTEMPTS:
+                    self._waiting[task.is_video].appendleft(task)
+                    self._start_waiting(task.is_video)
+                    continue
+                outcome = Outcome(
+                    task,
+                    failure=f"its process died {ATTEMPTS} times, perhaps for want of memory; "
+                    "run again with fewer processes",
+                )
+            self._start_waiting(task.is_video)
+            return outcome
+
+    def close(self) -> None:
+        """End all processes; they drop what they are at and clean up."""
+        stop_pools(*(pool for pools in self._pools.values() for pool in pools))
+
+    def _start_waiting(self, is_video: bool) -> None:
+        """Give waiting tasks to processes that are free or not yet started."""
+        waiting, idle = self._waiting[is_video], self._idle[is_video]
+        while waiting and (idle or len(self._pools[is_video]) < self._limits[is_video]):
+            pool = idle.pop() if idle else self._add(is_video)
+            try:
+                future = pool.submit(_run_in_process, waiting[0])
+            except BrokenProcessPool:  # it died while it was idle
+                self._drop(is_video, pool)
+                continue
+            self._running[future] = (waiting.popleft(), pool)
+
+    def _add(self, is_video: bool) -> ProcessPoolExecutor:
+        pool = start_pool(1, of=self._limits[is_video])
+        self._pools[is_video].append(pool)
+        return pool
+
+    def _drop(self, is_video: bool, pool: ProcessPoolExecutor) -> None:
+        self._pools[is_video].remove(pool)
+        stop_pools(pool)
+
+
+def local_engine(workers: int) -> Engine:
+    """An engine of this machine: this process for one worker, or processes."""
+    return SerialEngine() if workers == 1 else ProcessEngine(workers)
+
+
+def _run_in_process(task: Task) -> Outcome:
+    with interruptible():
+        return attempt(task)

@@ -1,0 +1,314 @@
+"""Steps of `texvent dataset` that read one: status, verify, stats, sample, publish, export."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import sys
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+from rich.console import Console
+from rich.markup import escape
+from rich.table import Table
+
+from texvent.cli.notices import result_console, write_out
+from texvent.cli.option_types import REQUIRED
+from texvent.cli.options import parse_configs
+from texvent.config import check_range
+from texvent.dataset.export import LAYOUTS, export
+from texvent.dataset.generation.recipe import read_recipe
+from texvent.dataset.generation.status import read_status
+from texvent.dataset.publish import CARD_FILE, publish
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.statistics import (
+    COUNTS,
+    MICROSECONDS,
+    DatasetStatistics,
+    counts_rows,
+    summary_lines,
+)
+from texvent.dataset.verify import Findings, verify
+from texvent.errors import ConfigError, InputError, one_line
+from texvent.runtime.threads import count_threads
+
+MOST_LINES = 20
+MOST_CLASSES = 12
+WIDTH = 110
+"""Of the table of counts, which has ten columns, also where there is no terminal."""
+TITLES = {
+    "missing": "missing or not complete",
+    "changed": "changed",
+    "foreign": "not of this data set",
+    "twice": "keys of several samples",
+    "unsound": "damaged samples",
+}
+ABOUT = {
+    "status": """How far a data set is, while it is made (here or elsewhere) or afterwards.
+
+Exit code: 0 complete, 1 something is missing or failed.""",
+    "verify": """Check a data set, or a published copy of one: hash every shard, read every sample,
+and say what is missing, changed, foreign, there twice or damaged.
+
+Exit code: 0 all is well, 1 something is not.""",
+    "stats": """Count what a data set holds: samples, events, rates, durations, classes, and why
+samples are not there. The records beside the shards are read, not the samples.""",
+    "sample": """Look at some samples, drawn by chance: a page (HTML) with images, captions and all
+facts.
+
+  texvent dataset sample cars
+  texvent dataset sample cars --variant paper --label bus -n 60 -o buses.html""",
+    "publish": """Write the card that a data set is published with into its folder: README.md, with
+what Hugging Face reads. Nothing is uploaded. Equal shards give equal files.
+
+  texvent dataset publish cars --license cc-by-4.0
+  hf upload NAME/cars cars --repo-type dataset --exclude "logs/*"      then, for the Hub""",
+    "export": f"""Write the samples of a data set in another layout: {", ".join(LAYOUTS)}. What a
+layout cannot hold is said. A stopped export goes on when it is run again.
+
+  texvent dataset export cars --format hdf5 -o cars-h5       one file per sample, with everything
+  texvent dataset export cars --format n-imagenet --variant paper -o N_Imagenet""",
+}
+
+
+def _parse(step: str, arguments: Sequence[str], options: Any) -> Any:
+    (parsed,) = parse_configs(
+        arguments, {"data set": options}, prog=f"texvent dataset {step}", description=ABOUT[step]
+    )
+    return parsed
+
+
+@dataclass(frozen=True, kw_only=True)
+class StoredOptions:
+    """Which data set."""
+
+    positional: ClassVar[tuple[str, ...]] = ("folder",)
+    outputs: ClassVar[tuple[str, ...]] = ("folder",)
+
+    folder: Path = REQUIRED
+    """Folder of the data set."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class JsonOptions(StoredOptions):
+    """Which data set."""
+
+    json: bool = False
+    """Print JSON."""
+
+
+def run_status(arguments: Sequence[str]) -> int:
+    """Run `texvent dataset status`; returns its exit code."""
+    options = _parse("status", arguments, JsonOptions())
+    stages = read_status(read_recipe(options.folder), options.folder)
+    if options.json:
+        facts = [dataclasses.asdict(stage) for stage in stages]
+        write_out(json.dumps(facts, indent=1) + "\n")
+    else:
+        table = Table(box=None, pad_edge=False)
+        for name in ("", "samples", "of", "left out", "failed", "events", "at work"):
+            table.add_column(name, justify="left" if not name else "right")
+        for one in stages:
+            counts = (one.samples, one.total, one.filtered, one.failed, one.events)
+            at_work = f"{one.at_work} shards" if one.at_work else ""
+            table.add_row(one.name, *(f"{count:,}" for count in counts), at_work)
+        with result_console() as console:
+            console.print(table)
+    is_whole = all(stage.complete == stage.shards and not stage.failed for stage in stages)
+    return 0 if is_whole else 1
+
+
+@dataclass(frozen=True, kw_only=True)
+class VerifyOptions(JsonOptions):
+    """Extent of the check."""
+
+    contents: bool = True
+    """Whether samples are read too, or digests of shards compared alone."""
+    workers: int | None = None
+    """Threads that read; default: one per core."""
+
+    def __post_init__(self) -> None:
+        check_range("workers", self.workers, 1, 1024)
+
+
+def run_verify(arguments: Sequence[str]) -> int:
+    """Run `texvent dataset verify`; returns its exit code."""
+    options = _parse("verify", arguments, VerifyOptions())
+    workers = count_threads() if options.workers is None else options.workers
+    dataset = StoredDataset.open(options.folder)
+    findings = verify(dataset, workers=workers, contents=options.contents)
+    if options.json:
+        facts = {**dataclasses.asdict(findings), "is_sound": findings.is_sound}
+        write_out(json.dumps(facts, indent=1) + "\n")
+    else:
+        write_out("".join(f"{line}\n" for line in _finding_lines(options, findings)))
+    return 0 if findings.is_sound else 1
+
+
+def _finding_lines(options: VerifyOptions, findings: Findings) -> Iterator[str]:
+    for kind, problems in findings.problems():
+        if problems:
+            yield f"{TITLES[kind]}: {len(problems)}"
+            yield from (f"  {one}" for one in problems[:MOST_LINES])
+            if len(problems) > MOST_LINES:
+                yield f"  and {len(problems) - MOST_LINES} more; --json names all"
+    yield from (f"note: {note}" for note in findings.notes[:MOST_LINES])
+    read = "every sample read" if options.contents else "samples not read"
+    yield (
+        f"{options.folder}: {findings.shards:,} shards hashed, {read}: {findings.samples:,} "
+        f"samples, {findings.events:,} events, {findings.filtered:,} left out, "
+        f"{findings.failed:,} failed; {'all is well' if findings.is_sound else 'NOT SOUND'}"
+    )
+
+
+def run_stats(arguments: Sequence[str]) -> int:
+    """Run `texvent dataset stats`; returns its exit code."""
+    options = _parse("stats", arguments, JsonOptions())
+    dataset = StoredDataset.open(options.folder)
+    statistics = DatasetStatistics.of(dataset)
+    if options.json:
+        write_out(json.dumps(statistics.tables, indent=1, ensure_ascii=False) + "\n")
+    else:
+        _print_counts(dataset, statistics)
+    return 0
+
+
+def _print_counts(dataset: StoredDataset, statistics: DatasetStatistics) -> None:
+    console = Console(file=sys.stdout, highlight=False, soft_wrap=True, width=WIDTH)
+    table = Table(box=None, pad_edge=False)
+    for number, title in enumerate(COUNTS):
+        table.add_column(title, justify="left" if number < 2 else "right")
+    for row in counts_rows(statistics):
+        table.add_row(*map(escape, row))
+    console.print(table)
+    total = statistics.total
+    for title in ("classes", "sensors", "warnings"):
+        ranked = sorted(getattr(total, title).items(), key=lambda pair: (-pair[1], pair[0]))
+        if ranked:
+            shown = "; ".join(f"{name} {count:,}" for name, count in ranked[:MOST_CLASSES])
+            more = len(ranked) - MOST_CLASSES
+            console.print(escape(f"{title}: {shown}{f' ... {more:,} more' if more > 0 else ''}"))
+    for line in summary_lines(total):
+        console.print(escape(line))
+    console.print(
+        f"{escape(dataset.name)}: {total.samples:,} samples of {len(total.clips):,} videos, "
+        f"{sum(total.events):,} events in {sum(total.durations_us) / MICROSECONDS:,.1f} s, "
+        f"{total.bytes / 1e6:,.1f} MB in {total.shards:,} shards, made in "
+        f"{total.seconds / 3600:,.2f} hours of one process"
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class SampleOptions(StoredOptions):
+    """Which samples."""
+
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "count": "-n"}
+    outputs: ClassVar[tuple[str, ...]] = ("folder", "out")
+
+    out: Path | None = None
+    """The page, .html. Default: samples.html in the folder."""
+    count: int = 24
+    """How many."""
+    variant: str | None = None
+    """Of this variant only."""
+    split: str | None = None
+    """Of this split only."""
+    label: str | None = None
+    """Of this class only."""
+    seed: int = 0
+    """Another draws others."""
+    overwrite: bool = False
+    """Replace files that exist."""
+
+    def __post_init__(self) -> None:
+        check_range("count", self.count, 1, 1000)
+
+
+def run_sample(arguments: Sequence[str]) -> int:
+    """Run `texvent dataset sample`; returns its exit code."""
+    from texvent.dataset.preview import choose_samples, write_sample_page  # brings OpenCV
+
+    options = _parse("sample", arguments, SampleOptions())
+    out = options.folder / "samples.html" if options.out is None else options.out
+    if out.suffix.lower() not in (".html", ".htm"):
+        raise ConfigError(f"out is {out}; name a page, .html")
+    dataset = StoredDataset.open(options.folder)
+    samples = choose_samples(
+        dataset,
+        options.count,
+        variant=options.variant,
+        split=options.split,
+        label=options.label,
+        seed=options.seed,
+    )
+    write_sample_page(dataset, samples, out, overwrite=options.overwrite)
+    write_out(f"{len(samples)} samples of {dataset.name}: {out}\n")
+    return 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class PublishOptions(StoredOptions):
+    """Contents of the card besides the counts."""
+
+    license: str | None = None
+    """Licence, such as cc-by-4.0; default: that of the specification."""
+    notes: Path | None = None
+    """A Markdown file whose text is added to the card."""
+    partial: bool = False
+    """Publish although shards are missing."""
+
+
+def run_publish(arguments: Sequence[str]) -> int:
+    """Run `texvent dataset publish`; returns its exit code."""
+    options = _parse("publish", arguments, PublishOptions())
+    notes = ""
+    if options.notes is not None:
+        try:
+            notes = options.notes.read_text("utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            raise InputError(
+                f"cannot read {options.notes} ({one_line(error)}); give a text file"
+            ) from error
+    statistics, missing = publish(
+        StoredDataset.open(options.folder),
+        license=options.license,
+        notes=notes,
+        partial=options.partial,
+    )
+    total = statistics.total
+    write_out(
+        f"{options.folder / CARD_FILE}: {total.samples:,} samples in {total.shards:,} shards"
+        f"{f'; {missing} shards are missing' if missing else ''}\n"
+    )
+    return 0
+
+
+@dataclass(frozen=True, kw_only=True)
+class ExportOptions(StoredOptions):
+    """Layout and its folder."""
+
+    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
+    outputs: ClassVar[tuple[str, ...]] = ("out",)
+
+    format: str = "hdf5"
+    """Name of the layout."""
+    out: Path | None = None
+    """Folder to write."""
+    variant: str | None = None
+    """Which variant; needed where there are several."""
+
+
+def run_export(arguments: Sequence[str]) -> int:
+    """Run `texvent dataset export`; returns its exit code."""
+    options = _parse("export", arguments, ExportOptions())
+    if options.out is None:
+        raise ConfigError("export needs the folder to write; name it with -o")
+    dataset = StoredDataset.open(options.folder)
+    done = export(dataset, options.format, options.out, variant=options.variant)
+    kept = f" ({done.kept:,} were there)" if done.kept else ""
+    write_out(f"{options.out}: {done.samples:,} samples as {options.format}{kept}\n")
+    for doubt in done.doubts:
+        write_out(f"note: {doubt}\n")
+    return 0

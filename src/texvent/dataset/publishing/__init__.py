@@ -1,1 +1,0 @@
-"""Publication of a data set: index, card and Croissant description."""
