@@ -58,4 +58,3 @@ def balanced_log(intensity: NDArray[Any], balance: float) -> Float64Array:
         table = np.log(balance + np.arange(256, dtype=np.float64))
         return np.asarray(table[intensity])
     return np.asarray(np.log(intensity + np.float64(balance), dtype=np.float64))
-

@@ -221,8 +221,7 @@ def test_truth_that_comes_with_frames_passes_through_unchanged(tmp_path):
         truth.occluded(0)
 
 
-@pytest.mark.parametrize("by_part", [True, False])
-def test_a_folder_of_truth_is_motion_that_simulate_reads(written, tmp_path, by_part):
+def test_the_parts_of_a_folder_of_truth_are_motion_that_simulate_reads(written, tmp_path):
     folder, truth, _ = written
     parts = {
         "motion": str(folder / "flow/forward_npz"),

@@ -68,7 +68,6 @@ class Soundness:
             found.append(f"{self.on_share:.1%} of the events are ON: one polarity is missing")
         return found
 
-
     def notes(self) -> list[str]:
         """Findings that many sound recordings have, one sentence each."""
         found = []
