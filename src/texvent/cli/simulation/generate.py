@@ -130,7 +130,7 @@ def _written(own: PromptOptions, settings: Settings) -> Scene:
         raise ConfigError(f"--llm-url reads a sentence, and {own.prompt} is a scene file")
     name = str(settings.generator)
     check_takes(Scene(), GENERATORS.load(name), name)
-    scene, report = write_scene(own.prompt, own.llm_url, own.llm_model or "default")
+    scene, report = write_scene(own.prompt, own.llm_url or "", own.llm_model or "default")
     refusal = report.refusal() if is_strict(settings) else None
     if refusal is not None:
         raise InputError(refusal)

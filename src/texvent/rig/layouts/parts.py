@@ -75,7 +75,7 @@ def write_events(
     """Simulate a camera into an event file with provenance; truth goes into `truth` beside it."""
     path.parent.mkdir(parents=True, exist_ok=True)
     simulation = recording.simulation(camera, progress)
-    files = RunFiles((path,), formats=(format,), truth=parse_parts(recording.config.truth))
+    files = RunFiles(path, format=format, truth=parse_parts(recording.config.truth))
     write_run(
         simulation,
         files,
