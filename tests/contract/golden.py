@@ -202,8 +202,6 @@ FORMATS = {
     "npz": ".npz",
     "ecd": ".txt",
     "evt3": ".raw",
-    "evt2": ".raw",
-    "evt21": ".raw",
     "dat": ".dat",
     "csv": ".csv",
     "e2vid": ".zip",
@@ -214,8 +212,6 @@ FORMATS = {
     "mcap": ".mcap",
     "atis": ".bin",
     "aedat4": ".aedat4",
-    "aedat4-none": ".aedat4",
-    "aedat4-zstd": ".aedat4",
 }
 """Formats whose bytes depend on the events alone, and an extension of each."""
 

@@ -10,8 +10,8 @@ import pytest
 
 from texvent.errors import InputError
 from texvent.events import EventStream
+from texvent.io.block_codec import BlockCodec
 from texvent.io.files import codec_for, save
-from texvent.io.protocol import EventCodec
 
 from .format_cases import CASES, FormatCase, random_events
 
@@ -21,7 +21,7 @@ FILES = [
     for case in CASES
     if case.file != "folder" and (case.extra is None or importlib.util.find_spec(case.extra))
 ]
-SEALED = ("e2vid", "n-imagenet", "v2e", "dsec", "dsec-blosc", "rosbag1", "mcap", "parquet")
+SEALED = ("e2vid", "n-imagenet", "v2e", "dsec", "dsec-blosc", "rosbag1", "mcap", "hdf5", "npz")
 """Formats whose end can be told; of the others, a cut file may be a shorter recording."""
 
 
@@ -33,7 +33,7 @@ def events_of(case: FormatCase) -> EventStream:
 class SoundFile:
     """A file that is damaged again and again; what lies beside it stays."""
 
-    codec: EventCodec
+    codec: BlockCodec
     path: Path
     content: bytes
 

@@ -145,7 +145,7 @@ def test_packet_sizes_do_not_change_the_file(tmp_path: Path, case: FormatCase) -
         assert back.collect().equals(whole)
         assert back.collect().equals(whole), "packets of a file can be read again"
         files.append(path)
-    if case.name != "parquet" and files[0].is_file():
+    if files[0].is_file():
         assert files[0].read_bytes() == files[1].read_bytes()
 
 
@@ -271,7 +271,7 @@ def test_none_is_no_path():
 @pytest.mark.parametrize(
     ("name", "format"),
     [("e.es", None), ("e.aedat", None), ("e.aedat", "aedat3"), ("e", "evreal"), ("e", "esim"),
-     ("e.hdf5", "prophesee-hdf5")],
+     ("e.hdf5", "prophesee-hdf5"), ("e.raw", "evt2"), ("e.parquet", None)],
 )  # fmt: skip
 def test_formats_that_are_only_read_are_not_written(tmp_path, name, format):
     with pytest.raises(ConfigError, match=r"files are only read; write hdf5 \(\.h5\)"):

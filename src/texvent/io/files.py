@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -10,15 +10,17 @@ from texvent._registry import CODECS
 from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.io.block_codec import BlockCodec, BlockReader
+from texvent.io.block_writer import BlockWriter
+from texvent.io.columns import Columns
 from texvent.io.input_checks import refuse_missing, refuse_other_kind
-from texvent.io.protocol import EventCodec, EventReader, EventWriter, RecognisingCodec, SideData
 from texvent.io.reading import read_options
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import SensorSize, SizeLike
 
 
-def codec_for(path: str | Path, format: str | None = None) -> EventCodec:
+def codec_for(path: str | Path, format: str | None = None) -> BlockCodec:
     """The codec that writes `path`: the one called `format`, or the first of its extension.
 
     Raises:
@@ -28,7 +30,7 @@ def codec_for(path: str | Path, format: str | None = None) -> EventCodec:
     """
     path = usable_path(path)
     candidates = _codecs_for(path, format)
-    codec = next((one for one in candidates if isinstance(one, EventCodec)), None)
+    codec = next((one for one in candidates if isinstance(one, BlockCodec)), None)
     if codec is None:
         raise ConfigError(
             f"cannot write {path}: {candidates[0].name} files are only read; write hdf5 (.h5), "
@@ -49,7 +51,7 @@ def writable_formats() -> list[str]:
     return [name for name in CODECS.names() if hasattr(CODECS.load(name), "open_writer")]
 
 
-def codec_that_reads(path: str | Path, format: str | None = None) -> EventReader:
+def codec_that_reads(path: str | Path, format: str | None = None) -> BlockReader:
     """The codec that reads `path`: called `format`, or the one that recognises its content.
 
     Those of its extension are asked first, then all others. Formats without a mark of their own
@@ -72,12 +74,12 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventReader
         return found
     refuse_missing(path)
     extension = path.suffix.lower()
-    codecs: list[EventReader] = [codec() for codec in CODECS.load_all()]
+    codecs: list[BlockReader] = [codec() for codec in CODECS.load_all()]
     own = [codec for codec in codecs if extension in codec.extensions]
     for codec in own + codecs:
-        if isinstance(codec, RecognisingCodec) and codec.recognises(path):
+        if codec.recognises(path):
             return codec
-    unmarked = [codec for codec in own if not isinstance(codec, RecognisingCodec)]
+    unmarked = [codec for codec in own if codec.recognises(path) is None]
     if own:
         return (unmarked or own)[0]
     refuse_other_kind(path)
@@ -104,18 +106,16 @@ def is_event_path(path: Path) -> bool:
     except InputError:
         return False
     is_npy = path.suffix.lower() == ".npy"  # most arrays are frames
-    return not is_npy or (isinstance(codec, RecognisingCodec) and codec.recognises(path))
+    return not is_npy or bool(codec.recognises(path))
 
 
-def side_data(path: str | Path, format: str | None = None) -> SideData:
-    """Triggers and IMU samples beside the events of a file.
+def read_triggers(path: str | Path, format: str | None = None) -> Iterator[Columns] | None:
+    """External triggers beside the events of a file, t in µs; None where it holds none.
 
     Raises:
         ConfigError, InputError: as `codec_that_reads`.
     """
-    codec = codec_that_reads(path, format)
-    read = getattr(codec, "side_data", None)
-    return {} if read is None else dict(read(Path(path)))
+    return codec_that_reads(path, format).triggers(Path(path))
 
 
 def has_checksums(path: str | Path, format: str | None = None) -> bool:
@@ -124,14 +124,14 @@ def has_checksums(path: str | Path, format: str | None = None) -> bool:
     Raises:
         ConfigError, InputError: as `codec_that_reads`.
     """
-    return bool(getattr(codec_that_reads(path, format), "has_checksums", False))
+    return codec_that_reads(path, format).has_checksums
 
 
-def find_folder_codec(path: Path) -> EventReader | None:
+def find_folder_codec(path: Path) -> BlockReader | None:
     """The codec of formats made of several files that recognises those in a folder, or None."""
-    codecs: list[EventReader] = [codec() for codec in CODECS.load_all()]
+    codecs: list[BlockReader] = [codec() for codec in CODECS.load_all()]
     for codec in codecs:
-        if not codec.extensions and isinstance(codec, RecognisingCodec) and codec.recognises(path):
+        if not codec.extensions and codec.recognises(path):
             return codec
     return None
 
@@ -157,12 +157,12 @@ def event_extensions() -> set[str]:
     return {extension for name in CODECS.names() for extension in CODECS.load(name).extensions}
 
 
-def _codecs_for(path: str | Path, format: str | None) -> list[EventReader]:
+def _codecs_for(path: str | Path, format: str | None) -> list[BlockReader]:
     """The codec called `format` alone, or all that share the path's extension, at least one."""
     if format is not None:
         return [CODECS.load(format)()]
     extension = Path(path).suffix.lower()
-    codecs: list[EventReader] = [codec() for codec in CODECS.load_all()]
+    codecs: list[BlockReader] = [codec() for codec in CODECS.load_all()]
     found = [codec for codec in codecs if extension in codec.extensions]
     if found:
         return found
@@ -220,7 +220,7 @@ def open_writer(
     metadata: Mapping[str, Any] | None = None,
     format: str | None = None,
     overwrite: bool = False,
-) -> EventWriter:
+) -> BlockWriter:
     """A writer to use in a `with` block; the file appears when the block ends without error.
 
     Args:

@@ -49,6 +49,7 @@ from texvent.errors import FileFormatError, shown
 from texvent.events import COLUMN_TYPES, OPTIONAL_COLUMNS
 from texvent.io.block_codec import FileContents, TimedRows, read_rows, seek_rows
 from texvent.io.block_writer import FileTarget, FormatLimits
+from texvent.io.columns import Columns
 from texvent.io.hdf5.storage import (
     Hdf5BlockCodec,
     Hdf5Sink,
@@ -59,7 +60,6 @@ from texvent.io.hdf5.storage import (
 )
 from texvent.io.input_checks import TIMESTAMP_SCALE_MS, begins_with, stated_unit
 from texvent.io.metadata import metadata_from_json, metadata_to_json
-from texvent.io.protocol import Columns
 from texvent.io.reading import ReadOptions, choose
 from texvent.io.tables import TABLE_OPTIONS, EventTable, find_tables
 

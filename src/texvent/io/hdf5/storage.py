@@ -21,8 +21,8 @@ from texvent._require import require
 from texvent.errors import FileFormatError, MissingDependencyError
 from texvent.io.block_codec import BlockCodec
 from texvent.io.block_writer import BlockWriter, FileTarget, FormatLimits, WriteBlock
+from texvent.io.columns import Columns
 from texvent.io.input_checks import reporting_damage
-from texvent.io.protocol import Columns
 from texvent.runtime.interrupts import delay_interrupts
 
 if TYPE_CHECKING:
