@@ -206,7 +206,6 @@ FORMATS = {
     "csv": ".csv",
     "e2vid": ".zip",
     "n-imagenet": ".npz",
-    "v2e": ".h5",
     "dsec": ".h5",
     "rosbag1": ".bag",
     "mcap": ".mcap",

@@ -66,15 +66,15 @@ def text_readers() -> list[Reader]:
     """One per kind of text."""
     return [
         *(
-            Reader(f"config {ending}", partial(_make_config, ending), _read_config, 2)
+            Reader(f"config {ending}", partial(_make_config, ending), _read_config)
             for ending in (".toml", ".yaml")
         ),
         *(
-            Reader(f"scene {ending}", partial(_make_scene, ending), _read_scene, 2)
+            Reader(f"scene {ending}", partial(_make_scene, ending), _read_scene)
             for ending in (".toml", ".json")
         ),
         *(
-            Reader(f"list {ending}", partial(_make_text, f"list{ending}", text), _read_list, 2)
+            Reader(f"list {ending}", partial(_make_text, f"list{ending}", text), _read_list)
             for ending, text in LISTS.items()
         ),
         Reader(

@@ -31,7 +31,9 @@ def expected(case: FormatCase) -> EventStream:
 OTHER_LAYOUTS = (
     FormatCase("aedat4-none", "e.aedat4", SMALL),
     FormatCase("aedat4-zstd", "e.aedat4", SMALL),
+    FormatCase("dsec-blosc", "e.h5", SMALL, extra="hdf5plugin"),
     FormatCase("event-utils", "e.h5", SMALL),
+    FormatCase("v2e", "e.h5", SMALL),
     FormatCase("timelens", "e.npz", SMALL),
 )
 """Files that former versions wrote, which are read by their content."""

@@ -21,7 +21,7 @@ FILES = [
     for case in CASES
     if case.file != "folder" and (case.extra is None or importlib.util.find_spec(case.extra))
 ]
-SEALED = ("e2vid", "n-imagenet", "v2e", "dsec", "dsec-blosc", "rosbag1", "mcap", "hdf5", "npz")
+SEALED = ("e2vid", "n-imagenet", "dsec", "rosbag1", "mcap", "hdf5", "npz")
 """Formats whose end can be told; of the others, a cut file may be a shorter recording."""
 
 

@@ -149,25 +149,6 @@ def test_plain_h5py_slices_dsec_as_its_own_loader_does(tmp_path: Path) -> None:
         assert columns_equal(events, x, y, t + offset, p)
 
 
-def test_blosc_needs_hdf5plugin_and_is_dsec_s_own_filter(
-    tmp_path: Path, events: EventStream
-) -> None:
-    pytest.importorskip("hdf5plugin", reason="hdf5plugin (180 MB, extra `blosc`) is not installed")
-    path = save(tmp_path / "events.h5", events, format="dsec-blosc")
-    with h5py.File(path) as file:
-        properties = file["events/t"].id.get_create_plist()
-        assert properties.get_filter(0)[0] == 32_001
-        assert np.array_equal(file["events/t"][:] + file["t_offset"][()], events.t)
-
-
-def test_plain_h5py_reads_v2e_rows(tmp_path: Path, events: EventStream) -> None:
-    path = save(tmp_path / "events.h5", events, format="v2e")
-    with h5py.File(path) as file:
-        rows = file["events"][:]
-    assert rows.dtype == np.uint32
-    assert columns_equal(events, rows[:, 1], rows[:, 2], rows[:, 0], rows[:, 3])
-
-
 def test_plain_numpy_reads_n_imagenet_as_its_loader_does(
     tmp_path: Path, events: EventStream
 ) -> None:
