@@ -15,7 +15,7 @@ from texvent.batch.list_files import read_list
 from texvent.capture.frame_times import read_timestamps
 from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.generate.scene_input import describe_scene, list_nouns, understand
-from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask, write_pixel_mask
+from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask
 from texvent.options.parts import make_part
 from texvent.scenes.spec.data import scene_from_data
 from texvent.scenes.spec.files import load_scene, scene_text
@@ -24,6 +24,7 @@ from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.transform.undistort import read_calibration
 
+from ..io.test_pixel_mask import write_mask
 from .reader import Reader
 
 CONFIG = {
@@ -140,7 +141,7 @@ def _read_list(path: Path) -> str:
 def _make_mask(ending: str, folder: Path) -> Path:
     path = folder / f"mask{ending}"
     mask = np.random.default_rng(0).random(MASK_SIZE.shape) < 0.2
-    write_pixel_mask(path, mask, overwrite=False)
+    write_mask(path, mask)
     return path
 
 

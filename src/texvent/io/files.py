@@ -184,17 +184,22 @@ def open_events(
     stream: str | None = None,
     repair: bool = False,
 ) -> EventPackets:
-    """Events of a file, packet by packet, with flat memory (npz excepted).
+    """Events of a file, which is read when they are asked for, with flat memory (npz excepted).
+
+    Iterate over the packets, cut with `between(start_us, stop_us)`, ask for `size`, `metadata` and
+    `time_range`, or take all with `collect()`. An HDF5 file finds a time without reading the events
+    before; others are read from the start, and no further than needed.
 
     Args:
-        path: the file.
-        format: name of a codec; default: from content and extension.
-        size: for files that do not store it: (width, height), "346x260" or "davis346".
+        path: the file or folder; see `texvent.formats()`.
+        format: its format, where neither content nor extension says.
+        size: sensor size, for formats that do not store it: (width, height), "346x260" or a name,
+            such as "davis346".
         time_unit: of text, npz, npy and HDF5: s, ms, us or ns; default: as the file states, else
             µs of whole numbers and s of fractions.
         columns: of text, npz, npy and HDF5: their order ("x,y,p,t") or names ("t=stamp,x=col,...").
         stream: which recording of a file of several: group, topic, or number of the camera.
-        repair: repair damage, and count it in the metadata, instead of refusing it.
+        repair: repair damage, and count it in `metadata["repair"]`, instead of refusing it.
 
     Raises:
         InputError: no such file, the size is neither stored nor given, or the file holds several
@@ -209,7 +214,7 @@ def open_events(
 
 
 def load(path: str | Path, **options: Any) -> EventStream:
-    """All events of a file, in memory; options and errors as in `open_events`."""
+    """Events of a file, in memory; options and errors as of `texvent.open`."""
     return open_events(path, **options).collect()
 
 

@@ -342,7 +342,6 @@ class EcdCodec(TextCodec):
 LEVEL = 1
 """Of zip's compression: text shrinks to a fourth even so."""
 ENTRY = "events.txt"
-MAX_FIRST_LINE = 64
 
 
 class E2vidZipCodec(TextCodec):
