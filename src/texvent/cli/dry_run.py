@@ -23,11 +23,10 @@ def estimate_run(simulation: Simulation) -> str:
     size = size_text(estimate_bytes(simulation.settings, simulation.video.size))
     memory = f"memory about {size}, however long the clip is"
     ends_s = [time.perf_counter()]
-    events = frames = 0
-    for frame, packet in simulation.steps():
+    events = 0
+    for number, (frame, packet) in enumerate(simulation.steps()):
         events += len(packet)
-        frames += 1
-        if frames > 1 and frame.is_source:
+        if number and frame.is_source:
             ends_s.append(time.perf_counter())
             if len(ends_s) > MOST_PAIRS or ends_s[-1] - ends_s[0] > MOST_SECONDS:
                 break
@@ -39,9 +38,8 @@ def estimate_run(simulation: Simulation) -> str:
         return f"about {events / pairs:,.0f} events per pair ({tried})\n{memory}"
     timed_s = ends_s if pairs == 1 else ends_s[1:]
     seconds = (timed_s[-1] - timed_s[0]) / (len(timed_s) - 1) * (total - 1)
-    return (
-        f"about {events / pairs * (total - 1):,.0f} events in {seconds:,.1f} s ({tried})\n{memory}"
-    )
+    whole = f"about {events / pairs * (total - 1):,.0f} events in {seconds:,.1f} s"
+    return f"{whole} ({tried})\n{memory}"
 
 
 def size_text(size: float) -> str:
