@@ -14,28 +14,11 @@ from texvent.io.files import codec_for, codec_that_reads, load, save
 from texvent.io.prophesee import text_header
 
 from .prophesee_files import (
-    EXTENSIONS,
-    FORMATS,
-    LATE_STREAMS,
-    STREAMS,
     at_times,
     write_words,
 )
 
 EVT = ("evt2", "evt21", "evt3")
-
-
-@pytest.mark.parametrize("format", FORMATS)
-@pytest.mark.parametrize("name", [*STREAMS, *LATE_STREAMS])
-def test_every_stream_comes_back_unchanged(tmp_path: Path, format: str, name: str) -> None:
-    if format == "dat" and name in LATE_STREAMS:  # refused: tests/io/test_formats.py
-        return
-    stream = {**STREAMS, **LATE_STREAMS}[name]()
-    path = save(tmp_path / f"events{EXTENSIONS[format]}", stream, format=format)
-    # Without the format: the content decides who reads it.
-    back = load(path)
-    assert back.equals(stream)
-    assert dict(back.metadata) == dict(stream.metadata)
 
 
 @pytest.mark.parametrize("format", EVT)
