@@ -1,4 +1,4 @@
-"""Configs, lists, manifests, times, calibrations, and what stands on the command line."""
+"""Configs, lists, times, calibrations, words of a command line; network weights without torch."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from texvent.capture.frame_times import read_timestamps
 from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.generate.scene_input import describe_scene, list_nouns, understand
 from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask
+from texvent.metrics.lpips import read_lpips_weights, write_lpips_weights
 from texvent.options.parts import make_part
 from texvent.scenes.spec.data import scene_from_data
 from texvent.scenes.spec.files import load_scene, scene_text
@@ -25,7 +26,8 @@ from texvent.settings.resolution import resolve
 from texvent.transform.undistort import read_calibration
 
 from ..io.test_pixel_mask import write_mask
-from .reader import Reader
+from ..metrics.lpips.lpips_files import NARROW, narrow_weights, write_published
+from .reader import Reader, digest
 
 CONFIG = {
     "run": {"simulator": "physical", "preset": "davis346", "sensor": "davis346", "seed": 3},
@@ -96,6 +98,8 @@ def text_readers() -> list[Reader]:
             Reader(f"option {name}", partial(_make_text, "option.txt", text), partial(_read, parse))
             for name, (text, parse) in TEXTS.items()
         ),
+        Reader("weights .npz", _make_weights, _read_weights),
+        Reader("weights pickle", _make_published, _read_weights),
     ]
 
 
@@ -147,3 +151,17 @@ def _make_mask(ending: str, folder: Path) -> Path:
 
 def _read_mask(path: Path) -> str:
     return repr(read_pixel_mask(path, MASK_SIZE).tolist())
+
+
+def _make_weights(folder: Path) -> Path:
+    write_lpips_weights(narrow_weights(), folder / "alex.npz")
+    return folder / "alex.npz"
+
+
+def _make_published(folder: Path) -> Path:
+    return write_published(narrow_weights(), folder / "weights_v0.1")
+
+
+def _read_weights(path: Path) -> str:
+    arrays = read_lpips_weights(path, NARROW).arrays
+    return digest(arrays[name] for name in sorted(arrays))

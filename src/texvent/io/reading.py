@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError, FileFormatError, InputError, shown
+from texvent.errors import ConfigError, FileFormatError, InputError, few, shown
 from texvent.sensor import SensorSize, SizeLike, as_size
 
 TimeUnit: TypeAlias = Literal["s", "ms", "us", "ns"]
@@ -176,7 +176,7 @@ class UnknownLayoutError(FileFormatError):
     """A file of named arrays holds no events by names that are known."""
 
     def __init__(self, path: Path, holds: Sequence[str]) -> None:
-        listed = ", ".join(holds[:8]) + (f" and {len(holds) - 8} more" if len(holds) > 8 else "")
+        listed = few(holds, 4)
         super().__init__(
             f"{path} holds no events by names that texvent knows (it has: {listed or 'nothing'}); "
             "name the columns (--columns t=NAME,x=NAME,y=NAME,p=NAME) or the order of an array "
