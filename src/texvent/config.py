@@ -130,9 +130,6 @@ class CaptureConfig:
 
     idle_with: ClassVar[IdleOptions] = {
         "timestamps_unit": ("timestamps", (None,)),
-        "camera_amplitude": ("camera", (None,)),
-        "camera_fov": ("camera", (None,)),
-        "duration": ("camera", (None,)),
     }
 
     fps: Fraction | None = None
