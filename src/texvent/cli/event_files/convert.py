@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import csv
-import os
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -263,16 +262,15 @@ def _refuse_same_files(paths: Sequence[Path]) -> None:
     Raises:
         ConfigError: two paths are one file.
     """
-    seen: list[tuple[Path, os.stat_result]] = []
+    seen: dict[tuple[int, int], Path] = {}
     for path in paths:
         status = usable_path(path).stat()
-        for other, known in seen:
-            if os.path.samestat(status, known):
-                raise ConfigError(
-                    f"--merge: {path} and {other} are the same file, whose events would be "
-                    "doubled; name each file once"
-                )
-        seen.append((path, status))
+        other = seen.setdefault((status.st_dev, status.st_ino), path)
+        if other is not path:
+            raise ConfigError(
+                f"--merge: {path} and {other} are the same file, whose events would be doubled; "
+                "name each file once"
+            )
 
 
 def _edits(options: ConvertOptions) -> dict[str, Any]:
