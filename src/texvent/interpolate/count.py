@@ -38,7 +38,7 @@ def count_intermediate(
     Args:
         first: the earlier frame, or its pixels as in `Frame.pixels`.
         second: the later frame, same size.
-        balance: α, on the 0..255 scale, above 0.
+        balance: α, on the 0..255 scale.
         contrast_threshold: δ, log units.
         cap: upper limit of the count.
 
@@ -47,7 +47,7 @@ def count_intermediate(
 
     Raises:
         InputError: the frames differ in size.
-        ConfigError: δ is not above 0, or the cap is negative.
+        ConfigError: δ is not above 0, the cap is negative, or α + I is 0 somewhere.
 
     Equation: (4), section 3.2.1.
     Deviation: the paper takes the remainder by δ, which is below δ and would never interpolate,
