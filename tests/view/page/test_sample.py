@@ -38,23 +38,6 @@ def test_the_sample_is_uniform_over_the_recording() -> None:
     assert np.abs(per_tenth - 400).max() < 95
 
 
-def test_memory_stays_flat() -> None:
-    sample = UniformSample(SIZE, limit=100)
-    for start in range(0, 20_000, 50):
-        sample.append(ramp(20_000)[start : start + 50])
-        assert sum(len(part) for part in sample._kept) <= 200
-
-
-def test_the_seed_decides_the_sample() -> None:
-    def drawn(seed: int) -> EventStream:
-        sample = UniformSample(SIZE, limit=50, seed=seed)
-        sample.append(ramp(1000))
-        return sample.events()
-
-    assert drawn(0).equals(drawn(0))
-    assert not drawn(0).equals(drawn(1))
-
-
 @given(
     gaps=st.lists(st.integers(0, 200_000), min_size=1, max_size=40),
     start_us=st.integers(0, 10**15),
