@@ -150,7 +150,7 @@ def _cut(
     size = packets.size
     if config.events_per_image is not None:
         return cut_counts(packets, size=size, count=config.events_per_image)
-    return cut_windows(packets, size=size, step_us=step_us, window_us=window_us)
+    return cut_windows(packets, step_us=step_us, window_us=window_us)
 
 
 def _video(

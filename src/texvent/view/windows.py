@@ -13,6 +13,7 @@ from texvent.errors import ConfigError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.represent.event_frame import count_events
+from texvent.represent.slices import slice_windows
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame, FrameStream
 from texvent.view.drawing.canvas import Image
@@ -112,7 +113,7 @@ LONGEST_STILL_US = 40_000
 
 
 def cut_windows(
-    packets: Iterable[EventStream], *, size: SensorSize, step_us: Fraction, window_us: int
+    packets: Iterable[EventStream], *, step_us: Fraction, window_us: int
 ) -> Iterator[EventWindow]:
     """Windows `[s, s + window_us)` for s = first event, + step, + 2 steps, ...
 
@@ -121,7 +122,6 @@ def cut_windows(
 
     Args:
         packets: events in time order.
-        size: sensor size, pixels.
         step_us: from one window's start to the next, µs; may be shorter than the window
             (windows overlap) or a fraction.
         window_us: length of each window, µs.
@@ -134,31 +134,33 @@ def cut_windows(
         raise ConfigError(
             f"window {window_us} µs, step {float(step_us):g} µs; both must be above 0"
         )
-    held = EventStream.empty(size)
-    first_us: int | None = None
-    index = 0
+    checked = _refuse_pauses(packets, step_us)
+    for start_us, stop_us, part in slice_windows(checked, step_us=step_us, window_us=window_us):
+        yield EventWindow(start_us, stop_us, count_events(part))
+
+
+def _refuse_pauses(packets: Iterable[EventStream], step_us: Fraction) -> Iterator[EventStream]:
+    """The packets, up to a pause of hours of empty images, such as a clock that was set.
+
+    Raises:
+        InputError: there is such a pause.
+    """
+    last_us: int | None = None
     for packet in packets:
-        if len(packet) == 0:
+        if not len(packet):
             continue
-        first_us = int(packet.t[0]) if first_us is None else first_us
-        held = EventStream.concat([held, packet])
-        _refuse_pause(held.t, step_us)
-        # A window is complete once an event at or after its end is known.
-        while (start_us := first_us + round(index * step_us)) + window_us <= int(held.t[-1]):
-            yield _window(held, start_us, window_us)
-            index += 1
-        held = held[int(np.searchsorted(held.t, start_us)) :]
-    while first_us is not None and len(held):
-        start_us = first_us + round(index * step_us)
-        held = held[int(np.searchsorted(held.t, start_us)) :]
-        if len(held):
-            yield _window(held, start_us, window_us)
-        index += 1
-
-
-def _window(events: EventStream, start_us: int, window_us: int) -> EventWindow:
-    stop_us = start_us + window_us
-    return EventWindow(start_us, stop_us, count_events(events.cut(start_us, stop_us)))
+        times = packet.t if last_us is None else np.concatenate([[last_us], packet.t])
+        last_us = int(packet.t[-1])
+        pauses = np.diff(times)
+        if len(pauses) and pauses.max() > MOST_EMPTY * step_us:
+            at = int(pauses.argmax())
+            begin, end = (times[at : at + 2] / MICROSECONDS).tolist()
+            images = int(pauses[at] // step_us)
+            raise InputError(
+                f"no event from {begin:g} to {end:g} s: {images:,} images would be empty; show a "
+                "part (--time START,STOP), or speed the video up (--speed)"
+            )
+        yield packet
 
 
 def cut_counts(
@@ -181,23 +183,6 @@ def cut_counts(
             yield EventWindow(int(part.t[0]), stop_us, count_events(part))
     if len(held):
         yield EventWindow(int(held.t[0]), int(held.t[-1]) + 1, count_events(held))
-
-
-def _refuse_pause(times: NDArray[np.int64], step_us: Fraction) -> None:
-    """Refuse a pause that would be hours of empty images, such as a clock that was set in between.
-
-    Raises:
-        InputError: see above.
-    """
-    pauses = np.diff(times)
-    if not len(pauses) or pauses.max() <= MOST_EMPTY * step_us:
-        return
-    at = int(pauses.argmax())
-    begin, end = (times[at : at + 2] / MICROSECONDS).tolist()
-    raise InputError(
-        f"no event from {begin:g} to {end:g} s: {int((times[at + 1] - times[at]) // step_us):,} "
-        "images would be empty; show a part (--time START,STOP), or speed the video up (--speed)"
-    )
 
 
 def time_range(packets: EventPackets) -> tuple[int, int] | None:

@@ -29,7 +29,7 @@ def at_times(*times: int) -> EventStream:
 def counted(events: list[EventStream], step: Fraction, window: int) -> list[tuple[int, int, int]]:
     return [
         (one.start_us, one.stop_us, one.event_count)
-        for one in cut_windows(events, size=SIZE, step_us=step, window_us=window)
+        for one in cut_windows(events, step_us=step, window_us=window)
     ]
 
 
