@@ -20,6 +20,8 @@ from texvent.io.files import load, open_events, save
 from texvent.io.hdf5 import native, storage
 from texvent.sensor import SensorSize
 
+from ..format_cases import random_events
+
 SIZE = SensorSize(6, 5)
 
 
@@ -36,7 +38,9 @@ def index_by_definition(times: np.ndarray, length: int) -> list[int]:
     ]
 
 
-def test_plain_h5py_finds_the_universal_layout(tmp_path: Path, stream: EventStream) -> None:
+@pytest.mark.parametrize("count", [0, 150_000])
+def test_plain_h5py_finds_the_universal_layout(tmp_path: Path, count: int) -> None:
+    stream = random_events(count, SIZE)
     path = save(tmp_path / "events.h5", stream)
     with h5py.File(path, "r") as file:
         for name, dtype in {"x": "<u2", "y": "<u2", "t": "<i8", "p": "|u1"}.items():
