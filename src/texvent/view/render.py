@@ -28,7 +28,6 @@ from texvent.view.windows import (
     cut_counts,
     cut_windows,
     still_window_us,
-    time_range,
 )
 
 
@@ -183,7 +182,7 @@ def _video(
 
 
 def _still(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -> bytes:
-    extent = time_range(packets)
+    extent = packets.time_range
     if extent is None:
         raise _no_events()
     window_us = config.window_us or still_window_us(extent)
@@ -217,7 +216,7 @@ def _activity(window: EventWindow, config: RenderConfig) -> tuple[int, int]:
 
 def _contact_sheet(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -> bytes:
     """Moments evenly spaced over the recording, in reading order."""
-    extent = time_range(packets)
+    extent = packets.time_range
     if extent is None:
         raise _no_events()
     step_us = Fraction(extent[1] - extent[0], config.panels)
@@ -259,7 +258,7 @@ def _page(
     *,
     overwrite: bool,
 ) -> None:
-    extent = time_range(packets)
+    extent = packets.time_range
     still = _still(packets, config, source) if extent is not None else None
     with PageWriter(
         path,

@@ -10,7 +10,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import ConfigError, InputError
-from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.represent.event_frame import count_events
 from texvent.represent.slices import slice_windows
@@ -183,17 +182,6 @@ def cut_counts(
             yield EventWindow(int(part.t[0]), stop_us, count_events(part))
     if len(held):
         yield EventWindow(int(held.t[0]), int(held.t[-1]) + 1, count_events(held))
-
-
-def time_range(packets: EventPackets) -> tuple[int, int] | None:
-    """Half-open range of the event times, µs, from one pass; None without events."""
-    first: int | None = None
-    stop = 0
-    for packet in packets:
-        if len(packet):
-            first = int(packet.t[0]) if first is None else first
-            stop = int(packet.t[-1]) + 1
-    return None if first is None else (first, stop)
 
 
 def still_window_us(extent: tuple[int, int]) -> int:

@@ -8,14 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.view.windows import (
     cut_counts,
     cut_windows,
     still_window_us,
-    time_range,
 )
 
 SIZE = SensorSize(4, 4)
@@ -64,11 +62,6 @@ def test_windows_side_by_side_hold_every_event_once(
         assert count == sum(start <= t < stop for t in times)
     if step.denominator == 1:
         assert sum(count for *_, count in found) == len(times)
-
-
-def test_the_range_is_half_open_over_all_packets() -> None:
-    packets = EventPackets([at_times(7, 8), EventStream.empty(SIZE), at_times(9)], SIZE)
-    assert time_range(packets) == (7, 10)
 
 
 @pytest.mark.parametrize(("span", "window"), [(10**7, 40_000), (500_000, 10_000), (3, 1)])
