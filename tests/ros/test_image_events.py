@@ -49,17 +49,6 @@ def expected(first_ns: int, times=TIMES, frames=FRAMES) -> dict:
     return {**columns, "ns": [first_ns + 1000 * t for t in events.t.tolist()]}
 
 
-def test_images_give_the_events_of_the_video_in_ros_time():
-    logic, warned = make()
-    packets = []
-    for i, pixels in enumerate(FRAMES):
-        packets += logic.take(image(pixels, START_NS + i * STEP_NS), 0).packets
-    assert decode(packets) == expected(START_NS)
-    assert [packet.sequence for packet in packets] == list(range(len(packets)))
-    assert {packet.frame for packet in packets} == {"cam"}
-    assert not warned
-
-
 def test_messages_span_no_more_than_the_packet_length_and_are_stamped_with_their_first_event():
     logic, _ = make(packet_ms=5.0)
     packets = [

@@ -46,31 +46,6 @@ def find_rested(
     return rested
 
 
-def find_places_in_bursts(
-    x: UInt16Array,
-    y: UInt16Array,
-    t: Int64Array,
-    p: NDArray[np.uint8],
-    last_us: Int64Array,
-    burst: NDArray[np.uint8],
-    threshold_us: int,
-) -> NDArray[np.uint8]:
-    """See the kernel of this name."""
-    places = np.zeros(len(t), np.uint8)
-    polarity, place = burst
-    for event in range(len(t)):
-        pixel = int(y[event]), int(x[event])
-        is_first = (
-            last_us[pixel] == NEVER
-            or polarity[pixel] != p[event]
-            or t[event] - last_us[pixel] >= threshold_us
-        )
-        place[pixel] = 1 if is_first else min(int(place[pixel]) + 1, 3)
-        polarity[pixel], last_us[pixel] = p[event], t[event]
-        places[event] = place[pixel]
-    return places
-
-
 def fire_blocks(
     block: NDArray[np.int64],
     p: NDArray[np.uint8],

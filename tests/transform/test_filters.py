@@ -221,14 +221,6 @@ def test_the_compiled_filters_equal_the_reference(
     np.testing.assert_array_equal(found, expected)
     np.testing.assert_array_equal(*kept)
 
-    last = [np.full(SIZE.shape, reference.NEVER, np.int64) for _ in range(2)]
-    burst = [np.zeros((2, *SIZE.shape), np.uint8) for _ in range(2)]
-    columns = events.x, events.y, t, events.p
-    expected = reference.find_places_in_bursts(*columns, last[0], burst[0], window + 1)
-    found = kernels_cpu.find_places_in_bursts(*columns, last[1], burst[1], window + 1)
-    np.testing.assert_array_equal(found, expected)
-    np.testing.assert_array_equal(*burst)
-
 
 def test_a_filter_by_text() -> None:
     text = "background-activity: window_us=5000 ,support=2,polarity=true"

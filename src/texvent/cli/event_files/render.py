@@ -28,7 +28,7 @@ class RenderOptions(ShownEventsOptions):
     """Which events, and where the result goes."""
 
     main_options: ClassVar[tuple[str, ...]] = (
-        "out", "video", "time", "speed", "render_fps", "window", "decay", "panels", "overlay",
+        "out", "video", "time", "speed", "render_fps", "window", "panels", "overlay",
         "palette", "overwrite",
     )  # fmt: skip
 
