@@ -55,7 +55,7 @@ def palette_properties(palette: Palette) -> str:
 
 
 LABELS = {
-    "prompt": "Prompt",
+    "ON": "ON",
     "texvent_version": "texvent version",
 }
 """Labels of facts where the capitalised name is not enough."""
