@@ -85,18 +85,6 @@ def test_ms_to_idx_spans_silence_and_batches(
     assert index == index_by_definition(np.array(times), 92)
 
 
-def test_a_window_is_found_as_dsec_readers_look_it_up(tmp_path: Path) -> None:
-    rng = np.random.default_rng(0)
-    events = at_times(*np.sort(rng.integers(0, 80_000, 5000)).tolist())
-    with h5py.File(save(tmp_path / "events.h5", events), "r") as file:
-        index, times = file["ms_to_idx"][()], file["events/t"][()]
-    start_us, stop_us = 20_300, 61_700
-    first, last = index[start_us // 1000], index[-(-stop_us // 1000)]
-    part = times[first:last]
-    part = part[(part >= start_us) & (part < stop_us)]
-    np.testing.assert_array_equal(part, events.between(start_us, stop_us).t)
-
-
 def test_provenance_is_whole_as_json_and_readable_by_name(tmp_path: Path) -> None:
     metadata = {"prompt": "a cat 🐈", "seed": 0, "deep": {"a": [1, 2]}, "width": 999, "none": None}
     path = save(tmp_path / "events.h5", EventStream.empty(SIZE, metadata))
