@@ -44,6 +44,10 @@ QUICK: Mapping[str, Any] = {
 class DigitsOptions:
     """Data, simulators and networks."""
 
+    main_options: ClassVar[tuple[str, ...]] = (
+        *("mnist", "nmnist", "quick", "arms", "ways", "work", "jobs", "out", "overwrite"),
+    )
+
     mnist: Path = REQUIRED
     """Folder of MNIST's test images and labels."""
     nmnist: Path = REQUIRED
