@@ -1,5 +1,3 @@
-"""The folder of a test, which must stay empty."""
-
 from __future__ import annotations
 
 from collections.abc import Callable

@@ -11,6 +11,7 @@ from tools.licences import Package, faults, is_allowed, licence_of, needed_by
         "MIT OR GPL-3.0-only",
         "Apache-2.0 WITH LLVM-exception",
         "MPL-2.0 AND (GPL-2.0-only OR MIT)",
+        "(MIT)",
     ],
 )
 def test_an_expression_is_allowed_if_one_choice_is(expression):
@@ -21,7 +22,6 @@ def test_an_expression_is_allowed_if_one_choice_is(expression):
     "expression",
     [
         "GPL-3.0-or-later",
-        "CC-BY-NC-4.0",
         "MIT AND GPL-2.0-only",
         "(MIT OR ISC) AND LGPL-3.0-only",
         "GPL-2.0-only WITH Classpath-exception-2.0",
@@ -52,7 +52,15 @@ def test_an_expression_with_a_part_that_is_not_is_refused(expression):
         ),
         # Two or three clauses? The licence file must be read.
         (None, "BSD", ["License :: OSI Approved :: BSD License"], None),
-        (None, "GPL", ["License :: OSI Approved :: GNU General Public License (GPL)"], None),
+        (
+            None,
+            "",
+            [
+                "License :: OSI Approved :: MIT License",
+                "License :: OSI Approved :: GNU General Public License (GPL)",
+            ],
+            None,
+        ),
         (None, None, [], None),
     ],
 )
