@@ -138,7 +138,7 @@ SYMMETRIC = {
 
 
 @pytest.mark.parametrize("name", SYMMETRIC)
-def test_inverted_contrast_swaps_on_and_off(name, kernels):
+def test_inverted_contrast_swaps_on_and_off(name):
     config, offset = SYMMETRIC[name]
     random = np.random.default_rng(0)
     # ln(offset + I) runs over -1..1 around ln 80; its negative stays above v2e's linear part.

@@ -117,7 +117,7 @@ def test_senpi_with_levels_fires_as_without(dtypes, seed, threshold, sigma, rest
 
 
 @pytest.mark.parametrize("dtype", [np.uint8, np.float32])
-def test_only_pixels_outside_their_levels_are_looked_at(kernels, dtype):
+def test_only_pixels_outside_their_levels_are_looked_at(dtype):
     first = np.full((2, 300), 100, dtype)
     levels = TriggerLevels(first, BrightnessCurve(1.0, -10.0))
     assert len(levels.find_outside_levels(first)[0]) == 600
@@ -133,7 +133,7 @@ def test_only_pixels_outside_their_levels_are_looked_at(kernels, dtype):
     assert now.tolist() == [90, 120, 130]
 
 
-def test_a_pixel_that_always_fires_is_always_looked_at(kernels):
+def test_a_pixel_that_always_fires_is_always_looked_at():
     first = np.full((1, 3), 9, np.uint8)
     levels = TriggerLevels(first, BrightnessCurve(1.0, 0.0))
     # ON from below 0 on, OFF from above 255 on, and nowhere silent.
@@ -143,7 +143,7 @@ def test_a_pixel_that_always_fires_is_always_looked_at(kernels):
     assert levels.find_outside_levels(np.full((1, 3), 0, np.uint8))[0].tolist() == [0, 1, 2]
 
 
-def test_redrawn_thresholds_may_fire_any_pixel(kernels):
+def test_redrawn_thresholds_may_fire_any_pixel():
     config = EsimConfig(threshold_sigma=0.1)
     dim, bright = np.full((30, 30), 100.0), np.full((30, 30), 102.0)
     frames = [Frame(dim, 0), Frame(bright, 1000)]

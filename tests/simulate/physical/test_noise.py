@@ -17,7 +17,7 @@ from .physical_pixels import clean, intensity, noisy, poisson_interval
 # Leak.
 
 
-def test_leak_fires_on_events_at_its_rate_labelled_noise(kernels):
+def test_leak_fires_on_events_at_its_rate_labelled_noise():
     simulator = clean(leak_rate_hz=5.0, leak_rate_decades=0.0)
     events = run(simulator, static(90.0, fps=24, seconds=1.0))
     assert events.t == pytest.approx([200_000, 400_000, 600_000, 800_000], abs=2)
@@ -37,7 +37,7 @@ def test_the_leak_rate_is_per_second_at_any_frame_rate(fps):
     assert len(late) == pytest.approx(mean / 2, abs=poisson_interval(mean / 2))
 
 
-def test_an_event_that_light_made_more_than_leak_is_signal(kernels):
+def test_an_event_that_light_made_more_than_leak_is_signal():
     # The leak makes a sixth of the change.
     frames = frames_of([intensity(4), intensity(5)], [0, 1_000_000])[:1] + frames_of(
         [intensity(4.99)], [990_000]
@@ -120,7 +120,7 @@ def first_times(simulator) -> np.ndarray:
     return times
 
 
-def test_thresholds_have_the_stated_mean_and_mismatch(kernels):
+def test_thresholds_have_the_stated_mean_and_mismatch():
     thresholds = first_times(clean(threshold_sigma=0.03)) * 1e-6
     assert thresholds.mean() == pytest.approx(0.2, abs=5 * 0.03 / math.sqrt(600))
     assert thresholds.std() == pytest.approx(0.03, rel=5 / math.sqrt(1200))
@@ -140,7 +140,7 @@ def test_the_sensor_seed_fixes_the_sensor_and_nothing_else():
 
 
 @pytest.mark.parametrize(("ratio", "whole"), [(1.0, 0.4), (0.25, 0.5)])
-def test_the_first_frame_finds_pixels_in_random_phase(kernels, ratio, whole):
+def test_the_first_frame_finds_pixels_in_random_phase(ratio, whole):
     times = first_times(clean(initial_phase="random", on_off_ratio=ratio)) * 1e-6
     # From anywhere between both thresholds, 0.2 and 0.2 or 0.4 and 0.1, up to the ON threshold.
     quartiles = np.quantile(times / whole, [0.25, 0.5, 0.75])

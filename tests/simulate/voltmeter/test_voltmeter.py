@@ -48,7 +48,7 @@ def distance_to(cdf, sample) -> float:
     return float(largest * math.sqrt(len(ordered)))
 
 
-def test_a_random_start_lies_on_the_side_that_the_leak_drives_to(kernels):
+def test_a_random_start_lies_on_the_side_that_the_leak_drives_to():
     config = with_only(k4=-1e-5, initial_phase="random")
     frames = static(90.0, fps=100, seconds=0.1, shape=(20, 20))
     events = run(VoltmeterSimulator(config), frames)
@@ -66,7 +66,7 @@ def test_drift_and_diffusion_are_equations_10_and_11():
 
 
 @pytest.mark.parametrize("sign", [1, -1])
-def test_without_noise_a_change_fires_evenly(kernels, sign):
+def test_without_noise_a_change_fires_evenly(sign):
     values = (80, 160) if sign > 0 else (160, 80)
     events = run(VoltmeterSimulator(QUIET), frames_of(values, [0, 1_000_000]))
     volts = 5.265 * 80 / 140
@@ -75,7 +75,7 @@ def test_without_noise_a_change_fires_evenly(kernels, sign):
     assert (events.label == SIGNAL).all()
 
 
-def test_without_noise_the_residual_is_carried_over(kernels):
+def test_without_noise_the_residual_is_carried_over():
     # Each frame moves by 5.265 * 5 / (L + 22.5); the sum decides, however it is cut.
     levels = [80 + 5 * i for i in range(17)]
     simulator = VoltmeterSimulator(QUIET)
@@ -86,7 +86,7 @@ def test_without_noise_the_residual_is_carried_over(kernels):
 
 
 @pytest.mark.parametrize("fps", [24, 1000])
-def test_leakage_fires_on_events_at_its_rate_at_any_frame_rate(kernels, fps):
+def test_leakage_fires_on_events_at_its_rate_at_any_frame_rate(fps):
     config = with_only(k4=1e-5)
     events = run(VoltmeterSimulator(config), static(90, fps=fps, seconds=1.05))
     assert events.t == pytest.approx([k * 100_000 for k in range(1, 11)], abs=1)
@@ -170,7 +170,7 @@ def test_the_first_polarity_has_its_closed_form():
     assert probability_along_drift(column(0.0), column(0.0), column(1.0), column(1.0)) == 0.5
 
 
-def test_pure_noise_fires_both_polarities_alike(kernels):
+def test_pure_noise_fires_both_polarities_alike():
     config = with_only(k6=0.05)
     simulator = VoltmeterSimulator(config)
     frames = [Frame(np.full((12, 15), 90.0), t) for t in (0, 100_000)]
