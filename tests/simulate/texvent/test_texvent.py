@@ -172,34 +172,6 @@ def test_float_frames_are_not_rounded_to_whole_levels():
     assert len(simulate(frames, contrast_threshold=4e-4)) == 9
 
 
-def test_bit_depths_of_the_same_picture_give_the_same_events():
-    pictures = np.random.default_rng(5).integers(0, 256, (4, 6, 7))
-    results = [
-        simulate(
-            [
-                Frame((pictures[k] * factor).astype(dtype), 1000 * k, k != 1)
-                for k in range(len(pictures))
-            ],
-            noise="adaptive",
-            noise_rate_hz=100.0,
-        )
-        for dtype, factor in ((np.uint8, 1), (np.uint16, 257), (np.float32, 1), (np.float64, 1))
-    ]
-    assert len(results[0]) > 50
-    assert all(result.equals(results[0]) for result in results)
-
-
-def test_the_first_frame_after_reset_gives_an_empty_stream():
-    simulator = TexventSimulator(paper(noise_rate_hz=1e4))
-    frames = [pixel(10, 0), pixel(200, 100)]
-    first_run = [simulator.step(frame) for frame in frames]
-    simulator.reset()
-    second_run = [simulator.step(frame) for frame in frames]
-    assert [len(packet) for packet in first_run] == [0, len(first_run[1])]
-    assert len(first_run[1]) > 0
-    assert all(one.equals(two) for one, two in zip(first_run, second_run, strict=True))
-
-
 def test_intervals_may_vary_from_one_microsecond_to_hours():
     times = [-5, -4, 1000, 10**10]
     frames = [pixel(level, t) for level, t in zip((10, 200, 10, 200), times, strict=True)]
@@ -219,28 +191,6 @@ def test_the_paper_preset_is_the_publication():
     assert not config.multi_event
     simulator = TexventSimulator(TexventConfig(contrast_threshold=0.3, balance=10.0))
     assert (simulator.contrast_threshold, simulator.balance) == (0.3, 10.0)
-
-
-@pytest.mark.parametrize(
-    ("pixels", "t_us", "message"),
-    [
-        (np.zeros((2, 3), np.uint8), 2000, "is 3x2, the frames before it are 2x2"),
-        (np.zeros((2, 2), np.uint8), 1000, "does not come after"),
-        (np.zeros((2, 2), np.uint8), 999, "must strictly increase"),
-        (np.full((2, 2), np.nan), 2000, "4 pixel.s. that are NaN"),
-        (np.full((2, 2), -1.0), 2000, "negative"),
-        (np.full((2, 2), np.inf), 2000, "infinite"),
-    ],
-)
-def test_step_fails_on_bad_frames_and_can_go_on(pixels, t_us, message):
-    good = [Frame(np.full((2, 2), level, np.uint8), 1000 * k) for k, level in enumerate((9, 99, 9))]
-    simulator = TexventSimulator(paper())
-    packets = [simulator.step(frame) for frame in good[:2]]
-    with pytest.raises(InputError, match=message):
-        simulator.step(Frame(pixels, t_us))
-    packets.append(simulator.step(good[2]))
-    undisturbed = simulate(good, noise="adaptive")
-    assert EventStream.concat(packets).equals(undisturbed)
 
 
 def test_step_fails_if_gaussian_noise_would_fire_every_time():

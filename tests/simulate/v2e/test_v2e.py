@@ -75,8 +75,7 @@ def test_leak_fires_on_events_at_its_rate_at_any_frame_rate(fps):
     assert (events.label == NOISE).all()
 
 
-@pytest.mark.parametrize("fps", [24, 1000])
-@pytest.mark.parametrize("intensity", [0.0, 255.0])
+@pytest.mark.parametrize(("fps", "intensity"), [(24, 0.0), (24, 255.0), (500, 0.0)])
 def test_shot_noise_has_its_rate_at_any_frame_rate(fps, intensity):
     config = with_only(shot_noise_rate_hz=5.0)
     frames = static(intensity, fps=fps, seconds=0.5, shape=(60, 80))
@@ -138,12 +137,6 @@ def test_a_change_kept_back_by_the_refractory_period_fires_later():
     events = run(V2eSimulator(config), frames)
     # Crossings every 10 ms; what the period kept back is due when an interval starts after it.
     assert events.t == pytest.approx([10_000, 40_000, 70_000, 100_000, 140_500], abs=1)
-
-
-def test_moving_light_is_labelled_signal():
-    config = with_only(leak_rate_hz=0.1)
-    frames = frames_of([40, 80], [0, 41_667])
-    assert (run(V2eSimulator(config), frames).label == SIGNAL).all()
 
 
 def test_eq4_counts_as_steeply_as_the_model_at_black():

@@ -94,8 +94,7 @@ def test_leakage_fires_on_events_at_its_rate_at_any_frame_rate(fps):
     assert (events.label == NOISE).all()
 
 
-@pytest.mark.parametrize("fps", [24, 1000])
-@pytest.mark.parametrize("preset", ["davis346", "davis240"])
+@pytest.mark.parametrize(("preset", "fps"), [("davis346", 24), ("davis240", 24), ("davis240", 500)])
 def test_a_static_scene_has_the_rate_of_its_drift_at_any_frame_rate(preset, fps):
     config = VoltmeterSimulator.presets[preset]
     frames = static(250.0, fps=fps, seconds=1.0, shape=(40, 50))
@@ -107,7 +106,7 @@ def test_a_static_scene_has_the_rate_of_its_drift_at_any_frame_rate(preset, fps)
     assert events.t.mean() == pytest.approx(500_000, abs=4e6 / math.sqrt(12 * expected))
 
 
-@pytest.mark.parametrize("frame_us", [400_000, 2000, 100])
+@pytest.mark.parametrize("frame_us", [400_000, 500])
 def test_intervals_with_drift_are_inverse_gaussian_at_any_frame_rate(frame_us):
     # Mean 1 / μ = 1 ms, shape 1 / σ² = 10 ms; OFF first is a matter of exp(−20).
     config = with_only(k4=1e-3, k6=math.sqrt(1e-4))
@@ -168,17 +167,6 @@ def test_the_first_polarity_has_its_closed_form():
     assert almost == pytest.approx(1.5 / 2.0)
     assert probability_along_drift(column(1.0), column(0.0), column(1.0), column(1.0)) == 1.0
     assert probability_along_drift(column(0.0), column(0.0), column(1.0), column(1.0)) == 0.5
-
-
-def test_pure_noise_fires_both_polarities_alike():
-    config = with_only(k6=0.05)
-    simulator = VoltmeterSimulator(config)
-    frames = [Frame(np.full((12, 15), 90.0), t) for t in (0, 100_000)]
-    events = run(simulator, frames)
-    assert len(events) > 1000
-    # The gap between events is heavy-tailed, but each polarity is a fair coin.
-    assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
-    assert (events.label == NOISE).all()
 
 
 def test_eq4_counts_with_the_gain_and_the_dark_offset():
