@@ -25,10 +25,6 @@ def with_only(*, initial_phase="zero", **constants) -> VoltmeterConfig:
     return VoltmeterConfig(constants=text, initial_phase=initial_phase)
 
 
-def column(*values: float) -> np.ndarray:
-    return np.array(values, np.float64)
-
-
 def normal_cdf(values):
     return np.array([0.5 * math.erfc(-value / math.sqrt(2)) for value in values])
 
@@ -59,7 +55,7 @@ def test_a_random_start_lies_on_the_side_that_the_leak_drives_to():
 
 def test_drift_and_diffusion_are_equations_10_and_11():
     constants = Constants(k1=5.0, k2=20.0, k3=1e-4, k4=1e-7, k5=5e-9, k6=1e-5)
-    signal, drift, sigma = drift_and_diffusion(column(90.0), column(110.0), 1000, constants)
+    signal, drift, sigma = drift_and_diffusion(90.0, 110.0, 1000, constants)
     assert signal == pytest.approx(5.0 * 20 / 1000 / 120)
     assert drift == pytest.approx(5.0 * 20 / 1000 / 120 + 1e-7 + 5e-7)
     assert sigma == pytest.approx(1e-4 * 10 / 120 + 1e-5)
@@ -124,49 +120,39 @@ def test_intervals_with_drift_are_inverse_gaussian_at_any_frame_rate(frame_us):
     )
 
 
-def test_passage_times_are_inverse_gaussian_at_any_ratio_of_drift_to_noise():
-    random = np.random.default_rng(2)
-    square, chance = random.standard_normal(4000) ** 2, random.uniform(size=4000)
-    for sigma in (0.1, 1.0, 10.0):
-        ones = np.ones(4000)
-        times = first_passage_time(ones, ones, sigma * ones, square, chance)
+def draw_times(distance, speed, sigma, *, seed):
+    random = np.random.default_rng(seed)
+    draws = zip(random.standard_normal(4000) ** 2, random.uniform(size=4000), strict=True)
+    return np.array([first_passage_time(distance, speed, sigma, *draw) for draw in draws])
 
-        def cdf(t, shape=1 / sigma**2):
-            return inverse_gaussian_cdf(t, 1.0, shape)
 
-        assert distance_to(cdf, times) < ABOVE_99_9_PERCENT
+@pytest.mark.parametrize("sigma", [0.1, 1.0, 10.0])
+def test_passage_times_are_inverse_gaussian_at_any_ratio_of_drift_to_noise(sigma):
+    times = draw_times(1.0, 1.0, sigma, seed=2)
+    assert distance_to(lambda t: inverse_gaussian_cdf(t, 1.0, 1 / sigma**2), times) < (
+        ABOVE_99_9_PERCENT
+    )
 
 
 def test_passage_times_without_drift_are_levy():
-    random = np.random.default_rng(3)
-    square, chance = random.standard_normal(4000) ** 2, random.uniform(size=4000)
-    ones = np.ones(4000)
-    times = first_passage_time(2 * ones, 0 * ones, 0.5 * ones, square, chance)
-
-    def cdf(t):
-        return 2 * normal_cdf(-2 / 0.5 / np.sqrt(t))
-
-    assert distance_to(cdf, times) < ABOVE_99_9_PERCENT
+    times = draw_times(2.0, 0.0, 0.5, seed=3)
+    assert distance_to(lambda t: 2 * normal_cdf(-2 / 0.5 / np.sqrt(t)), times) < ABOVE_99_9_PERCENT
 
 
 def test_passage_times_without_noise_are_certain():
-    times = first_passage_time(
-        column(1, 3, 1), column(2, 2, 0), column(0, 0, 0), column(1, 1, 1), column(0.9, 0.9, 0.9)
-    )
-    assert times.tolist() == [0.5, 1.5, math.inf]
+    places = (1.0, 2.0), (3.0, 2.0), (1.0, 0.0)
+    times = [first_passage_time(*place, 0.0, 1.0, 0.9) for place in places]
+    assert times == [0.5, 1.5, math.inf]
 
 
 def test_the_first_polarity_has_its_closed_form():
     # (1 − e^{−sb}) / (1 − e^{−s(a+b)}), s = 2 μ / σ² = 1, a = 0.5, b = 1.5.
     expected = (1 - math.exp(-1.5)) / (1 - math.exp(-2.0))
-    chance = probability_along_drift(column(0.5), column(1.0), column(0.5), column(1.5))
-    assert chance == pytest.approx(expected)
-    without_drift = probability_along_drift(column(0.0), column(1.0), column(0.5), column(1.5))
-    assert without_drift == pytest.approx(1.5 / 2.0)
-    almost = probability_along_drift(column(1e-300), column(1.0), column(0.5), column(1.5))
-    assert almost == pytest.approx(1.5 / 2.0)
-    assert probability_along_drift(column(1.0), column(0.0), column(1.0), column(1.0)) == 1.0
-    assert probability_along_drift(column(0.0), column(0.0), column(1.0), column(1.0)) == 0.5
+    assert probability_along_drift(0.5, 1.0, 0.5, 1.5) == pytest.approx(expected)
+    assert probability_along_drift(0.0, 1.0, 0.5, 1.5) == pytest.approx(1.5 / 2.0)
+    assert probability_along_drift(1e-300, 1.0, 0.5, 1.5) == pytest.approx(1.5 / 2.0)
+    assert probability_along_drift(1.0, 0.0, 1.0, 1.0) == 1.0
+    assert probability_along_drift(0.0, 0.0, 1.0, 1.0) == 0.5
 
 
 def test_eq4_counts_with_the_gain_and_the_dark_offset():
