@@ -7,7 +7,7 @@ from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.config import InterpolateConfig
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.flow import PairFlow
-from texvent.interpolate.pairing import densify
+from texvent.interpolate.pairing import pair_frames
 from texvent.interpolate.simple import BlendInterpolator
 from texvent.simulate.build import benefits_from_denser_frames
 from texvent.simulate.texvent.simulator import TexventSimulator
@@ -92,9 +92,10 @@ def test_flow_for_the_count_and_for_the_frames_is_computed_once(moving_texture, 
     calls = []
     compute = dis.both_ways
     monkeypatch.setattr(dis, "both_ways", lambda *pair: calls.append(pair) or compute(*pair))
-    frames = list(densify(video, interpolator, config, balance=30.0, contrast_threshold=0.2))
+    policy = CountPolicy(config, video, interpolator, balance=30.0, contrast_threshold=0.2)
+    pairs = list(pair_frames(video, interpolator, config, policy))
     assert len(calls) == 2
-    assert len(frames) >= 3 + 2 * 4
+    assert min(len(pair.times_us) for pair in pairs[1:]) >= 4
 
 
 def test_a_pairs_flow_is_remembered_but_not_its_frames(moving_texture):

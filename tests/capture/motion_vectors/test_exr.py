@@ -76,7 +76,7 @@ def test_a_real_render_of_blender():
     assert np.hypot(*middle.forward.T).max() > 3.0  # the ball
     assert 3.0 < middle.depth.min() < middle.depth.max() < 30.0
     assert len(np.unique(middle.instance)) >= 5
-    with pytest.raises(InputError, match="motion_convention=blender,y-up; give that"):
+    with pytest.raises(InputError, match="motion_convention=blender,y-down,y-up; give that"):
         open_frames(
             BLENDER, CaptureConfig(motion=BLENDER / "motion", motion_convention="blender,y-down")
         )

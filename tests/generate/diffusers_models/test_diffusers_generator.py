@@ -42,10 +42,7 @@ from texvent.generate.video_models.known_models import MODELS  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
 from texvent.settings.resolution import resolve  # noqa: E402
 
-from .. import tiny_pipelines  # noqa: E402
 from ..tiny_models import OPTIONS, PROMPT, build, pixels  # noqa: E402
-
-ALL = tuple(tiny_pipelines.BUILDERS)
 
 
 class Watcher:
@@ -61,7 +58,7 @@ class Watcher:
             raise KeyboardInterrupt
 
 
-@pytest.mark.parametrize("name", ALL)
+@pytest.mark.parametrize("name", ["wan", "cosmos", "ltx"])
 def test_prompt_to_events_and_a_second_run_does_not_call_the_pipeline(name, models, monkeypatch):
     options = {**OPTIONS, "generator": str(models(name)), "seed": 3, "interpolate": "blend"}
     watcher = Watcher()
@@ -107,8 +104,7 @@ def test_another_negative_prompt_is_another_video(models):
 @pytest.mark.parametrize(
     ("name", "asked", "made"),
     [
-        *(("wan", 4, 5), ("wan", 6, 5), ("wan", 8, 9)),
-        *(("cosmos", 8, 5), ("cosmos25", 6, 6), ("cogvideox", 6, 8)),
+        *(("wan", 8, 9), ("cosmos25", 6, 6), ("cogvideox", 6, 8)),
     ],
 )
 def test_the_real_frame_count_is_used_and_reported(name, asked, made, models):
@@ -192,6 +188,33 @@ def test_an_image_starts_wan_through_its_other_pipeline_with_the_same_weights(mo
     assert build(folder).generate(PROMPT).metadata["pipeline"] == "WanPipeline"
 
 
+def test_the_middle_of_an_image_is_fitted_to_the_video_and_noted(models, tmp_path):
+    """A band at each side is cut away; a camera's note that the image is turned is followed."""
+    from PIL import Image
+
+    folder = tmp_path / "LTX-Video"
+    shutil.copytree(models("ltx"), folder)
+    rng = np.random.default_rng(0)
+    middle = rng.integers(0, 255, (32, 32, 3), dtype=np.uint8)
+    wide = np.concatenate((np.zeros((32, 16, 3), np.uint8), middle, middle[:, :16]), axis=1)
+    exif = b"Exif\0\0MM\0*\0\0\0\x08\0\1\1\x12\0\3\0\0\0\1\0\6\0\0\0\0\0\0"
+    Image.fromarray(middle).save(tmp_path / "middle.png")
+    Image.fromarray(wide).save(tmp_path / "wide.png")
+    Image.fromarray(np.rot90(middle, 1).copy()).save(tmp_path / "turned.png", exif=exif)
+    Image.fromarray(255 - middle).save(tmp_path / "other.png")
+    made = {}
+    for name in ("middle", "wide", "turned", "other"):
+        image = tmp_path / f"{name}.png"
+        video = build(folder, image=image).generate(PROMPT)
+        made[name] = pixels(video)
+        assert video.metadata["pipeline"] == "LTXImageToVideoPipeline"
+        assert video.metadata["files"][0]["file"] == str(image)
+        assert len(video.metadata["files"][0]["sha256"]) == 64
+    assert np.array_equal(made["middle"], made["wide"])
+    assert np.array_equal(made["middle"], made["turned"])
+    assert not np.array_equal(made["middle"], made["other"])
+
+
 def test_the_guardrail_sees_the_prompt_and_every_frame(models):
     import cosmos_guardrail
 
@@ -238,24 +261,11 @@ def test_a_guardrail_whose_weights_are_missing_stops_everything(models, monkeypa
     assert guardrail.needs_guardrail({"_class_name": "Cosmos3OmniPipeline"})
 
 
-def test_a_failed_video_is_refused_or_tried_again_with_other_seeds(models):
-    """Random weights give noise that stands still: exactly what the filter is for."""
-    watcher = Watcher()
-    with pytest.raises(TexventError, match="all 4 videos"):
-        build(models("wan"), on_failure="retry").generate(PROMPT, progress=watcher)
-    assert len({line for line in watcher.lines if "is refused" in line}) == 4
-    with pytest.raises(TexventError, match="the video failed the check"):
-        build(models("wan"), on_failure="reject").generate(PROMPT)
-    warned = build(models("wan"), on_failure="warn").generate(PROMPT, progress=watcher)
-    assert warned.metadata["check"]["problems"]
-    assert "looks failed" in watcher.lines[-1]
-
-
 def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(capsys):
     watcher = Watcher()
     part = GENERATORS.load("wan-1.3b")
     generator = part(part.config_type(), seed=0, size=None)
-    with pytest.raises(TexventError, match=r"model_index.json and .*put them into") as caught:
+    with pytest.raises(TexventError, match=r"model_index.json and .*Fetch them") as caught:
         generator.generate(PROMPT, progress=watcher)
     assert "generator=./FOLDER" in str(caught.value)
     read = "licence: Apache-2.0 (read in github.com/Wan-Video/Wan2.1: README.md;"

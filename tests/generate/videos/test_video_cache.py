@@ -16,7 +16,7 @@ from texvent.generate.videos.stored_video import (
     write_stream,
     write_video,
 )
-from texvent.generate.videos.video_cache import VideoCache, content_key, made_folder
+from texvent.generate.videos.video_cache import VideoCache, content_key, kept_folder
 from texvent.transfer import Transfer
 from texvent.video import transfer_of
 
@@ -103,7 +103,7 @@ def test_without_reuse_nothing_is_kept_in_the_made_folder():
     video = passing.store("abc", noise(), FPS, {})
     assert len(list(video)) == 5
     assert passing.find("abc", FPS) is None
-    assert list(made_folder("videos").iterdir()) == []
+    assert list(kept_folder().iterdir()) == []
 
 
 def test_the_key_follows_every_fact_and_not_their_order():

@@ -126,18 +126,6 @@ def changes(given: Convention, other: Convention, direction: Direction) -> tuple
     return tuple(words)
 
 
-def with_words(text: str, words: Sequence[str]) -> str:
-    """The text of a convention with more words, in place of those of it that they contradict.
-
-    Example:
-        >>> with_words("blender,y-down", ["y-up", "scale=2"])
-        'blender,y-up,scale=2'
-    """
-    fields = {field for word in words for field in _OVERRIDES.get(word, ())}
-    kept = [one for one in text.split(",") if one and not fields & {*_OVERRIDES.get(one, ())}]
-    return ",".join([*kept, *words])
-
-
 def named_convention(text: str | None) -> str | None:
     """The name of the renderer or data set in a convention, if there is one."""
     words = [word.strip().lower() for word in (text or "").split(",")]
