@@ -127,7 +127,6 @@ class CaptureConfig:
 
     idle_with: ClassVar[IdleOptions] = {
         "camera_amplitude": ("camera", (None,)),
-        "camera_fov": ("camera", (None,)),
         "duration": ("camera", (None,)),
     }
 

@@ -97,13 +97,6 @@ def test_a_second_ctrl_c_interrupts(pipe, film):
     stream.close()
 
 
-def test_a_stream_that_breaks_off_has_ended(pipe, clips, noisy_frames):
-    film = clips.write("a.mkv", noisy_frames).read_bytes()
-    pipe.fill([film[: len(film) * 3 // 4]])
-    frames = list(open_frames(pipe.path, CaptureConfig()))
-    assert 10 < len(frames) < 30
-
-
 def test_standard_input_is_read(film):
     script = (
         "from texvent.capture.open import open_frames; from texvent.config import CaptureConfig;"
@@ -121,9 +114,3 @@ def test_a_source_that_does_not_answer_is_named_without_password(address):
         open_frames(address, CaptureConfig())
     assert "secret" not in str(caught.value)
     assert address.split("@")[-1] in str(caught.value)
-
-
-def test_an_empty_pipe_is_refused(pipe):
-    pipe.fill([b""])
-    with pytest.raises(InputError, match="cannot be opened as live video"):
-        open_frames(pipe.path, CaptureConfig())

@@ -137,3 +137,14 @@ def test_a_film_in_black_and_white_has_the_luminance_of_the_one_in_colour() -> N
 def test_a_black_and_white_animal_is_no_film_in_black_and_white() -> None:
     assert not understand("a black and white cat", list_nouns()).is_grey
     assert understand("a cat in black and white", list_nouns()).is_grey
+
+
+def test_frames_from_one_on_are_those_of_the_whole_video() -> None:
+    generator = ProceduralGenerator(ProceduralConfig(duration=0.2), size=SMALL)
+    video = generator.generate("a ball bounces").with_motion()
+    whole, late = list(video), list(video.from_frame(3))
+    assert len(late) == len(whole) - 3
+    for expected, frame in zip(whole[3:], late, strict=True):
+        assert frame.t_us == expected.t_us
+        np.testing.assert_array_equal(frame.pixels, expected.pixels)
+        assert (frame.motion.forward is None) == (expected.motion.forward is None)

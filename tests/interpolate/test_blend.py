@@ -39,11 +39,3 @@ def test_blend_fails_on_a_time_outside_the_pair_or_another_size(pair, config, st
             list(blend.between(*pair(black, black), [t_us]))
     with pytest.raises(InputError, match="2x2 and 3x2"):
         list(blend.between(Frame(black, 0), Frame(np.zeros((2, 3), np.uint8), 9), [5]))
-
-
-def test_blend_of_neighbouring_levels_is_not_rounded(pair, config, stream):
-    first, second = pair(np.full((2, 2), 200, np.uint8), np.full((2, 2), 201, np.uint8), 900)
-    times = [100 * k for k in range(1, 9)]
-    frames = BlendInterpolator(config(), stream).between(first, second, times)
-    levels = [float(frame.pixels[0, 0]) for frame in frames]
-    assert levels == pytest.approx([200 + k / 9 for k in range(1, 9)], abs=1e-4)

@@ -43,14 +43,6 @@ def test_eq4_change_divided_by_the_threshold_is_rounded_down(change, expected):
     assert count(*with_change(change)) == expected
 
 
-def test_eq4_quotient_has_no_tolerance_at_exact_multiples():
-    # 0.6 / 0.2 is 2.9999999999999996 in binary; the docstring says so.
-    assert 0.6 / 0.2 < 3
-    first, second = with_change(0.6)
-    change = float(np.log(30 + second[0, 0]) - np.log(30.0))
-    assert count(first, second) == int(change / 0.2)
-
-
 def test_cap_limits_the_count():
     assert count(BLACK, WHITE, threshold=0.01) == 64
     assert count(BLACK, WHITE, threshold=0.01, cap=7) == 7
@@ -96,12 +88,6 @@ def test_count_is_zero_exactly_when_nothing_can_fire(first, second, balance, thr
     change = np.abs(balanced_log(first, balance) - balanced_log(second, balance))
     can_fire = bool((change >= threshold).any())
     assert (count(first, second, balance=balance, threshold=threshold) > 0) == can_fire
-
-
-@given(st.floats(0.01, 4.0), st.floats(0.05, 1.0).filter(lambda value: value > 0.05))
-def test_steady_change_stays_below_the_threshold_per_step(change, threshold):
-    steps = count(*with_change(change), threshold=threshold, cap=1000) + 1
-    assert change / steps < threshold * (1 + 1e-9)
 
 
 times = st.integers(-(2**40), 2**40)

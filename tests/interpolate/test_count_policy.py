@@ -3,14 +3,12 @@
 import numpy as np
 import pytest
 
-from texvent._registry import INTERPOLATORS, SIMULATORS
+from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.flow import PairFlow
 from texvent.interpolate.pairing import pair_frames
 from texvent.interpolate.simple import BlendInterpolator
-from texvent.simulate.build import benefits_from_denser_frames
-from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent.video import Frame, Motion, Video
 
 
@@ -69,14 +67,6 @@ def test_where_nothing_is_said_motion_counts_up_to_twice_eq4(
 def test_where_nothing_can_fire_motion_is_not_even_estimated(policy, faint_pair, monkeypatch):
     monkeypatch.setattr(PairFlow, "motion_px", None)
     assert policy(interpolate="flow", counts_motion=True).count(*faint_pair) == 0
-
-
-def test_models_whose_pixels_fire_once_per_frame_get_eq4_alone():
-    models = {name: SIMULATORS.load(name) for name in SIMULATORS.builtin}
-    made = {name: kind() for name, kind in models.items() if name != "v2ce"}  # needs weights
-    made["paper"] = TexventSimulator(TexventSimulator.presets["paper"])
-    gaining = {name for name, simulator in made.items() if benefits_from_denser_frames(simulator)}
-    assert gaining == {"physical", "esim", "v2e", "voltmeter", "texvent"}
 
 
 def test_a_fixed_count_and_none_ignore_motion(policy, faint_pair):

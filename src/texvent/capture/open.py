@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.array_frames import ArrayFrames
-from texvent.capture.camera_path.opening import check_camera_options, is_still, open_photo
+from texvent.capture.camera_path.opening import is_still, open_photo, refuse_video_options
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
 from texvent.capture.image_folder import ImageFolder
 from texvent.capture.linear_light import AUTO, decode_light
@@ -61,8 +61,8 @@ def open_frames(
         ConfigError: frame times are given in two ways at once, or the motion's convention is
             unknown.
     """
-    check_camera_options(config)
     if config.camera is not None:
+        refuse_video_options(config)
         arrays = {"t_us": t_us, **(motion or {})}
         given_one = next((name for name, one in arrays.items() if one is not None), None)
         if given_one is not None:

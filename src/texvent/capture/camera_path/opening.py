@@ -32,8 +32,6 @@ FPS = Fraction(60)
 """Frames per second, unless asked for: what lies between is exact as well."""
 PRESETS = ("saccade", "shake", "pan")
 MOST_FRAMES = 10_000_000
-OF_CAMERA = ("camera_amplitude", "duration")
-"""Options that only a camera path has."""
 OF_VIDEOS = (
     *("timestamps", "start", "stop", "fit"),
     *("motion", "motion_back", "depth", "depth_scale", "instances"),
@@ -89,23 +87,19 @@ def open_photo(
     )
 
 
-def check_camera_options(config: CaptureConfig) -> None:
-    """Refuse options of videos beside `camera`, and those of a camera path without it.
+def refuse_video_options(config: CaptureConfig) -> None:
+    """Refuse options of videos beside `camera`.
 
     Raises:
         ConfigError: there is such an option.
     """
     default = CaptureConfig()
-    for name in OF_CAMERA if config.camera is None else OF_VIDEOS:
-        if getattr(config, name) == getattr(default, name):
-            continue
-        if config.camera is None:
-            hint = "; `stop` ends a video" if name == "duration" else ""
-            reason = f"is for a camera that moves over a still image (`camera`){hint}"
-        else:
+    for name in OF_VIDEOS:
+        if getattr(config, name) != getattr(default, name):
             hint = "; `duration` says how long it lasts" if name in ("start", "stop") else ""
-            reason = f"is for videos, and `camera` makes one of an image{hint}"
-        raise ConfigError(f"{name} {reason}; leave {name} out")
+            raise ConfigError(
+                f"{name} is for videos, and `camera` makes one of an image{hint}; leave {name} out"
+            )
 
 
 def _path(config: CaptureConfig, seed: int) -> CameraPath:
