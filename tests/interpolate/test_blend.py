@@ -7,9 +7,7 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
-from texvent.errors import InputError
 from texvent.interpolate.simple import BlendInterpolator
-from texvent.video import Frame
 
 
 def test_blend_mixes_by_the_share_of_time_that_passed(pair, config, stream):
@@ -29,13 +27,3 @@ def test_blend_works_on_luma_of_colour_and_16_bit_frames(pair, config, stream):
     deep = pair(np.full((2, 2), 25_700, np.uint16), np.full((2, 2), 25_701, np.uint16))
     (frame,) = blend.between(*deep, [500])
     assert frame.pixels == pytest.approx(float(Fraction(51_401, 2 * 257)), abs=1e-4)
-
-
-def test_blend_fails_on_a_time_outside_the_pair_or_another_size(pair, config, stream):
-    blend = BlendInterpolator(config(), stream)
-    black = np.zeros((2, 2), np.uint8)
-    for t_us in (0, 1000, 1001):
-        with pytest.raises(InputError, match=f"{t_us} µs is not strictly between"):
-            list(blend.between(*pair(black, black), [t_us]))
-    with pytest.raises(InputError, match="2x2 and 3x2"):
-        list(blend.between(Frame(black, 0), Frame(np.zeros((2, 3), np.uint8), 9), [5]))

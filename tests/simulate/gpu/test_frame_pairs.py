@@ -77,7 +77,8 @@ def dense_packets(rife, clip, count):
     for first, second in itertools.pairwise(frames):
         number = count
         if number is None:
-            number = count_intermediate(first, second, balance=20.0, contrast_threshold=0.2, cap=3)
+            lumas = first.luma, second.luma
+            number = count_intermediate(*lumas, balance=20.0, contrast_threshold=0.2, cap=3)
         times_us = intermediate_times_us(first.t_us, second.t_us, number)
         for frame in rife.between(first, second, times_us):
             yield reference.step(frame)

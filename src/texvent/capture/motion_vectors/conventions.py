@@ -149,14 +149,8 @@ def to_pixels(
     Returns:
         [H, W, 2] float32, px of the frame, x right, y down, to the other frame's place. A coarser
         field is repeated, so that no vector is a mean of two surfaces.
-
-    Raises:
-        ValueError: the frame is no whole multiple of the field.
     """
-    height, width = stored.shape[:2]
-    factor = size[0] // width if width else 0
-    if factor < 1 or (width * factor, height * factor) != tuple(size):
-        raise ValueError(f"{width}x{height} for frames of {size[0]}x{size[1]}")
+    factor = size[0] // stored.shape[1]
     return repeat_pixels(scaled(stored, convention, direction, size, factor), factor)
 
 
