@@ -5,7 +5,6 @@ from __future__ import annotations
 import datetime
 import struct
 from collections.abc import Mapping
-from fractions import Fraction
 from pathlib import Path
 
 import numpy as np
@@ -91,17 +90,6 @@ def test_colour_is_turned_from_bgr_to_rgb(tmp_path, kind, channels):
     frame = next(iter(open_frames(write_file(tmp_path / "r.aedat4", frames), CaptureConfig())))
     assert frame.pixels.shape == (4, 6, 3)
     assert frame.pixels[3, 5].tolist() == [30, 20, 10]
-
-
-def test_given_times_replace_the_recorded_ones(tmp_path):
-    path = write_file(tmp_path / "r.aedat4", [grey(1, start=0, end=10), grey(2, start=50, end=60)])
-    assert [frame.t_us for frame in open_frames(path, CaptureConfig(fps=Fraction(25)))] == [
-        0,
-        40_000,
-    ]
-    assert [f.t_us for f in open_frames(path, CaptureConfig(), t_us=[3, 9])] == [3, 9]
-    with pytest.raises(InputError, match="3 times for 2 frames"):
-        open_frames(path, CaptureConfig(), t_us=[3, 9, 12])
 
 
 def test_a_recording_of_events_alone_is_refused(tmp_path):

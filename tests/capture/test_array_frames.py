@@ -26,12 +26,6 @@ def test_pixels_and_types_are_kept(dtype, shape):
     assert [frame.t_us for frame in frames] == [0, 10_000, 20_000]
 
 
-def test_given_times_are_kept_as_they_are():
-    stream = open_frames(ramp(np.uint8), CaptureConfig(), t_us=[5, 70, 71])
-    assert [frame.t_us for frame in stream] == [5, 70, 71]
-    assert stream.fps is None
-
-
 def test_a_list_can_be_read_again_and_a_generator_once():
     images = list(ramp(np.uint8))
     stream = open_frames(images, AT_100)
@@ -62,13 +56,6 @@ def test_black_floats_and_a_fade_from_black_are_fine():
     assert len(list(open_frames(fade, AT_100))) == 3
     with pytest.raises(InputError, match=r"frame at 10000 µs holds floats that never exceed 0\.5"):
         list(open_frames(iter([fade[0], fade[1]]), AT_100))
-
-
-def test_twelve_bits_in_sixteen_are_scaled_by_the_white_level():
-    config = CaptureConfig(fps=Fraction(100), white_level=4095.0)
-    frames = list(open_frames(np.full((2, 4, 6), 4095, np.uint16), config))
-    assert frames[0].pixels.dtype == np.float32
-    assert np.allclose(frames[0].luma, 255.0)
 
 
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -1.0])

@@ -132,10 +132,3 @@ def test_what_is_no_image_gets_one_line(tmp_path):
         texvent.simulate(PHOTO / 255.0, camera="pan")
     with pytest.raises(ConfigError, match="t_us is for videos"):
         open_frames(PHOTO, CaptureConfig(camera="pan"), t_us=[0, 1])
-
-
-def test_white_level_and_deep_pixels_keep_the_scale():
-    half = frames_of((PHOTO / 255.0).astype(np.float32), camera="pan", white_level=1.0)
-    deep = frames_of(PHOTO.astype(np.uint16) * np.uint16(257), camera="pan")
-    for video in (half, deep):
-        np.testing.assert_allclose(video.at(500_000).pixels, PHOTO, rtol=1e-5)

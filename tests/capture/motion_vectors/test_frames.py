@@ -115,14 +115,6 @@ def test_vectors_of_another_convention_are_refused_with_the_option_to_give(flow,
     list(opened({"motion": flow}, check_motion=False))
 
 
-def test_exchanged_directions_are_named():
-    uneven = scene.stack(lambda index: scene.frame(index * index), 4)
-    first = np.stack([scene.forward(i * i) * (2 * i + 1) for i in range(4)])
-    second = np.stack([scene.backward(i * i) * (2 * i - 1) for i in range(4)])
-    with pytest.raises(InputError, match=r"meant (forward|backward); exchange the two"):
-        opened({"motion": second, "motion_back": first}, film=uneven)
-
-
 @pytest.mark.parametrize(
     ("given", "message"),
     [

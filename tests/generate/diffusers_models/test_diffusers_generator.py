@@ -5,7 +5,6 @@ decoded by the code that runs the published models. Offline.
 """
 
 import json
-import os
 import shutil
 import sys
 
@@ -18,26 +17,26 @@ pytestmark = [
     # Of the Karras noise schedule in diffusers 0.42.1 under NumPy 2; texvent cannot change it.
     pytest.mark.filterwarnings("ignore:__array__ implementation:DeprecationWarning"),
 ]
-os.environ["HF_HUB_OFFLINE"] = "1"
 torch = pytest.importorskip("torch")
-torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
 pytest.importorskip("diffusers")
 
-import texvent  # noqa: E402
 from texvent._registry import GENERATORS  # noqa: E402
 from texvent.errors import (  # noqa: E402
     ConfigError,
+    FileFormatError,
     InputError,
     MissingDependencyError,
     TexventError,
 )
 from texvent.generate.diffusers_models import generator as diffusers_generator  # noqa: E402
 from texvent.generate.diffusers_models import guardrail, pipeline_loading  # noqa: E402
+from texvent.generate.diffusers_models.pipeline_call import check_options  # noqa: E402
 from texvent.generate.diffusers_models.pipeline_loading import (  # noqa: E402
     LoadRequest,
     Placement,
     load_pipeline,
 )
+from texvent.generate.video_config import DiffusersConfig  # noqa: E402
 from texvent.generate.video_models.known_models import MODELS  # noqa: E402
 from texvent.pipeline import text_to_events  # noqa: E402
 from texvent.settings.resolution import resolve  # noqa: E402
@@ -277,15 +276,6 @@ def test_offline_the_missing_file_and_its_place_are_named_after_the_licence(caps
     assert capsys.readouterr() == ("", "")
 
 
-def test_the_python_api_takes_a_folder(models):
-    with pytest.warns(texvent.TexventWarning, match="no events"):  # random weights: all is grey
-        events = texvent.generate(
-            PROMPT, generator=str(models("wan")), sensor="40x30", noise="none", **OPTIONS
-        )
-    assert events.size == (40, 30)
-    assert events.metadata["generator"] == str(models("wan"))
-
-
 def test_a_plan_says_what_is_to_be_done_and_ends_when_the_video_is_there(models):
     generator = build(models("wan"))
     plan = generator.plan(PROMPT)
@@ -296,3 +286,34 @@ def test_a_plan_says_what_is_to_be_done_and_ends_when_the_video_is_there(models)
     part = GENERATORS.load("cosmos-7b")
     absent = part(part.config_type(), seed=0, size=None).plan(PROMPT)
     assert "it has to be fetched first; licence: NVIDIA Open Model License" in absent
+
+
+def test_weights_of_another_network_are_refused(models, tmp_path):
+    path = tmp_path / "mixed"
+    shutil.copytree(models("wan"), path)
+    config = path / "transformer" / "config.json"
+    config.write_text(config.read_text().replace('"ffn_dim": 32', '"ffn_dim": 48'))
+    with pytest.raises(FileFormatError, match=r"mixed cannot be loaded as WanPipeline"):
+        build(path).generate(PROMPT)
+
+
+def test_damaged_weights_are_one_line(models, tmp_path):
+    path = tmp_path / "damaged"
+    shutil.copytree(models("wan"), path)
+    file = next((path / "transformer").glob("*.safetensors"))
+    file.write_bytes(file.read_bytes()[:-9])
+    with pytest.raises(FileFormatError, match="damaged cannot be loaded as WanPipeline") as caught:
+        build(path).generate(PROMPT)
+    assert "\n" not in str(caught.value)
+
+
+def test_options_are_compared_with_what_a_pipeline_takes():
+    class FromImages:
+        def __call__(self, image, prompt=None, num_frames=8):
+            return image, prompt, num_frames
+
+    assert "num_frames" in check_options(FromImages, DiffusersConfig(image="a.png", frames=9))
+    with pytest.raises(ConfigError, match="FromImages starts from an image; give image=PATH"):
+        check_options(FromImages, DiffusersConfig())
+    with pytest.raises(ConfigError, match="steps is set, but FromImages does not take it"):
+        check_options(FromImages, DiffusersConfig(image="a.png", steps=5))

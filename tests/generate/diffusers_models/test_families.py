@@ -4,8 +4,6 @@ Saved by `save_pretrained`; found, checked, loaded, called and decoded by the co
 published models. Offline.
 """
 
-import os
-
 import numpy as np
 import pytest
 
@@ -15,9 +13,7 @@ pytestmark = [
     # Of noise schedules in diffusers 0.42.1 under NumPy 2; texvent cannot change it.
     pytest.mark.filterwarnings("ignore:__array_:DeprecationWarning"),
 ]
-os.environ["HF_HUB_OFFLINE"] = "1"
 torch = pytest.importorskip("torch")
-torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
 pytest.importorskip("diffusers")
 
 

@@ -1,6 +1,5 @@
 """LoRA on pipelines of the real classes, against matrices merged by hand."""
 
-import os
 import shutil
 import sys
 
@@ -8,9 +7,7 @@ import numpy as np
 import pytest
 
 pytestmark = [pytest.mark.torch, pytest.mark.usefixtures("model_cache")]
-os.environ["HF_HUB_OFFLINE"] = "1"
 torch = pytest.importorskip("torch")
-torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
 diffusers = pytest.importorskip("diffusers")
 peft = pytest.importorskip("peft")
 
@@ -113,14 +110,7 @@ def test_the_file_is_part_of_the_key_of_a_video_and_of_its_facts(models, tmp_pat
 def test_a_file_that_fits_nothing_is_an_error(models, tmp_path):
     pairs = factors(weights_of(models("wan")))
     path = save_adapter(tmp_path / "a", pairs)
-    tensors = load_file(path)
     save_file({f"transformer.other.{n}.lora_A.weight": torch.zeros(2, 2) for n in "ab"}, path)
-    with pytest.raises(FileFormatError, match=r"adapter\.safetensors cannot be loaded as a LoRA"):
-        build(models("wan"), lora=(str(path),)).generate(PROMPT)
-    bent = {
-        name: one[:, :-1].clone() if "to_q.lora_A" in name else one for name, one in tensors.items()
-    }
-    save_file(bent, path)
     with pytest.raises(FileFormatError, match=r"adapter\.safetensors cannot be loaded as a LoRA"):
         build(models("wan"), lora=(str(path),)).generate(PROMPT)
 

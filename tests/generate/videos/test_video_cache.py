@@ -70,16 +70,6 @@ def test_a_nan_of_the_model_is_refused_and_leaves_nothing(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_an_interrupted_write_leaves_nothing(tmp_path):
-    def interrupted():
-        yield noise(1)[0]
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        write_video(interrupted(), tmp_path / "v.avi", FPS, {}, overwrite=False)
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_a_video_is_found_again_by_its_key_with_its_metadata(cache):
     stored = cache.store("abc", noise(), FPS, {"prompt": "ä cat", "seed": 0})
     found = cache.find("abc", Fraction(10))
