@@ -51,11 +51,6 @@ def test_a_fade_keeps_its_pace(moving_texture):
     assert np.diff(steady)[25:] == pytest.approx(-rate, abs=2e-3)
 
 
-def test_steady_frames_pass_untouched(moving_texture):
-    frames = clip(moving_texture, np.ones(6), speed=2.0, dtype=np.uint8)
-    assert all(a is b for a, b in zip(steady_frames(iter(frames)), frames, strict=True))
-
-
 def test_motion_alone_is_no_gain(moving_texture):
     background = 0.3 * moving_texture(0)
     pair = []

@@ -38,7 +38,7 @@ def test_another_image_is_a_cut(scene, moving_texture):
     assert change(scene(0), scene(0)[::-1]) is SceneChange.CUT
 
 
-@pytest.mark.parametrize("pixels", [1, 6, 18, 40, 80])
+@pytest.mark.parametrize("pixels", [1, 18, 80])
 def test_a_pan_is_no_jump(moving_texture, pixels):
     first, second = (moving_texture(x, width=WIDTH, height=HEIGHT) for x in (0, pixels))
     assert change(first, second) is SceneChange.NONE
@@ -52,9 +52,8 @@ def test_zoom_is_no_jump(moving_texture):
     assert change(first, first[rows, columns]) is SceneChange.NONE
 
 
-@pytest.mark.parametrize("frames", [8, 24])
-def test_a_fade_to_or_from_black_is_no_jump(scene, frames):
-    steps = [scene(0) * k / frames for k in range(frames + 1)]
+def test_a_fade_to_or_from_black_is_no_jump(scene):
+    steps = [scene(0) * k / 8 for k in range(9)]
     for dark, bright in itertools.pairwise(steps):
         assert change(dark, bright) is SceneChange.NONE
         assert change(bright, dark) is SceneChange.NONE

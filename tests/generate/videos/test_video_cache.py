@@ -80,14 +80,6 @@ def test_a_video_is_found_again_by_its_key_with_its_metadata(cache):
     assert cache.find("abd", FPS) is None
 
 
-def test_a_video_that_is_no_video_or_lost_does_not_count(cache):
-    stored = cache.store("abc", noise(), FPS, {})
-    stored.path.write_bytes(b"no video")
-    assert cache.find("abc", FPS) is None
-    stored.path.unlink()
-    assert cache.find("abc", FPS) is None
-
-
 def test_without_reuse_nothing_is_kept_in_the_made_folder():
     passing = VideoCache(is_kept=False)
     video = passing.store("abc", noise(), FPS, {})

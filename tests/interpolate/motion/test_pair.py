@@ -60,7 +60,7 @@ def test_a_bar_before_a_background_is_drawn_as_defined(place):
 
 def test_random_surfaces_are_drawn_as_defined():
     random = np.random.default_rng(5)
-    for _ in range(3):
+    for _ in range(2):
         depth = np.where(random.random((HEIGHT, WIDTH)) < 0.2, OBJECT_M, BACKGROUND_M)
         turn = random.normal(0, 0.05, (2, 2))
         y, x = np.mgrid[:HEIGHT, :WIDTH]
