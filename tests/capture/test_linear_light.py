@@ -131,12 +131,6 @@ def test_video_says_itself_how_it_is_coded(tmp_path, coding, trc, signal, level)
     assert frame.luma.std() < 0.01 * level
 
 
-def test_ordinary_video_stays_gamma_coded(tmp_path):
-    stream = open_frames(write_video(tmp_path / "v.mkv", 1, 0.5), CaptureConfig())
-    assert next(iter(stream)).pixels.dtype == np.uint16
-    assert "coding" not in stream.metadata
-
-
 def test_a_stream_says_itself_what_it_is():
     video = Video(np.ones((2, 3, 4), np.float32), (0, 1000), metadata={"transfer": "linear"})
     assert video[0].transfer is Transfer.LINEAR

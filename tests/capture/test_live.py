@@ -87,6 +87,16 @@ def test_ctrl_c_ends_the_stream_after_the_frame_at_hand(pipe, film):
     assert signal.getsignal(signal.SIGINT) is usual
 
 
+def test_a_second_ctrl_c_interrupts(pipe, film):
+    pipe.fill([film])
+    stream = iter(open_frames(pipe.path, CaptureConfig()))
+    next(stream)
+    signal.raise_signal(signal.SIGINT)
+    with pytest.raises(KeyboardInterrupt):
+        signal.raise_signal(signal.SIGINT)
+    stream.close()
+
+
 def test_standard_input_is_read(film):
     script = (
         "from texvent.capture.open import open_frames; from texvent.config import CaptureConfig;"

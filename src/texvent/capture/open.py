@@ -12,13 +12,13 @@ from typing import Any, NamedTuple
 
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.array_frames import ArrayFrames
-from texvent.capture.camera_path.opening import is_still, open_photo, refuse_video_options
+from texvent.capture.camera_path.opening import check_camera_options, is_still, open_photo
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
 from texvent.capture.image_folder import ImageFolder
 from texvent.capture.linear_light import AUTO, decode_light
 from texvent.capture.motion_vectors.frames import attach_motion
 from texvent.capture.prepare import PreparedFrames
-from texvent.capture.recorded_frames import DsecFrames, EvrealFrames, is_dsec, is_evreal
+from texvent.capture.recorded_frames import DsecFrames, is_dsec, is_evreal, open_evreal
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.io.arrays.npy_file import StoredArray
@@ -61,8 +61,8 @@ def open_frames(
         ConfigError: frame times are given in two ways at once, or the motion's convention is
             unknown.
     """
+    check_camera_options(config)
     if config.camera is not None:
-        refuse_video_options(config)
         arrays = {"t_us": t_us, **(motion or {})}
         given_one = next((name for name, one in arrays.items() if one is not None), None)
         if given_one is not None:
@@ -149,6 +149,10 @@ def _open_live(address: _Address) -> FrameStream:
     return LiveFrames(address.text, address.times)
 
 
+def _open_evreal(address: _Address) -> FrameStream:
+    return open_evreal(address.path, address.times, address.config.white_level)
+
+
 def _open_images(address: _Address) -> FrameStream:
     config = address.config
     return ImageFolder(
@@ -189,7 +193,7 @@ def _open_video(address: _Address) -> FrameStream:
 
 SOURCES = (
     _Source("live video", lambda a: a.is_live, _open_live),
-    _Source("EVREAL folder", lambda a: is_evreal(a.path), lambda a: EvrealFrames(a.path, a.times)),
+    _Source("EVREAL folder", lambda a: is_evreal(a.path), _open_evreal),
     _Source(
         "DSEC sequence",
         lambda a: is_dsec(a.path) and a.has_own_times,

@@ -112,6 +112,7 @@ def test_enough_frames_are_rendered_that_nothing_moves_by_more_than_a_pixel():
         ({"camera": "pan", "fit": "stretch"}, ConfigError, "fit is for videos"),
         ({"camera": "pan", "duration": 0.0}, ConfigError, "duration is 0 s; it must be"),
         ({"camera": "pan", "camera_amplitude": -1.0}, ConfigError, "camera_amplitude is -1"),
+        ({"duration": 2.0}, ConfigError, r"duration is for a camera .*; `stop` ends a video"),
         ({}, InputError, "is one image, so nothing changes; move a camera over it with `camera`"),
     ],
 )

@@ -6,10 +6,9 @@ import pytest
 from tests.capture.motion_vectors import moving_scene as scene
 
 import texvent
-from texvent.capture.motion_vectors.frames import find_motion_sidecar
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import InputError
+from texvent.errors import ConfigError, InputError
 from texvent.sensor import SensorSize
 from texvent.video import Frame, Motion, Video
 
@@ -169,15 +168,22 @@ def test_start_stop_and_fit_change_motion_as_pixels():
         assert set(frame.motion.depth[inside]) == {scene.NEAR_M}
 
 
-def test_a_folder_with_passes_beside_its_frames_is_found(tmp_path):
-    assert find_motion_sidecar(tmp_path) is None
-    assert find_motion_sidecar("rtsp://nowhere") is None
-    (tmp_path / "frames").mkdir()
-    (tmp_path / "motion").mkdir()
-    (tmp_path / "motion" / "0.png").touch()  # which could be anything
-    assert find_motion_sidecar(tmp_path) is None
-    (tmp_path / "motion" / "0.exr").touch()
-    assert find_motion_sidecar(tmp_path) == tmp_path / "motion"
+def test_simulate_takes_arrays_and_files(tmp_path):
+    np.save(tmp_path / "flow.npy", FORWARD)
+    np.save(tmp_path / "depth.npy", DEPTH)
+    options = {"fps": 25, "noise": "none", "contrast_threshold": 0.15}
+    events = texvent.simulate(FILM, motion=FORWARD, depth=DEPTH, **options)
+    assert len(events)
+    assert events.metadata["source"]["motion"] == {"motion": "motion", "depth": "depth"}
+    assert events.metadata["settings"]["interpolate"]["interpolate"] == "motion"
+    by_file = texvent.simulate(
+        FILM, motion=tmp_path / "flow.npy", depth=str(tmp_path / "depth.npy"), **options
+    )
+    assert np.array_equal(events.t, by_file.t)
+    assert by_file.metadata["settings"]["capture"]["motion"] == str(tmp_path / "flow.npy")
+    assert len(by_file.metadata["source"]["motion_fingerprint"].split("-")) == 2
+    with pytest.raises(ConfigError, match="motion_convention has 'blendr'"):
+        texvent.simulate(FILM, motion=FORWARD, motion_convention="blendr", **options)
 
 
 def test_following_the_vectors_is_the_default_unless_told_otherwise(tmp_path):

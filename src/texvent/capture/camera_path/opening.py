@@ -31,6 +31,8 @@ from texvent.video import MICROSECONDS, Frame, check_intensity
 FPS = Fraction(60)
 """Frames per second, unless asked for: what lies between is exact as well."""
 PRESETS = ("saccade", "shake", "pan")
+OF_CAMERA = ("camera_amplitude", "duration")
+"""Options that only a camera path has."""
 OF_VIDEOS = (
     *("timestamps", "start", "stop", "fit"),
     *("motion", "motion_back", "depth", "depth_scale", "instances"),
@@ -81,19 +83,23 @@ def open_photo(
     )
 
 
-def refuse_video_options(config: CaptureConfig) -> None:
-    """Refuse options of videos beside `camera`.
+def check_camera_options(config: CaptureConfig) -> None:
+    """Refuse options of videos beside `camera`, and those of a camera path without it.
 
     Raises:
         ConfigError: there is such an option.
     """
     default = CaptureConfig()
-    for name in OF_VIDEOS:
-        if getattr(config, name) != getattr(default, name):
+    for name in OF_CAMERA if config.camera is None else OF_VIDEOS:
+        if getattr(config, name) == getattr(default, name):
+            continue
+        if config.camera is None:
+            hint = "; `stop` ends a video" if name == "duration" else ""
+            reason = f"is for a camera that moves over a still image (`camera`){hint}"
+        else:
             hint = "; `duration` says how long it lasts" if name in ("start", "stop") else ""
-            raise ConfigError(
-                f"{name} is for videos, and `camera` makes one of an image{hint}; leave {name} out"
-            )
+            reason = f"is for videos, and `camera` makes one of an image{hint}"
+        raise ConfigError(f"{name} {reason}; leave {name} out")
 
 
 def _path(config: CaptureConfig, seed: int) -> CameraPath:
