@@ -104,7 +104,7 @@ def read_index(folder: Path, *, variant: Choice = None, split: Choice = None) ->
             _check_shard(dataset, path, record)
             rows.add(path, record)
     if not rows.keys:
-        raise InputError(f"{folder} holds no such sample yet; see texvent dataset status")
+        raise InputError(f"{folder} holds no such sample yet; see texvent dataset stats")
     return rows.index()
 
 
