@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 import pytest
 from tests.dataset.generation.small_sets import digests, make
+from texvent.dataset.generation.status import read_status
 
 import texvent
 from texvent.batch.engines import ProcessEngine
@@ -18,7 +19,6 @@ from texvent.dataset.generation.make import find_work
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.sample import simulate_sample
 from texvent.dataset.generation.shards import FAILED, FILTERED, MADE, read_members, read_record
-from texvent.dataset.generation.status import read_status
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Filters

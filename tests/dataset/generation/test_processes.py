@@ -12,11 +12,11 @@ from contextlib import closing
 from pathlib import Path
 
 from tests.dataset.generation.small_sets import clips_recipe, digests, make
+from texvent.dataset.generation.status import log_path
 
 from texvent.batch.engines import ATTEMPTS, ProcessEngine
 from texvent.dataset.generation.make import ShardTask, find_work, make_shards, remove_dead_parts
 from texvent.dataset.generation.recipe import Shard
-from texvent.dataset.generation.status import log_path
 
 SLOW = {"paper": {"seeds": 60}}
 """A shard takes long enough to be found at work."""

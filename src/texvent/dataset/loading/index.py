@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
@@ -59,14 +58,6 @@ class Index:
 
     def __len__(self) -> int:
         return len(self.shard)
-
-    @property
-    def identity(self) -> str:
-        """Number of samples, and a digest of them in their order."""
-        found = hashlib.sha256(f"{self.shards} {self.key.dtype}".encode())
-        for column in (self.shard, self.key):
-            found.update(np.ascontiguousarray(column).data)
-        return f"{len(self)} ({found.hexdigest()[:12]})"
 
     def select(self, numbers: NDArray[Any]) -> Index:
         """Those samples, in that order."""
