@@ -109,14 +109,6 @@ def test_a_record_that_says_other_things_than_its_sample_is_found(
     assert ("caption" if name == "prompt" else name) in said
 
 
-def test_a_key_of_two_samples_is_found(copied: Path) -> None:
-    shard = copied / "paper" / "train-000000.tar"
-    record = record_of(shard)
-    first, second, *others = record.samples
-    write_record(shard, replace(record, samples=(first, replace(second, key=first.key), *others)))
-    assert check(copied).twice == [first.key]
-
-
 def test_damaged_records_are_all_named(copied: Path, capsys: pytest.CaptureFixture[str]) -> None:
     for variant in ("paper", "esim"):
         (copied / variant / "train-000000.json").write_text('{"name": "train')

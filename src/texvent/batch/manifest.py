@@ -18,8 +18,8 @@ from texvent.io.atomic import atomic_file
 from texvent.scenes.report import PromptReport
 
 OPTIONS_FILE, SAMPLES_FILE = "batch.json", "samples.jsonl"
-KIND, VERSION = "samples", "texvent_version"
-"""Names, in `batch.json`, of what samples are made of and of the version that made them."""
+VERSION = "texvent_version"
+"""Name, in `batch.json`, of the version that made the samples."""
 MAX_DIFFERENCES, MAX_VALUE = 120, 40
 """Characters of all differences that an error tells, and of a value."""
 
@@ -44,7 +44,7 @@ class Manifest:
         """
         wanted = json.loads(json.dumps(options))
         if self._options is not None and not overwrite:
-            differences = _describe_other_batch(self._options, wanted)
+            differences = describe_differences(self._options, wanted, name_of=_flag)
             if differences:
                 raise ConfigError(
                     f"{self._folder} was made with other options: {differences}; name another "
@@ -75,11 +75,6 @@ class Manifest:
         """The report of a complete sample's prompt; None where it has none."""
         report = self._done.get(sample.key, {}).get("prompt_report")
         return None if report is None else PromptReport.from_json(report)
-
-    def others(self, samples: Sequence[Sample]) -> list[str]:
-        """Names of complete samples that the list no longer has."""
-        keys = {sample.key for sample in samples}
-        return [str(row["name"]) for key, row in self._done.items() if key not in keys]
 
     def add(
         self,
@@ -130,14 +125,6 @@ def _read_rows(path: Path) -> Iterator[dict[str, Any]]:
                 raise FileFormatError(
                     f"{path} line {number} is damaged; name another folder with -o"
                 ) from None
-
-
-def _describe_other_batch(old: Any, new: Any) -> str:
-    """Differences between the options of two batches, as flags."""
-    kinds = [one.get(KIND) if isinstance(one, Mapping) else None for one in (old, new)]
-    if kinds[0] != kinds[1]:
-        return f"it holds a batch of {kinds[0]}, and this is one of {kinds[1]}"
-    return describe_differences(old, new, name_of=_flag)
 
 
 def _flag(name: str) -> str:

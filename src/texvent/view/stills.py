@@ -18,14 +18,6 @@ from texvent.view.drawing.panels import SURROUND, TARGET_WIDTH, PanelLayout
 from texvent.view.windows import EventWindow, compose_window, still_window_us
 
 
-def busiest_start(events: EventStream, window_us: int) -> int:
-    """Start of the window with the most events, µs; 0 without events."""
-    if len(events) == 0:
-        return 0
-    counts = np.searchsorted(events.t, events.t + window_us) - np.arange(len(events))
-    return int(events.t[int(counts.argmax())])
-
-
 class BusiestWindow:
     """Keeps the window with the most events and draws it."""
 

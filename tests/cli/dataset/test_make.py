@@ -143,7 +143,9 @@ def test_a_plan_measures_as_many_bytes_and_events_as_are_made(folder, capsys):
     capsys.readouterr()
     assert run("stats", "cars", "--json") == 0
     for name, splits in json.loads(capsys.readouterr().out)["variants"].items():
-        events, samples = (sum(one[key] for one in splits.values()) for key in ("events", "samples"))
+        events, samples = (
+            sum(one[key] for one in splits.values()) for key in ("events", "samples")
+        )
         assert events / samples == pytest.approx(planned[name], abs=1)
 
 

@@ -40,12 +40,11 @@ TITLES = {
     "missing": "missing or not complete",
     "changed": "changed",
     "foreign": "not of this data set",
-    "twice": "keys of several samples",
     "unsound": "damaged samples",
 }
 ABOUT = {
     "verify": """Check a data set, or a published copy of one: hash every shard, read every sample,
-and say what is missing, changed, foreign, there twice or damaged.
+and say what is missing, changed, foreign or damaged.
 
 Exit code: 0 all is well, 1 something is not.""",
     "stats": """Count what a data set holds, while it is made or afterwards: samples, events, rates,
