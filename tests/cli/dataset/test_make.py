@@ -108,25 +108,6 @@ def test_prompts_that_are_not_shown_as_they_say_are_counted_and_fail_the_set(fol
     assert "failed   1: nothing in the prompt was understood: qwerty, zxcv" in said_of_set
 
 
-def test_plan_make_and_stats_say_the_same_of_samples(folder, capsys):
-    wugs = WUGS.replace('"qwerty zxcv"', '"qwerty zxcv", "a white sailboat approaches"')
-    (folder / "wugs.toml").write_text(wugs.replace("min_events = 1", "min_events = 20"))
-    said = []
-    for words in (
-        ("plan", "wugs.toml", "--trial", 4, "--workers", 1),
-        ("make", "wugs.toml", "--workers", 1, "-q", "--allow-failed"),
-        ("stats", "wugs"),
-    ):
-        assert run(*words) == 0
-        text = capsys.readouterr().out
-        start = text.index("\nsamples  ") + 1
-        said.append(text[start : text.index("1 refused", start)])
-    assert said[0] == said[1] == said[2]
-    assert said[0].startswith("samples  2 made, 1 left out, 1 failed\n")
-    assert "left out 1: fewer than 20 signal events\n" in said[0]
-    assert "prompts  2 of 4 clips shown as they say" in said[0]
-
-
 def test_a_strict_data_set_is_refused_before_any_work(folder, capsys):
     (folder / "wugs.toml").write_text(WUGS.replace("[options]", "[options]\nstrict = true"))
     assert run("make", "wugs.toml", "--workers", 1, "-q") == 2
