@@ -6,9 +6,11 @@ import itertools
 
 import numpy as np
 import pytest
+from tests.frame_pairs import advance_through
 from tests.simulate.references import in_both_forms
 
 from texvent.errors import InputError
+from texvent.simulate.build import with_advance
 from texvent.simulate.esim.simulator import EsimSimulator
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.senpi.simulator import SenpiSimulator
@@ -178,3 +180,19 @@ def test_the_seed_decides_everything_random(name, seed):
     events = run(MODELS[name](config, seed=seed), frames)
     assert run(MODELS[name](config, seed=seed), frames).equals(events)
     assert not run(MODELS[name](config, seed=seed + 1), frames).equals(events)
+
+
+def test_a_pair_is_stepped_through_frame_by_frame():
+    frames = moving_texture()
+    found = list(advance_through(EsimSimulator(), frames))
+    other = EsimSimulator()
+    assert [frame for frame, _ in found] == frames
+    assert all(
+        packet.equals(other.step(frame)) for frame, (_, packet) in zip(frames, found, strict=True)
+    )
+
+
+def test_a_model_with_advance_is_left_as_it_is():
+    simulator = EsimSimulator()
+    assert with_advance(simulator) is simulator
+    assert list(simulator.finish()) == []

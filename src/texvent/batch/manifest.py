@@ -20,8 +20,8 @@ from texvent.scenes.report import PromptReport
 OPTIONS_FILE, SAMPLES_FILE = "batch.json", "samples.jsonl"
 VERSION = "texvent_version"
 """Name, in `batch.json`, of the version that made the samples."""
-MAX_DIFFERENCES, MAX_VALUE = 120, 40
-"""Characters of all differences that an error tells, and of a value."""
+MOST_DIFFERENCES, MAX_VALUE = 3, 40
+"""Differences that an error names, and characters of a value."""
 
 
 class Manifest:
@@ -133,7 +133,7 @@ def _flag(name: str) -> str:
 
 
 def describe_differences(old: Any, new: Any, *, name_of: Callable[[str], str] = str) -> str:
-    """Differences between two trees of options, as many as fit a line; empty if they are equal.
+    """Differences between two trees of options, at most three; empty if they are equal.
 
     Args:
         old: the tree that is stored.
@@ -141,13 +141,8 @@ def describe_differences(old: Any, new: Any, *, name_of: Callable[[str], str] = 
         name_of: how an option is called, from its name in the tree.
     """
     found = list(_differences(old, new, name_of))
-    told: list[str] = []
-    for one in found:
-        if told and len("; ".join([*told, one])) > MAX_DIFFERENCES:
-            break
-        told.append(one)
-    more = f" and {len(found) - len(told)} more" if len(told) < len(found) else ""
-    return "; ".join(told) + more
+    more = len(found) - MOST_DIFFERENCES
+    return "; ".join(found[:MOST_DIFFERENCES]) + (f" and {more} more" if more > 0 else "")
 
 
 def _differences(

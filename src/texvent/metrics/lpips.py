@@ -70,10 +70,8 @@ LpipsWeights = Mapping[str, Float32Array]
 """Arrays by name, with the shapes of `array_shapes`."""
 
 
-def array_shapes(layers: Sequence[Convolution] = ALEX) -> dict[str, Shape]:
-    """Name → shape of every array: kernels are [rows, columns, channels in, channels out]; a head
-    has one weight per channel of its layer.
-    """
+def array_shapes(layers: Sequence[Convolution]) -> dict[str, Shape]:
+    """Name → shape of every array: kernels are [rows, columns, channels in, channels out]."""
     shapes: dict[str, Shape] = {}
     channels_in = COLOURS
     for number, layer in enumerate(layers):
@@ -95,11 +93,12 @@ def find_lpips_weights() -> Path:
     return path
 
 
-def read_lpips_weights(path: Path) -> LpipsWeights:
+def read_lpips_weights(path: Path, layers: Sequence[Convolution] = ALEX) -> LpipsWeights:
     """Weights from the published file, or from one that `texvent weights pull` converted.
 
     Args:
         path: `.npz`, or the published pickle of NumPy arrays under any other name.
+        layers: of the network.
 
     Raises:
         FileFormatError: the file is damaged or holds another network.
@@ -113,7 +112,7 @@ def read_lpips_weights(path: Path) -> LpipsWeights:
             f"{path} cannot be read as LPIPS's weights, it is damaged or of another kind "
             f"({reason}); {WHERE_FROM}"
         ) from error
-    if shapes != array_shapes():
+    if shapes != array_shapes(layers):
         raise FileFormatError(
             f"{path} does not hold the arrays of LPIPS's network, AlexNet; {WHERE_FROM}"
         )
