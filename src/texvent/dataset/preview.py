@@ -20,10 +20,6 @@ from texvent.io.atomic import atomic_file
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
 from texvent.view.page.html_parts import count_text, fill_template
-<<<<<<< HEAD
-=======
-from texvent.view.stills import find_busiest
->>>>>>> integ
 
 ChosenSample = tuple[StoredShard, SampleRecord]
 
@@ -85,16 +81,7 @@ def write_sample_page(
     return path
 
 
-<<<<<<< HEAD
 def _card(sample: ChosenSample) -> str:
-=======
-def _liveliest(events: EventStream, palette: Palette) -> Image:
-    found = find_busiest((events,), WINDOW_US)
-    return draw_events(count_events(events) if found is None else found.counts, palette)
-
-
-def _card(sample: ChosenSample, palette: Palette) -> str:
->>>>>>> integ
     shard, record = sample
     events = read_events(shard.path, record)
     image = base64.b64encode(preview_png(events)).decode("ascii")

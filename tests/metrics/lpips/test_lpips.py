@@ -20,7 +20,7 @@ from texvent.represent.event_frame import event_frame
 from texvent.sensor import SensorSize
 
 from ..recordings import random_events
-from .lpips_files import narrow_weights, slow_distance, write_published
+from .lpips_files import NARROW, narrow_weights, slow_distance, write_published
 
 WEIGHTS = narrow_weights()
 
@@ -64,13 +64,11 @@ def test_what_is_no_pair_of_images_is_refused(a, b, complaint):
 
 
 def test_the_published_file_and_the_converted_one_hold_the_same_arrays(tmp_path):
-    weights = narrow_weights(layers=ALEX)
-    read = read_lpips_weights(write_published(weights, tmp_path / "alexnet.ckpt"))
+    read = read_lpips_weights(write_published(WEIGHTS, tmp_path / "alexnet.ckpt"), NARROW)
     write_lpips_weights(read, tmp_path / "lpips.npz")
-    again = read_lpips_weights(tmp_path / "lpips.npz")
-    for name, array in weights.items():
+    again = read_lpips_weights(tmp_path / "lpips.npz", NARROW)
+    for name, array in WEIGHTS.items():
         np.testing.assert_array_equal(again[name], array)
-    write_lpips_weights(WEIGHTS, tmp_path / "lpips.npz")
     with pytest.raises(FileFormatError, match="does not hold the arrays of LPIPS's network"):
         read_lpips_weights(tmp_path / "lpips.npz")
 
