@@ -30,5 +30,5 @@ def _make_published(folder: Path) -> Path:
 
 def _read_weights(path: Path) -> str:
     # The published network has 10 MB; a narrow one of the same layers is read by the same code.
-    arrays = read_lpips_weights(path, NARROW).arrays
+    arrays = read_lpips_weights(path, NARROW)
     return digest(arrays[name] for name in sorted(arrays))
