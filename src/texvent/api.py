@@ -7,6 +7,7 @@ dataclasses; None means "as the preset has it".
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack, overload
 
@@ -17,6 +18,7 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.options.keywords import GenerateOptions, SimulateOptions
 from texvent.options.signatures import naming_options
+from texvent.pipeline import Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
 from texvent.run.truth import TruthFolder, run_with_truth
 from texvent.runtime.progress import ProgressOption, open_progress
@@ -102,7 +104,7 @@ def generate(
         run = prepare_prompt(prompt, settings, progress=shown)
         if output is not None:
             return run_with_truth(run, output, shown)
-    return run.packets if as_packets else run.packets.collect(progress=progress)
+    return run.packets if as_packets else _collected(run, progress)
 
 
 @overload
@@ -188,7 +190,7 @@ def simulate(
         )
         if output is not None:
             return run_with_truth(run, output, shown)
-    return run.packets if as_packets else run.packets.collect(progress=progress)
+    return run.packets if as_packets else _collected(run, progress)
 
 
 @naming_options(GenerateOptions)
@@ -349,6 +351,11 @@ def _simulation(
         if found is not None:
             settings = resolve("simulate", {**given, "motion": found}, config=config)
     return settings, arrays
+
+
+def _collected(run: Simulation, progress: ProgressOption) -> EventStream:
+    """The events of a run, with a warning if there is no signal or hardly any."""
+    return replace(run, warns=True).packets.collect(progress=progress)
 
 
 def _stream(events: Events) -> EventStream:

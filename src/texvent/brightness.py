@@ -12,6 +12,8 @@ from typing import Any, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.errors import ConfigError
+
 LUMA_WEIGHTS = (0.299, 0.587, 0.114)
 """Red, green, blue weights of ITU-R BT.601: what OpenCV, v2e and ESIM use for grey input."""
 LUMA_ROWS = 16
@@ -52,8 +54,13 @@ def balanced_log(intensity: NDArray[Any], balance: float) -> Float64Array:
     Returns:
         [H, W] float64, log units.
 
+    Raises:
+        ConfigError: α is not above 0, so black has no logarithm.
+
     Equation: (5), section 3.2.2; supplement 9.1.
     """
+    if balance <= 0:
+        raise ConfigError(f"balance is {balance:g}; it must be above 0")
     if intensity.dtype == np.uint8:
         table = np.log(balance + np.arange(256, dtype=np.float64))
         return np.asarray(table[intensity])

@@ -125,12 +125,6 @@ class RunConfig:
 class CaptureConfig:
     """How frames are read from a video, a folder, an array or a camera."""
 
-    idle_with: ClassVar[IdleOptions] = {
-        "camera_amplitude": ("camera", (None,)),
-        "camera_fov": ("camera", (None,)),
-        "duration": ("camera", (None,)),
-    }
-
     fps: Fraction | None = None
     """Frame rate, as 24, 29.97 or 30000/1001. Needed for image folders and arrays without
     timestamps; for a video it overrides the file's own times (for slow-motion footage)."""

@@ -90,9 +90,11 @@ class Simulation:
     video: FrameStream
     settings: Settings
     prompt: str | None = None
+    warns: bool = False
+    """Whether the end of the video warns of a run with hardly a signal."""
 
     def steps(
-        self, on_scene_change: OnSceneChange | None = None, *, warns: bool = False
+        self, on_scene_change: OnSceneChange | None = None
     ) -> Iterator[tuple[Frame, EventStream]]:
         """Every dense frame with the packet of events that ends at it.
 
@@ -100,10 +102,9 @@ class Simulation:
 
         Args:
             on_scene_change: called at every cut and flash.
-            warns: whether the end of the video warns of a run with hardly a signal.
 
         Warns:
-            TexventWarning: there is no signal, or hardly any.
+            TexventWarning: `warns`, and there is no signal, or hardly any.
         """
         run, tally = self.settings.run, SignalTally()
         with ExitStack() as threads:
@@ -118,7 +119,7 @@ class Simulation:
             for frame, packet in simulator.finish():
                 tally.count(packet)
                 yield frame, select_events(packet, run)
-        doubt = tally.doubt(run.keep_events) if warns else None
+        doubt = tally.doubt(run.keep_events) if self.warns else None
         if doubt is not None:
             warn(doubt)
 
@@ -143,9 +144,9 @@ class Simulation:
         return (packet for _, packet in self.steps())
 
     def report_to(self, progress: Progress) -> Iterator[EventStream]:
-        """The packets; `progress` receives the number of source frames done; warns as `steps`."""
+        """The packets; `progress` receives the number of source frames done."""
         done = 0
-        for frame, packet in self.steps(warns=True):
+        for frame, packet in self.steps():
             done += frame.is_source
             progress.advance("simulate", done, self.video.frame_count)
             yield packet

@@ -39,7 +39,7 @@ def test_a_part_of_a_folder_keeps_its_times(tmp_path):
 @pytest.mark.parametrize(
     ("images", "seconds", "error", "message"),
     [
-        (IMAGES[0], (5.0,), FileFormatError, r"shape \(4, 6\)"),
+        (IMAGES[0], (5.0,), InputError, r"shape \[4, 6\]"),
         (IMAGES, (5.0, 5.1), InputError, "2 times for 3 frames"),
         (IMAGES, (5.0, np.nan, 6.0), FileFormatError, "not all seconds"),
         (IMAGES, (5.0, 4.0, 6.0), InputError, "increase"),

@@ -148,12 +148,6 @@ def test_video_says_itself_how_it_is_coded(tmp_path, coding, trc, signal, level)
     assert frame.luma.std() < 0.01 * level
 
 
-def test_ordinary_video_stays_gamma_coded(tmp_path):
-    stream = open_frames(write_video(tmp_path / "v.mkv", 1, 0.5), CaptureConfig())
-    assert next(iter(stream)).pixels.dtype == np.uint16
-    assert "coding" not in stream.metadata
-
-
 def test_a_stream_says_itself_what_it_is():
     video = Video(np.ones((2, 3, 4), np.float32), (0, 1000), metadata={"transfer": "linear"})
     assert video[0].transfer is Transfer.LINEAR
@@ -178,9 +172,3 @@ def test_floats_up_to_1_are_refused_where_their_scale_is_not_known(transfer, adv
     with pytest.raises(InputError, match=r"never exceed 0\.5") as refused:
         list(stream)
     assert advice in str(refused.value)
-
-
-def test_a_stated_white_level_makes_floats_up_to_1_light():
-    images = iter(np.full((2, 4, 6), 0.5, np.float32))
-    config = CaptureConfig(transfer="linear", white_level=1, fps=Fraction(25))
-    assert {float(one.pixels.max()) for one in open_frames(images, config)} == {127.5}

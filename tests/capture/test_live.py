@@ -97,13 +97,6 @@ def test_a_second_ctrl_c_interrupts(pipe, film):
     stream.close()
 
 
-def test_a_stream_that_breaks_off_has_ended(pipe, clips, noisy_frames):
-    film = clips.write("a.mkv", noisy_frames).read_bytes()
-    pipe.fill([film[: len(film) * 3 // 4]])
-    frames = list(open_frames(pipe.path, CaptureConfig()))
-    assert 10 < len(frames) < 30
-
-
 def test_standard_input_is_read(film):
     script = (
         "from texvent.capture.open import open_frames; from texvent.config import CaptureConfig;"

@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import ConfigError, InputError
+from texvent.errors import InputError
 from texvent.sensor import SensorSize
 from texvent.video import Video, frame_time_us
 
@@ -50,15 +50,3 @@ def test_a_stream_is_fitted_and_says_what_size_it_had():
     stream = open_frames(video, CaptureConfig(), size=SensorSize(3, 2))
     assert (stream.size, stream.metadata["size_before_fit"]) == ((3, 2), "6x4")
     assert [frame.pixels.shape for frame in stream] == [(2, 3)] * 3
-
-
-def test_a_stream_has_its_own_times():
-    video = Video(np.zeros((3, 4, 6), np.uint8), [0, 1, 2])
-    with pytest.raises(InputError, match="has its own times"):
-        open_frames(video, CaptureConfig(fps=Fraction(10)))
-
-
-@pytest.mark.parametrize("white_level", [0.0, -1.0, float("nan"), float("inf")])
-def test_a_white_level_that_is_not_positive_and_finite_is_refused(white_level):
-    with pytest.raises(ConfigError, match="white_level is"):
-        CaptureConfig(white_level=white_level)

@@ -61,6 +61,8 @@ def film(rate: int) -> np.ndarray:
 def events_at(rate: int, simulator: str, preset: str) -> texvent.EventStream:
     names = option_names(SIMULATORS.load(simulator).config_type)
     quiet = {name: value for name, value in QUIET.items() if name in names}
+    if "noise" in quiet:
+        quiet.pop("noise_scale", None)  # it would have no effect
     return texvent.simulate(
         film(rate), fps=rate, simulator=simulator, preset=preset, seed=3, **quiet
     )

@@ -74,6 +74,8 @@ def test_bad_input_is_refused_with_the_value():
         count(BLACK, WHITE, threshold=0.0)
     with pytest.raises(ConfigError, match="cap is -1"):
         count(BLACK, WHITE, cap=-1)
+    with pytest.raises(ConfigError, match="balance is 0"):
+        count(BLACK, WHITE, balance=0.0)
 
 
 luma = hnp.arrays(np.uint8, (3, 4))

@@ -22,13 +22,10 @@ def test_an_expression_is_allowed_if_one_choice_is(expression):
     "expression",
     [
         "GPL-3.0-or-later",
-        "AGPL-3.0-only",
-        "CC-BY-NC-4.0",
         "MIT AND GPL-2.0-only",
         "(MIT OR ISC) AND LGPL-3.0-only",
         "GPL-2.0-only WITH Classpath-exception-2.0",
         "MIT AND (",
-        "MIT ISC",
         "LicenseRef-Proprietary",
         "",
     ],
@@ -42,7 +39,6 @@ def test_an_expression_with_a_part_that_is_not_is_refused(expression):
     [
         ("MIT", "something else", [], "MIT"),
         (None, "BSD-3-Clause", [], "BSD-3-Clause"),
-        (None, "MPL-2.0 AND MIT", [], "MPL-2.0 AND MIT"),
         (None, "Apache 2.0", [], "Apache-2.0"),
         (None, None, ["License :: OSI Approved :: MIT License"], "MIT"),
         (
@@ -56,7 +52,6 @@ def test_an_expression_with_a_part_that_is_not_is_refused(expression):
         ),
         # Two or three clauses? The licence file must be read.
         (None, "BSD", ["License :: OSI Approved :: BSD License"], None),
-        (None, "GPL", ["License :: OSI Approved :: GNU General Public License (GPL)"], None),
         (
             None,
             "",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Iterable, Iterator, Sized
+from collections.abc import Iterable, Iterator, Mapping, Sized
 from typing import Any
 
 import numpy as np
@@ -29,6 +29,7 @@ class ArrayFrames(FrameSource):
         times: a frame rate, or one time per frame.
         white_level: the value that means white, where the type does not say it; only to decide
             whether floats up to 1 are refused.
+        metadata: where they come from.
 
     Raises:
         InputError: wrong shape or pixel type, no frame, another number of times than frames, or
@@ -36,7 +37,12 @@ class ArrayFrames(FrameSource):
     """
 
     def __init__(
-        self, frames: Iterable[Any], times: FrameTimes, *, white_level: float | None = None
+        self,
+        frames: Iterable[Any],
+        times: FrameTimes,
+        *,
+        white_level: float | None = None,
+        metadata: Mapping[str, Any] | None = None,
     ) -> None:
         if hasattr(frames, "__array__"):
             frames = _checked_array(np.asarray(frames))
@@ -50,9 +56,10 @@ class ArrayFrames(FrameSource):
             _refuse_if_empty(count == 0)
             times.check_count(count)
         first = self._peek(is_live)
-        metadata = {"source": "array", "kind": "array", "pixel_type": str(first.dtype)}
+        origin = metadata or {"source": "array", "kind": "array"}
+        facts = {**origin, "pixel_type": str(first.dtype)}
         size = checked_size(first.shape[1], first.shape[0])
-        self._facts = SourceFacts(size, times.fps, count, metadata, is_live)
+        self._facts = SourceFacts(size, times.fps, count, facts, is_live)
         if white_level is None:
             warn_of_few_bits(first, "the array")
         if white_level is None and not is_live:

@@ -18,7 +18,7 @@ from texvent.capture.image_folder import ImageFolder
 from texvent.capture.linear_light import AUTO, decode_light
 from texvent.capture.motion_vectors.frames import attach_motion
 from texvent.capture.prepare import PreparedFrames
-from texvent.capture.recorded_frames import DsecFrames, EvrealFrames, is_dsec, is_evreal
+from texvent.capture.recorded_frames import DsecFrames, is_dsec, is_evreal, open_evreal
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, FileFormatError, InputError
 from texvent.io.arrays.npy_file import StoredArray
@@ -149,6 +149,10 @@ def _open_live(address: _Address) -> FrameStream:
     return LiveFrames(address.text, address.times)
 
 
+def _open_evreal(address: _Address) -> FrameStream:
+    return open_evreal(address.path, address.times, address.config.white_level)
+
+
 def _open_images(address: _Address) -> FrameStream:
     config = address.config
     return ImageFolder(
@@ -189,7 +193,11 @@ def _open_video(address: _Address) -> FrameStream:
 
 SOURCES = (
     _Source("live video", lambda a: a.is_live, _open_live),
-    _Source("EVREAL folder", lambda a: is_evreal(a.path), lambda a: EvrealFrames(a.path, a.times)),
+    _Source(
+        "EVREAL folder",
+        lambda a: is_evreal(a.path),
+        lambda a: open_evreal(a.path, a.times, a.config.white_level),
+    ),
     _Source(
         "DSEC sequence",
         lambda a: is_dsec(a.path) and a.has_own_times,

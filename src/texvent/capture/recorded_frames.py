@@ -31,10 +31,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._require import require
+from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes, listed_times
 from texvent.capture.image_folder import ImageFolder
-from texvent.capture.intensity_scale import usable_pixels
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.sensor import SensorSize, checked_size
@@ -147,42 +147,25 @@ def is_evreal(folder: Path) -> bool:
     return all((folder / name).is_file() for name in (IMAGES, TIMES))
 
 
-class EvrealFrames(FrameSource):
+def open_evreal(
+    folder: Path, times: FrameTimes | None = None, white_level: float | None = None
+) -> ArrayFrames:
     """The images of a folder in order; they are read when they are asked for.
 
     Args:
         folder: holds images.npy and images_ts.npy.
         times: frame times that replace the folder's own.
+        white_level: as for `ArrayFrames`.
 
     Raises:
-        FileFormatError: an array is damaged or of another shape.
-        InputError: another number of times is given than there are images, or times that do not
-            increase.
+        FileFormatError: an array is damaged, or the times are no seconds.
+        InputError: images of another shape, another number of times than images, or times that do
+            not increase.
     """
-
-    def __init__(self, folder: Path, times: FrameTimes | None = None) -> None:
-        self._folder = folder
-        images = StoredArray(folder / IMAGES)
-        if images.ndim not in (3, 4):
-            raise FileFormatError(
-                f"{folder / IMAGES} has shape {shown(images.shape)}; images are [n, H, W]"
-            )
-        self._images = images
-        self._times = times or _read_times(folder / TIMES)
-        self._times.check_count(len(images))
-        self._facts = SourceFacts(
-            checked_size(images.shape[2], images.shape[1]),
-            self._times.fps,
-            len(images),
-            {"source": str(folder), "kind": "EVREAL folder"},
-        )
-
-    def __iter__(self) -> Iterator[Frame]:
-        """Frames in order, read one by one."""
-        for index, image in enumerate(self._images):
-            grey = image[..., 0] if image.shape[2:] == (1,) else image
-            pixels = usable_pixels(grey, str(self._folder / IMAGES))
-            yield Frame(pixels, self._times(index))
+    images = StoredArray(folder / IMAGES)
+    facts = {"source": str(folder), "kind": "EVREAL folder"}
+    times = times or _read_times(folder / TIMES)
+    return ArrayFrames(images, times, white_level=white_level, metadata=facts)
 
 
 def _read_times(path: Path) -> FrameTimes:

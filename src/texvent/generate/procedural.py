@@ -49,8 +49,6 @@ if TYPE_CHECKING:
 
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Image size when none is given."""
-ALL_WORDS = f"; all of them: texvent info FILE --all, or the metadata's {REPORT_KEY}"
-"""What a warning that names few words of many says of the others."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -279,7 +277,7 @@ class ProceduralGenerator:
         """
         del progress
         scene, report, files = self._stage(prompt)
-        for fault in report.warnings(MOST_WORDS, rest=ALL_WORDS):
+        for fault in report.warnings(MOST_WORDS):
             warn(fault)
         metadata = {
             "generator": "procedural",

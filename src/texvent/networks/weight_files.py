@@ -169,27 +169,6 @@ def load_strictly(network: Any, tensors: Mapping[str, Tensor], path: Path, hint:
     check_finite(tensors, path)
 
 
-def describe_mismatch(found: Mapping[str, Shape], expected: Mapping[str, Shape]) -> str | None:
-    """The first way in which the tensors of a file differ from those of a network, or None.
-
-    Args:
-        found: name → shape in the file.
-        expected: name → shape in the network; the file must hold these and no others.
-
-    Example:
-        >>> describe_mismatch({"a.weight": (3, 2)}, {"a.weight": (3, 3)})
-        'has a.weight of shape [3, 2] instead of [3, 3]'
-    """
-    for name in sorted(expected.keys() | found.keys()):
-        if name not in found:
-            return f"lacks {name}"
-        if name not in expected:
-            return f"has the unknown {name}"
-        if found[name] != expected[name]:
-            return f"has {name} of shape {list(found[name])} instead of {list(expected[name])}"
-    return None
-
-
 def shapes_of(tensors: Mapping[str, Tensor]) -> dict[str, Shape]:
     """Name → shape."""
     return {name: tuple(tensor.shape) for name, tensor in tensors.items()}

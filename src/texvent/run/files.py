@@ -5,7 +5,7 @@ from __future__ import annotations
 import signal
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -137,7 +137,7 @@ def write_run(
         if "events" not in files.truth:
             sinks.append(lambda frame, packet: append(packet))
         stop = outputs.enter_context(stop_on_interrupt()) if files.keep_partial else StopRequest()
-        steps = simulation.steps(on_scene_change, warns=True)
+        steps = replace(simulation, warns=True).steps(on_scene_change)
         early = _run_steps(steps, [*sinks, on_step], stop, files.keep_partial)
         if early is not None:
             for output in (writer, preview, truth):

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from contextlib import ExitStack
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -81,7 +81,7 @@ def run_with_truth(run: Simulation, folder: TruthFolder, progress: Progress) -> 
     with ExitStack() as stack:
         writer = stack.enter_context(_truth_writer(run, folder, packets.append))
         background = stack.enter_context(BackgroundWriter(writer))
-        for frame, packet in run.steps(warns=True):
+        for frame, packet in replace(run, warns=True).steps():
             background.append(frame, packet)
             if not has_ids:
                 packets.append(packet)

@@ -19,7 +19,7 @@ from texvent.scenes.description import (
     SceneObject,
 )
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
-from texvent.scenes.models.places import PLACES, is_room
+from texvent.scenes.models.places import is_room
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import nouns_with, trait_value
 
@@ -36,7 +36,6 @@ _AT_HAND = frozenset({"hold", "wear"})
 _PACES = {"walk": 0.7, "run": 1.0}
 """Pace of running in place that looks as walking and running do."""
 _GOING = {"stand": "slide", "float": "fly"}
-_ALONG = ("walk", "run", "drive", "fly", "roll", "crawl")
 _AFLOAT = ("sail", "paddle")
 _IN_WATER = ("swim", "surf", *_AFLOAT)
 _DARK_EFFECTS = frozenset({"fireworks"})
@@ -62,20 +61,11 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     if description.surroundings.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
     surroundings = replace(description.surroundings, name=place)
-    description = _follow_axis(replace(description, surroundings=surroundings))
+    description = replace(description, surroundings=surroundings)
     if not _has_motion(description):
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))
     return _park(_move(description, dict.fromkeys(everything, STANDING)), nouns)
-
-
-def _follow_axis(description: SceneDescription) -> SceneDescription:
-    """Who goes through a place between two walls goes along them, unless it is said."""
-    along = {n: replace(one, motion=replace(one.motion, direction="towards"))
-             for n, one in enumerate(description.objects)
-             if one.motion and one.motion.kind in _ALONG and not one.motion.direction}  # fmt: skip
-    is_passage = PLACES[description.surroundings.name or "grass"].is_passage
-    return _change(description, along) if is_passage else description
 
 
 def _note(description: SceneDescription, note: str) -> SceneDescription:

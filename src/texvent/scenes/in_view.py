@@ -19,6 +19,7 @@ from texvent.scenes.description import SceneDescription, Surroundings
 from texvent.scenes.meanings import list_meanings
 from texvent.scenes.models.effects import LAMPS
 from texvent.scenes.models.places import PLACES, Place
+from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.raycast.ground_truth import visible_instances
 from texvent.scenes.raycast.render import render
 from texvent.scenes.relation_check import Unheld, bodies_of, find_unheld
@@ -37,7 +38,7 @@ MOST_POINTS = 12_000
 LEAST_PIXELS = 6
 """Pixels below which an object is too small to be told."""
 LEAST_INSIDE = 0.33
-"""Share of an object's shapes that are inside the image; of fewer it is cut off."""
+"""Share of an object's extent that is inside the image; of less it is cut off."""
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
 _SMALL = SensorSize(120, 90)
@@ -169,6 +170,9 @@ def _unshown(
         yield Unheld("motion", turning[0].motion.kind if turning[0].motion else "", line)
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
     is_shared = place.is_room or place.surface in _FLOORS or _is_common(place)
+    for noun in {one.noun for one in description.objects} & nouns_with("part of a building"):
+        if is_said and place.is_room:
+            yield Unheld("noun", noun, f"the {noun} as a part of the room")
     bare = replace(scene, still=assemble([]))
     if is_said and is_shared and place.scenery and not _differs(scene, bare, times, 0.0, 0.02):
         yield Unheld("place", said.name or "", f"{said.name}, of which only the ground is in view")
@@ -191,13 +195,14 @@ def _is_common(place: Place) -> bool:
 
 
 def _share_inside(shots: _Shots, size: SensorSize, instance: int) -> float:
-    """Most of an object's shapes, as a share, whose middle is in the image at one instant."""
+    """Most that the image holds of an object at one instant: share of the box of its shapes."""
     most = 0.0
     for shapes, camera in shots:
         seen = project(camera, size, shapes.to_world[shapes.instance == instance, :, 3])
-        x, y, depth = seen.T
-        inside = (depth > 0.0) & (x >= 0.0) & (x < size.width) & (y >= 0.0) & (y < size.height)
-        most = max(most, float(inside.mean()))
+        if (seen[:, 2] > 0.0).all():
+            box = np.array([seen[:, :2].min(axis=0) - 1.0, seen[:, :2].max(axis=0) + 1.0])
+            inside = np.diff(np.clip(box, 0.0, [size.width, size.height]), axis=0)
+            most = max(most, float(np.prod(inside / np.diff(box, axis=0))))
     return most
 
 

@@ -13,7 +13,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.description import RELATIONS, SceneDescription, SceneObject
-from texvent.scenes.models.places import is_room
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Camera, Float64Array, Primitives, Shape
 
@@ -106,9 +105,6 @@ def find_unheld(
         others = [body for n, group in enumerate(copies) if n != index for body in group]
         if copies[index]:
             yield from _unmoved(thing, copies[index], others, is_led=index in led)
-        is_part = thing.noun in nouns_with("part of a building")
-        if is_part and is_room(description.surroundings.name or "grass"):
-            yield Unheld("noun", thing.noun, f"the {thing.noun} as a part of the room")
 
 
 def _unrelated(description: SceneDescription, copies: Copies) -> Iterator[Unheld]:

@@ -73,16 +73,10 @@ class PromptReport:
         """Whether every word is understood and every object in view: what `strict` asks for."""
         return not self.faults()
 
-    def faults(self, most: int | None = None, *, rest: str = "") -> list[str]:
-        """What is not shown as it says: a line for each kind.
-
-        Args:
-            most: words that a line names; None: all.
-            rest: said at the end of a line that names fewer: where all of them are.
-        """
+    def faults(self, most: int | None = None) -> list[str]:
+        """What is not shown as it says: a line for each kind, with so many words; None: all."""
         return [
-            f"{kind}: {', '.join(words) if most is None else few(words, most)}"
-            f"{rest if most is not None and len(words) > most else ''}"
+            f"{kind}: {few(words, len(words) if most is None else most)}"
             for kind, words in self.kinds().items()
             if words
         ]
@@ -97,11 +91,11 @@ class PromptReport:
             "too small": list(self.too_small),
         }
 
-    def warnings(self, most: int | None = None, *, rest: str = "") -> list[str]:
-        """The faults as sentences by themselves; arguments as of `faults`."""
+    def warnings(self, most: int | None = None) -> list[str]:
+        """The faults as sentences by themselves."""
         return [
             f"{'' if line.startswith(_OF_OBJECTS) else 'prompt words '}{line}"
-            for line in self.faults(most, rest=rest)
+            for line in self.faults(most)
         ]
 
     def lines(self) -> list[str]:
@@ -208,11 +202,8 @@ class ReportTally:
 
     def _few(self, kind: str) -> str:
         """The most frequent words of a kind."""
-        words = [
-            word if count == 1 else f"{word} ({count:,})"
-            for word, count in ranked(self.words[kind])
-        ]
-        return few(words, MOST_COUNTED)
+        counts = ranked(self.words[kind])
+        return few([f"{one} ({n:,})" if n > 1 else one for one, n in counts], MOST_COUNTED)
 
 
 def ranked(counts: Mapping[str, int]) -> list[tuple[str, int]]:

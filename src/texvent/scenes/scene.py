@@ -70,7 +70,6 @@ class Texture(IntEnum):
     PLASTER = 33
     BRICK = 34
     ROOFING = 35
-    WALLPAPER = 36
     WOOD = 37
     BARK = 38
     FOLIAGE = 39

@@ -98,14 +98,6 @@ def test_a_quarter_turn_clockwise_turns_the_image_counterclockwise():
     np.testing.assert_allclose(turned, np.rot90(image), atol=1e-3)
 
 
-def test_small_turns_are_near_the_means_over_the_true_areas():
-    smooth = np.kron(IMAGE[:4, :4], np.ones((8, 8), np.float32))
-    view = view_of(20, 20, image=smooth)
-    place = CameraPose2D(0.3, -0.4, math.radians(3))
-    error = sample(view, place, smooth) - slow_sample(view, place, image=smooth)
-    assert np.sqrt((error**2).mean()) < 1.0
-
-
 def test_the_scale_keeps_the_path_inside_an_image_that_is_large_enough():
     image, sensor = SensorSize(400, 300), SensorSize(40, 30)
     places = [CameraPose2D(-5.0), CameraPose2D(5.0, 2.0)]

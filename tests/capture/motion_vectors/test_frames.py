@@ -6,7 +6,6 @@ import pytest
 from tests.capture.motion_vectors import moving_scene as scene
 
 import texvent
-from texvent.capture.motion_vectors.frames import find_motion_sidecar
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError
@@ -196,17 +195,6 @@ def test_start_stop_and_fit_change_motion_as_pixels():
             np.tile(np.float32(scene.SQUARE_PX) / 2, (inside.sum(), 1))
         )
         assert set(frame.motion.depth[inside]) == {scene.NEAR_M}
-
-
-def test_a_folder_with_passes_beside_its_frames_is_found(tmp_path):
-    assert find_motion_sidecar(tmp_path) is None
-    assert find_motion_sidecar("rtsp://nowhere") is None
-    (tmp_path / "frames").mkdir()
-    (tmp_path / "motion").mkdir()
-    (tmp_path / "motion" / "0.png").touch()  # which could be anything
-    assert find_motion_sidecar(tmp_path) is None
-    (tmp_path / "motion" / "0.exr").touch()
-    assert find_motion_sidecar(tmp_path) == tmp_path / "motion"
 
 
 def test_simulate_takes_arrays_and_files(tmp_path):

@@ -6,7 +6,6 @@ decoded by the code that runs the published models. Offline.
 
 import json
 import os
-import shutil
 import sys
 
 import numpy as np
@@ -173,23 +172,6 @@ def test_an_image_starts_the_video_where_the_pipeline_can(models, tmp_path):
     (tmp_path / "bad.png").write_bytes(b"no image")
     with pytest.raises(InputError, match="cannot be read as an image"):
         build(models("cosmos25"), image=tmp_path / "bad.png").generate(PROMPT)
-
-
-def test_an_image_starts_wan_through_its_other_pipeline_with_the_same_weights(models, tmp_path):
-    from PIL import Image
-
-    folder = tmp_path / "Wan2.2-TI2V-5B-Diffusers"
-    shutil.copytree(models("wan"), folder)
-    index = json.loads((folder / "model_index.json").read_text())
-    (folder / "model_index.json").write_text(json.dumps({**index, "expand_timesteps": True}))
-    first_frames = []
-    for colour in ("red", "blue"):
-        Image.new("RGB", (200, 100), colour).save(tmp_path / f"{colour}.png")
-        video = build(folder, image=tmp_path / f"{colour}.png").generate(PROMPT)
-        assert video.metadata["pipeline"] == "WanImageToVideoPipeline"
-        first_frames.append(pixels(video)[0])
-    assert not np.array_equal(*first_frames)
-    assert build(folder).generate(PROMPT).metadata["pipeline"] == "WanPipeline"
 
 
 def test_the_guardrail_sees_the_prompt_and_every_frame(models):

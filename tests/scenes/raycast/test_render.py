@@ -56,7 +56,7 @@ def test_every_ground_gives_finite_light_in_range(ground):
     assert np.unique(image).size > 256  # not rounded to whole levels
 
 
-@pytest.mark.parametrize("size", [(1, 1), (1, 40), (33, 1), (16, 16), (17, 31), (1280, 720)])
+@pytest.mark.parametrize("size", [(1, 1), (1, 40), (33, 1), (16, 16), (17, 31), (640, 360)])
 def test_any_size_can_be_drawn(size):
     image = render(showcase(), 0.0, SensorSize(*size))
     assert image.shape == (size[1], size[0], 3)

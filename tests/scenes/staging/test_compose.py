@@ -13,7 +13,7 @@ from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.scene import Camera, Float64Array, Texture
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.acts import ACTS
+from texvent.scenes.staging.acts.perform import ACTS
 from texvent.scenes.staging.camera.framing import image_of
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize

@@ -4,10 +4,14 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from tests.simulate.references import noise_blocks
 
 from texvent.events import SIGNAL, EventStream
 from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
+from texvent.simulate.texvent import noise as noise_kernel
 from texvent.simulate.texvent.noise import (
     NoisePlaces,
     draw_noise,
@@ -186,3 +190,21 @@ def test_voltage_noise_reaches_the_threshold_with_the_stated_probability(mean):
     fired = np.count_nonzero(np.abs(noise) >= 0.2)
     assert abs(fired - mean * noise.size) < 4 * np.sqrt(mean * noise.size) + 1
     assert noise.std() == pytest.approx(voltage_noise_sd(0.2, mean), rel=0.01)
+
+
+@settings(max_examples=60)
+@given(
+    st.integers(0, 2**63 - 1),
+    st.sampled_from([1, 7, 4095, 4096, 4097, 20_000]),
+    st.sampled_from([0.0, 1e-6, 5e-4, 0.02, 1.5]),
+    st.floats(0, 1),
+)
+def test_compiled_noise_has_the_bits_of_the_definition(seed, pixels, mean, on_fraction):
+    one, two = (
+        module.place_noise(frame_key(seed, 5), mean, on_fraction, pixels)
+        for module in (noise_blocks, noise_kernel)
+    )
+    assert [column.dtype for column in one] == [column.dtype for column in two]
+    assert all(np.array_equal(a, b) for a, b in zip(one, two, strict=True))
+    assert np.all(np.diff(one.pixel * 2 + one.p) >= 0)
+    assert np.all((one.fraction >= 0) & (one.fraction < 1))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 from fractions import Fraction
 from typing import Any
 
@@ -12,16 +12,10 @@ from numpy.typing import NDArray
 
 from texvent.capture.camera_path.motion import CameraPath, CameraPose2D
 from texvent.capture.camera_path.view import View, fitted_view
+from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.sensor import SensorSize
 from texvent.transfer import WHITE, encode_srgb
-from texvent.video import (
-    Frame,
-    Motion,
-    NotebookFrames,
-    describe_stream,
-    frame_time_us,
-    transfer_of,
-)
+from texvent.video import Frame, Motion, frame_time_us, transfer_of
 
 INSTANTS = 300
 """Instants of a path that are looked at to find the scale."""
@@ -29,93 +23,72 @@ PX_ALONG = 3
 """A larger image is averaged in whole blocks first, to about this many px along a sensor px."""
 
 
-@dataclass(frozen=True, eq=False, repr=False)
-class PhotoFrames(NotebookFrames):
+class PhotoFrames(FrameSource):
     """A `RenderableStream` of an image under a camera path; its frames carry exact motion.
+
+    Args:
+        levels: [H, W] luma of the image, 0..255 scale.
+        path: of the camera.
+        start_us: time of the first frame, µs.
+        fps: frames per second.
+        intervals: frame intervals; there is one frame more.
+        sensor: size of the frames; None: the image's own, pixel by pixel.
+        facts: where the image comes from.
 
     Raises:
         InputError: the path leads too far away from the image.
     """
 
-    levels: NDArray[np.float32]
-    """[H, W] luma of the image, 0..255 scale."""
-    path: CameraPath
-    start_us: int
-    """Time of the first frame, µs."""
-    fps: Fraction
-    intervals: int
-    """Frame intervals; there is one frame more."""
-    sensor: SensorSize | None = None
-    """None: the image's own size, pixel by pixel."""
-    facts: Mapping[str, Any] = field(default_factory=dict)
-    """Where the image comes from."""
-    view: View = field(init=False)
-    """Where the sensor's pixels lie in the image."""
-    _block: int = field(init=False)
-    _image: NDArray[np.float32] = field(init=False)
-
-    def __post_init__(self) -> None:
-        image = SensorSize(self.levels.shape[1], self.levels.shape[0])
-        times = np.linspace(self.start_us, self._time(self.intervals), INSTANTS)
-        places = [self.path(float(t_us)) for t_us in times]
-        start = View(image, self.sensor or image)
-        view = fitted_view(start, places, is_pixelwise=self.sensor is None)
+    def __init__(
+        self,
+        levels: NDArray[np.float32],
+        path: CameraPath,
+        start_us: int,
+        fps: Fraction,
+        intervals: int,
+        sensor: SensorSize | None,
+        facts: Mapping[str, Any],
+    ) -> None:
+        self._arguments = levels, path, start_us, fps, intervals, sensor, facts
+        self._path, self._start_us, self._fps, self._count = path, start_us, fps, intervals + 1
+        image = SensorSize(levels.shape[1], levels.shape[0])
+        times = np.linspace(start_us, frame_time_us(intervals, fps, start_us), INSTANTS)
+        places = [path(float(t_us)) for t_us in times]
+        view = fitted_view(View(image, sensor or image), places, is_pixelwise=sensor is None)
         wanted = max(1, round(view.scale / PX_ALONG))
-        levels, view, block = _averaged(self.levels, view, wanted)
-        for name, value in (("view", view), ("_block", block), ("_image", levels)):
-            object.__setattr__(self, name, value)
-
-    def __repr__(self) -> str:
-        return describe_stream(self)
-
-    @property
-    def size(self) -> SensorSize:
-        """Of the sensor, px."""
-        return self.view.sensor
-
-    @property
-    def frame_count(self) -> int:
-        """How many frames there are."""
-        return self.intervals + 1
-
-    @property
-    def is_live(self) -> bool:
-        """False: the frames can be made again."""
-        return False
-
-    @property
-    def metadata(self) -> Mapping[str, Any]:
-        """Image, path and scale."""
-        scale = self._block * self.view.scale
-        return {**self.facts, **self.path.facts, "image_px_per_px": round(scale, 6)}
+        self._image, self.view, block = _averaged(levels, view, wanted)
+        scale = round(block * self.view.scale, 6)
+        metadata = {**facts, **path.facts, "image_px_per_px": scale}
+        self._facts = SourceFacts(self.view.sensor, fps, intervals + 1, metadata)
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order, with motion to their neighbours."""
-        for index in range(self.frame_count):
+        for index in range(self._count):
             t_us = self._time(index)
-            place = self.path(t_us)
+            place = self._path(t_us)
             levels = self.view.render(self._image, place)
             motion = self._motion(index, place)
             yield Frame(levels, t_us, motion=motion, transfer=transfer_of(self))
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W] float32 luma on the 0..255 scale."""
-        levels = self.view.render(self._image, self.path(t_us))
+        levels = self.view.render(self._image, self._path(t_us))
         return Frame(levels, t_us, is_source=False, transfer=transfer_of(self))
 
     def gamma_coded(self) -> PhotoFrames:
         """The same camera over the image as gamma-coded levels, where it is linear light."""
-        facts = {name: one for name, one in self.facts.items() if name != "transfer"}
-        levels = encode_srgb(self.levels / np.float32(WHITE))
-        return replace(self, levels=levels, facts=facts)
+        levels, path, start_us, fps, intervals, sensor, facts = self._arguments
+        levels = encode_srgb(levels / np.float32(WHITE))
+        facts = {name: one for name, one in facts.items() if name != "transfer"}
+        return PhotoFrames(levels, path, start_us, fps, intervals, sensor, facts)
 
     def _time(self, index: int) -> int:
-        return frame_time_us(index, self.fps, self.start_us)
+        return frame_time_us(index, self._fps, self._start_us)
 
     def _motion(self, index: int, place: CameraPose2D) -> Motion:
         forward, backward = (
-            self.view.vectors(place, self.path(self._time(other)))
-            if 0 <= other < self.frame_count
+            self.view.vectors(place, self._path(self._time(other)))
+            if 0 <= other < self._count
             else None
             for other in (index + 1, index - 1)
         )

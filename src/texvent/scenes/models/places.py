@@ -13,10 +13,10 @@ from typing import Any, Literal
 from texvent.scenes.models.tables import frozen, read_table
 from texvent.scenes.scene import Colour, Ground, Texture
 
-Where = Literal["around", "walls", "under", "both sides", "water", "far", "route"]
+Where = Literal["around", "walls", "under", "water", "far", "route"]
 """Where scenery stands."""
 _SCALES: Mapping[str, tuple[float, float]] = {
-    "walls": (0.95, 1.1), "under": (1.0, 1.0), "both sides": (1.0, 1.0),
+    "walls": (0.95, 1.1), "under": (1.0, 1.0),
 }  # fmt: skip
 """Usual multiples of its size, of what does not stand around."""
 ROAD_GROUNDS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
@@ -45,8 +45,8 @@ class Scenery:
 
     @property
     def is_structure(self) -> bool:
-        """Whether it is part of a place that is empty, too: walls, lines on the ground."""
-        return self.where in ("both sides", "under")
+        """Whether it is part of a place that is empty, too: lines on the ground."""
+        return self.where == "under"
 
 
 @dataclass(frozen=True)
@@ -75,11 +75,6 @@ class Place:
     def is_room(self) -> bool:
         """Whether it has walls and a ceiling."""
         return self.ground is Ground.FLOOR
-
-    @property
-    def is_passage(self) -> bool:
-        """Whether it runs between two walls."""
-        return any(one.where == "both sides" for one in self.scenery)
 
     @property
     def has_road(self) -> bool:

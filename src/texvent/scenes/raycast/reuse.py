@@ -187,7 +187,7 @@ def _shadow_windows(
 ) -> list[Float64Array] | None:
     """Where in the image the sun's shadows of some shapes may be seen, [k, 4] each, pixels.
 
-    None: there is no telling.
+    None: anywhere.
     """
     if not after.world.instant[0]["shadows"]:
         return []
@@ -216,7 +216,7 @@ def _windows_on_ground(
 ) -> Float64Array | None:
     """Where in the image the sun's shadows of some shapes may lie on the ground: [k, 4], pixels.
 
-    None: the sun is so low that there is no telling.
+    None: anywhere, as the sun is low.
     """
     if instant["ground"] == Ground.NONE:
         return np.zeros((0, 4))

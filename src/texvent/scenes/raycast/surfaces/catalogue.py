@@ -59,7 +59,6 @@ SURFACES: dict[Texture, SurfaceKind] = {
     Texture.PLASTER: SurfaceKind(patterns.plaster, 3.2, 0.35, 0.25),
     Texture.BRICK: SurfaceKind(patterns.brick, 2.0, 0.8, 0.5),
     Texture.ROOFING: SurfaceKind(patterns.roofing, 2.5, 0.4),
-    Texture.WALLPAPER: SurfaceKind(patterns.wallpaper, 1.6, 0.2, 0.3),
     Texture.WOOD: SurfaceKind(patterns.wood, 0.9, 0.2, 0.0),
     Texture.BARK: SurfaceKind(patterns.bark, 0.9, 0.9, 0.0),
     Texture.FOLIAGE: SurfaceKind(patterns.foliage, 1.8, 0.45, 0.5, larger=4.3),

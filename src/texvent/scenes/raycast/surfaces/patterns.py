@@ -252,19 +252,6 @@ def roofing() -> Pattern:
     return Pattern(factor, smooth_step(rough, 0.6, 1.6), inside - drop)
 
 
-def wallpaper() -> Pattern:
-    """A repeated figure on stripes of two shades."""
-    x, y = grid()
-    stripes = smooth_step(np.abs((x * 6.0) % 1.0 - 0.5), 0.22, 0.26)
-    across, up = (x * 6.0) % 1.0 - 0.5, (y * 6.0 + 0.5 * np.floor(x * 6.0)) % 1.0 - 0.5
-    square = across * across + up * up
-    petals = 0.09 * (1.0 + 4.0 * across * across * up * up / (square * square + 1e-9))
-    figure = 1.0 - smooth_step(np.sqrt(square), 0.8 * petals, 1.2 * petals + 0.02)
-    rough = fractal(4, 6, 271, gain=0.9)
-    factor = exponential(0.10 * rough - 0.22 * stripes)
-    return Pattern(factor, figure, 0.1 * rough)
-
-
 def wood() -> Pattern:
     """Grain along v, with growth rings and knots."""
     grain = fractal(2, 6, 281, gain=0.9, stretch=10)

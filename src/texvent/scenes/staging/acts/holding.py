@@ -4,22 +4,19 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from texvent.scenes.models.anchors import find_support, top_heights
+from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.outfit import CLOTHES, list_props
-from texvent.scenes.models.protocol import Pose
+from texvent.scenes.models.protocol import Noun, Pose
 from texvent.scenes.models.shapes import Affine, shift
 from texvent.scenes.models.tables import nouns_with, trait_value
+from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, size_of
-from texvent.scenes.staging.acts.acts import (
-    held_at,
-    hides_riders,
-    is_person,
-    scaled,
-)
 from texvent.scenes.staging.trajectories.trajectory import (
     Attached,
     Performed,
@@ -59,6 +56,42 @@ class Hold(NamedTuple):
     """Whether the thing stays upright."""
     grips: Grips = ()
     """Where hands are, in the holder's body coordinates, m."""
+
+
+def hides_riders(noun: Noun) -> bool:
+    """Whether it is a closed vehicle."""
+    return noun.habitat != "fixed" and noun.name in nouns_with("closed")
+
+
+def is_person(actor: Actor) -> bool:
+    """Whether it has hands."""
+    return actor.noun.name in PERSON_NOUNS
+
+
+def scaled(point: Vector, size: float) -> Vector:
+    """A point of an adult's body on one of that size."""
+    return (size * point[0], size * point[1], size * point[2])
+
+
+def moving(actor: Actor, path: Trajectory) -> Actor:
+    """The actor on another trajectory, with nothing in its hands."""
+    return replace(actor, trajectory=path, is_mover=True, lead_m=0.0, props=())
+
+
+def held_at(
+    holder: Actor, anchor: str, offset: Affine, *, is_upright: bool = False, activity: str = "stand"
+) -> Attached:
+    """A trajectory fixed to a named place of a body: `offset` [3, 4] are axes at that place.
+
+    What is upright faces as its holder does.
+    """
+    axes = partial(_upright, holder, anchor) if is_upright else partial(holder.anchor, anchor)
+    return Attached(holder.trajectory, axes, offset, activity)
+
+
+def _upright(holder: Actor, anchor: str, time_s: float) -> Float64Array:
+    yaw = holder.trajectory.at(time_s).yaw
+    return np.column_stack([rotation(yaw, 0.0, 0.0), holder.anchor(anchor, time_s)[:, 3]])
 
 
 def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:

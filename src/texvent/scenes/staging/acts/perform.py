@@ -23,8 +23,45 @@ from texvent.scenes.models.tables import trait_value
 from texvent.scenes.spec.scene import Direction
 from texvent.scenes.staging.actors import Actor, seeded, size_of
 from texvent.scenes.staging.acts import holding, striking
-from texvent.scenes.staging.acts.acts import ACTS, SINGLE, Cast, hides_riders, is_person
+from texvent.scenes.staging.acts.holding import hides_riders, is_person
 from texvent.scenes.staging.trajectories.trajectory import Stationary, ahead
+
+SINGLE = frozenset({"kick", "throw", "collide"})
+"""Acts with one instant of contact."""
+ACTS = SINGLE | {"hold", "wear", "push", "ride"}
+"""Relations that are acts of the subject on its first target."""
+
+
+class Cast:
+    """The actors by object, so that an act can replace them."""
+
+    def __init__(self, actors: list[Actor]) -> None:
+        self._actors: list[Actor | None] = list(actors)
+
+    def copies(self, index: int) -> list[int]:
+        """Positions of the copies of an object."""
+        return [
+            number
+            for number, actor in enumerate(self._actors)
+            if actor is not None and actor.object_index == index
+        ]
+
+    def get(self, number: int) -> Actor:
+        """The actor at a position."""
+        actor = self._actors[number]
+        if actor is None:
+            raise KeyError(number)
+        return actor
+
+    def put(self, number: int, actor: Actor | None) -> None:
+        """Replace an actor; None takes it off the scene."""
+        self._actors[number] = actor
+
+    def actors(self) -> list[Actor]:
+        """Those that are left, numbered anew."""
+        left = [actor for actor in self._actors if actor is not None]
+        return [replace(actor, instance=number) for number, actor in enumerate(left, start=1)]
+
 
 _IDLE = frozenset({"stand", "sit", "sail", "drive"})
 """Motions of people that leave it open whether they ride."""

@@ -14,7 +14,7 @@ import numpy as np
 from texvent.scenes.models.shapes import bounds, moved, shift
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
-from texvent.scenes.staging.acts.acts import (
+from texvent.scenes.staging.acts.holding import (
     held_at,
     is_person,
     moving,

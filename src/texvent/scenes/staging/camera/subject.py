@@ -11,7 +11,7 @@ import numpy as np
 from texvent.scenes.description import CameraMove, SceneDescription
 from texvent.scenes.models.anchors import has_places
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
-from texvent.scenes.models.places import PLACES, is_room
+from texvent.scenes.models.places import is_room
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, corners_over, seeded
 from texvent.scenes.staging.camera.camera_path import Tie
@@ -55,8 +55,6 @@ _ROOM_ELEVATION = 0.24
 _FLAT, _FLAT_MOST_M, _FLAT_ELEVATION = 0.3, 3.0, 0.85
 """What stays in place, is flatter than this share of its length and not longer than that, is looked
 down upon."""
-_BETWEEN_WALLS = 0.06
-"""Azimuth of a camera between two walls, which looks along them."""
 _ELONGATED, _ALONG_IT = 4.5, 0.75
 """What is so many times as long as high is seen at an angle to its side, from nearer its front."""
 _HERD, _HERD_ELEVATION = 6, 0.3
@@ -106,9 +104,7 @@ def choose_angles(
     step = np.subtract(main.trajectory.at(0.5).position, main.trajectory.at(0.0).position)
     is_in_depth = bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
     follows = any(move.kind == "follow" for move in moves)
-    if PLACES[place].is_passage:
-        azimuth = math.copysign(_BETWEEN_WALLS, wander)
-    elif is_in_depth:
+    if is_in_depth:
         azimuth = yaw + math.copysign(0.5, wander) if follows else math.copysign(0.42, wander)
     elif _is_elongated(main):
         azimuth = math.copysign(_ALONG_IT, math.cos(yaw))

@@ -21,6 +21,7 @@ from texvent.scenes.models.shapes import bounds, moved
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import is_centred, size_of
+from texvent.scenes.staging.trajectories.choose_trajectory import ORBIT_SIZES
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.steered_path import sample_places
 from texvent.scenes.staging.trajectories.trajectory import Vector
@@ -29,8 +30,6 @@ GAP_M = 0.25
 """Least space between two objects, in units of the smaller one's size."""
 OVERTAKEN = 0.4
 """Speed of what is overtaken, as a share of what overtakes it."""
-ORBIT_SIZES = 1.3
-"""Radius of a circle, in sizes of who goes along it."""
 _TURNING = ("spin", "roll", "sway", "dance", "fall")
 """Motions that need the same room at all sides."""
 

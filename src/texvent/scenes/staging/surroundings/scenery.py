@@ -29,8 +29,6 @@ _FAR_SHORE_M = 100.0
 _USUAL_DISTANCE_M = 16.0
 _ATTEMPTS = 40
 """Places tried for each piece before it is left out."""
-_GAP_M = 0.35
-"""From what must not touch it to a wall along the view."""
 _SPACING_M, _ASIDE_M = 12.0, (0.8, 9.0)
 """Along a route: usually from one to the next, and least and most from the free strip."""
 _BEFORE_M, _MOST_ITEMS = 4.0, 90
@@ -74,8 +72,8 @@ class SceneryItem:
 
     @property
     def is_flat(self) -> bool:
-        """Whether others may stand on it or in it: paint on the ground, walls around."""
-        return self.rule.where in ("under", "both sides")
+        """Whether others may stand on it: paint on the ground."""
+        return self.rule.where == "under"
 
     @property
     def radius_m(self) -> float:
@@ -126,8 +124,6 @@ def scatter(
     for rule in rules:
         if rule.where == "under":
             work.lay_under(rule)
-        elif rule.where == "both sides":
-            work.enclose(rule)
         elif rule.where != "route" and rule not in beside:
             work.stand_in_view(rule)
     return work.items
@@ -218,22 +214,6 @@ class _Scatterer:
         ahead, angle = rule.reach[0], self._view.road.angle
         spot = (x + ahead * math.cos(self._yaw), y + ahead * math.sin(self._yaw))
         self.items.append(SceneryItem(rule, self._build(rule, 0), spot, angle))
-
-    def enclose(self, rule: Scenery) -> None:
-        """Walls on both sides of the view, as far apart as all between them needs."""
-        cameras, bodies = self._view.cameras, self._bodies
-        forward, right = _axes(cameras[len(cameras) // 2])
-        eyes = np.array([camera.position[:2] for camera in cameras])
-        aside = np.append(bodies[:, :2], eyes, axis=0) @ right
-        radii = np.append(bodies[:, 2], np.full(len(eyes), _GAP_M))
-        low, high = float((aside - radii).min()), float((aside + radii).max())
-        # Each wall is a tenth of their distance thick at most.
-        usual_m = 0.78 * self._build(rule, 0).width
-        model = self._build(rule, 0, max((high - low) / usual_m, 1.0))
-        middle = eyes.mean(axis=0)
-        x, y = middle + (0.5 * (high + low) - float(middle @ right)) * right
-        yaw = math.atan2(float(forward[1]), float(forward[0]))
-        self.items.append(SceneryItem(rule, model, (float(x), float(y)), yaw))
 
     def _stand_around(self, rule: Scenery, model: Model, camera: Camera) -> SceneryItem:
         """Somewhere in what the camera sees, as far off as the rule says."""

@@ -43,9 +43,8 @@ _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTS})
 """What bodies without hands do in their place."""
 _LARGEST_AFLOAT_M = 2.5
 """What is larger bobs no more than that: a moon, a cloud."""
-_ROUND_RAD, _ROUND_RAD_S = 2.6, 1.3
-"""Angle of the round that what goes in a circle covers in a clip at least, and the rate up to which
-it turns for that."""
+ORBIT_SIZES = 1.3
+"""Radius of a circle around nothing, in sizes of who goes along it."""
 _BOB_HZ, _WEAVE_HZ, _WEAVE_RAD, _SWAY_RAD = 0.4, 0.68, 0.08, 0.14
 """Up and down of what flies or floats, swaying of a fish about its heading, of what leans."""
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
@@ -83,7 +82,7 @@ def choose_trajectory(
         return Stationary(home, plan.yaw, plan.gesture, plan.motion.pace)
     phase = float(rng.uniform(0.0, 2.0 * math.pi))
     if kind == "orbit":
-        return _go_round(plan, model, home, phase)
+        return orbit(plan, home, ORBIT_SIZES * max(model.length, model.width), phase / math.tau)
     if direction in ("to and fro", "up and down") and kind != "sway":
         return _go_and_return(plan, model, home)
     if kind in PATH_KINDS:
@@ -114,22 +113,13 @@ def _leap(plan: MotionPlan, model: Model, home: Vector, clear_m: float) -> Steer
     return SteeredPath(start, plan.yaw, pieces, speed, floor_m=home[2])
 
 
-def _go_round(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
-    """Along a circle, at a usual speed fast enough for a good part of the round to be seen."""
-    motion = plan.motion
-    rounds_hz = 0.0 if motion.speed_m_s is not None else motion.pace / plan.duration_s
-    radius = 1.3 * max(model.length, model.width)
-    rate = max(plan.speed_m_s / radius, min(_ROUND_RAD_S, _ROUND_RAD * rounds_hz))
-    circle = Circle(home, radius, rate, phase, "move")
-    return Facing(circle) if plan.is_facing else circle
-
-
-def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Circle:
-    """Once round another object in the clip, from that share of the round on."""
+def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Trajectory:
+    """Once round a point in the clip, from that share of the round on."""
     rate = 2.0 * math.pi / max(plan.duration_s, 2.0) * plan.motion.pace
     rate *= -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
     activity = "run" if plan.motion.kind == "run" else "move"
-    return Circle(centre, radius_m, rate, 2.0 * math.pi * share, activity)
+    circle = Circle(centre, radius_m, rate, 2.0 * math.pi * share, activity)
+    return Facing(circle) if plan.is_facing else circle
 
 
 def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
