@@ -33,6 +33,7 @@ from texvent.scenes.staging.placement.object_placement import ObjectPlacer
 from texvent.scenes.staging.surroundings.environment import (
     AnimatedEnvironment,
     build_environment,
+    contrasting,
     find_road,
     lay_across,
     water_line,
@@ -68,6 +69,7 @@ class ComposedScene:
     particles: Staged
     """Weather, smoke, sparks, pieces ..."""
     camera_path: CameraPath
+    place: Place
     animated_environment: AnimatedEnvironment
     lamps: LampPlan
     class_names: dict[int, str]
@@ -152,31 +154,32 @@ def compose_scene(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
     actors = placer.place_all()
+    ground = contrasting(PLACES[place], description, actors)
     camera_path = place_camera(
         description, actors, place, seed=seed, aspect=size.height / size.width,
         duration_s=duration_s, travel=travel,
     )  # fmt: skip
-    view = _describe_view(description, PLACES[place], camera_path, actors, duration_s)
-    if PLACES[place].has_road:
+    view = _describe_view(description, ground, camera_path, actors, duration_s)
+    if ground.has_road:
         actors = lay_across(actors, view.road)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items = _scatter_all(description, view, actors, nouns, seed)
     names = {one.instance: one.noun.name for one in actors}
     object_of = {one.instance: one.object_index for one in actors}
     animated_environment = build_environment(
-        description, place=PLACES[place], road=view.road, distance_m=camera_path.framing.distance_m,
+        description, place=ground, road=view.road, distance_m=camera_path.framing.distance_m,
         room_m=camera_path.room_m,
     )  # fmt: skip
     lamps = plan_lamps(
-        description, actors, place=PLACES[place],
-        strength=choose_lighting(PLACES[place], description.light).lamps,
+        description, actors, place=ground,
+        strength=choose_lighting(ground, description.light).lamps,
         instant_s=0.5 * duration_s, framing=camera_path.framing, items=items,
     )  # fmt: skip
     setting = Setting(actors, camera_path, place, duration_s, seed)
     particles = stage_effects(description, setting)
     still = assemble([item.place() for item in items])
     return ComposedScene(
-        tuple(actors), still, particles, camera_path, animated_environment, lamps, names,
+        tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), object_of,
     )  # fmt: skip
 
