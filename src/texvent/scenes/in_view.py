@@ -160,7 +160,7 @@ def _unshown(
         pairs = zip(staged.effects, staged.kinds, strict=True)
         rest = tuple(effect for effect, own in pairs if own != kind)
         if len(rest) < len(staged.effects):
-            other = replace(scene, particles=replace(staged, effects=rest, ends_s={}))
+            other = replace(scene, particles=replace(staged, effects=rest))
             name = "weather" if kind == said.weather else "effect"
             yield from _unseen(scene, other, times, name, kind)
     turning = [one for one in description.objects

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -19,13 +18,12 @@ from texvent.scenes.scene import (
     Ground,
     Primitives,
 )
-from texvent.scenes.staging.actors import Actor, PlacedModel, assemble, join_primitives, seeded
+from texvent.scenes.staging.actors import Actor, assemble, join_primitives, seeded
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import plan_travel
 from texvent.scenes.staging.particles.choose import (
     Staged,
-    gone,
     stage_effects,
 )
 from texvent.scenes.staging.particles.effect import Setting
@@ -84,18 +82,11 @@ class ComposedScene:
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
-        acting = assemble([self._place(actor, time_s) for actor in self.actors])
+        acting = assemble([self.lamps.place(actor, time_s) for actor in self.actors])
         small = [effect.at(time_s) for effect in self.particles.effects]
         shapes = join_primitives([acting, self.still, *small])
         factor = np.float32(self.animated_environment.flicker(time_s))
         return replace(shapes, emission=shapes.emission * factor)
-
-    def _place(self, actor: Actor, time_s: float) -> PlacedModel:
-        """An object in the world, unless it has burst or broken."""
-        placed = self.lamps.place(actor, time_s)
-        if time_s < self.particles.ends_s.get(actor.instance, math.inf):
-            return placed
-        return replace(placed, to_world=gone(placed.to_world))
 
     def camera(self, time_s: float) -> Camera:
         """The camera at that instant."""

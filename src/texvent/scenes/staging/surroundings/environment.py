@@ -237,8 +237,7 @@ class AnimatedEnvironment:
 
 
 def contrasting(place: Place, description: SceneDescription, actors: Sequence[Actor]) -> Place:
-    """The place; dark instead of light if it is a backdrop that nobody asked for, and dark is
-    farther in log brightness from the colours of the objects."""
+    """The place, dark where it is an open backdrop too near in brightness to an object."""
     is_open = any(one.startswith(NO_PLACE) for one in description.notes)
     if not (is_open and place.is_backdrop and actors) or description.surroundings.colour:
         return place
