@@ -27,7 +27,7 @@ def small(scene: ComposedScene, time_s: float) -> Float64Array:
     return np.concatenate([one.at(time_s).to_world for one in scene.particles.effects])
 
 
-CASES = [(kind, source) for kind, words in EFFECTS.items() for source in (0, None)]
+CASES = [(kind, source) for kind in EFFECTS for source in (0, None)]
 
 
 @pytest.mark.parametrize(("kind", "source"), CASES)

@@ -48,8 +48,6 @@ class ObjectGroup:
     half: Float64Array
     """[3] half extents of the room taken over the whole clip, m."""
     centre: Float64Array = field(default_factory=lambda: np.zeros(3))
-    clear_m: float = 0.0
-    """Height of what it jumps over, m."""
     carrier: ObjectGroup | None = None
     orbits: ObjectGroup | None = None
     yaws: list[float] | None = None

@@ -284,7 +284,7 @@ class ObjectPlacer:
         if group.carrier is not None:
             return self._ride_on(group, group.carrier, home)
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
-        return choose_trajectory(plan, model, home, rng, clear_m=group.clear_m)
+        return choose_trajectory(plan, model, home, rng)
 
     def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Trajectory:
         """On what carries it, which moves as a whole."""

@@ -74,7 +74,7 @@ def place_on_targets(
 ) -> Goal:
     """A subject's position with respect to objects that are placed already, by one of `ON_TARGET`.
 
-    What it does may change: it rides, orbits or jumps over the target. `height` is that of its
+    What it does may change: it rides or orbits the target. `height` is that of its
     origin where the relation does not decide it, m; `neighbours` are as for `rest_on`.
     """
     if kind == "at" and targets[0].noun.name not in nouns_with("table"):
@@ -99,8 +99,7 @@ def _place_around(group: ObjectGroup, targets: Sequence[ObjectGroup], height: fl
 def _place_above(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
     target, own = targets[0], group.models[0].height
     if group.plan.motion.kind == "jump":
-        group.clear_m = min(target.top_m, 2.0 * own)
-        return Goal(_on_ground(target, 0.0), _FIXED)
+        return place_by_subject(group, "beside", target, height)  # it jumps over nothing
     clear = target.top_m + 0.7 * own + _CLEAR_M + (0.5 * own if is_centred(group.noun) else 0.0)
     return Goal(target.centre + np.array([0.0, 0.0, max(clear, height)]), _FIXED)
 
