@@ -155,6 +155,6 @@ def test_no_weights_is_one_clear_error_that_says_where_they_are(tmp_path, capsys
     words = ["simulate", str(clip), "--fps", "30", "--simulator", "v2ce", "-o", str(out)]
     assert main(words) == ConfigError.exit_code
     message = capsys.readouterr().err
-    assert "weights=PATH" in message
+    assert "--weights PATH" in message
     assert "Traceback" not in message
     assert sorted(path.name for path in tmp_path.iterdir()) == ["clip.npy"]

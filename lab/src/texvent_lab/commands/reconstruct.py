@@ -61,7 +61,7 @@ class ReconstructOptions(EventRangeOptions):
         """The events of each image, and its time."""
         if self.events_per_image is not None:
             return slice_by_count(events, count=self.events_per_image, size=events.size)
-        return slice_regularly(events, step_us=MICROSECONDS / self.fps, size=events.size)
+        return slice_regularly(events, step_us=MICROSECONDS / self.fps)
 
 
 def run(arguments: Sequence[str]) -> int:

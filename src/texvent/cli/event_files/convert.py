@@ -22,6 +22,7 @@ from texvent.io.files import open_writer, side_data
 from texvent.io.hdf5.event_utils import EventUtilsCodec, save_with_frames
 from texvent.io.pixel_mask import read_pixel_mask
 from texvent.io.protocol import Columns
+from texvent.io.split_files import read_intervals, write_split
 from texvent.options.parts import make_part
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import parse_sensor
@@ -30,7 +31,6 @@ from texvent.transform.edits import Axes, Region, crop, flip, merge, resize, rot
 from texvent.transform.filters.apply import filter_events
 from texvent.transform.filters.noise_filters import MaskFilter
 from texvent.transform.packets import note_edit
-from texvent.transform.split import read_intervals, write_split
 from texvent.transform.undistort import read_calibration, undistort
 from texvent.view.drawing.event_image import frame_image
 from texvent.view.video.writer import write_images

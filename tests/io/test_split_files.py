@@ -12,8 +12,8 @@ from texvent.errors import FileFormatError, InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.files import load
+from texvent.io.split_files import Interval, read_intervals, split, write_split
 from texvent.sensor import SensorSize
-from texvent.transform.split import Interval, read_intervals, split, write_split
 
 SIZE = SensorSize(4, 3)
 TIMES = [5, 10, 11, 25, 39, 40, 41]
