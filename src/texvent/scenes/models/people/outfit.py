@@ -175,7 +175,7 @@ class Prop:
 
 _BASKETBALL = striped(ORANGE, (0.05, 0.03, 0.02), 2.0)
 _BALL_M = 0.24
-_DRIBBLE_HZ, _JUGGLE_HZ, _ROPE_HZ = 1.6, 1.1, 1.05
+_DRIBBLE_HZ, _JUGGLE_HZ = 1.6, 1.1
 """Bounces of a ball, rounds of a juggler's hand and turns of a rope per second: rates of the
 activities."""
 
