@@ -16,7 +16,7 @@ from texvent.generate.videos.stored_video import open_stored, reopen, write_vide
 
 from ..capture.dsec_sequence import write_sequence
 from ..capture.test_aedat4_frames import grey, write_file
-from ..capture.test_evreal_frames import write_folder
+from ..capture.test_recorded_frames import write_folder
 from .reader import Reader, digest
 
 WIDTH, HEIGHT, COUNT = 48, 32, 8

@@ -198,12 +198,6 @@ def _make_all(
         ):
             if done:
                 progress.announce(f"kept     {done} of {len(samples)} samples, done before")
-            others = manifest.others(samples)
-            if others:
-                progress.announce(
-                    f"note     {len(others)} complete samples are no longer in the list, such as "
-                    f"{others[0]}; they stay"
-                )
             progress.advance("samples", done, len(samples))
             for task in tasks:
                 engine.submit(task)
