@@ -163,5 +163,5 @@ def _make_published(folder: Path) -> Path:
 
 
 def _read_weights(path: Path) -> str:
-    arrays = read_lpips_weights(path, NARROW).arrays
+    arrays = read_lpips_weights(path, NARROW)
     return digest(arrays[name] for name in sorted(arrays))

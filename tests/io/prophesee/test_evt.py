@@ -15,6 +15,8 @@ from texvent.io.files import codec_for, codec_that_reads, load, open_events, sav
 from texvent.io.prophesee import text_header
 
 from .prophesee_files import (
+    EXTENSIONS,
+    FORMATS,
     at_times,
     row_bursts,
     write_words,
