@@ -18,7 +18,7 @@ from texvent.interpolate.rife.weights import (
     import_torch,
     read_rife_weights,
 )
-from texvent.pairs.instants import check_between, matching_levels, position
+from texvent.pairs.instants import matching_levels, position
 from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream
 
 if TYPE_CHECKING:
@@ -81,11 +81,9 @@ class RifeInterpolator:
             One frame per time, [H, W] float32 luma, 0..255 scale.
 
         Raises:
-            InputError: the frames differ in size, a time is not between theirs, or they do not
-                fit into the device's memory.
+            InputError: the frames do not fit into the device's memory.
             FileFormatError: the weights give numbers that are NaN or infinite.
         """
-        check_between(first, second, times_us)
         lumas = tuple(_luma_tensor(frame, self._device) for frame in (first, second))
         images, motion, torch = image_tensors(first, second), None, import_torch()
         for t_us in times_us:
