@@ -62,7 +62,7 @@ def event_images(
     step_us = MICROSECONDS / Fraction(str(fps))
     window_us = max(1, round(window_ms * 1000) or round(step_us))
     colours, drawn = PALETTES[palette], []
-    windows = cut_windows([events], size=events.size, step_us=step_us, window_us=window_us)
+    windows = cut_windows([events], step_us=step_us, window_us=window_us)
     for window in windows:
         if len(drawn) == max_images:
             break

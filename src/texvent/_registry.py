@@ -222,7 +222,6 @@ REPRESENTATIONS = Registry(
         "voxel-zhu": "texvent.represent.voxel_grid:voxel_zhu",
         "voxel-e2vid": "texvent.represent.voxel_grid:voxel_e2vid",
         "voxel-dsec": "texvent.represent.voxel_grid:voxel_dsec",
-        "voxel-tonic": "texvent.represent.voxel_grid:voxel_tonic",
         "time-surface": "texvent.represent.time_surface:time_surface",
         "stacked-histogram": "texvent.represent.histogram:stacked_histogram",
         "binary-event-image": "texvent.represent.event_frame:binary_event_image",
@@ -240,10 +239,9 @@ FILTERS = Registry(
         "background-activity": ("texvent.transform.filters.noise_filters:BackgroundActivityFilter"),
         "refractory": "texvent.transform.filters.noise_filters:RefractoryFilter",
         "event-trail": "texvent.transform.filters.noise_filters:EventTrailFilter",
-        "anti-flicker": "texvent.transform.filters.rate_filters:AntiFlickerFilter",
         "hot-pixels": "texvent.transform.filters.noise_filters:HotPixelFilter",
         "mask": "texvent.transform.filters.noise_filters:MaskFilter",
-        "rate-limit": "texvent.transform.filters.rate_filters:RateLimitFilter",
+        "rate-limit": "texvent.transform.filters.noise_filters:RateLimitFilter",
     },
 )
 AUGMENTATIONS = Registry(

@@ -180,8 +180,7 @@ class EventPackets(EventEdits):
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
         """What a notebook shows: what is known without going through the packets."""
-        from texvent.view.notebook.bundle import mime_bundle
-        from texvent.view.notebook.displays import packets_html
+        from texvent.view.notebook import mime_bundle, packets_html
 
         return mime_bundle(self, lambda: packets_html(self), include, exclude)
 

@@ -320,8 +320,8 @@ class EventStream(EventEdits):
         """Draw the events by matplotlib and give the axes.
 
         Args:
-            kind: "frame" (counted per pixel), "cloud" (x, y and time), "rate" (over time), "isi"
-                (times between events of a pixel) or "polarity" (ON and OFF).
+            kind: "frame" (counted per pixel), "cloud" (x, y and time), "rate" (over time) or
+                "isi" (times between events of a pixel).
             ax: axes to draw into; default: those of a new figure. A cloud needs 3-D ones.
             **options: of the kind, such as `palette="v2e"`; see `texvent.view.plots`.
 
@@ -339,9 +339,8 @@ class EventStream(EventEdits):
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
-        """What a notebook shows: the busiest moment, a cloud to turn, the event rate, facts."""
-        from texvent.view.notebook.bundle import mime_bundle
-        from texvent.view.notebook.displays import stream_html
+        """What a notebook shows: the busiest moment, the event rate, facts."""
+        from texvent.view.notebook import mime_bundle, stream_html
 
         return mime_bundle(self, lambda: stream_html(self), include, exclude)
 

@@ -110,8 +110,7 @@ class Frame:
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
         """What a notebook shows: the image and its time."""
-        from texvent.view.notebook.bundle import mime_bundle
-        from texvent.view.notebook.displays import frame_html
+        from texvent.view.notebook import frame_html, mime_bundle
 
         return mime_bundle(self, lambda: frame_html(self), include, exclude)
 
@@ -179,8 +178,7 @@ class NotebookFrames:
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
         """What a notebook shows: some frames and facts."""
-        from texvent.view.notebook.bundle import mime_bundle
-        from texvent.view.notebook.displays import video_html
+        from texvent.view.notebook import mime_bundle, video_html
 
         stream = cast(FrameStream, self)
         return mime_bundle(self, lambda: video_html(stream), include, exclude)

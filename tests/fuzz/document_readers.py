@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from texvent.metrics import lpips
 from texvent.metrics.lpips import read_lpips_weights, write_lpips_weights
 
 from ..metrics.lpips.lpips_files import NARROW, narrow_weights, write_published
@@ -31,6 +30,5 @@ def _make_published(folder: Path) -> Path:
 
 def _read_weights(path: Path) -> str:
     # The published network has 10 MB; a narrow one of the same layers is read by the same code.
-    lpips.LAYOUTS = (NARROW,)
-    arrays = read_lpips_weights(path).arrays
+    arrays = read_lpips_weights(path, NARROW).arrays
     return digest(arrays[name] for name in sorted(arrays))

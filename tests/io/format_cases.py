@@ -30,6 +30,7 @@ class FormatCase:
     """True if no other sensor size can be written."""
     is_written: bool = True
     """False for formats that are only read."""
+    keeps_metadata: bool = True
 
     @property
     def sensor(self) -> SensorSize:
@@ -68,6 +69,8 @@ ALL_CASES = (
     FormatCase("parquet", "e.parquet", ANY, extra="pyarrow"),
     FormatCase("rosbag1", "e.bag", ANY, 2**32 * 10**6),
     FormatCase("mcap", "e.mcap", SensorSize(2048, 2048), 2**42),
+    FormatCase("rosbag2", "folder", ANY, 2**32 * 10**6, is_written=False),
+    FormatCase("npy", "e.npy", ANY, is_written=False, keeps_metadata=False),
     FormatCase("esim", "folder", ANY, 2**63 // 1000, is_written=False),
     FormatCase("evreal", "folder", ANY, 2**51, is_written=False),
     FormatCase("prophesee-hdf5", "e.hdf5", SensorSize(2048, 2048), is_written=False),

@@ -97,15 +97,6 @@ def test_folders_and_devices_are_never_replaced(tmp_path: Path) -> None:
         check_output("/dev/null", overwrite=True)
 
 
-def test_an_unwritable_folder_is_refused_at_once(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    # The user root may write anywhere, so the system's answer is replaced.
-    monkeypatch.setattr(os, "access", lambda *_: False)
-    with pytest.raises(OutputError, match="is not writable"):
-        check_output(tmp_path / "out.bin", overwrite=False)
-
-
 def test_a_symbolic_link_keeps_pointing_at_the_replaced_file(tmp_path: Path) -> None:
     real, link = tmp_path / "real.bin", tmp_path / "link.bin"
     real.write_bytes(b"old")

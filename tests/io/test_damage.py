@@ -42,15 +42,6 @@ def _load_or_refuse(path: Path) -> EventStream | None:
     return None
 
 
-@settings(max_examples=60, derandomize=True)
-@given(share=st.floats(0.0, 1.0, exclude_max=True))
-def test_a_truncated_file_is_refused(sound: Path, share: float) -> None:
-    content = sound.read_bytes()
-    path = sound.with_name(f"short{sound.suffix}")
-    path.write_bytes(content[: int(share * len(content))])
-    assert _load_or_refuse(path) is None
-
-
 def test_another_start_time_than_the_one_written_is_refused(tmp_path: Path) -> None:
     path = save(tmp_path / "events.h5", _events())
     with h5py.File(path, "r+") as file:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import subprocess
-import sys
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from pathlib import Path
@@ -17,7 +15,7 @@ from hypothesis import strategies as st
 from texvent.errors import ConfigError, InputError, OutputError, TexventWarning
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.io.files import load, open_events, open_writer, save
+from texvent.io.files import codec_for, load, open_events, open_writer, save
 from texvent.sensor import SensorSize
 
 from .format_cases import CASES, METADATA, STREAMS, FormatCase, at_times, random_events
@@ -37,16 +35,6 @@ def case(request: pytest.FixtureRequest) -> FormatCase:
     if chosen.extra:
         pytest.importorskip(chosen.extra, reason=f"{chosen.name} needs {chosen.extra}")
     return chosen
-
-
-def sweep_in_another_process(folder: Path) -> None:
-    code = "import sys, pathlib, texvent.io.atomic as a; a.sweep(pathlib.Path(sys.argv[1]))"
-    subprocess.run([sys.executable, "-c", code, str(folder)], check=True)
-
-
-@pytest.fixture
-def folder_is_clean(tmp_path: Path) -> Callable[[], bool]:
-    return lambda: not list(tmp_path.iterdir())
 
 
 @pytest.mark.parametrize("name", STREAMS)
@@ -277,3 +265,27 @@ def test_formats_that_are_only_read_are_not_written(tmp_path, name, format):
     with pytest.raises(ConfigError, match=r"files are only read; write hdf5 \(\.h5\)"):
         at_times([1], SensorSize(4, 4)).save(tmp_path / name, format=format)
     assert not list(tmp_path.iterdir())
+
+
+def test_a_missing_file_and_a_folder_are_input_errors(tmp_path):
+    with pytest.raises(InputError, match="no such file"):
+        load(tmp_path / "missing.h5")
+    (tmp_path / "folder.h5").mkdir()
+    with pytest.raises(InputError, match="is a folder"):
+        load(tmp_path / "folder.h5")
+
+
+def test_a_writer_outside_its_with_block_says_so(tmp_path, case):
+    writer = open_writer(tmp_path / case.file, size=case.sensor, format=case.name)
+    with pytest.raises(OutputError, match="with block"):
+        writer.append(at_times([5], case.sensor))
+
+
+def test_an_unknown_extension_lists_the_known_ones(tmp_path):
+    with pytest.raises(ConfigError, match=r"'\.xyz'.*\.h5, .*\.npz, .*\.es, .*state the format"):
+        codec_for(tmp_path / "events.xyz")
+    with pytest.raises(ConfigError, match="no extension"):
+        codec_for(tmp_path / "events")
+    with pytest.raises(ConfigError, match=r"unknown event format 'hdf'.*did you mean 'hdf5'"):
+        codec_for(tmp_path / "events.h5", "hdf")
+    assert codec_for(tmp_path / "EVENTS.H5").name == "hdf5"

@@ -77,7 +77,7 @@ def test_one_of_several_groups_is_chosen(tmp_path: Path) -> None:
 def test_an_unknown_file_says_what_it_holds_and_takes_names(tmp_path: Path) -> None:
     arrays = {"a/u": X, "a/v": Y, "a/when": T, "a/sign": P, "b": np.zeros(5)}
     path = write_h5(tmp_path / "e.h5", arrays)
-    with pytest.raises(UnknownLayoutError, match=r"it has: a/sign int64 \[3\], a/u int64 \[3\]"):
+    with pytest.raises(UnknownLayoutError, match=r"knows \(a/sign int64 \[3\], a/u int64 \[3\]"):
         load(path, size=SIZE)
     names = "t=a/when,x=a/u,y=a/v,p=a/sign"
     assert load(path, size=SIZE, columns=names).equals(EVENTS)

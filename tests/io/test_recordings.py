@@ -5,18 +5,11 @@ Run with `pytest -m network`; the archives are fetched into the data folder, onc
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pytest
 
 from texvent.data.pull import pull
-from texvent.event_packets import EventPackets
-from texvent.events import EventStream
-from texvent.io.files import load, save
-from texvent.transform.edits import start_at_zero
-
-from .format_cases import CASES, FormatCase
+from texvent.io.files import load
 
 pytestmark = pytest.mark.network
 # Name, file, sensor, events, ON events.
@@ -40,24 +33,3 @@ def test_aedat_reads_the_recording_as_we_do(
     theirs = np.concatenate([packet["events"] for packet in packets if "events" in packet])
     for mine, other in (("x", "x"), ("y", "y"), ("t", "t"), ("p", "on")):
         np.testing.assert_array_equal(getattr(ours, mine), theirs[other].astype(np.int64))
-
-
-@pytest.mark.parametrize("case", CASES, ids=lambda case: case.name)
-def test_a_recording_survives_every_format(tmp_path: Path, case: FormatCase) -> None:
-    if case.extra:
-        pytest.importorskip(case.extra, reason=f"{case.name} needs {case.extra}")
-    recorded = load(pull("davis346"))
-    if case.stop_us is not None:
-        recorded = start_at_zero(
-            EventPackets((recorded,), recorded.size, recorded.metadata)
-        ).collect()
-    if case.largest.width < recorded.size.width:
-        # A corner of it, for the small sensors.
-        side = case.largest
-        inside = (recorded.x < side.width) & (recorded.y < side.height)
-        columns = (column[inside] for column in (recorded.x, recorded.y, recorded.t, recorded.p))
-        recorded = EventStream(*columns, side, recorded.metadata)
-    back = load(save(tmp_path / case.file, recorded, format=case.name), format=case.name)
-    assert back.equals(recorded)
-    assert back.metadata == recorded.metadata
-    assert len(back) > 100

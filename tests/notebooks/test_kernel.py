@@ -79,7 +79,7 @@ events
     result = cells[0].outputs[-1]
     assert result.output_type == "execute_result"
     assert "EventStream(" in result.data["text/plain"]
-    assert "<iframe" in result.data["text/html"]
+    assert "<img" in result.data["text/html"]
 
 
 def test_plots_show_inline():

@@ -22,23 +22,21 @@ def kernel(a):
     return max(Fraction(0), 1 - abs(Fraction(a)))
 
 
-def event_volume(events, bins, *, scale, lanes=1, place=None):
+def event_volume(events, bins, *, lanes=1, place=None):
     """Zhu et al., eqs. 1 and 2, with every voxel visited for every event.
 
-    `scale` is B − 1 (Zhu, E2VID, DSEC) or B (tonic); `place` maps a pixel to where it is drawn.
+    `place` maps a pixel to where it is drawn.
     """
     width, height = events.size
     volume = np.full((lanes * bins, height, width), Fraction(0))
     listed = rows(events)
     for x, y, t, p in listed:
         start, stop = listed[0][2], listed[-1][2]
-        scaled = Fraction(scale * (t - start), max(stop - start, 1))
+        scaled = Fraction((bins - 1) * (t - start), max(stop - start, 1))
         at_x, at_y = (x, y) if place is None else place[y][x]
         for b in range(bins):
             for row in range(height):
                 for column in range(width):
-                    if scale == bins and scaled >= bins:
-                        continue  # tonic: an index beyond the last bin is not valid
                     weight = kernel(b - scaled) * kernel(row - at_y) * kernel(column - at_x)
                     lane = (1 - p) * bins if lanes == 2 else 0
                     volume[lane + b, row, column] += weight if lanes == 2 else weight * (2 * p - 1)

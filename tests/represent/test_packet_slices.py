@@ -40,7 +40,7 @@ def test_slices_hold_the_events_between_neighbouring_instants(times, cuts, insta
 
 @given(times, cuts, st.fractions(1, 60, max_denominator=7))
 def test_regular_slices_lose_no_event_and_do_not_drift(times, cuts, step_us):
-    slices = list(slice_regularly(packets_of(stream(times), cuts), step_us=step_us, size=SIZE))
+    slices = list(slice_regularly(packets_of(stream(times), cuts), step_us=step_us))
     assert [t for _, events in slices for t in events.t.tolist()] == times
     if times:
         ends = [times[0] + round(number * step_us) for number in range(1, len(slices) + 1)]
@@ -73,6 +73,6 @@ def test_events_are_read_no_further_than_needed():
 
 def test_empty_slices_are_refused():
     with pytest.raises(ConfigError, match="at least 1"):
-        list(slice_regularly([], step_us=Fraction(1, 2), size=SIZE))
+        list(slice_regularly([], step_us=Fraction(1, 2)))
     with pytest.raises(ConfigError, match="at least 1"):
         list(slice_by_count([], count=0, size=SIZE))

@@ -29,18 +29,6 @@ def test_events_after_the_instant_do_not_count():
     assert not time_surface(events, at_us=9).any()
 
 
-def test_around_an_event_it_is_the_surface_of_hots():
-    # Eqs. 1-3 of HOTS: for the event at time t, exp(−(t − last time at each neighbour) / τ).
-    events = definitions.random_events(3, 60, SMALL, 300)
-    for number in (10, 59):
-        last = {(x, y, p): t for x, y, t, p in definitions.rows(events[: number + 1])}
-        t = int(events.t[number])
-        surface = time_surface(events[: number + 1], tau_us=100, at_us=t)
-        for (x, y, p), then in last.items():
-            assert surface[p, y, x] == np.float32(math.exp(-(t - then) / 100))
-        assert np.count_nonzero(surface) == len(last)
-
-
 @given(
     streams(),
     st.sampled_from([1, 20_000]),

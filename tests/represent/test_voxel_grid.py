@@ -5,14 +5,14 @@ from hypothesis import strategies as st
 
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.represent.voxel_grid import voxel_dsec, voxel_e2vid, voxel_tonic, voxel_zhu
+from texvent.represent.voxel_grid import voxel_dsec, voxel_e2vid, voxel_zhu
 from texvent.sensor import SensorSize
 
 from . import definitions
 from .definitions import SMALL, streams
 
 ONE_PIXEL = SensorSize(1, 1)
-# t* in 3 bins: Zhu, E2VID and DSEC 0, 0.5, 1.5, 2; tonic 0, 0.75, 2.25, 3.
+# t* in 3 bins: 0, 0.5, 1.5, 2.
 FOUR = EventStream([0] * 4, [0] * 4, [100, 110, 130, 140], [1, 0, 1, 1], ONE_PIXEL)
 
 
@@ -29,11 +29,6 @@ def test_zhu_and_e2vid_by_hand():
 
 def test_zhu_split_by_hand_gives_on_bins_then_off_bins():
     assert values(voxel_zhu(FOUR, bins=3, split_polarity=True)) == [1, 0.5, 1.5, 0.5, 0.5, 0]
-
-
-def test_tonic_by_hand_loses_the_last_event():
-    # Bin 0: +1 − 0.25; bin 1: −0.75; bin 2: 0.75 (its other 0.25 and the last event are lost).
-    assert values(voxel_tonic(FOUR, bins=3)) == [0.75, -0.75, 0.75]
 
 
 def test_dsec_by_hand_normalises_the_voxels_that_are_not_zero():
@@ -84,12 +79,9 @@ def test_grids_equal_their_definition_exactly(events, bins):
     def slow(**options):
         return definitions.event_volume(events, bins, **options)
 
-    np.testing.assert_array_equal(voxel_zhu(events, bins=bins), slow(scale=bins - 1))
-    np.testing.assert_array_equal(voxel_e2vid(events, bins=bins), slow(scale=bins - 1))
-    np.testing.assert_array_equal(
-        voxel_zhu(events, bins=bins, split_polarity=True), slow(scale=bins - 1, lanes=2)
-    )
-    np.testing.assert_array_equal(voxel_tonic(events, bins=bins), slow(scale=bins))
+    np.testing.assert_array_equal(voxel_zhu(events, bins=bins), slow())
+    np.testing.assert_array_equal(voxel_e2vid(events, bins=bins), slow())
+    np.testing.assert_array_equal(voxel_zhu(events, bins=bins, split_polarity=True), slow(lanes=2))
 
 
 @given(streams(), st.data())
@@ -98,7 +90,7 @@ def test_rectified_grids_equal_their_definition(events, data):
     place = st.floats(-2, 6, width=16)
     table = np.array(data.draw(st.lists(place, min_size=24, max_size=24))).reshape(3, 4, 2)
     grid = voxel_dsec(events, bins=3, normalise=False, rectify_map=table)
-    expected = definitions.event_volume(events, 3, scale=2, place=table.tolist())
+    expected = definitions.event_volume(events, 3, place=table.tolist())
     np.testing.assert_allclose(grid, expected, rtol=1e-6, atol=1e-12)
 
 
@@ -107,7 +99,7 @@ def test_zhu_keeps_the_sum_of_polarities(events):
     assert voxel_zhu(events, bins=5).sum() == pytest.approx(int(events.polarity.sum()), abs=1e-5)
 
 
-@pytest.mark.parametrize("voxel", [voxel_zhu, voxel_e2vid, voxel_tonic])
+@pytest.mark.parametrize("voxel", [voxel_zhu, voxel_e2vid])
 def test_events_of_one_time_fall_in_the_first_bin(voxel):
     events = EventStream([0, 3], [0, 2], [9, 9], [1, 0], SMALL)
     grid = voxel(events, bins=4)

@@ -49,17 +49,6 @@ def expected(first_ns: int, times=TIMES, frames=FRAMES) -> dict:
     return {**columns, "ns": [first_ns + 1000 * t for t in events.t.tolist()]}
 
 
-def test_images_give_the_events_of_the_video_in_ros_time():
-    logic, warned = make()
-    packets = []
-    for i, pixels in enumerate(FRAMES):
-        packets += logic.take(image(pixels, START_NS + i * STEP_NS), 0).packets
-    assert decode(packets) == expected(START_NS)
-    assert [packet.sequence for packet in packets] == list(range(len(packets)))
-    assert {packet.frame for packet in packets} == {"cam"}
-    assert not warned
-
-
 def test_messages_span_no_more_than_the_packet_length_and_are_stamped_with_their_first_event():
     logic, _ = make(packet_ms=5.0)
     packets = [
@@ -83,7 +72,7 @@ def test_a_message_can_be_decoded_without_those_before_it():
     assert [ns for one in alone for ns in one["ns"]] == decode(packets)["ns"]
 
 
-@pytest.mark.parametrize("step_ns", [5_000_000_000, -2_000_000_000, 90_000_000_000])
+@pytest.mark.parametrize("step_ns", [5_000_000_000, -2_000_000_000])
 def test_a_step_of_time_begins_a_new_recording_and_the_clock_of_the_words_goes_on(step_ns):
     logic, warned = make()
     packets = []
@@ -120,16 +109,6 @@ def test_events_that_a_simulator_holds_back_come_before_a_restart_and_at_the_end
     once, again = expected(START_NS), expected(second_ns)
     assert decode(packets) == {name: once[name] + again[name] for name in once}
     assert [packet.sequence for packet in packets] == list(range(len(packets)))
-
-
-def test_time_that_starts_again_at_zero_has_a_time_base_modulo_2_to_the_64():
-    logic, _ = make()
-    packets = []
-    for first_ns in (50_000_000_000, 0):
-        for i, pixels in enumerate(FRAMES):
-            packets += logic.take(image(pixels, first_ns + i * STEP_NS), 0).packets
-    assert packets[-1].time_base_ns == 2**64 - 3 * STEP_NS
-    assert decode(packets)["ns"] == expected(50_000_000_000)["ns"] + expected(0)["ns"]
 
 
 def test_images_whose_time_does_not_increase_are_dropped_and_said():

@@ -75,20 +75,6 @@ def test_a_bad_image_ends_the_node_with_one_line(world, capsys):
     assert not world.is_up
 
 
-@pytest.mark.parametrize(("end", "is_given"), [(KeyboardInterrupt, True), (None, False)])
-def test_ctrl_c_publishes_what_the_simulator_held_back(world, held_back, end, is_given):
-    for i, pixels in enumerate(FRAMES):
-        world.send("image_raw", image(pixels, 10**9 + i * STEP_NS))
-    world.ends_by = end and end()
-    assert run(simulator=held_back, interpolate="none") == 0
-    assert bool(world.published["events"]) == is_given  # ROS that is down takes no message
-    if is_given:
-        truth = texvent.simulate(
-            FRAMES, fps=50, simulator="esim", interpolate="none", progress=False
-        )
-        assert (events_of(world.published["events"]) == as_rows(truth, 10**6)).all()
-
-
 @pytest.mark.parametrize("end", [KeyboardInterrupt(), ExternalShutdownException()])
 def test_ctrl_c_and_a_shutdown_of_ros_end_the_node_quietly(world, capsys, end):
     world.ends_by = end

@@ -3,7 +3,7 @@
 import importlib.util
 import sys
 from pathlib import Path
-from types import ModuleType, SimpleNamespace
+from types import ModuleType
 from xml.etree import ElementTree
 
 import pytest
@@ -54,31 +54,3 @@ def test_the_entry_point_is_the_node(setup_arguments):
     (script,) = setup_arguments["entry_points"]["console_scripts"]
     assert script == "event_camera = texvent_ros.node:main"
     assert "def main(" in (ROOT / "texvent_ros" / "node.py").read_text()
-
-
-def test_the_launch_file_starts_the_node_with_its_arguments(monkeypatch):
-    values = {"parameters": "seed.yaml", "image": "/cam"}
-
-    def configuration(name):
-        return SimpleNamespace(perform=lambda context: values.get(name, context[name]))
-
-    contents = {
-        "launch": {"LaunchDescription": list},
-        "launch.actions": {
-            "DeclareLaunchArgument": lambda name, **more: (name, more["default_value"]),
-            "OpaqueFunction": lambda *, function: function,
-        },
-        "launch.substitutions": {"LaunchConfiguration": configuration},
-        "launch_ros": {},
-        "launch_ros.actions": {"Node": lambda **options: options},
-    }
-    for name, members in contents.items():
-        module = ModuleType(name)
-        vars(module).update(members)
-        monkeypatch.setitem(sys.modules, name, module)
-    launch = load(ROOT / "launch" / "event_camera.launch.py")
-    *declared, make_nodes = launch.generate_launch_description()
-    (node,) = make_nodes(dict(declared))
-    assert (node["package"], node["executable"]) == ("texvent_ros", "event_camera")
-    assert node["remappings"] == [("image_raw", "/cam")]
-    assert node["parameters"] == [{"frame_id": "event_camera"}, "seed.yaml"]

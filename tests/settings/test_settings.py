@@ -135,7 +135,6 @@ def test_a_sensor_that_is_one_number_is_told_what_a_sensor_can_be():
     [
         ({"noise": "none", "noise_rate_hz": 5.0}, "noise_rate_hz has no effect: noise is none"),
         ({"interpolate": "none", "max_intermediate": 5}, "max_intermediate has no effect: int"),
-        ({"timestamps_unit": "us"}, "timestamps_unit has no effect: timestamps is not given"),
     ],
 )
 def test_an_option_that_another_one_switches_off_is_said(tmp_path, options, said):

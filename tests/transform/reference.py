@@ -5,14 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.transform.filters.apply import (
-    BLOCK,
-    MOST_BURSTS,
-    NEVER,
-    FlickerLimits,
-    Int64Array,
-    UInt16Array,
-)
+from texvent.transform.filters.apply import NEVER, Int64Array, UInt16Array
 
 
 def find_supported(
@@ -51,65 +44,6 @@ def find_rested(
             rested[event] = True
             kept_us[pixel] = t[event]
     return rested
-
-
-def find_places_in_bursts(
-    x: UInt16Array,
-    y: UInt16Array,
-    t: Int64Array,
-    p: NDArray[np.uint8],
-    last_us: Int64Array,
-    burst: NDArray[np.uint8],
-    threshold_us: int,
-) -> NDArray[np.uint8]:
-    """See the kernel of this name."""
-    places = np.zeros(len(t), np.uint8)
-    polarity, place = burst
-    for event in range(len(t)):
-        pixel = int(y[event]), int(x[event])
-        is_first = (
-            last_us[pixel] == NEVER
-            or polarity[pixel] != p[event]
-            or t[event] - last_us[pixel] >= threshold_us
-        )
-        place[pixel] = 1 if is_first else min(int(place[pixel]) + 1, 3)
-        polarity[pixel], last_us[pixel] = p[event], t[event]
-        places[event] = place[pixel]
-    return places
-
-
-def find_flicker(
-    x: UInt16Array,
-    y: UInt16Array,
-    t: Int64Array,
-    p: NDArray[np.uint8],
-    start_us: Int64Array,
-    state: NDArray[np.uint8],
-    limits: FlickerLimits,
-) -> NDArray[np.bool_]:
-    """See the kernel of this name."""
-    found = np.zeros(len(t), np.bool_)
-    was_on, count, flickers = state
-    for event in range(len(t)):
-        block = int(y[event]) // BLOCK, int(x[event]) // BLOCK
-        is_new = start_us[block] == NEVER or t[event] - start_us[block] > limits.longest_us
-        if is_new:
-            count[block] = flickers[block] = 0
-        if p[event] == 1 and not was_on[block]:
-            if is_new:
-                start_us[block] = t[event]
-            elif t[event] - start_us[block] >= limits.hold_us:
-                is_periodic = t[event] - start_us[block] >= limits.shortest_us
-                step = 1 if is_periodic else -1
-                count[block] = min(max(int(count[block]) + step, 0), MOST_BURSTS)
-                if count[block] >= limits.begin:
-                    flickers[block] = 1
-                elif count[block] < limits.end:
-                    flickers[block] = 0
-                start_us[block] = t[event]
-        was_on[block] = p[event]
-        found[event] = flickers[block] == 1
-    return found
 
 
 def fire_blocks(

@@ -114,14 +114,6 @@ def test_dropping_by_hand() -> None:
     assert DropTime(most=0.0).apply(events, Chance(0.5, 0.5)).equals(events)
 
 
-def test_the_share_that_is_dropped_is_uniform_up_to_its_limit() -> None:
-    events = many()
-    augment = Augment(["drop-events:most=0.5"], seed=1)
-    shares = [1 - len(augment(events, number)) / len(events) for number in range(200)]
-    assert 0.22 < np.mean(shares) < 0.28
-    assert max(shares) < 0.55
-
-
 def test_places_of_a_random_crop_are_all_reached_and_the_centre_is_one() -> None:
     events = stream([(x, y, 1, 1) for y in range(6) for x in range(8)])
     rng = np.random.default_rng(0)

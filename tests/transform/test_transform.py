@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -18,36 +17,25 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.transform.edits import Region, crop, keep_time, merge, resize, start_at_zero
-from texvent.transform.undistort import (
-    Calibration,
-    read_calibration,
-    undistort,
-)
+from texvent.transform.undistort import Calibration, read_calibration, undistort
 
-SIZE = SensorSize(8, 6)
-ROWS = st.lists(
-    st.tuples(st.integers(0, 7), st.integers(0, 5), st.integers(0, 20), st.integers(0, 1)),
-    max_size=40,
-)
-Rows = list[tuple[int, int, int, int]]
+from .recordings import ROWS, SIZE, Rows
+from .recordings import packets as in_packets
+from .recordings import rows_of as rows_in_memory
+from .recordings import stream as in_time_order
 
 
 def stream(rows: Rows) -> EventStream:
-    ordered = sorted(rows, key=lambda row: (row[2], row[1], row[0], row[3]))
-    x, y, t, p = (list(column) for column in zip(*ordered, strict=True)) if rows else ([],) * 4
-    return EventStream.from_columns(x, y, t, p, size=SIZE, metadata={"seed": 1})
+    """Events in the order of merged recordings: by t, y, x and p."""
+    return in_time_order(sorted(rows, key=lambda row: (row[2], row[1], row[0], row[3])))
 
 
 def packets(events: EventStream, *cuts: int) -> EventPackets:
-    bounds = [0, *sorted(cuts), len(events)]
-    parts = [events[a:b] for a, b in itertools.pairwise(bounds)]
-    return EventPackets(parts, events.size, events.metadata)
+    return in_packets(events, list(cuts))
 
 
-def rows_of(events: EventPackets) -> list[tuple[int, ...]]:
-    whole = events.collect()
-    columns = (whole.x, whole.y, whole.t, whole.p)
-    return list(zip(*(column.tolist() for column in columns), strict=True))
+def rows_of(events: EventPackets) -> Rows:
+    return rows_in_memory(events.collect())
 
 
 def test_crop_keeps_the_region_and_moves_its_corner_to_zero() -> None:

@@ -23,7 +23,7 @@ from texvent.view.drawing.canvas import Image, png_bytes, shrink
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.page.html_parts import count_text, fill_template
-from texvent.view.stills import busiest_start
+from texvent.view.stills import find_busiest
 
 IMAGE_WIDTH, WINDOW_US = 480, 40_000
 ChosenSample = tuple[StoredShard, SampleRecord]
@@ -94,8 +94,8 @@ def write_sample_page(
 
 
 def _liveliest(events: EventStream, palette: Palette) -> Image:
-    start = busiest_start(events, WINDOW_US)
-    return draw_events(count_events(events.cut(start, start + WINDOW_US)), palette)
+    found = find_busiest((events,), WINDOW_US)
+    return draw_events(count_events(events) if found is None else found.counts, palette)
 
 
 def _card(sample: ChosenSample, palette: Palette) -> str:

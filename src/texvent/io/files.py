@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,9 @@ from texvent.io.reading import read_options
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import SensorSize, SizeLike
+
+FIRST_LINES = 8
+"""Lines of a text among which its first row is."""
 
 
 def codec_for(path: str | Path, format: str | None = None) -> EventCodec:
@@ -81,16 +85,19 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventReader
     if own:
         return (unmarked or own)[0]
     refuse_other_kind(path)
-    if is_text(path):
+    if has_rows(path):
         return _codecs_for(path, "ecd")[0]
     return _codecs_for(path, None)[0]
 
 
-def is_text(path: Path) -> bool:
-    """True if the beginning of a file is printable."""
+def has_rows(path: Path) -> bool:
+    """True if a file is text whose first lines hold a row of four numbers."""
     with path.open("rb") as file:
-        start = file.read(512)
-    return bool(start) and all(byte >= 32 or byte in b"\t\n\r" for byte in start)
+        start = file.read(1024)
+    if b"\0" in start:
+        return False
+    lines = start.decode("latin-1").splitlines()[:FIRST_LINES]
+    return any(len(re.findall(r"(?:^|[\s,;])[-+]?\d[\d.eE+-]*", line)) >= 3 for line in lines)
 
 
 def is_event_path(path: Path) -> bool:

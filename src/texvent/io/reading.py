@@ -176,11 +176,11 @@ class UnknownLayoutError(FileFormatError):
     """A file of named arrays holds no events by names that are known."""
 
     def __init__(self, path: Path, holds: Sequence[str]) -> None:
-        listed = ", ".join(holds[:8]) + (f" and {len(holds) - 8} more" if len(holds) > 8 else "")
+        listed = ", ".join(holds[:4]) + (f" and {len(holds) - 4} more" if len(holds) > 4 else "")
         super().__init__(
-            f"{path} holds no events by names that texvent knows (it has: {listed or 'nothing'}); "
-            "name the columns (--columns t=NAME,x=NAME,y=NAME,p=NAME) or the order of an array "
-            "[n, 4] (--columns t,x,y,p --stream NAME)"
+            f"{path} holds no events by names that texvent knows ({listed or 'nothing at all'}); "
+            "give --columns t=NAME,x=NAME,y=NAME,p=NAME, or --columns t,x,y,p --stream NAME of an "
+            "array [n, 4]"
         )
         self.holds = tuple(holds)
 

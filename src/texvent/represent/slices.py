@@ -147,7 +147,7 @@ def slice_between(
 
 
 def slice_regularly(
-    packets: Iterable[EventStream], *, step_us: Fraction, size: SensorSize
+    packets: Iterable[EventStream], *, step_us: Fraction
 ) -> Iterator[tuple[int, EventStream]]:
     """Slices of equal length from the first event to the last: (end in µs, events).
 
@@ -156,23 +156,60 @@ def slice_regularly(
     Args:
         packets: events in time order.
         step_us: length of a slice, µs; may be a fraction.
-        size: sensor size, pixels.
 
     Raises:
         ConfigError: the length is below 1 µs.
     """
     if step_us < 1:
         raise ConfigError(f"a slice of {float(step_us):g} µs is too short; it must be at least 1")
-    source = _Source(packets)
+    for _, stop_us, part in slice_windows(packets, step_us=step_us):
+        yield stop_us, part
+
+
+def slice_windows(
+    packets: Iterable[EventStream],
+    *,
+    step_us: Fraction,
+    window_us: int | None = None,
+) -> Iterator[tuple[int, int, EventStream]]:
+    """Windows from the first event to the last: (start in µs, stop in µs, events).
+
+    Starts are rounded to whole µs, never accumulated. Memory holds the events of one window and
+    one packet. No window where there are no events.
+
+    Args:
+        packets: events in time order.
+        step_us: from one window's start to the next, µs, above 0; may be a fraction.
+        window_us: length of a window, µs: windows may overlap or leave gaps; None: up to the next.
+    """
+    source = (packet for packet in packets if len(packet))
     first = next(source, None)
     if first is None:
         return
-    start_us = int(first.t[0])
-    ends_us = (start_us + round(number * step_us) for number in itertools.count())
-    for end_us, events in slice_between(itertools.chain([first], source), ends_us, size=size):
-        yield end_us, events
-        if source.is_at_end and source.last_us < end_us:
-            return
+    first_us, index = int(first.t[0]), 0
+
+    def bounds(index: int) -> tuple[int, int]:
+        start_us, following_us = (first_us + round(one * step_us) for one in (index, index + 1))
+        return start_us, following_us if window_us is None else start_us + window_us
+
+    start_us, stop_us = bounds(0)
+    parts: list[EventStream] = []
+    for packet in itertools.chain([first], source):
+        parts.append(packet)
+        # A window is complete once an event at or after its end is known.
+        if stop_us > int(packet.t[-1]):
+            continue
+        held = EventStream.concat(parts)
+        while stop_us <= int(held.t[-1]):
+            yield start_us, stop_us, held.cut(start_us, stop_us)
+            index += 1
+            start_us, stop_us = bounds(index)
+        parts = [held.cut(start_us, END_OF_TIME_US)]
+    held = EventStream.concat(parts)
+    while len(held := held.cut(start_us, END_OF_TIME_US)):
+        yield start_us, stop_us, held.cut(start_us, stop_us)
+        index += 1
+        start_us, stop_us = bounds(index)
 
 
 def slice_by_count(
@@ -218,7 +255,7 @@ def represent_slices(
         slices = slice_by_count(events, count=count, size=events.size)
         return (represent(name, part, device=device, **options) for _, part in slices)
     length = int(duration_us or 0)
-    timed = slice_regularly(events, step_us=Fraction(length), size=events.size)
+    timed = slice_regularly(events, step_us=Fraction(length))
     return (
         represent_window(name, part, (end - length, end), device=device, **options)
         for end, part in timed
@@ -234,23 +271,3 @@ def _counted(packets: Iterable[EventStream], count: int, size: SensorSize) -> It
             yield part
     if len(held):
         yield held
-
-
-class _Source:
-    """Packets that hold events, and how far they have been read."""
-
-    def __init__(self, packets: Iterable[EventStream]) -> None:
-        self._packets = iter(packets)
-        self.last_us = 0
-        self.is_at_end = False
-
-    def __iter__(self) -> _Source:
-        return self
-
-    def __next__(self) -> EventStream:
-        for packet in self._packets:
-            if len(packet):
-                self.last_us = int(packet.t[-1])
-                return packet
-        self.is_at_end = True
-        raise StopIteration

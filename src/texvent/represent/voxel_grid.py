@@ -1,11 +1,7 @@
 """Voxel grids: polarity spread over the two nearest time bins of each event's pixel.
 
-Four definitions are in use under this one name; each has its own function here. With N events in
-B bins, t* is an event's place on the axis of bins, and every bin b within 1 of it receives
-polarity · (1 − |b − t*|):
-
-    voxel_zhu, voxel_e2vid, voxel_dsec   t* = (B − 1)(t − t₁) / (t_N − t₁)
-    voxel_tonic                          t* = B (t − t₁) / (t_N − t₁)
+With N events in B bins, t* = (B − 1)(t − t₁) / (t_N − t₁) is an event's place on the axis of bins,
+and every bin b within 1 of it receives polarity · (1 − |b − t*|).
 
 Shares of bins are added up as integers, in units of 1 / (t_N − t₁), and divided once: sums are
 exact, so NumPy, torch and every GPU give the same float32.
@@ -36,7 +32,7 @@ from texvent.represent.array_ops import (
 
 MAX_BINS = 4096
 MAX_INT64 = 2**63 - 1
-PADDING = 2
+PADDING = 1
 """Planes after the last bin that take the shares which fall beyond it, and are cut off."""
 
 
@@ -69,7 +65,7 @@ def voxel_zhu(events: Events, *, bins: int = 9, split_polarity: bool = False) ->
         [0.5, -0.5, 1.0]
     """
     columns = columns_of(events)
-    return _spread(columns, bins, bins - 1, split_polarity=split_polarity)
+    return _spread(columns, bins, split_polarity=split_polarity)
 
 
 def voxel_e2vid(events: Events, *, bins: int = 5, normalise: bool = False) -> Array:
@@ -94,7 +90,7 @@ def voxel_e2vid(events: Events, *, bins: int = 5, normalise: bool = False) -> Ar
         by zero.
     """
     columns = columns_of(events)
-    grid = _spread(columns, bins, bins - 1)
+    grid = _spread(columns, bins)
     return normalise_nonzero(grid, columns.ops) if normalise else grid
 
 
@@ -130,32 +126,10 @@ def voxel_dsec(
     """
     columns = columns_of(events)
     if rectify_map is None:
-        grid = _spread(columns, bins, bins - 1)
+        grid = _spread(columns, bins)
     else:
         grid = _spread_rectified(columns, bins, _checked_map(rectify_map, columns))
     return normalise_nonzero(grid, columns.ops) if normalise else grid
-
-
-def voxel_tonic(events: Events, *, bins: int = 10) -> Array:
-    """Voxel grid of tonic: bins of full width, so events of the last instant are lost.
-
-    Args:
-        events: the slice.
-        bins: B, 1..4096.
-
-    Returns:
-        [B, H, W] float32, events (signed).
-
-    Raises:
-        ConfigError: bins out of range.
-        InputError: so many events over so long a time that sums could overflow.
-
-    Source: tonic, `functional.to_voxel_grid_numpy`.
-    Deviation: OFF counts as −1 whatever the type of p, and the caller's events stay as they are
-        (tonic writes −1 into them, and counts OFF as ON where p is bool); events that all have
-        one time fall in bin 0 (tonic divides by zero).
-    """
-    return _spread(columns_of(events), bins, bins)
 
 
 class _Shares(NamedTuple):
@@ -171,28 +145,28 @@ class _Shares(NamedTuple):
     """µs from the first event to the last, at least 1."""
 
 
-def _share(columns: EventColumns, scale: int) -> _Shares:
-    """Divide each event between the bins around t* = scale · (t − t₁) / span."""
+def _share(columns: EventColumns, bins: int) -> _Shares:
+    """Divide each event between the bins around t*."""
     since = columns.t - columns.t[0]
     span = max(int(since[-1]), 1)
-    if max(len(columns), scale) * span > MAX_INT64:
+    if max(len(columns), bins) * span > MAX_INT64:
         raise InputError(
-            f"{len(columns):,} events over {span:,} µs in {scale} bins are too much for one voxel "
+            f"{len(columns):,} events over {span:,} µs in {bins} bins are too much for one voxel "
             "grid; cut them with texvent.represent.slices first"
         )
-    place = since * scale
+    place = since * (bins - 1)
     after = place % span
     return _Shares(place // span, span - after, after, span)
 
 
-def _spread(columns: EventColumns, bins: int, scale: int, *, split_polarity: bool = False) -> Array:
+def _spread(columns: EventColumns, bins: int, *, split_polarity: bool = False) -> Array:
     """[B, H, W] float32 with every event at its own pixel; [2 · B, H, W] if split."""
     check_range("bins", bins, 1, MAX_BINS)
     lanes = 2 if split_polarity else 1
     ops, shape = columns.ops, (lanes * bins, *columns.size.shape)
     if not len(columns):
         return ops.cast(ops.from_numpy(np.zeros(shape)), "float32")
-    shares = _share(columns, scale)
+    shares = _share(columns, bins)
     sign = 1 if split_polarity else columns.polarity
     # ON comes first in a split volume.
     lane = (1 - columns.p, lanes) if split_polarity else (columns.p * 0, lanes)
@@ -211,7 +185,7 @@ def _spread_rectified(columns: EventColumns, bins: int, rectify_map: NDArray[np.
     ops, xp, (width, height) = columns.ops, columns.ops.xp, columns.size
     if not len(columns):
         return ops.cast(ops.from_numpy(np.zeros((bins, height, width))), "float32")
-    shares = _share(columns, bins - 1)
+    shares = _share(columns, bins)
     place = ops.from_numpy(rectify_map)[columns.y, columns.x]
     left, top = xp.floor(place[:, 0]), xp.floor(place[:, 1])
     sums: Array = 0

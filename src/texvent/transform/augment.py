@@ -253,7 +253,7 @@ class FlipPolarity:
 
 @dataclass(frozen=True, kw_only=True)
 class ReverseTime:
-    """Plays the sample backwards, ON and OFF exchanged; see `reversal.reverse_time`."""
+    """Plays the sample backwards, ON and OFF exchanged; see `edits.reverse_time`."""
 
     probability: float = 0.5
     """Of doing so."""

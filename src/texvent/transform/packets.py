@@ -48,10 +48,7 @@ def map_packets(
         change: gives the new packet.
         size: sensor size of the new packets; None: as before.
     """
-    if isinstance(events, EventStream):
-        return change(events)
-    lazy = LazyPackets(lambda: (change(packet) for packet in events))
-    return EventPackets(lazy, size or events.size, events.metadata)
+    return map_in_order(events, lambda: change, size=size)
 
 
 def map_in_order(

@@ -1,4 +1,4 @@
-"""Plots of events by matplotlib: frame, cloud, rate, intervals, polarity."""
+"""Plots of events by matplotlib: frame, cloud, rate, intervals."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from texvent.represent.event_frame import count_events
 from texvent.video import MICROSECONDS
 from texvent.view.drawing.event_image import draw_events
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Colour, Palette, get_palette
-from texvent.view.page.sample import rate_counts, spread_sample
+from texvent.view.page.sample import UniformSample, rate_counts
 
 
 def draw_frame(
@@ -68,7 +68,9 @@ def draw_cloud(
     check_whole("max_events", max_events, 1)
     check_range("point_size", point_size, 0.0)
     colours = get_palette(palette)
-    sample = spread_sample(events, max_events)
+    drawn = UniformSample(events.size, limit=max_events)
+    drawn.append(events)
+    sample = drawn.events()
     both = np.array([colours.off, colours.on]) / 255
     ax.scatter(
         sample.t / MICROSECONDS,
@@ -158,33 +160,6 @@ def pixel_intervals(events: EventStream) -> NDArray[np.int64]:
     return np.asarray(np.diff(events.t[order])[is_same])
 
 
-def draw_polarity(
-    events: EventStream, ax: Any, *, palette: str | Palette = DEFAULT_PALETTE
-) -> None:
-    """Draw how many events are ON and how many OFF, as two bars with their shares.
-
-    Args:
-        events: any number.
-        ax: axes.
-        palette: colours of ON and OFF, by name.
-    """
-    colours = get_palette(palette)
-    on = int(np.count_nonzero(events.p))
-    counts = [on, len(events) - on]
-    edge = _unit(colours.ink)
-    bars = ax.bar(
-        ["ON", "OFF"],
-        counts,
-        color=[_unit(colours.on), _unit(colours.off)],
-        edgecolor=edge,
-        linewidth=0.8,
-    )
-    share = max(1, len(events))
-    ax.bar_label(bars, labels=[f"{count:,} ({count / share:.1%})" for count in counts])
-    ax.set(ylabel="events", title=f"{len(events):,} events")
-    ax.margins(y=0.1)
-
-
 def _unit(colour: Colour) -> tuple[float, float, float]:
     """Red, green and blue, 0..1."""
     red, green, blue = colour
@@ -196,7 +171,6 @@ KINDS: dict[str, Callable[..., None]] = {
     "cloud": draw_cloud,
     "rate": draw_rate,
     "isi": draw_intervals,
-    "polarity": draw_polarity,
 }
 
 

@@ -26,11 +26,8 @@ from texvent.view.windows import (
     EventWindow,
     SourceOverlay,
     cut_counts,
-    cut_fading,
     cut_windows,
     still_window_us,
-    time_range,
-    with_fading,
 )
 
 
@@ -46,8 +43,6 @@ class RenderConfig:
     events_per_image: int | None = None
     """Fixed count instead of fixed time: every image gathers this many events, however long
     that takes; a video shows one such slice after the other."""
-    decay: float | None = None
-    """Let events fade instead of counting them: exp(-age / decay), decay in ms (30 is usual)."""
     speed: float = 1.0
     """Speed of the video: 0.1 is ten times slower than the recording."""
     palette: str = DEFAULT_PALETTE
@@ -65,18 +60,10 @@ class RenderConfig:
         check_range("speed", self.speed, 1e-6, 1e6)
         check_range("panels", self.panels, 1, 100)
         check_range("points", self.points, 1, 20_000_000)
-        ways = {
-            "window": self.window,
-            "events_per_image": self.events_per_image,
-            "decay": self.decay,
-        }
-        given = {name: value for name, value in ways.items() if value is not None}
-        if len(given) > 1:
-            raise ConfigError(
-                f"{' and '.join(given)} are different ways to gather events; give one of them"
-            )
-        for name, value in given.items():
-            check_range(name, value, 1 if name == "events_per_image" else 0.001, 1e12)
+        if self.window is not None and self.events_per_image is not None:
+            raise ConfigError("window and events_per_image exclude each other; give one of them")
+        check_range("window", self.window, 0.001, 1e12)
+        check_range("events_per_image", self.events_per_image, 1, 1e12)
         if not 0 < self.render_fps <= 1000:
             raise ConfigError(f"render_fps is {self.render_fps}; it must be above 0, at most 1000")
 
@@ -89,11 +76,6 @@ class RenderConfig:
     def step_us(self) -> Fraction:
         """Time of the recording from one video frame to the next, µs, exact."""
         return Fraction(self.speed) * MICROSECONDS / self.render_fps
-
-    @property
-    def tau_us(self) -> int | None:
-        """Decay time in µs."""
-        return None if self.decay is None else max(1, round(self.decay * 1000))
 
 
 __all__ = ["RENDER_EXTENSIONS", "RenderConfig", "render_events"]
@@ -163,13 +145,11 @@ def _no_events() -> InputError:
 def _cut(
     packets: EventPackets, config: RenderConfig, step_us: Fraction, window_us: int
 ) -> Iterator[EventWindow]:
-    """Windows as the config gathers events: by count, fading, or by time (the default)."""
+    """Windows as the config gathers events: by count, or by time (the default)."""
     size = packets.size
     if config.events_per_image is not None:
         return cut_counts(packets, size=size, count=config.events_per_image)
-    if config.tau_us is not None:
-        return cut_fading(packets, size=size, step_us=step_us, tau_us=config.tau_us)
-    return cut_windows(packets, size=size, step_us=step_us, window_us=window_us)
+    return cut_windows(packets, step_us=step_us, window_us=window_us)
 
 
 def _video(
@@ -202,7 +182,7 @@ def _video(
 
 
 def _still(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -> bytes:
-    extent = time_range(packets)
+    extent = packets.time_range
     if extent is None:
         raise _no_events()
     window_us = config.window_us or still_window_us(extent)
@@ -217,8 +197,6 @@ def _still(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -
         windows = cut_counts(packets, size=packets.size, count=config.events_per_image)
     else:
         found = find_busiest(packets, window_us)
-        if found is not None and config.tau_us is not None:
-            found = with_fading(found, packets, size=packets.size, tau_us=config.tau_us)
         windows = () if found is None else (found,)
     best: EventWindow | None = None
     for window in source.add_frames(windows):
@@ -238,7 +216,7 @@ def _activity(window: EventWindow, config: RenderConfig) -> tuple[int, int]:
 
 def _contact_sheet(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -> bytes:
     """Moments evenly spaced over the recording, in reading order."""
-    extent = time_range(packets)
+    extent = packets.time_range
     if extent is None:
         raise _no_events()
     step_us = Fraction(extent[1] - extent[0], config.panels)
@@ -280,7 +258,7 @@ def _page(
     *,
     overwrite: bool,
 ) -> None:
-    extent = time_range(packets)
+    extent = packets.time_range
     still = _still(packets, config, source) if extent is not None else None
     with PageWriter(
         path,

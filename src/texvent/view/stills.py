@@ -18,14 +18,6 @@ from texvent.view.drawing.panels import SURROUND, TARGET_WIDTH, PanelLayout
 from texvent.view.windows import EventWindow, compose_window, still_window_us
 
 
-def busiest_start(events: EventStream, window_us: int) -> int:
-    """Start of the window with the most events, µs; 0 without events."""
-    if len(events) == 0:
-        return 0
-    counts = np.searchsorted(events.t, events.t + window_us) - np.arange(len(events))
-    return int(events.t[int(counts.argmax())])
-
-
 class BusiestWindow:
     """Keeps the window with the most events and draws it."""
 
@@ -99,12 +91,17 @@ def _count(parts: tuple[EventStream, ...]) -> int:
     return sum(map(len, parts))
 
 
+CHUNK = 2**18
+"""Events that are searched at once, so that no column is copied whole."""
+
+
 def busiest_window_png(events: EventStream, *, title: str) -> bytes | None:
     """A PNG of the window with the most events, or None without events."""
     extent = events.time_range
     if extent is None:
         return None
-    window = find_busiest((events,), still_window_us(extent))
+    chunks = (events[first : first + CHUNK] for first in range(0, len(events), CHUNK))
+    window = find_busiest(chunks, still_window_us(extent))
     still = BusiestWindow(size=events.size, side_by_side=False, title=title)
     return None if window is None else still.draw(window)
 
@@ -143,9 +140,6 @@ def draw_contact_sheet(
     return tile(composed, columns, SURROUND, gap=GAP)
 
 
-GAP_PX = 4
-
-
 def draw_stills(video: RenderableStream, times_us: Sequence[int]) -> bytes:
     """The frames at some instants in a row, as a PNG file in memory.
 
@@ -153,10 +147,5 @@ def draw_stills(video: RenderableStream, times_us: Sequence[int]) -> bytes:
         video: one that can be rendered at any instant.
         times_us: the instants, µs, at least one.
     """
-    size = video.size
-    width = len(times_us) * (size.width + GAP_PX) - GAP_PX
-    row = np.full((size.height, width, 3), 255, np.uint8)
-    for number, t_us in enumerate(times_us):
-        left = number * (size.width + GAP_PX)
-        row[:, left : left + size.width] = frame_image(video.at(t_us))
-    return png_bytes(row)
+    images = [frame_image(video.at(t_us)) for t_us in times_us]
+    return png_bytes(tile(images, len(images), (255, 255, 255), gap=GAP))

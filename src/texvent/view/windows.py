@@ -1,4 +1,4 @@
-"""Windows of events: cut by time, by count or fading, with their source frame and ground truth."""
+"""Windows of events: cut by time or by count, with their source frame and ground truth."""
 
 from __future__ import annotations
 
@@ -10,14 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import ConfigError, InputError
-from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.represent.event_frame import count_events
+from texvent.represent.slices import slice_windows
 from texvent.sensor import SensorSize
 from texvent.video import MICROSECONDS, Frame, FrameStream
 from texvent.view.drawing.canvas import Image
-from texvent.view.drawing.event_image import draw_events, draw_fading, frame_image
-from texvent.view.drawing.palettes import Palette
+from texvent.view.drawing.event_image import draw_events, frame_image
 from texvent.view.drawing.panels import (
     Annotations,
     GroundTruthStream,
@@ -37,9 +36,6 @@ class EventWindow:
     """OFF and ON events per pixel, [2, H, W]."""
     image: Image | None = None
     """The frame at `start_us`, [H, W, 3] RGB, or None if there are only events."""
-    fading: NDArray[np.float32] | None = None
-    """Strength 0..1 of the last OFF and ON event per pixel at the end, [2, H, W], where events
-    fade instead of being counted."""
     annotations: Annotations | None = None
     """Boxes and arrows drawn over the panels."""
 
@@ -107,8 +103,6 @@ class WindowCollector:
         return EventWindow(self._start_us, self._start_us + 1, counts, self._image)
 
 
-NEVER = np.iinfo(np.int64).min // 2
-"""Time of the last event where there was none; half, so that ages do not overflow."""
 BUSIEST_WINDOWS = 50
 """A recording is cut into this many windows to find the busiest one ..."""
 MOST_EMPTY = 18_000
@@ -118,7 +112,7 @@ LONGEST_STILL_US = 40_000
 
 
 def cut_windows(
-    packets: Iterable[EventStream], *, size: SensorSize, step_us: Fraction, window_us: int
+    packets: Iterable[EventStream], *, step_us: Fraction, window_us: int
 ) -> Iterator[EventWindow]:
     """Windows `[s, s + window_us)` for s = first event, + step, + 2 steps, ...
 
@@ -127,7 +121,6 @@ def cut_windows(
 
     Args:
         packets: events in time order.
-        size: sensor size, pixels.
         step_us: from one window's start to the next, µs; may be shorter than the window
             (windows overlap) or a fraction.
         window_us: length of each window, µs.
@@ -136,54 +129,37 @@ def cut_windows(
         ConfigError: step or window is not above 0.
         InputError: a pause would be more than `MOST_EMPTY` windows.
     """
-    for start_us, part in cut_streams(packets, size, step_us, window_us):
-        yield EventWindow(start_us, start_us + window_us, count_events(part))
+    if step_us <= 0 or window_us <= 0:
+        raise ConfigError(
+            f"window {window_us} µs, step {float(step_us):g} µs; both must be above 0"
+        )
+    checked = _refuse_pauses(packets, step_us)
+    for start_us, stop_us, part in slice_windows(checked, step_us=step_us, window_us=window_us):
+        yield EventWindow(start_us, stop_us, count_events(part))
 
 
-def cut_fading(
-    packets: Iterable[EventStream], *, size: SensorSize, step_us: Fraction, tau_us: int
-) -> Iterator[EventWindow]:
-    """One window per step with the exponential time surface at its end.
-
-    As `texvent.represent.time_surface`: exp(−age / τ) of the last event of each polarity at each
-    pixel. Memory holds one time per pixel and polarity besides the events of one step.
-
-    Args:
-        packets: events in time order.
-        size: sensor size, pixels.
-        step_us: from one image to the next, µs.
-        tau_us: decay time τ, µs.
+def _refuse_pauses(packets: Iterable[EventStream], step_us: Fraction) -> Iterator[EventStream]:
+    """The packets, up to a pause of hours of empty images, such as a clock that was set.
 
     Raises:
-        ConfigError: the step is not above 0.
+        InputError: there is such a pause.
     """
-    latest = np.full((2, *size.shape), NEVER, dtype=np.int64)
-    # Rounded up, so that no event falls between two steps.
-    window_us = max(1, -int(-step_us // 1))
-    for start_us, part in cut_streams(packets, size, step_us, window_us):
-        stop_us = start_us + window_us
-        np.maximum.at(latest, (part.p, part.y, part.x), part.t)
-        fading = _strength(latest, stop_us, tau_us)
-        yield EventWindow(start_us, stop_us, count_events(part), fading=fading)
-
-
-def with_fading(
-    window: EventWindow, packets: Iterable[EventStream], *, size: SensorSize, tau_us: int
-) -> EventWindow:
-    """A window with the exponential time surface at its end, as `cut_fading` gives it."""
-    latest = np.full((2, *size.shape), NEVER, dtype=np.int64)
+    last_us: int | None = None
     for packet in packets:
-        part = packet[: int(np.searchsorted(packet.t, window.stop_us))]
-        np.maximum.at(latest, (part.p, part.y, part.x), part.t)
-        if len(part) < len(packet):
-            break
-    return replace(window, fading=_strength(latest, window.stop_us, tau_us))
-
-
-def _strength(latest: NDArray[np.int64], stop_us: int, tau_us: int) -> NDArray[np.float32]:
-    """exp(−age / τ) of the last events, 0 where there was none."""
-    age = (stop_us - 1 - latest).astype(np.float32) / tau_us
-    return np.where(latest == NEVER, np.float32(0), np.exp(-age))
+        if not len(packet):
+            continue
+        times = packet.t if last_us is None else np.concatenate([[last_us], packet.t])
+        last_us = int(packet.t[-1])
+        pauses = np.diff(times)
+        if len(pauses) and pauses.max() > MOST_EMPTY * step_us:
+            at = int(pauses.argmax())
+            begin, end = (times[at : at + 2] / MICROSECONDS).tolist()
+            images = int(pauses[at] // step_us)
+            raise InputError(
+                f"no event from {begin:g} to {end:g} s: {images:,} images would be empty; show a "
+                "part (--time START,STOP), or speed the video up (--speed)"
+            )
+        yield packet
 
 
 def cut_counts(
@@ -208,83 +184,9 @@ def cut_counts(
         yield EventWindow(int(held.t[0]), int(held.t[-1]) + 1, count_events(held))
 
 
-def cut_streams(
-    packets: Iterable[EventStream], size: SensorSize, step_us: Fraction, window_us: int
-) -> Iterator[tuple[int, EventStream]]:
-    """Start and events of every window of `cut_windows`; arguments and errors as there."""
-    if step_us <= 0 or window_us <= 0:
-        raise ConfigError(
-            f"window {window_us} µs, step {float(step_us):g} µs; both must be above 0"
-        )
-    held = EventStream.empty(size)
-    first_us: int | None = None
-    index = 0
-    for packet in packets:
-        if len(packet) == 0:
-            continue
-        first_us = int(packet.t[0]) if first_us is None else first_us
-        held = EventStream.concat([held, packet])
-        _refuse_pause(held.t, step_us)
-        # A window is complete once an event at or after its end is known.
-        while (start_us := first_us + round(index * step_us)) + window_us <= int(held.t[-1]):
-            yield start_us, held.cut(start_us, start_us + window_us)
-            index += 1
-        held = held[int(np.searchsorted(held.t, start_us)) :]
-    while first_us is not None and len(held):
-        start_us = first_us + round(index * step_us)
-        held = held[int(np.searchsorted(held.t, start_us)) :]
-        if len(held):
-            yield start_us, held.cut(start_us, start_us + window_us)
-        index += 1
-
-
-def _refuse_pause(times: NDArray[np.int64], step_us: Fraction) -> None:
-    """Refuse a pause that would be hours of empty images, such as a clock that was set in between.
-
-    Raises:
-        InputError: see above.
-    """
-    pauses = np.diff(times)
-    if not len(pauses) or pauses.max() <= MOST_EMPTY * step_us:
-        return
-    at = int(pauses.argmax())
-    begin, end = (times[at : at + 2] / MICROSECONDS).tolist()
-    raise InputError(
-        f"no event from {begin:g} to {end:g} s: {int((times[at + 1] - times[at]) // step_us):,} "
-        "images would be empty; show a part (--time START,STOP), or speed the video up (--speed)"
-    )
-
-
-def time_range(packets: EventPackets) -> tuple[int, int] | None:
-    """Half-open range of the event times, µs, from one pass; None without events."""
-    first: int | None = None
-    stop = 0
-    for packet in packets:
-        if len(packet):
-            first = int(packet.t[0]) if first is None else first
-            stop = int(packet.t[-1]) + 1
-    return None if first is None else (first, stop)
-
-
 def still_window_us(extent: tuple[int, int]) -> int:
     """A window short enough that moving edges stay sharp, µs."""
     return max(1, min(LONGEST_STILL_US, (extent[1] - extent[0]) // BUSIEST_WINDOWS))
-
-
-def draw_window(window: EventWindow, palette: Palette, *, ceiling: float | None = None) -> Image:
-    """The events of a window, faded by age if it has `fading`, else counted.
-
-    Args:
-        window: events to draw.
-        palette: the colours.
-        ceiling: events per pixel at full strength, for counts; default: from the window.
-
-    Returns:
-        [H, W, 3] uint8.
-    """
-    if window.fading is not None:
-        return draw_fading(window.fading, palette)
-    return draw_events(window.counts, palette, ceiling=ceiling)
 
 
 def compose_window(
@@ -298,7 +200,7 @@ def compose_window(
     """Frame, events and caption of a window, with its annotations on both panels."""
     return layout.compose(
         window.image,
-        draw_window(window, layout.palette, ceiling=ceiling),
+        draw_events(window.counts, layout.palette, ceiling=ceiling),
         title=title,
         facts=facts,
         annotations=window.annotations,

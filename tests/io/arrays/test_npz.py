@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError
 from texvent.events import EventStream
 from texvent.io.files import load, open_events, save
 from texvent.sensor import SensorSize
@@ -50,30 +50,12 @@ def test_wrong_arrays_are_one_clear_line(
         load(path, size=(4, 4))
 
 
-def test_arrays_of_other_programs_and_records_are_read(tmp_path: Path) -> None:
-    expected = EventStream.from_columns([3, 4], [5, 6], [70, 80], [1, 0], size=SensorSize(9, 9))
-    path = tmp_path / "events.npz"
-    np.savez(path, xs=[3, 4], ys=[5, 6], timestamp=[70, 80], polarity=[True, False])
-    assert load(path, size=(9, 9)).equals(expected)
-    kind = [("ts", "i8"), ("x", "u2"), ("y", "u2"), ("p", "i1")]
-    np.savez(path, events=np.array([(70, 3, 5, 1), (80, 4, 6, -1)], dtype=kind))
-    assert load(path, size=(9, 9)).equals(expected)
-
-
 def test_a_single_array_is_not_an_archive(tmp_path: Path) -> None:
     path = tmp_path / "events.npz"
     with path.open("wb") as file:
         np.save(file, np.zeros(3))
     with pytest.raises(FileFormatError, match="single NumPy array"):
         load(path, size=(4, 4))
-
-
-def test_an_archive_without_a_size_asks_for_it(tmp_path: Path) -> None:
-    path = tmp_path / "events.npz"
-    np.savez(path, x=[1], y=[1], t=[1], p=[1])
-    with pytest.raises(InputError, match="give it"):
-        load(path)
-    assert load(path, size=(4, 4)).size == (4, 4)
 
 
 def test_random_bytes_are_no_archive_and_nobody_advises_to_unpickle_them(tmp_path: Path) -> None:

@@ -20,6 +20,8 @@ from texvent.io.files import load, open_events, save
 from texvent.io.hdf5 import native, storage
 from texvent.sensor import SensorSize
 
+from ..format_cases import random_events
+
 SIZE = SensorSize(6, 5)
 
 
@@ -36,7 +38,9 @@ def index_by_definition(times: np.ndarray, length: int) -> list[int]:
     ]
 
 
-def test_plain_h5py_finds_the_universal_layout(tmp_path: Path, stream: EventStream) -> None:
+@pytest.mark.parametrize("count", [0, 150_000])
+def test_plain_h5py_finds_the_universal_layout(tmp_path: Path, count: int) -> None:
+    stream = random_events(count, SIZE)
     path = save(tmp_path / "events.h5", stream)
     with h5py.File(path, "r") as file:
         for name, dtype in {"x": "<u2", "y": "<u2", "t": "<i8", "p": "|u1"}.items():
@@ -79,18 +83,6 @@ def test_ms_to_idx_spans_silence_and_batches(
     with h5py.File(path, "r") as file:
         index = file["ms_to_idx"][()].tolist()
     assert index == index_by_definition(np.array(times), 92)
-
-
-def test_a_window_is_found_as_dsec_readers_look_it_up(tmp_path: Path) -> None:
-    rng = np.random.default_rng(0)
-    events = at_times(*np.sort(rng.integers(0, 80_000, 5000)).tolist())
-    with h5py.File(save(tmp_path / "events.h5", events), "r") as file:
-        index, times = file["ms_to_idx"][()], file["events/t"][()]
-    start_us, stop_us = 20_300, 61_700
-    first, last = index[start_us // 1000], index[-(-stop_us // 1000)]
-    part = times[first:last]
-    part = part[(part >= start_us) & (part < stop_us)]
-    np.testing.assert_array_equal(part, events.between(start_us, stop_us).t)
 
 
 def test_provenance_is_whole_as_json_and_readable_by_name(tmp_path: Path) -> None:

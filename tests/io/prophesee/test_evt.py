@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import subprocess
 import sys
+import tracemalloc
 from pathlib import Path
 
 import pytest
 
 from texvent.errors import FileFormatError, InputError
-from texvent.io import metadata
-from texvent.io.files import codec_for, codec_that_reads, load, save
+from texvent.io import block_codec, block_writer, metadata
+from texvent.io.files import codec_for, codec_that_reads, load, open_events, save
 from texvent.io.prophesee import text_header
 
 from .prophesee_files import (
@@ -20,6 +21,7 @@ from .prophesee_files import (
     LATE_STREAMS,
     STREAMS,
     at_times,
+    row_bursts,
     write_words,
 )
 
@@ -173,3 +175,23 @@ def test_older_headers_name_the_sensor_otherwise(
             load(path)
     else:
         assert tuple(load(path).size) == size
+
+
+@pytest.mark.parametrize("format", FORMATS)
+def test_memory_does_not_grow_with_the_file(
+    tmp_path: Path, format: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    events = row_bursts(20_000)
+    whole = sum(column.nbytes for column in events.columns().values())
+    monkeypatch.setattr(block_codec, "BLOCK_BYTES", 2**14)
+    monkeypatch.setattr(block_writer, "BLOCK_EVENTS", 2**12)
+    path = save(tmp_path / f"warm{EXTENSIONS[format]}", row_bursts(10), format=format)
+    assert len(load(path))
+    tracemalloc.start()
+    path = save(tmp_path / f"e{EXTENSIONS[format]}", events, format=format)
+    written = tracemalloc.get_traced_memory()[1]
+    tracemalloc.reset_peak()
+    assert sum(len(packet) for packet in open_events(path)) == len(events)
+    read = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert max(written, read) < whole / 3

@@ -5,13 +5,11 @@ import html
 import json
 import re
 import webbrowser
-from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pytest
 
-from texvent.errors import OutputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.view.page.writer import PageWriter, show
@@ -95,22 +93,6 @@ def test_the_rate_curve_is_drawn_without_any_script(tmp_path: Path) -> None:
     areas = dict(re.findall(r'class="(on|off)-area" d="M0 100V([\d.]+)H', page))
     # ON goes up (smaller y), OFF goes down.
     assert float(areas["on"]) < 100 < float(areas["off"])
-
-
-def test_an_existing_page_is_kept_and_an_exception_leaves_none(
-    tmp_path: Path, folder_is_clean: Callable[[], bool]
-) -> None:
-    def interrupt() -> None:
-        with PageWriter(tmp_path / "out.html", size=SIZE) as writer:
-            writer.append(make_events(5))
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        interrupt()
-    assert folder_is_clean()
-    path = show(make_events(5), tmp_path / "out.html")
-    with pytest.raises(OutputError, match="exists already"):
-        show(make_events(5), path)
 
 
 def test_without_a_path_the_browser_opens_a_temporary_page(

@@ -284,42 +284,6 @@ def test_keys_turn_the_cloud(browser: Any, page: Path) -> None:
     assert text(browser, "start-text") == "1.000 s"
 
 
-@pytest.fixture
-def counting(browser: Any) -> Iterator[Any]:
-    """A browser that counts what is sent to the graphics card, before any page runs."""
-    script = """
-      window.sent = {draws: 0, points: 0, bytes: 0, frames: 0};
-      const gl = WebGLRenderingContext.prototype;
-      for (const name of ["drawArrays", "bufferData"]) {
-        const real = gl[name];
-        gl[name] = function (...values) {
-          if (name === "bufferData") sent.bytes += values[1].byteLength;
-          else sent.draws++;
-          if (name === "drawArrays" && values[0] === gl.POINTS) {
-            sent.points += values[2];
-            sent.frames++;
-          }
-          return real.apply(this, values);
-        };
-      }"""
-    added = browser.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": script})
-    yield browser
-    browser.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", added)
-
-
-def test_a_frame_draws_only_the_window_and_sends_no_event_again(counting: Any, page: Path) -> None:
-    counting.get(page.as_uri())
-    slide(counting, "length", 100)
-    run(counting, "window.sent = {draws: 0, points: 0, bytes: 0, frames: 0};")
-    slide(counting, "start", 300)
-    run(counting, "document.querySelector('[data-view=side]').click()")
-    sent = counting.execute_script("return window.sent")
-    assert sent["frames"] >= 2
-    assert sent["draws"] <= 3 * sent["frames"]
-    assert sent["points"] == 2_000 * sent["frames"]
-    assert sent["bytes"] <= 16 * 12 * sent["frames"], "only the outline of the window"
-
-
 def test_a_browser_without_webgl_says_what_is_missing_and_shows_the_rest(
     browser: Any, page: Path
 ) -> None:

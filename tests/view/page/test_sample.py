@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import cv2
 import numpy as np
 import pytest
 from hypothesis import given
@@ -7,7 +8,15 @@ from hypothesis import strategies as st
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
-from texvent.view.page.sample import FIRST_BIN_US, RATE_BINS, RateCurve, UniformSample
+from texvent.video import Frame
+from texvent.view.page.sample import (
+    FIRST_BIN_US,
+    RATE_BINS,
+    STRIP_WIDTH,
+    FrameStrip,
+    RateCurve,
+    UniformSample,
+)
 
 SIZE = SensorSize(100, 100)
 
@@ -38,23 +47,6 @@ def test_the_sample_is_uniform_over_the_recording() -> None:
     assert np.abs(per_tenth - 400).max() < 95
 
 
-def test_memory_stays_flat() -> None:
-    sample = UniformSample(SIZE, limit=100)
-    for start in range(0, 20_000, 50):
-        sample.append(ramp(20_000)[start : start + 50])
-        assert sum(len(part) for part in sample._kept) <= 200
-
-
-def test_the_seed_decides_the_sample() -> None:
-    def drawn(seed: int) -> EventStream:
-        sample = UniformSample(SIZE, limit=50, seed=seed)
-        sample.append(ramp(1000))
-        return sample.events()
-
-    assert drawn(0).equals(drawn(0))
-    assert not drawn(0).equals(drawn(1))
-
-
 @given(
     gaps=st.lists(st.integers(0, 200_000), min_size=1, max_size=40),
     start_us=st.integers(0, 10**15),
@@ -78,3 +70,35 @@ def test_the_rate_curve_counts_every_event_in_its_bin(
             curve.counts[p], np.bincount(bins[polarity == p], minlength=bins[-1] + 1)
         )
     assert curve.bin_us == FIRST_BIN_US or curve.counts.shape[1] > RATE_BINS // 2
+
+
+def frame(index: int, width: int = 8) -> Frame:
+    return Frame(np.full((6, width, 3), index % 256, dtype=np.uint8), index * 1000)
+
+
+@pytest.mark.parametrize("count", [1, 4, 5, 8, 9, 100])
+def test_kept_frames_are_evenly_spread_and_never_too_many(count: int) -> None:
+    strip = FrameStrip(limit=4)
+    for index in range(count):
+        strip.append(frame(index))
+    times = [t for t, _ in strip.images]
+    assert strip.seen == count
+    assert min(count, 2) <= len(times) <= 4
+    assert times[0] == 0
+    steps = np.diff(times)
+    assert len(set(steps.tolist())) <= 1, "one stride"
+    assert times[-1] + (steps[0] if len(steps) else 1000) >= (count - 1) * 1000, "up to the end"
+
+
+def test_intermediate_frames_are_left_out() -> None:
+    strip = FrameStrip()
+    strip.append(Frame(np.zeros((6, 8)), 5, is_source=False))
+    assert (strip.seen, strip.images) == (0, [])
+
+
+def test_large_frames_are_made_small_and_keep_their_shape() -> None:
+    strip = FrameStrip()
+    strip.append(Frame(np.full((600, 2 * STRIP_WIDTH, 3), 90, dtype=np.uint8), 0))
+    image = cv2.imdecode(np.frombuffer(strip.images[0][1], np.uint8), cv2.IMREAD_COLOR)
+    assert image.shape == (300, STRIP_WIDTH, 3)
+    assert abs(image.mean() - 90) < 2

@@ -59,7 +59,7 @@ def test_the_busiest_window_is_that_of_all_windows_however_packets_are_cut() -> 
         events = EventStream(*columns, times, rng.integers(0, 2, count), SIZE)
         cut = int(rng.integers(0, count + 1))
         packets, length = (events[:cut], events[cut:]), int(rng.integers(1, 120))
-        windows = cut_windows(packets, size=SIZE, step_us=Fraction(length), window_us=length)
+        windows = cut_windows(packets, step_us=Fraction(length), window_us=length)
         wanted = max(windows, key=lambda window: window.event_count)
         found = find_busiest(packets, length)
         assert found is not None

@@ -65,13 +65,3 @@ def test_without_an_image_nothing_is_left(name, tmp_path):
     with pytest.raises(InputError, match="image"):
         write(tmp_path / name, some=[])
     assert list(tmp_path.iterdir()) == []
-
-
-def test_an_error_half_way_leaves_nothing(tmp_path):
-    def broken():
-        yield images()[0]
-        raise RuntimeError("stop")
-
-    with pytest.raises(RuntimeError):
-        write(tmp_path / "frames", some=broken())
-    assert list(tmp_path.iterdir()) == []

@@ -1,7 +1,5 @@
 from __future__ import annotations
 
-import errno
-import os
 from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
@@ -10,13 +8,12 @@ import av
 import numpy as np
 import pytest
 
-from texvent.errors import InputError, OutputError
+from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent.view.video.encoder import VideoEncoder
 from texvent.view.video.writer import VideoWriter
-from texvent.view.windows import EventWindow, WindowCollector
+from texvent.view.windows import WindowCollector
 
 SIZE = SensorSize(32, 24)
 Steps = list[tuple[Frame, EventStream]]
@@ -69,19 +66,6 @@ def test_the_index_lies_in_front_so_that_browsers_start_at_once(
     assert 0 < content.index(b"moov") < content.index(b"mdat")
 
 
-def test_the_frame_is_left_and_its_events_are_right(tmp_path: Path, steps: Steps) -> None:
-    _, images, _ = read_video(write_video(tmp_path / "out.mp4", steps, palette="paper"))
-    width = images.shape[2]
-    image = images[1].astype(int)
-    row = image[int(image.shape[0] * 0.7)]
-    left, right = row[: width // 2 - 4], row[width // 2 + 4 :]
-    # The bar is orange on dark grey; events are blue and red on white.
-    assert (left[:, 0] > left[:, 2] + 100).any()
-    assert (right[:, 2] > right[:, 0] + 100).any()
-    assert (right[:, 0] > right[:, 2] + 100).any()
-    assert (right.min(axis=1) > 240).mean() > 0.5
-
-
 def test_events_of_intermediate_frames_count_for_the_next_source_frame(
     tmp_path: Path, steps: Steps
 ) -> None:
@@ -118,44 +102,4 @@ def test_no_frame_at_all_is_an_input_error(
 ) -> None:
     with pytest.raises(InputError, match="at least one frame"):
         write_video(tmp_path / "out.mp4", [])
-    assert folder_is_clean()
-
-
-def test_an_exception_midway_leaves_no_video(
-    tmp_path: Path, steps: Steps, folder_is_clean: Callable[[], bool]
-) -> None:
-    def interrupt() -> None:
-        with VideoWriter(tmp_path / "out.mp4", size=SIZE, fps=None) as video:
-            video.show(EventWindow(0, 1, np.zeros((2, *SIZE.shape), dtype=np.int32)))
-            raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        interrupt()
-    assert folder_is_clean()
-
-
-def test_an_existing_video_is_kept_unless_overwriting_is_allowed(
-    tmp_path: Path, steps: Steps
-) -> None:
-    path = tmp_path / "out.mp4"
-    path.write_bytes(b"old")
-    with pytest.raises(OutputError, match="exists already"):
-        write_video(path, steps)
-    assert path.read_bytes() == b"old"
-    write_video(path, steps, overwrite=True)
-    assert len(read_video(path)[0]) == 5
-
-
-def test_a_full_disk_while_encoding_is_one_clear_line(
-    tmp_path: Path,
-    steps: Steps,
-    monkeypatch: pytest.MonkeyPatch,
-    folder_is_clean: Callable[[], bool],
-) -> None:
-    def refuse(*_: object) -> None:
-        raise av.error.OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
-
-    monkeypatch.setattr(VideoEncoder, "_encode", refuse)
-    with pytest.raises(OutputError, match="the disk is full"):
-        write_video(tmp_path / "out.mp4", steps)
     assert folder_is_clean()

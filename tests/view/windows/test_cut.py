@@ -8,16 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.represent.time_surface import time_surface
 from texvent.sensor import SensorSize
 from texvent.view.windows import (
     cut_counts,
-    cut_fading,
     cut_windows,
     still_window_us,
-    time_range,
 )
 
 SIZE = SensorSize(4, 4)
@@ -31,7 +27,7 @@ def at_times(*times: int) -> EventStream:
 def counted(events: list[EventStream], step: Fraction, window: int) -> list[tuple[int, int, int]]:
     return [
         (one.start_us, one.stop_us, one.event_count)
-        for one in cut_windows(events, size=SIZE, step_us=step, window_us=window)
+        for one in cut_windows(events, step_us=step, window_us=window)
     ]
 
 
@@ -68,36 +64,9 @@ def test_windows_side_by_side_hold_every_event_once(
         assert sum(count for *_, count in found) == len(times)
 
 
-def test_the_range_is_half_open_over_all_packets() -> None:
-    packets = EventPackets([at_times(7, 8), EventStream.empty(SIZE), at_times(9)], SIZE)
-    assert time_range(packets) == (7, 10)
-
-
 @pytest.mark.parametrize(("span", "window"), [(10**7, 40_000), (500_000, 10_000), (3, 1)])
 def test_stills_gather_a_fiftieth_but_at_most_40_ms(span: int, window: int) -> None:
     assert still_window_us((5, 5 + span)) == window
-
-
-def test_memory_holds_one_window_and_one_packet() -> None:
-    packets = (at_times(*np.arange(start, start + 100)) for start in range(0, 10_000, 100))
-    sizes = [n for *_, n in counted(list(packets), Fraction(50), 50)]
-    assert sizes == [50] * 200
-
-
-def test_events_fade_as_the_time_surface_does() -> None:
-    events = busy_stream()
-    step_us, tau_us = Fraction(10_000, 3), 2_000
-    parts = (events[start : start + 17] for start in range(0, len(events), 17))
-    windows = list(cut_fading(parts, size=events.size, step_us=step_us, tau_us=tau_us))
-    assert len(windows) > 3
-    for window in windows:
-        past = events.between(0, window.stop_us)
-        surface = time_surface(past, tau_us=tau_us, at_us=window.stop_us - 1)
-        np.testing.assert_allclose(window.fading, surface, atol=1e-6)
-    # An event between two steps, at 2 · 3333.3 µs, is in neither if they are cut off.
-    cut = cut_fading([at_times(0, 6666, 10_500)], size=SIZE, step_us=step_us, tau_us=tau_us)
-    found = [one.fading[0, 0, 0] for one in cut]
-    np.testing.assert_allclose(found, np.exp(np.divide([3333, 0, 3334, 2833], -2000)), atol=1e-6)
 
 
 @pytest.mark.parametrize("packet", [1, 7, 1000])

@@ -19,7 +19,6 @@ page (.html).
 
   texvent render out.h5 -o slow.mp4 --speed 0.1        ten times slower
   texvent render out.h5 -o sheet.png --panels 9        contact sheet of nine
-  texvent render out.h5 -o out.mp4 --decay 30          events fade over 30 ms
   texvent render out.h5 -o out.mp4 --overlay both      boxes and optical flow
   texvent render clip.raw -o out.mp4 --video clip.mp4  the video on the left"""
 
@@ -29,7 +28,7 @@ class RenderOptions(ShownEventsOptions):
     """Which events, and where the result goes."""
 
     main_options: ClassVar[tuple[str, ...]] = (
-        "out", "video", "time", "speed", "render_fps", "window", "decay", "panels", "overlay",
+        "out", "video", "time", "speed", "render_fps", "window", "panels", "overlay",
         "palette", "overwrite",
     )  # fmt: skip
 

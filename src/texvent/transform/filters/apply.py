@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import Any, NamedTuple, Protocol, TypeAlias
+from typing import Any, Protocol, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,25 +19,6 @@ NEVER = -(2**62)
 """Stands for the time of a pixel that has not fired, µs; no event is that early."""
 UInt16Array = NDArray[np.uint16]
 Int64Array = NDArray[np.int64]
-BLOCK = 4
-"""Side of the blocks of pixels in which flicker is found, as in the IMX636."""
-MOST_BURSTS = 7
-"""Where the count of periodic bursts stops: 3 bits."""
-
-
-class FlickerLimits(NamedTuple):
-    """Limits of flicker."""
-
-    shortest_us: int
-    """Period of the highest frequency, µs."""
-    longest_us: int
-    """Period of the lowest frequency, µs."""
-    hold_us: int
-    """Time after the start of a burst in which no other one starts, µs."""
-    begin: int
-    """Periodic bursts from which a block flickers."""
-    end: int
-    """Periodic bursts below which it no longer does."""
 
 
 Keep: TypeAlias = Callable[[EventStream], NDArray[np.bool_]]

@@ -6,14 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.transform.filters.apply import (
-    BLOCK,
-    MOST_BURSTS,
-    NEVER,
-    FlickerLimits,
-    Int64Array,
-    UInt16Array,
-)
+from texvent.transform.filters.apply import NEVER, Int64Array, UInt16Array
 
 
 @jit
@@ -114,57 +107,3 @@ def find_places_in_bursts(
         last_us[row, column] = t[event]
         places[event] = place
     return places
-
-
-@jit
-def find_flicker(
-    x: UInt16Array,
-    y: UInt16Array,
-    t: Int64Array,
-    p: NDArray[np.uint8],
-    start_us: Int64Array,
-    state: NDArray[np.uint8],
-    limits: FlickerLimits,
-) -> NDArray[np.bool_]:
-    """Mask of the events in a flickering block of pixels, [n].
-
-    A burst of a block starts at an ON event that follows an OFF event of the block. A burst that
-    starts within the band's periods after the one before counts up, an earlier one counts down,
-    and a later one starts again.
-
-    Args:
-        x: columns, [n].
-        y: rows, [n].
-        t: times, µs, [n], non-decreasing.
-        p: polarities, [n].
-        start_us: when the last burst of each block started, [H, W] in blocks; changed.
-        state: whether its last event was ON, its count, and whether it flickers, [3, H, W];
-            changed.
-        limits: limits of flicker.
-    """
-    found = np.zeros(len(t), np.bool_)
-    for event in range(len(t)):
-        row, column = y[event] // BLOCK, x[event] // BLOCK
-        since = t[event] - start_us[row, column]
-        is_new = since > limits.longest_us
-        if is_new:
-            state[1, row, column] = 0
-            state[2, row, column] = 0
-        if p[event] == 1 and state[0, row, column] == 0:
-            if is_new:
-                start_us[row, column] = t[event]
-            elif since >= limits.hold_us:
-                count = int(state[1, row, column])
-                if since >= limits.shortest_us:
-                    count = min(count + 1, MOST_BURSTS)
-                else:
-                    count = max(count - 1, 0)
-                state[1, row, column] = count
-                if count >= limits.begin:
-                    state[2, row, column] = 1
-                elif count < limits.end:
-                    state[2, row, column] = 0
-                start_us[row, column] = t[event]
-        state[0, row, column] = p[event]
-        found[event] = state[2, row, column] == 1
-    return found

@@ -16,8 +16,6 @@ CEILING_PERCENTILE = 95.0
 """Pixels with more events than this share of the active ones are shown at full strength."""
 FAINTEST = 0.3
 """Least strength of an event, where others are many."""
-FADED = 1 / 255
-"""Strength below which a fading event cannot be seen."""
 STRENGTH_EXPONENT = 0.5
 """Below 1, so that pixels with few events stay easy to see."""
 
@@ -70,31 +68,6 @@ def draw_events(counts: NDArray[Any], palette: Palette, *, ceiling: float | None
     )
     colour = share * on_colour + (1 - share) * off_colour
     mixed = background + strength[:, None] * (colour - background)
-    image[rows, columns] = np.rint(mixed).astype(np.uint8)
-    return image
-
-
-def draw_fading(fading: NDArray[Any], palette: Palette) -> Image:
-    """A time surface as an RGB image: the newer polarity gives the hue, its age the strength.
-
-    Args:
-        fading: strength 0..1 of the last OFF and ON event per pixel, [2, H, W].
-        palette: the colours.
-
-    Returns:
-        [H, W, 3] uint8.
-    """
-    strength = fading.max(axis=0)
-    image = np.empty((*strength.shape, 3), dtype=np.uint8)
-    image[:] = palette.background
-    rows, columns = np.nonzero(strength > FADED)
-    off, on = fading[0, rows, columns], fading[1, rows, columns]
-    on_colour, off_colour, background = (
-        np.array(colour, dtype=np.float32)
-        for colour in (palette.on, palette.off, palette.background)
-    )
-    colour = np.where((on >= off)[:, None], on_colour, off_colour)
-    mixed = background + strength[rows, columns, None] * (colour - background)
     image[rows, columns] = np.rint(mixed).astype(np.uint8)
     return image
 

@@ -74,17 +74,7 @@ PALETTES = MappingProxyType(
                 "Texvent's figures; rpg dvs_renderer",
             ),
             Palette("dv", (0, 93, 183), (43, 43, 43), (255, 255, 255), "iniVation dv-processing"),
-            Palette(
-                "metavision-light", (64, 126, 200), (30, 37, 52), (255, 255, 255), "Metavision"
-            ),
             Palette("metavision-dark", (255, 255, 255), (64, 126, 200), (30, 37, 52), "Metavision"),
-            Palette(
-                "metavision-coolwarm",
-                (220, 60, 50),
-                (64, 126, 200),
-                (255, 255, 255),
-                "Metavision (background chosen here)",
-            ),
             Palette("redblue", (255, 0, 0), (0, 0, 255), (255, 255, 255), "eventcv, evlib, AirSim"),
             Palette("v2e", (255, 255, 255), (0, 0, 0), (128, 128, 128), "v2e"),
         )

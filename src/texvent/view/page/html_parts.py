@@ -6,7 +6,7 @@ import base64
 import html
 import json
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from importlib import resources
 from typing import Any
 
@@ -22,45 +22,28 @@ from texvent.view.page.sample import FrameStrip, RateCurve
 SCRIPTS = ("state.js", "cloud.js", "plane.js", "rate.js", "controls.js")
 """Parts of the viewer, in the order in which they build on one another."""
 PALETTE_PARTS = ("on", "off", "background", "ink")
-DARK_BY_SYSTEM = "@media (prefers-color-scheme: dark) {\n  :root { %s }\n}"
-DARK_BY_CLASS = ":root.dark { %s }"
-"""Rules for the colours of dark mode: where the system asks for it, or the page around this one."""
 
 
-def fill_template(
-    name: str,
-    parts: Mapping[str, str],
-    *,
-    palette: Palette,
-    style: str = "page.css",
-    scripts: Sequence[str] = SCRIPTS,
-    dark: str = DARK_BY_SYSTEM,
-) -> str:
+def fill_template(name: str, parts: Mapping[str, str], *, palette: Palette) -> str:
     """The page with every `{{name}}` replaced, in one pass: inserted text is never read again.
 
     Args:
         name: file in viewer/.
         parts: HTML to insert.
         palette: the colours; in dark mode those of its dark twin.
-        style: file in viewer/, for `{{style}}`.
-        scripts: files in viewer/, for `{{script}}`.
-        dark: the rule for dark mode.
     """
-    known = {
-        "style": f"{viewer_file(style)}\n{_palette_css(palette, dark)}",
-        "script": "\n".join(map(viewer_file, scripts)),
-        **parts,
-    }
+    dark = palette_properties(palette.dark)
+    style = (
+        f"{viewer_file('page.css')}\n:root {{ {palette_properties(palette)} }}\n"
+        f"@media (prefers-color-scheme: dark) {{\n  :root {{ {dark} }}\n}}"
+    )
+    known = {"style": style, "script": "\n".join(map(viewer_file, SCRIPTS)), **parts}
     return re.sub(r"\{\{(\w+)\}\}", lambda match: known[match[1]], viewer_file(name))
 
 
 def viewer_file(name: str) -> str:
     """The text of a file in viewer/."""
     return resources.files("texvent.view.page").joinpath("viewer", name).read_text("utf-8")
-
-
-def _palette_css(palette: Palette, dark: str) -> str:
-    return f":root {{ {palette_properties(palette)} }}\n{dark % palette_properties(palette.dark)}"
 
 
 def palette_properties(palette: Palette) -> str:
@@ -72,7 +55,7 @@ def palette_properties(palette: Palette) -> str:
 
 
 LABELS = {
-    "prompt": "Prompt",
+    "ON": "ON",
     "texvent_version": "texvent version",
 }
 """Labels of facts where the capitalised name is not enough."""
@@ -116,7 +99,6 @@ def rate_figure(
     *,
     start_us: int,
     bin_us: float,
-    peak: int | None = None,
     marks: str = "",
     name: str = "",
 ) -> str:
@@ -126,12 +108,11 @@ def rate_figure(
         counts: OFF and ON events per bin, [2, bins].
         start_us: where the first bin begins, µs.
         bin_us: width of a bin, µs.
-        peak: events of one polarity per bin at full height; default: the most of these.
         marks: SVG drawn over the areas.
         name: id of the SVG element, if any.
     """
     per_second = MICROSECONDS / bin_us
-    full = max(1, int(counts.max()) if peak is None else peak)
+    full = max(1, int(counts.max()))
     most = int(counts.sum(axis=0).max())
     middle = CURVE_HEIGHT / 2
     on_area, off_area = (
@@ -221,38 +202,8 @@ def viewer_json(
         seen: how many events the recording has.
         stop_us: time of the last event, µs.
     """
-    data = cloud_data(sample, (curve.start_us, stop_us), palette=palette, seen=seen) | {
-        "rate": {
-            "bins": curve.counts.shape[1],
-            "bin_us": curve.bin_us,
-            "peak": int(curve.counts.max(initial=0)),
-        },
-        "frames": [
-            {
-                "t": (t_us - curve.start_us) / max(1, stop_us - curve.start_us),
-                "src": "data:image/jpeg;base64," + base64.b64encode(jpeg).decode("ascii"),
-            }
-            for t_us, jpeg in strip.images
-        ],
-    }
-    return script_json(data)
-
-
-def cloud_data(
-    sample: EventStream, extent: tuple[int, int], *, palette: Palette, seen: int
-) -> dict[str, Any]:
-    """Data of the cloud: events, size, times and colours.
-
-    Args:
-        sample: the events of the cloud.
-        extent: times of the first and the last event of the recording, µs.
-        palette: the colours.
-        seen: how many events the recording has.
-    """
-    start_us, span_us = extent[0], max(1, extent[1] - extent[0])
-    share = ((sample.t - start_us) / span_us).astype("<f4")
-    pixels = np.stack([sample.x, sample.y], axis=1).astype("<u2")
-    return {
+    start_us, span_us = curve.start_us, max(1, stop_us - curve.start_us)
+    data = {
         "width": sample.size.width,
         "height": sample.size.height,
         "start_us": start_us,
@@ -261,14 +212,22 @@ def cloud_data(
         "seen": seen,
         **_colours(palette),
         "dark": _colours(palette.dark),
-        "xy": _base64(pixels),
-        "t": _base64(share),
+        "xy": _base64(np.stack([sample.x, sample.y], axis=1).astype("<u2")),
+        "t": _base64(((sample.t - start_us) / span_us).astype("<f4")),
         "p": _base64(sample.p),
+        "rate": {
+            "bins": curve.counts.shape[1],
+            "bin_us": curve.bin_us,
+            "peak": int(curve.counts.max(initial=0)),
+        },
+        "frames": [
+            {
+                "t": (t_us - start_us) / span_us,
+                "src": "data:image/jpeg;base64," + base64.b64encode(jpeg).decode("ascii"),
+            }
+            for t_us, jpeg in strip.images
+        ],
     }
-
-
-def script_json(data: Mapping[str, Any]) -> str:
-    """JSON that is safe inside a script element."""
     # "</script>" inside JSON would end the element.
     return json.dumps(data).replace("<", "\\u003c")
 

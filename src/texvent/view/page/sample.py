@@ -83,13 +83,12 @@ FIRST_BIN_US = 16
 class UniformSample:
     """At most `limit` events, each equally likely, drawn in one pass.
 
-    Every event has a priority: a hash of the seed and its position in the recording. The events
+    Every event has a priority: a hash of its position in the recording. The events
     with the lowest priorities are kept, so packet sizes do not change the sample.
     """
 
-    def __init__(self, size: SensorSize, *, limit: int = SAMPLE_EVENTS, seed: int = 0) -> None:
+    def __init__(self, size: SensorSize, *, limit: int = SAMPLE_EVENTS) -> None:
         self._limit = limit
-        self._seed = np.uint64(seed % 2**64)
         self._kept = [EventStream.empty(size)]
         self._priorities: list[NDArray[np.uint64]] = [np.empty(0, dtype=np.uint64)]
         self._kept_count = 0
@@ -102,7 +101,7 @@ class UniformSample:
         count = len(packet)
         position = np.arange(self.seen, self.seen + count, dtype=np.uint64)
         self.seen += count
-        priority = _mix(position + _mix(np.atleast_1d(self._seed)))
+        priority = _mix(position + _mix(np.zeros(1, np.uint64)))
         keep = priority <= self._bound
         if not keep.any():
             return
@@ -125,21 +124,6 @@ class UniformSample:
             keep = priorities <= bound
             events, priorities, self._bound = events[keep], priorities[keep], bound
         self._kept, self._priorities, self._kept_count = [events], [priorities], len(events)
-
-
-def spread_sample(events: EventStream, limit: int) -> EventStream:
-    """At most `limit` of the events in memory, the same ones at every call.
-
-    The stream is cut into `limit` runs of equal length, and one event is drawn of each: fast
-    however many there are, and as dense in time as the recording.
-    """
-    count = len(events)
-    if count <= limit:
-        return events
-    edges = np.arange(limit + 1) * count // limit
-    chosen = np.random.default_rng(0).integers(edges[:-1], edges[1:])
-    columns = (getattr(events, name)[chosen] for name in "xytp")
-    return EventStream.unchecked(*columns, size=events.size, label=None)
 
 
 class RateCurve:

@@ -287,8 +287,6 @@ const makeCloud = (state, controls) => {
     canvas.addEventListener(name, (event) => pointers.delete(event.pointerId));
   }
   canvas.addEventListener("wheel", (event) => {
-    // In a notebook the wheel scrolls on until the cloud was clicked.
-    if (data.is_embedded && document.activeElement !== canvas) return;
     event.preventDefault();
     zoom(Math.exp(-event.deltaY / 500));
   }, { passive: false });
@@ -299,7 +297,7 @@ const makeCloud = (state, controls) => {
       "+": () => zoom(1.15), "=": () => zoom(1.15), "-": () => zoom(1 / 1.15),
       "0": () => {
         Object.assign(camera, views.space, { zoom: 1 });
-        state.set(data.is_embedded ? { start: 0, length: 1 } : busiestWindow(state));
+        state.set(busiestWindow(state));
       },
       " ": controls.toggle, ",": () => controls.jump(-1), ".": () => controls.jump(1),
     };

@@ -57,10 +57,8 @@ const makeControls = (state) => {
     });
   }
   return {
-    // A long recording plays in real time: faster, a window of 40 ms would jump. In a notebook the
-    // whole recording stands still.
+    // A long recording plays in real time: faster, a window of 40 ms would jump.
     open: () => {
-      if (data.is_embedded) return state.set({ start: 0, length: 1 });
       state.set(busiestWindow(state));
       if (data.duration_us > 4e6) speed.value = "real";
       if (!matchMedia("(prefers-reduced-motion: reduce)").matches) setPlaying(true);
@@ -86,10 +84,8 @@ const startPage = () => {
   if (data.count === 0) return explain("This recording holds no events.");
   const state = makeState(data);
   const controls = makeControls(state);
-  if (!data.is_embedded) {
-    makePlane(state);
-    makeRate(state, controls.pause);
-  }
+  makePlane(state);
+  makeRate(state, controls.pause);
   // Without WebGL all the rest still works.
   if (!makeCloud(state, controls)) {
     element("cloud-canvas").hidden = element("view-buttons").hidden = true;

@@ -21,14 +21,9 @@ const makeState = (data) => {
     // Columns x0 ≤ x < x1 and rows y0 ≤ y < y1.
     region: whole(),
   };
-  // Inside a notebook the theme is the notebook's: the color-scheme of the frame that holds this page.
   const system = matchMedia("(prefers-color-scheme: dark)");
-  const frame = window.frameElement;
   const choosePalette = () => {
-    const scheme = frame ? getComputedStyle(frame).colorScheme : "";
-    const isDark = ["light", "dark"].includes(scheme) ? scheme === "dark" : system.matches;
-    document.documentElement.classList.toggle("dark", isDark);
-    state.palette = isDark ? data.dark : data;
+    state.palette = system.matches ? data.dark : data;
   };
   choosePalette();
   const listeners = [];
@@ -49,11 +44,6 @@ const makeState = (data) => {
     state.changed();
   };
   system.addEventListener("change", changeTheme);
-  if (frame) {
-    const watch = new MutationObserver(changeTheme);
-    const { documentElement, body } = frame.ownerDocument;
-    for (const part of [documentElement, body]) watch.observe(part, { attributes: true });
-  }
   state.set = (values) => {
     Object.assign(state, values);
     state.start = Math.min(Math.max(state.start, 0), 1);

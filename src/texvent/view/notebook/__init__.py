@@ -1,1 +1,0 @@
-"""Notebook displays of values: stills, event rates, facts, a cloud to turn."""
