@@ -18,12 +18,7 @@ from texvent.interpolate.rife.weights import (
     import_torch,
     read_rife_weights,
 )
-<<<<<<< HEAD
 from texvent.pairs.instants import matching_levels, position
-from texvent.pairs.tensors import rgb_and_luma
-=======
-from texvent.pairs.instants import check_between, matching_levels, position
->>>>>>> integ
 from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream
 
 if TYPE_CHECKING:
