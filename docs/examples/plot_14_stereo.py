@@ -10,10 +10,10 @@ from tempfile import mkdtemp
 
 import matplotlib.pyplot as plt
 
-from texvent import rig
+import texvent
 
 folder = Path(mkdtemp()) / "ball"
-rig.record(
+texvent.rig.record(
     "a red ball rolls left past a tree",
     folder,
     stereo=0.12,
@@ -21,8 +21,8 @@ rig.record(
     duration=0.4,
 )
 figure, axes = plt.subplots(1, 2, figsize=(7, 2.9))
-for panel, camera, title in zip(axes, rig.load(folder).cameras, ("left", "right"), strict=True):
-    events = camera.events.collect()
+for panel, camera, title in zip(axes, ("cam0", "cam1"), ("left", "right"), strict=True):
+    events = texvent.load(folder / camera / "events.h5")
     panel.imshow(events.between(200_000, 260_000).represent("event-frame"), "RdBu", vmin=-2, vmax=2)
     panel.set_title(f"{title}: {len(events):,} events")
     panel.axis("off")

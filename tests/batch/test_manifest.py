@@ -81,17 +81,3 @@ def test_other_options_are_refused_with_the_difference(tmp_path: Path) -> None:
     with pytest.raises(ConfigError, match=r"threshold was 0\.2, is 0\.3; --previews was png"):
         Manifest(tmp_path).begin(other, overwrite=False)
     assert Manifest(tmp_path).is_done(CAR)
-
-
-def test_overwriting_begins_anew(tmp_path: Path) -> None:
-    with_car(tmp_path)
-    Manifest(tmp_path).begin({"settings": {}}, overwrite=True)
-    again = Manifest(tmp_path)
-    assert not again.is_done(CAR)
-    again.begin({"settings": {}}, overwrite=False)
-
-
-def test_samples_that_left_the_list_are_told(tmp_path: Path) -> None:
-    manifest = with_car(tmp_path)
-    assert manifest.others([DOG]) == ["car"]
-    assert manifest.others([CAR, DOG]) == []

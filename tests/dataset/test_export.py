@@ -107,17 +107,6 @@ def test_a_second_run_goes_on_and_another_export_is_refused(cars: Path, tmp_path
         export(made, "zarr", tmp_path / "other")
 
 
-def test_a_layout_of_classes_needs_classes(tmp_path: Path) -> None:
-    plain = make_set(
-        tmp_path / "plain",
-        splits={"train": 1.0},
-        sources=[{"prompts": ["a dog runs right"]}],
-        variants={"esim": {"simulator": "esim"}},
-    )
-    with pytest.raises(InputError, match="has no classes"):
-        export(StoredDataset.open(plain), "n-imagenet", tmp_path / "out")
-
-
 def test_noise_labels_go_where_they_can_be_held(tmp_path: Path) -> None:
     noisy = make_set(
         tmp_path / "noisy",
@@ -131,17 +120,6 @@ def test_noise_labels_go_where_they_can_be_held(tmp_path: Path) -> None:
     assert texvent.load(next((tmp_path / "h" / "train").iterdir())).label is not None
     done = export(made, "n-imagenet", tmp_path / "n")
     assert "does not hold which events are noise" in " ".join(done.doubts)
-
-
-def test_splits_that_become_one_are_said(tmp_path: Path) -> None:
-    three = make_set(
-        tmp_path / "three",
-        splits={"train": 0.34, "val": 0.33, "test": 0.33},
-        variants={"esim": {"simulator": "esim"}},
-    )
-    done = export(StoredDataset.open(three), "n-imagenet", tmp_path / "n")
-    assert "splits val and test are written as one" in done.doubts
-    assert len((tmp_path / "n" / "val_list.txt").read_text().splitlines()) == 2
 
 
 def test_classes_become_folder_names() -> None:

@@ -36,7 +36,7 @@ def test_the_page_shows_every_sample_with_its_caption(
     assert "9 samples of cars" in capsys.readouterr().out
     page = out.read_text("utf-8")
     tags = Tags(page).names
-    assert tags.count("picture") == tags.count("pre") == 9
+    assert tags.count("img") == tags.count("pre") == 9
     assert not {"script", "i", "link", "iframe"} & set(tags)
     for prompt in CARS["sources"][0]["prompts"]:
         assert html.escape(prompt) in page

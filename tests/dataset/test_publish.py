@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import subprocess
@@ -15,7 +14,6 @@ import pytest
 import yaml
 
 from texvent.cli.app import main
-from texvent.dataset.generation.shards import TarShardWriter
 from texvent.dataset.publish import hub_name, publish
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.reading.stored_events import read_events
@@ -129,34 +127,6 @@ def test_hugging_face_datasets_reads_the_folder(published: Path, tmp_path: Path)
     assert seen == len(expected)
     default = datasets.load_dataset(str(published), split="train", streaming=True)
     assert next(iter(default.select_columns(["txt"])))["txt"]
-
-
-@pytest.mark.dataset
-def test_settings_that_differ_from_sample_to_sample_are_read(
-    published: Path, tmp_path: Path
-) -> None:
-    """`datasets` guesses types from five samples, where the card does not say them."""
-    datasets = pytest.importorskip("datasets")
-    folder = tmp_path / "differing"
-    (folder / "paper").mkdir(parents=True)
-    facts: list[dict[str, Any]] = [{"words": [], "rate": 1}] * 6 + [{"words": ["x"], "more": 0.5}]
-    # "train" must not find the shards of "train-hard".
-    for split, chosen in (("train", facts), ("train-hard", facts[:2])):
-        with (folder / "paper" / f"{split}-000000.tar").open("wb") as file:
-            writer = TarShardWriter(file)
-            for number, one in enumerate(chosen):
-                writer.add(f"{number:04}", {"json": json.dumps(one).encode(), "txt": b"a"})
-            writer.close()
-    header = yaml.safe_load((published / "README.md").read_text("utf-8").split("---")[1])
-    (config, *_), (types, *_) = header["configs"], header["dataset_info"]
-    config["data_files"] = config["data_files"][:1]
-    types["features"] = [
-        one for one in types["features"] if one["name"] in ("json", "txt", "__key__", "__url__")
-    ]
-    text = yaml.safe_dump({"configs": [config], "dataset_info": [types]})
-    (folder / "README.md").write_text(f"---\n{text}---\n")
-    table = datasets.load_dataset(str(folder), split="train", cache_dir=str(tmp_path / "cache"))
-    assert table["json"][:] == facts
 
 
 @pytest.mark.dataset

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import json
 import shutil
 from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
-from texvent.cli.app import main
 from texvent.dataset.generation.shards import FAILED, read_record, write_record
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.reading.stored_events import read_events
@@ -59,16 +57,6 @@ def test_quantiles_by_hand() -> None:
     assert quantiles([]) == {}
     facts = quantiles([1, 2, 3, 4, 100])
     assert (facts["mean"], facts["median"], facts["min"], facts["max"]) == (22.0, 3.0, 1.0, 100.0)
-
-
-def test_the_command_prints_text_or_json(cars: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert main(["dataset", "stats", str(cars)]) == 0
-    text = capsys.readouterr().out
-    assert "9 samples of 3 videos" in text
-    assert "classes: car 6; bus 3" in text
-    assert main(["dataset", "stats", str(cars), "--json"]) == 0
-    tables = json.loads(capsys.readouterr().out)
-    assert tables["variants"]["esim"]["train"]["samples"] == 2
 
 
 def test_a_shard_of_another_set_is_not_counted(copied: Path) -> None:

@@ -47,7 +47,7 @@ def frame_readers() -> list[Reader]:
         *images,
         Reader("frames .npy", _make_npy, partial(_read, with_rate)),
         Reader("frames aedat4", _make_aedat4, partial(_read, CaptureConfig())),
-        Reader("frames dsec", _make_dsec, partial(_read, CaptureConfig()), 2),
+        Reader("frames dsec", _make_dsec, partial(_read, CaptureConfig())),
         Reader("frames evreal", write_folder, partial(_read, CaptureConfig())),
         Reader("stored video", _make_stored, _read_stored),
     ]

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import json
+import shutil
 from dataclasses import dataclass, replace
 from fractions import Fraction
 
@@ -322,8 +323,8 @@ def test_only_folders_of_truth_are_replaced(tmp_path):
         ("boxes/bbox.npy", "x", "bbox.npy cannot be read"),
     ],
 )
-def test_damage_is_named(tmp_path, name, text, message):
-    folder = texvent.save_truth(board_video(), tmp_path / "a.truth", "depth,ids,poses,boxes")
+def test_damage_is_named(written, tmp_path, name, text, message):
+    folder = shutil.copytree(written[0], tmp_path / "a.truth")
     if text is None:
         (folder / name).unlink()
     else:

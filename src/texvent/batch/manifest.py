@@ -18,10 +18,10 @@ from texvent.io.atomic import atomic_file
 from texvent.scenes.report import PromptReport
 
 OPTIONS_FILE, SAMPLES_FILE = "batch.json", "samples.jsonl"
-KIND, VERSION = "samples", "texvent_version"
-"""Names, in `batch.json`, of what samples are made of and of the version that made them."""
-MAX_DIFFERENCES, MAX_VALUE = 120, 40
-"""Characters of all differences that an error tells, and of a value."""
+VERSION = "texvent_version"
+"""Name, in `batch.json`, of the version that made the samples."""
+MOST_DIFFERENCES, MAX_VALUE = 3, 40
+"""Differences that an error names, and characters of a value."""
 
 
 class Manifest:
@@ -44,7 +44,7 @@ class Manifest:
         """
         wanted = json.loads(json.dumps(options))
         if self._options is not None and not overwrite:
-            differences = _describe_other_batch(self._options, wanted)
+            differences = describe_differences(self._options, wanted, name_of=_flag)
             if differences:
                 raise ConfigError(
                     f"{self._folder} was made with other options: {differences}; name another "
@@ -75,11 +75,6 @@ class Manifest:
         """The report of a complete sample's prompt; None where it has none."""
         report = self._done.get(sample.key, {}).get("prompt_report")
         return None if report is None else PromptReport.from_json(report)
-
-    def others(self, samples: Sequence[Sample]) -> list[str]:
-        """Names of complete samples that the list no longer has."""
-        keys = {sample.key for sample in samples}
-        return [str(row["name"]) for key, row in self._done.items() if key not in keys]
 
     def add(
         self,
@@ -132,21 +127,13 @@ def _read_rows(path: Path) -> Iterator[dict[str, Any]]:
                 ) from None
 
 
-def _describe_other_batch(old: Any, new: Any) -> str:
-    """Differences between the options of two batches, as flags."""
-    kinds = [one.get(KIND) if isinstance(one, Mapping) else None for one in (old, new)]
-    if kinds[0] != kinds[1]:
-        return f"it holds a batch of {kinds[0]}, and this is one of {kinds[1]}"
-    return describe_differences(old, new, name_of=_flag)
-
-
 def _flag(name: str) -> str:
     """An option as it is given: `texvent_version` is none."""
     return "the version of texvent" if name == VERSION else f"--{name.replace('_', '-')}"
 
 
 def describe_differences(old: Any, new: Any, *, name_of: Callable[[str], str] = str) -> str:
-    """Differences between two trees of options, as many as fit a line; empty if they are equal.
+    """Differences between two trees of options, at most three; empty if they are equal.
 
     Args:
         old: the tree that is stored.
@@ -154,13 +141,8 @@ def describe_differences(old: Any, new: Any, *, name_of: Callable[[str], str] = 
         name_of: how an option is called, from its name in the tree.
     """
     found = list(_differences(old, new, name_of))
-    told: list[str] = []
-    for one in found:
-        if told and len("; ".join([*told, one])) > MAX_DIFFERENCES:
-            break
-        told.append(one)
-    more = f" and {len(found) - len(told)} more" if len(told) < len(found) else ""
-    return "; ".join(told) + more
+    more = len(found) - MOST_DIFFERENCES
+    return "; ".join(found[:MOST_DIFFERENCES]) + (f" and {more} more" if more > 0 else "")
 
 
 def _differences(

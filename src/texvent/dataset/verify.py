@@ -1,10 +1,9 @@
-"""Verification of a data set: files complete, unchanged and its own; samples sound and unique."""
+"""Verification of a data set: files complete, unchanged and its own; samples sound."""
 
 from __future__ import annotations
 
 import hashlib
 import itertools
-from collections import Counter
 from collections.abc import Iterable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, field
@@ -19,6 +18,7 @@ from texvent.dataset.generation.shards import (
     FILTERED,
     MADE,
     SampleRecord,
+    ShardRecord,
     read_members,
     read_record,
 )
@@ -39,8 +39,6 @@ class Findings:
     """Shards that differ from their records, and the difference."""
     foreign: list[str] = field(default_factory=list)
     """Files among the shards that are not of this data set; loaders would read them."""
-    twice: list[str] = field(default_factory=list)
-    """Keys of several samples."""
     unsound: list[str] = field(default_factory=list)
     """Samples that cannot be used, and why."""
     notes: list[str] = field(default_factory=list)
@@ -58,17 +56,13 @@ class Findings:
 
     def problems(self) -> Iterator[tuple[str, list[str]]]:
         """Kind → problems of that kind."""
-        for kind in ("missing", "changed", "foreign", "twice", "unsound"):
+        for kind in ("missing", "changed", "foreign", "unsound"):
             yield kind, getattr(self, kind)
 
-    def count(self, shard: StoredShard, keys: Counter[str]) -> None:
-        """Add the counts of a shard, and the keys of its samples to `keys`."""
-        record = shard.record
+    def count(self, record: ShardRecord) -> None:
+        """Add the counts of a shard."""
         self.shards += 1
-        # A sample may have the key of its video.
-        prefix = f"{VIDEOS}/" if record.variant == VIDEOS else ""
-        keys.update(prefix + sample.key for sample in record.samples)
-        if not prefix:
+        if record.variant != VIDEOS:
             self.samples += record.count(MADE)
             self.events += record.events
             self.filtered += record.count(FILTERED)
@@ -93,7 +87,6 @@ def verify(dataset: StoredDataset, *, workers: int = 1, contents: bool = True) -
         findings.notes.append("nothing else was checked, because records are damaged")
         return findings
     findings.missing = dataset.missing(*kinds)
-    keys: Counter[str] = Counter()
     shards = dataset.shards(*kinds)
     with ThreadPoolExecutor(workers) as pool:
         # Some shards at once: the records of millions of samples would not fit into memory.
@@ -102,8 +95,7 @@ def verify(dataset: StoredDataset, *, workers: int = 1, contents: bool = True) -
             for shard, (changed, unsound) in zip(some, problems, strict=True):
                 findings.changed += [f"{shard.place}: {one}" for one in changed]
                 findings.unsound += [f"{shard.place}: {one}" for one in unsound]
-                findings.count(shard, keys)
-    findings.twice = sorted(key for key, count in keys.items() if count > 1)
+                findings.count(shard.record)
     findings.foreign = _foreign_files(dataset, kinds, set(findings.missing))
     findings.notes = list(_notes(dataset))
     return findings

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import pickle
 import zlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -43,7 +43,7 @@ WHERE_FROM = "fetch them with: texvent weights pull lpips"
 
 @dataclass(frozen=True, kw_only=True)
 class Convolution:
-    """One convolution and the ReLU after it."""
+    """One convolution of AlexNet and the ReLU after it, whose output the distance looks at."""
 
     channels: int
     """Channels that come out."""
@@ -54,58 +54,31 @@ class Convolution:
     """Zeros around the map, px."""
     pools: int = 0
     """Side of the maximum that is taken before, every second pixel; 0 for none."""
-    is_compared: bool = False
-    """True if the distance looks at what comes out."""
 
 
-@dataclass(frozen=True)
-class LpipsLayout:
-    """A network and its heads: one weight per channel that is compared."""
-
-    convolutions: tuple[Convolution, ...]
-
-    def array_shapes(self) -> dict[str, Shape]:
-        """Name → shape of every array: kernels are [rows, columns, channels in, channels out]."""
-        shapes: dict[str, Shape] = {}
-        channels_in = COLOURS
-        for number, layer in enumerate(self.convolutions):
-            shapes[f"kernel{number}"] = (layer.kernel, layer.kernel, channels_in, layer.channels)
-            shapes[f"bias{number}"] = (layer.channels,)
-            channels_in = layer.channels
-        compared = [layer for layer in self.convolutions if layer.is_compared]
-        shapes.update({f"head{n}": (layer.channels,) for n, layer in enumerate(compared)})
-        return shapes
-
-    @property
-    def least_side(self) -> int:
-        """Images with a shorter side leave nothing for the last layer, px."""
-        side = 1
-        for layer in reversed(self.convolutions):
-            side = max((side - 1) * layer.stride + layer.kernel - 2 * layer.padding, 1)
-            if layer.pools:
-                side = (side - 1) * 2 + layer.pools
-        return side
-
-
-ALEX = LpipsLayout(
-    (
-        Convolution(channels=64, kernel=11, stride=4, padding=2, is_compared=True),
-        Convolution(channels=192, kernel=5, padding=2, pools=3, is_compared=True),
-        Convolution(channels=384, pools=3, is_compared=True),
-        Convolution(channels=256, is_compared=True),
-        Convolution(channels=256, is_compared=True),
-    )
+ALEX = (
+    Convolution(channels=64, kernel=11, stride=4, padding=2),
+    Convolution(channels=192, kernel=5, padding=2, pools=3),
+    Convolution(channels=384, pools=3),
+    Convolution(channels=256),
+    Convolution(channels=256),
 )
 """AlexNet."""
+LEAST_SIDE = 31
+"""Images with a shorter side leave nothing for the last layer, px."""
+LpipsWeights = Mapping[str, Float32Array]
+"""Arrays by name, with the shapes of `array_shapes`."""
 
 
-@dataclass(frozen=True, eq=False)
-class LpipsWeights:
-    """The arrays of one network."""
-
-    layout: LpipsLayout
-    arrays: Mapping[str, Float32Array]
-    """Names and shapes as `layout.array_shapes()`."""
+def array_shapes(layers: Sequence[Convolution]) -> dict[str, Shape]:
+    """Name → shape of every array: kernels are [rows, columns, channels in, channels out]."""
+    shapes: dict[str, Shape] = {}
+    channels_in = COLOURS
+    for number, layer in enumerate(layers):
+        shapes[f"kernel{number}"] = (layer.kernel, layer.kernel, channels_in, layer.channels)
+        shapes[f"bias{number}"] = shapes[f"head{number}"] = (layer.channels,)
+        channels_in = layer.channels
+    return shapes
 
 
 def find_lpips_weights() -> Path:
@@ -120,12 +93,12 @@ def find_lpips_weights() -> Path:
     return path
 
 
-def read_lpips_weights(path: Path, layout: LpipsLayout = ALEX) -> LpipsWeights:
+def read_lpips_weights(path: Path, layers: Sequence[Convolution] = ALEX) -> LpipsWeights:
     """Weights from the published file, or from one that `texvent weights pull` converted.
 
     Args:
         path: `.npz`, or the published pickle of NumPy arrays under any other name.
-        layout: of the network.
+        layers: of the network.
 
     Raises:
         FileFormatError: the file is damaged or holds another network.
@@ -139,7 +112,7 @@ def read_lpips_weights(path: Path, layout: LpipsLayout = ALEX) -> LpipsWeights:
             f"{path} cannot be read as LPIPS's weights, it is damaged or of another kind "
             f"({reason}); {WHERE_FROM}"
         ) from error
-    if shapes != layout.array_shapes():
+    if shapes != array_shapes(layers):
         raise FileFormatError(
             f"{path} does not hold the arrays of LPIPS's network, AlexNet; {WHERE_FROM}"
         )
@@ -148,7 +121,7 @@ def read_lpips_weights(path: Path, layout: LpipsLayout = ALEX) -> LpipsWeights:
             raise FileFormatError(
                 f"{path}: {name} holds {array.dtype} values that are not all finite float32 numbers"
             )
-    return LpipsWeights(layout, arrays)
+    return arrays
 
 
 def write_lpips_weights(weights: LpipsWeights, path: Path) -> None:
@@ -157,7 +130,7 @@ def write_lpips_weights(weights: LpipsWeights, path: Path) -> None:
     Raises:
         OutputError: the file cannot be written.
     """
-    arrays: dict[str, Any] = dict(weights.arrays)
+    arrays: dict[str, Any] = dict(weights)
     with atomic_file(path, overwrite=True) as part, part.open("wb") as file:
         np.savez(file, **arrays)
 
@@ -209,18 +182,12 @@ class Lpips:
             MissingDependencyError: torch is not installed.
         """
         torch = require("torch", extra=EXTRA)
-        self._layout = weights.layout
         # Kernels are [rows, columns, channels in, channels out].
         self._tensors: dict[str, Tensor] = {
             name: torch.from_numpy(array.transpose(3, 2, 0, 1).copy() if array.ndim > 1 else array)
-            for name, array in weights.arrays.items()
+            for name, array in weights.items()
         }
         self._tensors |= {"shift": torch.from_numpy(SHIFT), "spread": torch.from_numpy(SPREAD)}
-
-    @property
-    def least_side(self) -> int:
-        """Shortest side of images that can be compared, px."""
-        return self._layout.least_side
 
     def to(self, device: object) -> Lpips:
         """Move the weights."""
@@ -254,14 +221,13 @@ class Lpips:
         functional = require("torch", extra=EXTRA).nn.functional
         shift, spread = (self._tensors[name][:, None, None] for name in ("shift", "spread"))
         x = (2 * images.expand(-1, COLOURS, -1, -1) - 1 - shift) / spread
-        for number, layer in enumerate(self._layout.convolutions):
+        for number, layer in enumerate(ALEX):
             if layer.pools:
                 x = functional.max_pool2d(x, layer.pools, stride=2)
             kernel, bias = self._tensors[f"kernel{number}"], self._tensors[f"bias{number}"]
             x = functional.conv2d(x, kernel, bias, stride=layer.stride, padding=layer.padding)
             x = functional.relu(x)
-            if layer.is_compared:
-                yield x
+            yield x
 
 
 def lpips_distance(a: ArrayLike, b: ArrayLike, network: Lpips) -> float:
@@ -286,7 +252,7 @@ def lpips_distance(a: ArrayLike, b: ArrayLike, network: Lpips) -> float:
             f"cannot compare an image of {first.shape[2]}x{first.shape[1]} px with one of "
             f"{second.shape[2]}x{second.shape[1]} px; crop or resize one of them"
         )
-    if min(first.shape[1:]) < network.least_side:
+    if min(first.shape[1:]) < LEAST_SIDE:
         return UNDEFINED
     with torch.inference_mode():
         pair = (torch.from_numpy(one)[None] for one in (first, second))

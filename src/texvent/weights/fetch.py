@@ -126,4 +126,4 @@ def _convert(source: Path, entry: PublishedWeights, target: Path) -> None:
 
 
 def _layout_name(weights: Any) -> str | None:
-    return getattr(weights.layout, "name", None)
+    return getattr(getattr(weights, "layout", None), "name", None)

@@ -1,4 +1,4 @@
-"""`texvent dataset plan`, `make` and `status`, as a user calls them."""
+"""`texvent dataset plan`, `make` and `stats`, as a user calls them."""
 
 from __future__ import annotations
 
@@ -108,25 +108,6 @@ def test_prompts_that_are_not_shown_as_they_say_are_counted_and_fail_the_set(fol
     assert "failed   1: nothing in the prompt was understood: qwerty, zxcv" in said_of_set
 
 
-def test_plan_make_and_stats_say_the_same_of_samples(folder, capsys):
-    wugs = WUGS.replace('"qwerty zxcv"', '"qwerty zxcv", "a white sailboat approaches"')
-    (folder / "wugs.toml").write_text(wugs.replace("min_events = 1", "min_events = 20"))
-    said = []
-    for words in (
-        ("plan", "wugs.toml", "--trial", 4, "--workers", 1),
-        ("make", "wugs.toml", "--workers", 1, "-q", "--allow-failed"),
-        ("stats", "wugs"),
-    ):
-        assert run(*words) == 0
-        text = capsys.readouterr().out
-        start = text.index("\nsamples  ") + 1
-        said.append(text[start : text.index("1 refused", start)])
-    assert said[0] == said[1] == said[2]
-    assert said[0].startswith("samples  2 made, 1 left out, 1 failed\n")
-    assert "left out 1: fewer than 20 signal events\n" in said[0]
-    assert "prompts  2 of 4 clips shown as they say" in said[0]
-
-
 def test_a_strict_data_set_is_refused_before_any_work(folder, capsys):
     (folder / "wugs.toml").write_text(WUGS.replace("[options]", "[options]\nstrict = true"))
     assert run("make", "wugs.toml", "--workers", 1, "-q") == 2
@@ -141,9 +122,12 @@ def test_a_plan_measures_as_many_bytes_and_events_as_are_made(folder, capsys):
     planned = {row[0]: int(row[4].replace(",", "")) for row in rows if row[0] in ("paper", "esim")}
     assert run("make", "cars.toml", "--workers", 1, "-q") == 0
     capsys.readouterr()
-    assert run("status", "cars", "--json") == 0
-    for stage in json.loads(capsys.readouterr().out):
-        assert stage["events"] / stage["samples"] == pytest.approx(planned[stage["name"]], abs=1)
+    assert run("stats", "cars", "--json") == 0
+    for name, splits in json.loads(capsys.readouterr().out)["variants"].items():
+        events, samples = (
+            sum(one[key] for one in splits.values()) for key in ("events", "samples")
+        )
+        assert events / samples == pytest.approx(planned[name], abs=1)
 
 
 def test_making_again_changes_nothing_and_going_on_needs_the_folder_alone(folder, capsys):
@@ -152,12 +136,12 @@ def test_making_again_changes_nothing_and_going_on_needs_the_folder_alone(folder
     before = digests(folder / "cars")
     (folder / "cars.toml").unlink()
     (folder / "cars" / "esim" / "train-000001.json").unlink()
-    assert run("status", "cars") == 1
+    assert run("stats", "cars") == 0
+    assert "1 shards are missing" in capsys.readouterr().out
     assert run("make", "cars", "--workers", 1) == 0
     said = capsys.readouterr()
     assert said.err.count("made ") == 1
     assert digests(folder / "cars") == before
-    assert run("status", "cars") == 0
 
 
 @pytest.mark.parametrize(

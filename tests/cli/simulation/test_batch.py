@@ -105,18 +105,6 @@ def test_a_batch_goes_on_where_it_was(folder, capsys):
     assert recordings(folder / "p") == after
 
 
-def test_a_preview_that_is_missing_is_made_again(folder, capsys):
-    (folder / "p.txt").write_text("a dog runs\n")
-    words = ["batch", "p.txt", *QUICK]
-    assert run(*words, "--previews", "png") == 0
-    (image,) = (folder / "p").glob("*.png")
-    image.unlink()
-    before = recordings(folder / "p")
-    assert run(*words, "--previews", "png") == 0
-    assert image.exists()
-    assert recordings(folder / "p") == before
-
-
 def test_files_of_others_in_the_folder_are_not_replaced(folder, capsys):
     (folder / "p.csv").write_text("prompt,name\na dog runs,dog\n")
     (folder / "p").mkdir()

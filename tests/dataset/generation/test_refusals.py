@@ -83,10 +83,8 @@ def disk(folder: Path, kilobytes: int) -> Iterator[None]:
         subprocess.run(["umount", str(folder)], check=True)
 
 
-@pytest.mark.parametrize("kilobytes", [4, 150])
-def test_a_full_disk(inputs: Path, tmp_path: Path, kilobytes: int) -> None:
-    # The smaller one takes not even the specification, or only that.
-    with disk(tmp_path / "disk", kilobytes):
+def test_a_full_disk(inputs: Path, tmp_path: Path) -> None:
+    with disk(tmp_path / "disk", 150):
         out = tmp_path / "disk" / "out"
         line = check_one_line(make(inputs, out))
         assert "full" in line or "No space left" in line
@@ -117,7 +115,7 @@ def test_a_read_only_folder(inputs: Path, tmp_path: Path) -> None:
         assert make(inputs, out, "--shards", "1/2").returncode == 0
         before = digests(out)
         subprocess.run(["mount", "-o", "remount,ro", str(out.parent)], check=True)
-        assert "Read-only file system" in check_one_line(make(inputs, out))
+        assert "is not writable" in check_one_line(make(inputs, out))
         subprocess.run(["mount", "-o", "remount,rw", str(out.parent)], check=True)
         assert digests(out) == before
         assert make(inputs, out).returncode == 0
@@ -133,7 +131,7 @@ def test_another_version_of_texvent(inputs: Path, tmp_path: Path) -> None:
     line = check_one_line(make(inputs, out))
     assert "was begun by texvent 9.9" in line
     assert "install that version, or name another folder" in line
-    assert main(["dataset", "status", str(out)]) == 1  # to look at it needs no version
+    assert main(["dataset", "stats", str(out)]) == 0  # to look at it needs no version
     note.write_text(text)
     assert digests(out) == before
     assert make(inputs, out).returncode == 0

@@ -6,42 +6,31 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.metrics.lpips import ALEX, PUBLISHED_NAME, LpipsWeights
+from texvent.metrics.lpips import ALEX, PUBLISHED_NAME, array_shapes
 
-NARROW = replace(
-    ALEX,
-    convolutions=tuple(
-        replace(layer, channels=2 + number % 2) for number, layer in enumerate(ALEX.convolutions)
-    ),
-)
+NARROW = tuple(replace(layer, channels=2 + number % 2) for number, layer in enumerate(ALEX))
 
 
-def narrow_weights(seed=0, layout=NARROW):
+def narrow_weights(seed=0, layers=NARROW):
     rng = np.random.default_rng(seed)
-    return LpipsWeights(
-        layout,
-        {
-            name: (np.abs if "head" in name else np.asarray)(
-                rng.normal(0, 0.5, shape).astype(np.float32)
-            )
-            for name, shape in layout.array_shapes().items()
-        },
-    )
+    return {
+        name: (np.abs if "head" in name else np.asarray)(
+            rng.normal(0, 0.5, shape).astype(np.float32)
+        )
+        for name, shape in array_shapes(layers).items()
+    }
 
 
-def published(weights):
+def published(arrays):
     """What the package's file holds: dictionaries of arrays, one per layer."""
-    arrays = weights.arrays
-    count = len(weights.layout.convolutions)
-    heads = [name for name in arrays if name.startswith("head")]
     return {
         PUBLISHED_NAME: {
             f"Conv_{n}": {"kernel": arrays[f"kernel{n}"], "bias": arrays[f"bias{n}"]}
-            for n in range(count)
+            for n in range(len(ALEX))
         },
         **{
-            f"NetLinLayer_{n}": {"Conv_0": {"kernel": arrays[name].reshape(1, 1, -1, 1)}}
-            for n, name in enumerate(heads)
+            f"NetLinLayer_{n}": {"Conv_0": {"kernel": arrays[f"head{n}"].reshape(1, 1, -1, 1)}}
+            for n in range(len(ALEX))
         },
     }
 
@@ -57,7 +46,7 @@ def slow_distance(a, b, weights):
     for number, (one, other) in enumerate(
         zip(slow_features(a, weights), slow_features(b, weights), strict=True)
     ):
-        head, height, width = weights.arrays[f"head{number}"], len(one), len(one[0])
+        head, height, width = weights[f"head{number}"], len(one), len(one[0])
         for y in range(height):
             for x in range(width):
                 lengths = [
@@ -77,13 +66,12 @@ def slow_features(image, weights):
         for row in image.tolist()
     ]
     compared = []
-    for number, layer in enumerate(weights.layout.convolutions):
+    for number, layer in enumerate(ALEX):
         if layer.pools:
             x = slow_pool(x, layer.pools)
-        kernel, bias = weights.arrays[f"kernel{number}"], weights.arrays[f"bias{number}"]
+        kernel, bias = weights[f"kernel{number}"], weights[f"bias{number}"]
         x = slow_convolution(x, kernel.tolist(), bias.tolist(), layer.stride, layer.padding)
-        if layer.is_compared:
-            compared.append(x)
+        compared.append(x)
     return compared
 
 

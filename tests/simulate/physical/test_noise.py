@@ -7,6 +7,7 @@ import pytest
 
 from texvent.errors import ConfigError
 from texvent.events import NOISE, SIGNAL
+from texvent.simulate.physical.config import DAVIS346_NOISE, parse_noise_curve
 from texvent.video import Frame
 
 from ..pixel_frames import curve, frames_of, run, static

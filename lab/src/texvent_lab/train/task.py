@@ -10,11 +10,11 @@ from typing import Any, ClassVar, Protocol
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.loading.epoch_sampler import epoch_order
-from texvent.dataset.loading.torch_loader import collate
+from texvent.dataset.loading.torch_samples import collate
 from texvent.errors import TexventError
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor
+from texvent_lab.train.epoch_order import epoch_order
 from texvent_lab.train.schedule import EXTRA
 
 

@@ -181,7 +181,7 @@ def test_lpips_is_trained_with_where_its_weights_are(
     words = ["train", "reconstruction", str(path), "-o", str(tmp_path / "run"), "-q"]
     assert main(words) == 2
     assert "LPIPS's weights are not here" in capsys.readouterr().err
-    write_lpips_weights(narrow_weights(layout=ALEX), pulled / FILE_NAME)
+    write_lpips_weights(narrow_weights(layers=ALEX), pulled / FILE_NAME)
     try:
         state = train_from_file(ReconstructionConfig, path, tmp_path / "run", CPU)
     finally:

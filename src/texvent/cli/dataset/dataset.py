@@ -12,7 +12,6 @@ from texvent.errors import ConfigError, shown
 STEPS: Mapping[str, str] = {
     "plan": "check a specification; counts, size and time before it runs",
     "make": "make a data set from a specification, or go on with one",
-    "status": "how far a data set is, while it is made or afterwards",
     "verify": "check every file of a data set, and every sample",
     "stats": "count what a data set holds",
     "sample": "a page with some samples",

@@ -1,4 +1,4 @@
-"""Steps of `texvent dataset` that read one: status, verify, stats, sample, publish, export."""
+"""Steps of `texvent dataset` that read one: verify, stats, sample, publish, export."""
 
 from __future__ import annotations
 
@@ -14,13 +14,11 @@ from rich.console import Console
 from rich.markup import escape
 from rich.table import Table
 
-from texvent.cli.notices import result_console, write_out
+from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.dataset.export import LAYOUTS, export
-from texvent.dataset.generation.recipe import read_recipe
-from texvent.dataset.generation.status import read_status
 from texvent.dataset.publish import CARD_FILE, publish
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.statistics import (
@@ -42,19 +40,15 @@ TITLES = {
     "missing": "missing or not complete",
     "changed": "changed",
     "foreign": "not of this data set",
-    "twice": "keys of several samples",
     "unsound": "damaged samples",
 }
 ABOUT = {
-    "status": """How far a data set is, while it is made (here or elsewhere) or afterwards.
-
-Exit code: 0 complete, 1 something is missing or failed.""",
     "verify": """Check a data set, or a published copy of one: hash every shard, read every sample,
-and say what is missing, changed, foreign, there twice or damaged.
+and say what is missing, changed, foreign or damaged.
 
 Exit code: 0 all is well, 1 something is not.""",
-    "stats": """Count what a data set holds: samples, events, rates, durations, classes, and why
-samples are not there. The records beside the shards are read, not the samples.""",
+    "stats": """Count what a data set holds, while it is made or afterwards: samples, events, rates,
+classes, missing shards, and why samples are not there. Records are read, not samples.""",
     "sample": """Look at some samples, drawn by chance: a page (HTML) with images, captions and all
 facts.
 
@@ -64,7 +58,7 @@ facts.
 what Hugging Face reads. Nothing is uploaded. Equal shards give equal files.
 
   texvent dataset publish cars --license cc-by-4.0
-  hf upload NAME/cars cars --repo-type dataset --exclude "logs/*"      then, for the Hub""",
+  hf upload NAME/cars cars --repo-type dataset      then, for the Hub""",
     "export": f"""Write the samples of a data set in another layout: {", ".join(LAYOUTS)}. What a
 layout cannot hold is said. A stopped export goes on when it is run again.
 
@@ -97,27 +91,6 @@ class JsonOptions(StoredOptions):
 
     json: bool = False
     """Print JSON."""
-
-
-def run_status(arguments: Sequence[str]) -> int:
-    """Run `texvent dataset status`; returns its exit code."""
-    options = _parse("status", arguments, JsonOptions())
-    stages = read_status(read_recipe(options.folder), options.folder)
-    if options.json:
-        facts = [dataclasses.asdict(stage) for stage in stages]
-        write_out(json.dumps(facts, indent=1) + "\n")
-    else:
-        table = Table(box=None, pad_edge=False)
-        for name in ("", "samples", "of", "left out", "failed", "events", "at work"):
-            table.add_column(name, justify="left" if not name else "right")
-        for one in stages:
-            counts = (one.samples, one.total, one.filtered, one.failed, one.events)
-            at_work = f"{one.at_work} shards" if one.at_work else ""
-            table.add_row(one.name, *(f"{count:,}" for count in counts), at_work)
-        with result_console() as console:
-            console.print(table)
-    is_whole = all(stage.complete == stage.shards and not stage.failed for stage in stages)
-    return 0 if is_whole else 1
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -169,7 +142,8 @@ def run_stats(arguments: Sequence[str]) -> int:
     dataset = StoredDataset.open(options.folder)
     statistics = DatasetStatistics.of(dataset)
     if options.json:
-        write_out(json.dumps(statistics.tables, indent=1, ensure_ascii=False) + "\n")
+        facts = {**statistics.tables, "missing_shards": len(dataset.missing())}
+        write_out(json.dumps(facts, indent=1, ensure_ascii=False) + "\n")
     else:
         _print_counts(dataset, statistics)
     return 0
@@ -196,7 +170,8 @@ def _print_counts(dataset: StoredDataset, statistics: DatasetStatistics) -> None
         f"{escape(dataset.name)}: {total.samples:,} samples of {len(total.clips):,} videos, "
         f"{sum(total.events):,} events in {sum(total.durations_us) / MICROSECONDS:,.1f} s, "
         f"{total.bytes / 1e6:,.1f} MB in {total.shards:,} shards, made in "
-        f"{total.seconds / 3600:,.2f} hours of one process"
+        f"{total.seconds / 3600:,.2f} hours of one process; {len(dataset.missing()):,} shards are "
+        "missing"
     )
 
 

@@ -19,7 +19,6 @@ from texvent.dataset.generation.recipe import (
     load_recipe_once,
 )
 from texvent.dataset.generation.shards import FAILED, ShardRecord
-from texvent.dataset.generation.status import shard_log
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, OutputError, TexventError, shown
@@ -43,7 +42,7 @@ class ShardTask:
         return self.shard.variant == VIDEOS
 
     def run(self) -> ShardRecord:
-        """Make the shard in this process, with a log of its samples.
+        """Make the shard in this process.
 
         Raises:
             ConfigError, OutputError, MissingDependencyError: what all shards would meet.
@@ -57,10 +56,7 @@ class ShardTask:
             recipe = load_recipe_once(self.folder)
         except TexventError as error:
             raise ConfigError(str(error)) from error
-        with shard_log(self.folder, self.shard) as note:
-            return make_shard(
-                recipe, self.folder, self.shard, retry_failed=self.retry_failed, on_sample=note
-            )
+        return make_shard(recipe, self.folder, self.shard, retry_failed=self.retry_failed)
 
 
 @dataclass

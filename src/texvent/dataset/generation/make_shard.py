@@ -46,19 +46,13 @@ from texvent.scenes.report import REPORT_KEY
 from texvent.settings.resolution import Settings
 from texvent.video import FrameStream
 
-OnSample = Callable[[SampleRecord], None]
 Members = Mapping[str, bytes]
 Make = Callable[[], tuple[Members, dict[str, Any]]]
 """Gives the members of a sample, none of one that is left out, and further facts for its record."""
 
 
 def make_shard(
-    recipe: Recipe,
-    folder: Path,
-    shard: Shard,
-    *,
-    retry_failed: bool = False,
-    on_sample: OnSample | None = None,
+    recipe: Recipe, folder: Path, shard: Shard, *, retry_failed: bool = False
 ) -> ShardRecord:
     """Make a shard, whatever is left of an earlier attempt.
 
@@ -70,7 +64,6 @@ def make_shard(
         folder: of the data set.
         shard: which.
         retry_failed: keep the samples of the shard that is there, and make only failed ones.
-        on_sample: given every sample as it ends.
 
     Raises:
         ConfigError, OutputError, MissingDependencyError: what all samples would meet.
@@ -90,8 +83,6 @@ def make_shard(
                 else:
                     sample = _keep(path, old_sample, writer)
                 samples.append(sample)
-                if on_sample is not None:
-                    on_sample(sample)
             writer.close()
         with part.open("rb") as file:
             sha256, size = hashlib.file_digest(file, "sha256").hexdigest(), part.stat().st_size

@@ -12,7 +12,6 @@ import socket
 from collections import deque
 from collections.abc import Callable, Mapping
 from importlib import metadata
-from pathlib import Path
 from typing import Any
 
 from texvent._require import require
@@ -123,8 +122,6 @@ def connect(address: str, workers: int | None = None) -> Any:
     os.environ.setdefault("RAY_USAGE_STATS_ENABLED", "0")
     os.environ.setdefault("RAY_ACCEL_ENV_VAR_OVERRIDE_ON_ZERO", "0")
     os.environ.setdefault("RAY_task_oom_retries", str(MEMORY_RETRIES))  # for ever, by default
-    if address != "local" and _has_token():
-        os.environ.setdefault("RAY_AUTH_MODE", "token")
     ray = require("ray", extra="ray")
     _knock(address)
     own = {"num_cpus": workers, "include_dashboard": False} if address == "local" else {}
@@ -155,14 +152,6 @@ def _knock(address: str) -> None:
             f"no Ray cluster answers at {shown(address)} ({one_line(error)}); `ray start --head` "
             "says the address of a cluster, and `ray status` whether it runs"
         ) from error
-
-
-def _has_token() -> bool:
-    """True if Ray finds a token; `ray start` then makes a cluster that asks for it."""
-    places = (os.environ.get("RAY_AUTH_TOKEN_PATH"), "~/.ray/auth_token")
-    return bool(os.environ.get("RAY_AUTH_TOKEN")) or any(
-        Path(place).expanduser().is_file() for place in places if place
-    )
 
 
 def package_versions() -> dict[str, str]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Sequence
 from dataclasses import dataclass, fields, replace
 from pathlib import Path
@@ -60,14 +59,6 @@ class Index:
     def __len__(self) -> int:
         return len(self.shard)
 
-    @property
-    def identity(self) -> str:
-        """Number of samples, and a digest of them in their order."""
-        found = hashlib.sha256(f"{self.shards} {self.key.dtype}".encode())
-        for column in (self.shard, self.key):
-            found.update(np.ascontiguousarray(column).data)
-        return f"{len(self)} ({found.hexdigest()[:12]})"
-
     def select(self, numbers: NDArray[Any]) -> Index:
         """Those samples, in that order."""
         columns = {
@@ -104,7 +95,7 @@ def read_index(folder: Path, *, variant: Choice = None, split: Choice = None) ->
             _check_shard(dataset, path, record)
             rows.add(path, record)
     if not rows.keys:
-        raise InputError(f"{folder} holds no such sample yet; see texvent dataset status")
+        raise InputError(f"{folder} holds no such sample yet; see texvent dataset stats")
     return rows.index()
 
 

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -22,9 +22,6 @@ from texvent.events import EventStream
 from texvent.represent.named import load_representation, represent_window
 from texvent.sensor import SensorSize
 from texvent.transform.augment import Augment
-
-if TYPE_CHECKING:
-    from texvent.dataset.loading.torch_loader import Loader
 
 NO_CLASS = -1
 Window: TypeAlias = tuple[int, int]
@@ -209,7 +206,7 @@ class StoredSamples:
 
         Args:
             number: of the sample.
-            epoch: which draws of `augment`; a loader gives its own.
+            epoch: which draws of `augment`.
 
         Returns:
             With slices, the first two have a first axis for them.
@@ -273,21 +270,11 @@ class StoredSamples:
         )
 
     def augmented(self, augment: Augment | None) -> StoredSamples:
-        """The same samples, whose events `make` and loaders change; None: unchanged.
+        """The same samples, whose events `make` changes; None: unchanged.
 
         Example: `samples.augmented(Augment(["flip-x", "shift:pixels=5"], seed=1))`.
         """
         return replace(self, augment=augment)
-
-    def loader(self, **options: Any) -> Loader:
-        """Batches of tensors, made by worker processes; see `torch_loader.Loader`.
-
-        Raises:
-            MissingDependencyError: torch is not installed.
-        """
-        from texvent.dataset.loading.torch_loader import Loader  # brings torch
-
-        return Loader(self, **options)
 
     @cached_property
     def _class_numbers(self) -> NDArray[np.int64]:

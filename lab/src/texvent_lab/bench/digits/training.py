@@ -12,10 +12,10 @@ from typing import Any, Literal, TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.loading.epoch_sampler import epoch_order
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor
 from texvent_lab.bench.digits.data import CLASSES
+from texvent_lab.train.epoch_order import epoch_order
 from texvent_lab.train.schedule import EXTRA, Schedule
 
 Precision: TypeAlias = Literal["float32", "bfloat16"]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from texvent.extending import require
 from texvent.metrics.image_measures import CONTRAST, LUMINANCE, RADIUS_PX, gaussian_window
-from texvent.metrics.lpips import Lpips, LpipsWeights
+from texvent.metrics.lpips import LEAST_SIDE, Lpips, LpipsWeights
 from texvent.networks.weight_files import Tensor
 from texvent_lab.train.reconstruction.config import ReconstructionLoss
 from texvent_lab.train.schedule import EXTRA
@@ -181,7 +181,7 @@ class SequenceLoss:
     def least_side(self) -> int:
         """Of images that can be compared, px."""
         window = 2 * RADIUS_PX + 1 if self._options.ssim else 1
-        return window if self._lpips is None else max(window, self._lpips.least_side)
+        return window if self._lpips is None else max(window, LEAST_SIDE)
 
     def to(self, device: Any) -> SequenceLoss:
         """Move the weights of LPIPS."""
