@@ -78,8 +78,7 @@ test: $(VENV)/.dev
 
 nightly: $(VENV)/.dev
 	$(VENV)/bin/python -m pytest -q -n 2 -m nightly
-	$(VENV)/bin/python -m tests.soak.kills --kills 50
-	$(VENV)/bin/python -m tests.fuzz
+	FUZZ_INPUTS=80 $(VENV)/bin/python -m pytest -q tests/fuzz
 
 coverage: $(VENV)/.dev
 	$(VENV)/bin/coverage erase
@@ -92,7 +91,7 @@ test-newest: $(NEWEST_VENV)/bin/python
 	$(NEWEST_VENV)/bin/python -m pytest -q -n 2 --dist worksteal
 
 fuzz: $(VENV)/.dev
-	$(VENV)/bin/python -m tests.fuzz
+	FUZZ_INPUTS=80 $(VENV)/bin/python -m pytest -q tests/fuzz
 
 test-torch: $(TORCH_VENV)/.torch
 	$(TORCH_VENV)/bin/python -m pytest -q -m torch

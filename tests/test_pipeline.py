@@ -8,7 +8,8 @@ import pytest
 
 from texvent._registry import INTERPOLATORS, SIMULATORS
 from texvent.errors import InputError
-from texvent.interpolate.pairing import densify
+from texvent.interpolate.count_policy import CountPolicy
+from texvent.interpolate.pairing import pair_frames
 from texvent.pairs.scene_change import SceneChange
 from texvent.pipeline import select_events, video_to_events
 from texvent.settings.resolution import resolve
@@ -34,14 +35,16 @@ def serial_steps(video, settings):
     run, config = settings.run, settings.interpolate
     simulator = SIMULATORS.load(run.simulator)(settings.simulate, seed=run.seed)
     interpolator = INTERPOLATORS.load(config.interpolate)(config, video)
-    dense = densify(
+    policy = CountPolicy(
+        config,
         video,
         interpolator,
-        config,
         balance=simulator.balance,
         contrast_threshold=simulator.contrast_threshold,
         counts_motion=benefits_from_denser_frames(simulator),
     )
+    pairs = pair_frames(video, interpolator, config, policy)
+    dense = (frame for pair in pairs for frame in pair.frames)
     return [(frame, select_events(simulator.step(frame), run)) for frame in dense]
 
 

@@ -176,11 +176,7 @@ CODECS = Registry(
         "csv": "texvent.io.text_files:CsvCodec",
         "e2vid": "texvent.io.text_files:E2vidZipCodec",
         "n-imagenet": "texvent.io.arrays.n_imagenet:NImageNetCodec",
-        "v2e": "texvent.io.hdf5.native:V2eCodec",
         "dsec": "texvent.io.hdf5.native:DsecCodec",
-        "dsec-blosc": "texvent.io.hdf5.native:DsecBloscCodec",
-        "event-utils": "texvent.io.hdf5.event_utils:EventUtilsCodec",
-        "timelens": "texvent.io.arrays.npz:TimelensCodec",
         "parquet": "texvent.io.arrays.parquet:ParquetCodec",
         "rosbag1": "texvent.io.ros.bags:Rosbag1Codec",
         "mcap": "texvent.io.ros.bags:McapCodec",
@@ -194,8 +190,6 @@ CODECS = Registry(
         "es": "texvent.io.atis:EventStream2Codec",
         "atis": "texvent.io.atis:NMnistCodec",
         "aedat4": "texvent.io.aedat.aedat4:Aedat4Codec",
-        "aedat4-none": "texvent.io.aedat.aedat4:Aedat4NoneCodec",
-        "aedat4-zstd": "texvent.io.aedat.aedat4:Aedat4ZstdCodec",
     },
 )
 METRICS = Registry(

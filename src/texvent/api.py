@@ -13,9 +13,11 @@ from typing import TYPE_CHECKING, Any, Literal, TypeAlias, Unpack, overload
 
 from numpy.typing import NDArray
 
-from texvent.errors import ConfigError, InputError, shown
+from texvent.errors import ConfigError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.io.files import load
+from texvent.io.files import open_events as open
 from texvent.options.keywords import GenerateOptions, SimulateOptions
 from texvent.options.signatures import naming_options
 from texvent.pipeline import Simulation
@@ -23,7 +25,6 @@ from texvent.run.prepare import make_video, prepare_prompt, prepare_source
 from texvent.run.truth import TruthFolder, run_with_truth
 from texvent.runtime.progress import ProgressOption, open_progress
 from texvent.scenes.spec.scene import Scene
-from texvent.sensor import SizeLike
 from texvent.settings.resolution import Settings, resolve
 from texvent.truth.layout import check_generator
 from texvent.video import FrameStream
@@ -224,59 +225,6 @@ def video(
     settings = resolve("generate", options, config=config)
     with open_progress(progress) as shown:
         return make_video(prompt, settings, progress=shown)
-
-
-def open(
-    path: str | Path,
-    *,
-    format: str | None = None,
-    size: SizeLike | None = None,
-    time_unit: str | None = None,
-    columns: str | Sequence[str] | None = None,
-    stream: str | None = None,
-    repair: bool = False,
-) -> EventPackets:
-    """Events of a file, which is read when they are asked for, with flat memory.
-
-    Iterate over the packets, cut with `between(start_us, stop_us)`, ask for `size`, `metadata` and
-    `time_range`, or take all with `collect()`. An HDF5 file finds a time without reading the events
-    before; others are read from the start, and no further than needed.
-
-    Args:
-        path: the file or folder; see `formats()`.
-        format: its format, where neither content nor extension says.
-        size: sensor size, for formats that do not store it: (width, height), "346x260" or a name,
-            such as "davis346".
-        time_unit: of text, npz, npy and HDF5: s, ms, us or ns; default: as the file states, else
-            µs of whole numbers and s of fractions.
-        columns: of text, npz, npy and HDF5: their order ("x,y,p,t") or names ("t=stamp,x=col,...").
-        stream: which recording of a file of several: group, topic, or number of the camera.
-        repair: repair damage, and count it in `metadata["repair"]`, instead of refusing it.
-
-    Raises:
-        InputError: no such file, the size is neither stored nor given, or the file holds several
-            recordings and none is chosen.
-        FileFormatError: the file is damaged or of another format.
-        ConfigError: an option that the format does not take.
-    """
-    from texvent.io.files import open_events
-
-    if not isinstance(path, str | Path):
-        raise InputError(f"cannot open {shown(path)}; give the path of an event file or folder")
-    return open_events(
-        path,
-        format=format,
-        size=size,
-        time_unit=time_unit,
-        columns=columns,
-        stream=stream,
-        repair=repair,
-    )
-
-
-def load(path: str | Path, **options: Any) -> EventStream:
-    """Events of a file, in memory; options and errors as of `open`."""
-    return open(path, **options).collect()
 
 
 def compare(

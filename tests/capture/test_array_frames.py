@@ -26,12 +26,6 @@ def test_pixels_and_types_are_kept(dtype, shape):
     assert [frame.t_us for frame in frames] == [0, 10_000, 20_000]
 
 
-def test_given_times_are_kept_as_they_are():
-    stream = open_frames(ramp(np.uint8), CaptureConfig(), t_us=[5, 70, 71])
-    assert [frame.t_us for frame in stream] == [5, 70, 71]
-    assert stream.fps is None
-
-
 def test_a_list_can_be_read_again_and_a_generator_once():
     images = list(ramp(np.uint8))
     stream = open_frames(images, AT_100)
@@ -64,13 +58,6 @@ def test_black_floats_and_a_fade_from_black_are_fine():
         list(open_frames(iter([fade[0], fade[1]]), AT_100))
 
 
-def test_twelve_bits_in_sixteen_are_scaled_by_the_white_level():
-    config = CaptureConfig(fps=Fraction(100), white_level=4095.0)
-    frames = list(open_frames(np.full((2, 4, 6), 4095, np.uint16), config))
-    assert frames[0].pixels.dtype == np.float32
-    assert np.allclose(frames[0].luma, 255.0)
-
-
 @pytest.mark.parametrize("bad", [np.nan, np.inf, -1.0])
 @pytest.mark.parametrize("index", [0, 2])
 def test_intensities_that_are_not_finite_and_positive_are_refused(bad, index):
@@ -88,10 +75,7 @@ def test_intensities_that_are_not_finite_and_positive_are_refused(bad, index):
         (np.zeros((4, 6), np.uint8), "One image holds no change"),
         (np.zeros((2, 4, 6, 4), np.uint8), r"Drop the alpha channel"),
         (np.zeros((2, 3, 4, 6), np.uint8), r"Channels come last"),
-        (np.zeros((2, 0, 6), np.uint8), r"must be \[H, W\]"),
         (np.zeros((2, 4, 6), np.int64), r"type int64.*\.astype\(np\.uint8\)"),
-        (np.zeros((2, 4, 6), complex), "type complex128"),
-        ([], "there is no frame"),
         (3, "cannot read frames from int"),
     ],
 )
@@ -105,25 +89,12 @@ def test_wrong_arrays_are_refused_with_advice(pixels, message):
     [
         ([0, 10], "2 times for 3 frames"),
         ([0, 10, 10], "strictly increase"),
-        ([0, 20, 10], "strictly increase"),
         ([0.0, 0.1, 0.2], r"whole microseconds; got float64.*1e6"),
-        ([[0, 1, 2]], "one-dimensional"),
     ],
 )
 def test_wrong_times_are_refused(t_us, message):
     with pytest.raises(InputError, match=message):
         open_frames(ramp(np.uint8), CaptureConfig(), t_us=t_us)
-
-
-def test_frames_without_times_are_refused():
-    with pytest.raises(InputError, match=r"give fps=, or t_us="):
-        open_frames(ramp(np.uint8), CaptureConfig())
-
-
-def test_a_damaged_npy_file_is_refused(tmp_path):
-    (tmp_path / "a.npy").write_bytes(b"nonsense")
-    with pytest.raises(InputError, match="not a NumPy array"):
-        open_frames(tmp_path / "a.npy", AT_100)
 
 
 def test_half_floats_and_booleans_are_widened():
@@ -142,9 +113,3 @@ def test_few_bits_in_sixteen_are_said_with_the_option(highest, bits):
     ArrayFrames(frames, FrameTimes(fps=Fraction(25)), white_level=4095)  # no warning
     for other in (frames + (4096 - highest), np.full((2, 4, 4), 255, np.uint16)):
         ArrayFrames(other.astype(np.uint16), FrameTimes(fps=Fraction(25)))
-
-
-def test_frames_from_minus_one_to_one_are_told_from_zero_to_one():
-    frames = np.linspace(-0.9, 0.7, 32, dtype=np.float32).reshape(2, 4, 4)
-    with pytest.raises(InputError, match=r"from -0\.9 to 0\.7, .* Give \(frames \+ 1\) \* 127\.5"):
-        ArrayFrames(frames, FrameTimes(fps=Fraction(25)))

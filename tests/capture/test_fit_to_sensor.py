@@ -33,11 +33,6 @@ def test_sixteen_bits_come_out_on_the_0_to_255_scale():
     assert small[3, 0] == pytest.approx(255.0)
 
 
-def test_the_right_size_is_left_alone():
-    pixels = np.zeros((4, 6), np.uint8)
-    assert fit_pixels(pixels, SensorSize(6, 4), "cover") is pixels
-
-
 def test_cover_cuts_evenly():
     pixels = np.tile(np.arange(8, dtype=np.uint8), (4, 1))
     assert fit_pixels(pixels, SensorSize(4, 4), "cover")[0].tolist() == [2, 3, 4, 5]

@@ -114,9 +114,3 @@ def test_a_source_that_does_not_answer_is_named_without_password(address):
         open_frames(address, CaptureConfig())
     assert "secret" not in str(caught.value)
     assert address.split("@")[-1] in str(caught.value)
-
-
-def test_an_empty_pipe_is_refused(pipe):
-    pipe.fill([b""])
-    with pytest.raises(InputError, match="cannot be opened as live video"):
-        open_frames(pipe.path, CaptureConfig())

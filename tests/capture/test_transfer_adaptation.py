@@ -6,7 +6,6 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent._registry import SIMULATORS
 from texvent.capture.transfer_adaptation import gamma_coded
 from texvent.interpolate.flow import PairFlow
 from texvent.interpolate.motion.interpolator import MotionPair
@@ -46,12 +45,6 @@ def columns(events):
     return events.t.tolist(), events.x.tolist(), events.y.tolist(), events.p.tolist()
 
 
-def test_the_models_that_take_linear_light_are_these():
-    models = {name: SIMULATORS.load(name) for name in SIMULATORS.builtin}
-    found = {name for name, one in models.items() if getattr(one, "takes_linear", False)}
-    assert found == {"esim", "physical", "senpi", "v2e", "voltmeter"}
-
-
 @pytest.mark.parametrize("simulator", ["esim", "v2e"])
 def test_log_models_take_the_logarithm_of_light(simulator):
     options = {"simulator": simulator, "interpolate": "none", "seed": 3}
@@ -79,14 +72,6 @@ def test_texvent_sees_linear_frames_as_gamma_coded_ones():
     ours, twins = (texvent.simulate(one, seed=2) for one in (linear, coded))
     assert columns(ours) == columns(twins)
     assert "transfer" not in ours.metadata["source"]
-
-
-def test_single_frames_are_decoded_too():
-    frames = video()
-    camera = texvent.EventCamera((64, 48), **QUIET, interpolate="none", transfer="linear")
-    pushed = [camera.step(one.pixels, one.t_us) for one in frames]
-    whole = texvent.simulate(frames, **QUIET, interpolate="none")
-    assert sum(map(len, pushed)) == len(whole)
 
 
 def test_gamma_coded_is_undone_by_srgb():

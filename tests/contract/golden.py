@@ -202,20 +202,15 @@ FORMATS = {
     "npz": ".npz",
     "ecd": ".txt",
     "evt3": ".raw",
-    "evt2": ".raw",
-    "evt21": ".raw",
     "dat": ".dat",
     "csv": ".csv",
     "e2vid": ".zip",
     "n-imagenet": ".npz",
-    "v2e": ".h5",
     "dsec": ".h5",
     "rosbag1": ".bag",
     "mcap": ".mcap",
     "atis": ".bin",
     "aedat4": ".aedat4",
-    "aedat4-none": ".aedat4",
-    "aedat4-zstd": ".aedat4",
 }
 """Formats whose bytes depend on the events alone, and an extension of each."""
 

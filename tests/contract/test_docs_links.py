@@ -3,7 +3,6 @@
 Pages and code name other pages by path too; those paths exist.
 """
 
-import ast
 import re
 from pathlib import Path
 
@@ -24,8 +23,6 @@ LINK = re.compile(r"\]\(([^)\s]+)\)")
 CODE = re.compile(r"^```.*?^```$|`[^`\n]*`", re.MULTILINE | re.DOTALL)
 MENTION = re.compile(r"\bdocs/[\w/-]+\.md\b")
 IMPORT = re.compile(r"^ *from (texvent[\w.]*) import ([\w, ]+)", re.MULTILINE)
-INCLUDE = re.compile(r"^```\{include\} (\S+)$", re.MULTILINE)
-TOCTREE = re.compile(r"^```\{toctree\}\n(.*?)^```", re.MULTILINE | re.DOTALL)
 HEADING = re.compile(r"^#+ (.+)$", re.MULTILINE)
 
 
@@ -52,44 +49,6 @@ def test_links_lead_to_files_and_headings(page):
         assert target.exists(), f"{page.name} links {link}, which is not there"
         if anchor:
             assert anchor in anchors(target), f"{page.name} links {link}: no such heading"
-
-
-def listed(page: Path) -> list[Path]:
-    """The pages that a page links, or lists in its tables of contents."""
-    text = page.read_text(encoding="utf-8")
-    found = [link.partition("#")[0] for link in links(page) if ":" not in link]
-    found += INCLUDE.findall(text)
-    for block in TOCTREE.findall(text):
-        names = (line for line in block.splitlines() if line and not line.startswith(":"))
-        found += [f"{name}.md" for name in names]
-    return [(page.parent / path).resolve() for path in found if path.endswith(".md")]
-
-
-def children() -> dict[Path, list[Path]]:
-    """CHILDREN of docs/conf.py: pages of the site below others."""
-    tree = ast.parse((ROOT / "docs/conf.py").read_text(encoding="utf-8"))
-    (value,) = (
-        node.value
-        for node in tree.body
-        if isinstance(node, ast.Assign) and ast.unparse(node.targets[0]) == "CHILDREN"
-    )
-    table = eval(compile(ast.Expression(value), "conf.py", "eval"), {})
-    docs = ROOT / "docs"
-    return {
-        docs / f"{page}.md": [docs / f"{one}.md" for one in below] for page, below in table.items()
-    }
-
-
-def test_every_page_can_be_reached_from_the_readme_or_the_start_page_of_the_site():
-    reached, todo, below = set(), [ROOT / "README.md", ROOT / "docs/index.md"], children()
-    while todo:
-        page = todo.pop()
-        if page in reached or page not in PAGES:
-            continue
-        reached.add(page)
-        todo += [*listed(page), *below.get(page, [])]
-    reached.add(ROOT / "SECURITY.md")  # forges show it by its name
-    assert not {str(page.relative_to(ROOT)) for page in PAGES if page not in reached}
 
 
 @pytest.mark.parametrize("folder", ["src", "lab", "tests", "docs"])

@@ -16,7 +16,7 @@ from texvent.generate.videos.stored_video import open_stored, reopen, write_vide
 
 from ..capture.dsec_sequence import write_sequence
 from ..capture.test_aedat4_frames import grey, write_file
-from ..capture.test_evreal_frames import write_folder
+from ..capture.test_recorded_frames import write_folder
 from .reader import Reader, digest
 
 WIDTH, HEIGHT, COUNT = 48, 32, 8
@@ -47,7 +47,7 @@ def frame_readers() -> list[Reader]:
         *images,
         Reader("frames .npy", _make_npy, partial(_read, with_rate)),
         Reader("frames aedat4", _make_aedat4, partial(_read, CaptureConfig())),
-        Reader("frames dsec", _make_dsec, partial(_read, CaptureConfig()), 2),
+        Reader("frames dsec", _make_dsec, partial(_read, CaptureConfig())),
         Reader("frames evreal", write_folder, partial(_read, CaptureConfig())),
         Reader("stored video", _make_stored, _read_stored),
     ]

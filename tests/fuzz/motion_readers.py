@@ -22,7 +22,7 @@ VECTOR = np.float32([2.0, -1.0])
 
 def motion_readers() -> list[Reader]:
     """One per format."""
-    return [Reader(f"motion {ending}", make, _read, 0.5) for ending, make in FORMATS.items()]
+    return [Reader(f"motion {ending}", make, _read) for ending, make in FORMATS.items()]
 
 
 def _flow() -> np.ndarray:

@@ -20,8 +20,6 @@ class Reader:
     """Writes a sound input into an empty folder; returns the path that is read."""
     read: Callable[[Path], Any]
     """Reads all of it; what it returns is the same for the same content."""
-    weight: float = 1.0
-    """Share of the files it gets, 1 = as many as the others."""
 
 
 def digest(parts: Iterable[Any]) -> str:

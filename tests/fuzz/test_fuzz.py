@@ -1,7 +1,8 @@
-"""A fixed sample of damaged inputs for every reader; `python -m tests.fuzz` is the whole of it."""
+"""Damaged inputs for every reader: a fixed sample, or as many as $FUZZ_INPUTS says."""
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from texvent.errors import InputError
 from .reader import Reader
 from .worker import BAD, LONGEST_ERROR, Worker, outcome_of, readers
 
-INPUTS = 4
+INPUTS = int(os.environ.get("FUZZ_INPUTS", "4"))
 FINDINGS = sorted(Path(__file__).with_name("findings").glob("*/*"))
 """FORMAT/FILE: what was found once, or made by hand, is refused for ever."""
 
@@ -29,7 +30,7 @@ def test_damaged_inputs_are_read_or_refused_in_one_line(worker: Worker, name: st
     outcomes = [worker.one(name, number) for number in range(INPUTS)]
     if outcomes[0].kind == "not run":
         pytest.skip(outcomes[0].detail)
-    assert [one for one in outcomes if one.kind in BAD] == []
+    assert [(number, one) for number, one in enumerate(outcomes) if one.kind in BAD] == []
 
 
 @pytest.mark.parametrize("path", FINDINGS, ids=lambda path: f"{path.parent.name}-{path.name}")

@@ -1,4 +1,4 @@
-"""Configs, lists, manifests, times, calibrations, and what stands on the command line."""
+"""Configs, lists, times, calibrations, words of a command line; network weights without torch."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ from texvent.batch.list_files import read_list
 from texvent.capture.frame_times import read_timestamps
 from texvent.cli.event_files.event_file_options import parse_time_range
 from texvent.generate.scene_input import describe_scene, list_nouns, understand
-from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask, write_pixel_mask
+from texvent.io.pixel_mask import EXTENSIONS, read_pixel_mask
+from texvent.metrics.lpips import read_lpips_weights, write_lpips_weights
 from texvent.options.parts import make_part
 from texvent.scenes.spec.data import scene_from_data
 from texvent.scenes.spec.files import load_scene, scene_text
@@ -24,7 +25,9 @@ from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.transform.undistort import read_calibration
 
-from .reader import Reader
+from ..io.test_pixel_mask import write_mask
+from ..metrics.lpips.lpips_files import NARROW, narrow_weights, write_published
+from .reader import Reader, digest
 
 CONFIG = {
     "run": {"simulator": "physical", "preset": "davis346", "sensor": "davis346", "seed": 3},
@@ -66,15 +69,15 @@ def text_readers() -> list[Reader]:
     """One per kind of text."""
     return [
         *(
-            Reader(f"config {ending}", partial(_make_config, ending), _read_config, 2)
+            Reader(f"config {ending}", partial(_make_config, ending), _read_config)
             for ending in (".toml", ".yaml")
         ),
         *(
-            Reader(f"scene {ending}", partial(_make_scene, ending), _read_scene, 2)
+            Reader(f"scene {ending}", partial(_make_scene, ending), _read_scene)
             for ending in (".toml", ".json")
         ),
         *(
-            Reader(f"list {ending}", partial(_make_text, f"list{ending}", text), _read_list, 2)
+            Reader(f"list {ending}", partial(_make_text, f"list{ending}", text), _read_list)
             for ending, text in LISTS.items()
         ),
         Reader(
@@ -95,6 +98,8 @@ def text_readers() -> list[Reader]:
             Reader(f"option {name}", partial(_make_text, "option.txt", text), partial(_read, parse))
             for name, (text, parse) in TEXTS.items()
         ),
+        Reader("weights .npz", _make_weights, _read_weights),
+        Reader("weights pickle", _make_published, _read_weights),
     ]
 
 
@@ -140,9 +145,23 @@ def _read_list(path: Path) -> str:
 def _make_mask(ending: str, folder: Path) -> Path:
     path = folder / f"mask{ending}"
     mask = np.random.default_rng(0).random(MASK_SIZE.shape) < 0.2
-    write_pixel_mask(path, mask, overwrite=False)
+    write_mask(path, mask)
     return path
 
 
 def _read_mask(path: Path) -> str:
     return repr(read_pixel_mask(path, MASK_SIZE).tolist())
+
+
+def _make_weights(folder: Path) -> Path:
+    write_lpips_weights(narrow_weights(), folder / "alex.npz")
+    return folder / "alex.npz"
+
+
+def _make_published(folder: Path) -> Path:
+    return write_published(narrow_weights(), folder / "weights_v0.1")
+
+
+def _read_weights(path: Path) -> str:
+    arrays = read_lpips_weights(path, NARROW).arrays
+    return digest(arrays[name] for name in sorted(arrays))

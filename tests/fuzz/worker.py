@@ -28,7 +28,6 @@ from texvent.errors import MissingDependencyError, TexventError
 
 from .array_damage import CODE_RAN
 from .damage import damage_input
-from .document_readers import document_readers
 from .event_readers import event_readers
 from .frame_readers import frame_readers
 from .motion_readers import motion_readers
@@ -52,7 +51,7 @@ BAD = ("several lines", "too long", "traceback", "hang", "blow-up", "signal", "c
 def readers() -> dict[str, Reader]:
     """Name → reader."""
     pictures = [*frame_readers(), *motion_readers()]
-    found = [*event_readers(), *pictures, *text_readers(), *document_readers()]
+    found = [*event_readers(), *pictures, *text_readers()]
     return {reader.name: reader for reader in found}
 
 

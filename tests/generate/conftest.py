@@ -1,6 +1,10 @@
 """What the tests of learned generators share; diffusers is imported only by those that need it."""
 
+import os
+
 import pytest
+
+os.environ["HF_HUB_OFFLINE"] = "1"
 
 
 @pytest.fixture(scope="session")
@@ -22,7 +26,11 @@ def models(tmp_path_factory):
 @pytest.fixture
 def model_cache(tmp_path, monkeypatch):
     """An empty cache folder, and no pipeline in memory."""
+    import torch
+
     from texvent.generate.diffusers_models.pipeline_loading import forget_pipeline
+
+    torch.set_num_threads(1)  # tiny arrays: more threads only wait for each other
 
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
     forget_pipeline()

@@ -7,10 +7,9 @@ from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
-import pytest
 
 import texvent
-from texvent.errors import ConfigError, warnings_to
+from texvent.errors import warnings_to
 from texvent.generate.procedural import (
     ProceduralConfig,
     ProceduralGenerator,
@@ -58,21 +57,6 @@ def test_the_frame_rate_does_not_change_a_frame_at_the_same_instant() -> None:
 def test_shadows_can_be_turned_off() -> None:
     lit, flat = film().at(0).pixels, film(shadows=False).at(0).pixels
     assert (flat - lit).max() > 20.0
-
-
-@pytest.mark.parametrize(
-    ("options", "message"),
-    [
-        ({"fps": Fraction(0)}, r"fps is 0 frames per second; it must be 1e-09..1e\+06"),
-        ({"duration": 0.0}, "duration is 0 s; it must be"),
-        ({"duration": float("nan")}, "duration is nan"),
-        ({"duration": 0.01}, "shorter than one frame interval at 24 fps; it must be at least"),
-        ({"samples": 0}, "samples is 0; it must be 1..8"),
-    ],
-)
-def test_options_out_of_range_are_refused(options: dict[str, object], message: str) -> None:
-    with pytest.raises(ConfigError, match=message):
-        ProceduralConfig(**options)  # type: ignore[arg-type]
 
 
 def test_a_prompt_becomes_a_moving_video_that_says_what_was_understood() -> None:
@@ -137,3 +121,14 @@ def test_a_film_in_black_and_white_has_the_luminance_of_the_one_in_colour() -> N
 def test_a_black_and_white_animal_is_no_film_in_black_and_white() -> None:
     assert not understand("a black and white cat", list_nouns()).is_grey
     assert understand("a cat in black and white", list_nouns()).is_grey
+
+
+def test_frames_from_one_on_are_those_of_the_whole_video() -> None:
+    generator = ProceduralGenerator(ProceduralConfig(duration=0.2), size=SMALL)
+    video = generator.generate("a ball bounces").with_motion()
+    whole, late = list(video), list(video.from_frame(3))
+    assert len(late) == len(whole) - 3
+    for expected, frame in zip(whole[3:], late, strict=True):
+        assert frame.t_us == expected.t_us
+        np.testing.assert_array_equal(frame.pixels, expected.pixels)
+        assert (frame.motion.forward is None) == (expected.motion.forward is None)

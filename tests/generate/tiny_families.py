@@ -12,20 +12,8 @@ import diffusers
 import transformers
 from diffusers.pipelines.ltx2 import LTX2TextConnectors, LTX2Vocoder
 
-from . import tiny_pipelines
-from .tiny_pipelines import qwen, t5, wan_vae
+from .tiny_pipelines import qwen, wan_vae
 
-WAN_LIKE = {
-    "patch_size": (1, 2, 2),
-    "num_attention_heads": 2,
-    "attention_head_dim": 12,
-    "in_channels": 16,
-    "out_channels": 16,
-    "text_dim": 32,
-    "freq_dim": 16,
-    "ffn_dim": 32,
-    "num_layers": 1,
-}
 SMALL_TEXT = {
     "hidden_size": 16,
     "intermediate_size": 16,
@@ -53,15 +41,9 @@ class Family:
     """What comes out."""
     steps: int = 2
     """Denoising steps that are reported; HunyuanVideo 1.5 reports none."""
-    size: tuple[int, int] = (32, 32)
-    """Height and width that come out."""
     takes_image: bool = False
     named: str = ""
     """The row whose facts the run takes, or the last part of its repository."""
-
-
-def umt5():
-    return t5(None, transformers.UMT5EncoderModel, transformers.UMT5Config)
 
 
 def flow_match(**facts):
@@ -72,31 +54,6 @@ def flow_unipc():
     return diffusers.UniPCMultistepScheduler(
         prediction_type="flow_prediction", use_flow_sigmas=True, flow_shift=3.0
     )
-
-
-def wan_image_to_video():
-    size = {"height": 32, "width": 32}
-    return diffusers.WanImageToVideoPipeline(
-        **umt5(),
-        vae=wan_vae(),
-        scheduler=flow_unipc(),
-        transformer=diffusers.WanTransformer3DModel(**WAN_LIKE | {"in_channels": 36}, image_dim=4),
-        image_encoder=transformers.CLIPVisionModel(
-            transformers.CLIPVisionConfig(
-                hidden_size=4,
-                intermediate_size=8,
-                num_hidden_layers=2,
-                num_attention_heads=2,
-                image_size=32,
-                patch_size=8,
-            )
-        ),
-        image_processor=transformers.CLIPImageProcessorPil(size=size, crop_size=size),
-    )
-
-
-def ltx():
-    return tiny_pipelines.ltx(None)
 
 
 def ltx2():
@@ -180,15 +137,15 @@ def qwen_text():
     }
 
 
-def hunyuan15_parts(task):
+def hunyuan15():
     letters = transformers.ByT5Tokenizer()
     small_t5 = {"d_model": 16, "d_kv": 8, "d_ff": 16, "num_layers": 1, "num_heads": 2}
     byt5 = transformers.T5Config(vocab_size=len(letters), **small_t5)
-    return {
+    return diffusers.HunyuanVideo15Pipeline(
         **qwen_text(),
-        "tokenizer_2": letters,
-        "text_encoder_2": transformers.T5EncoderModel(byt5).eval(),
-        "vae": diffusers.AutoencoderKLHunyuanVideo15(
+        tokenizer_2=letters,
+        text_encoder_2=transformers.T5EncoderModel(byt5).eval(),
+        vae=diffusers.AutoencoderKLHunyuanVideo15(
             latent_channels=4,
             block_out_channels=(16, 16),
             layers_per_block=1,
@@ -197,8 +154,8 @@ def hunyuan15_parts(task):
             downsample_match_channel=False,
             upsample_match_channel=False,
         ),
-        "scheduler": flow_match(shift=7.0),
-        "transformer": diffusers.HunyuanVideo15Transformer3DModel(
+        scheduler=flow_match(shift=7.0),
+        transformer=diffusers.HunyuanVideo15Transformer3DModel(
             in_channels=9,
             out_channels=4,
             num_attention_heads=2,
@@ -211,29 +168,9 @@ def hunyuan15_parts(task):
             image_embed_dim=12,
             rope_axes_dim=(2, 2, 4),
             target_size=32,
-            task_type=task,
+            task_type="t2v",
         ),
-        "guider": diffusers.ClassifierFreeGuidance(guidance_scale=6.0),
-    }
-
-
-def hunyuan15():
-    return diffusers.HunyuanVideo15Pipeline(**hunyuan15_parts("t2v"))
-
-
-def hunyuan15_image():
-    vision = transformers.SiglipVisionConfig(
-        hidden_size=12,
-        intermediate_size=16,
-        num_hidden_layers=1,
-        num_attention_heads=2,
-        image_size=27 * 2,
-        patch_size=2,
-    )
-    return diffusers.HunyuanVideo15ImageToVideoPipeline(
-        **hunyuan15_parts("i2v"),
-        image_encoder=transformers.SiglipVisionModel(vision).eval(),
-        feature_extractor=transformers.SiglipImageProcessorPil(size={"height": 54, "width": 54}),
+        guider=diffusers.ClassifierFreeGuidance(guidance_scale=6.0),
     )
 
 
@@ -271,19 +208,8 @@ def cosmos3():
 
 
 FAMILIES = {
-    "wan-image": Family(wan_image_to_video, "WanImageToVideoPipeline", takes_image=True),
     "hunyuan15": Family(hunyuan15, "HunyuanVideo15Pipeline", steps=0),
-    "hunyuan15-image": Family(
-        hunyuan15_image,
-        "HunyuanVideo15ImageToVideoPipeline",
-        {"width": None, "height": None},
-        steps=0,
-        size=(28, 36),
-        takes_image=True,
-    ),
     "cosmos3": Family(cosmos3, "Cosmos3OmniPipeline"),
-    "ltx-image": Family(ltx, "LTXImageToVideoPipeline", takes_image=True, named="LTX-Video"),
-    "ltx2": Family(ltx2, "LTX2Pipeline", named="LTX-2"),
     "ltx2-distilled": Family(
         ltx2,
         "LTX2Pipeline",

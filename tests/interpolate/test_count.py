@@ -12,7 +12,6 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 
 from texvent.brightness import balanced_log
-from texvent.errors import ConfigError, InputError
 from texvent.interpolate.count_policy import count_intermediate
 from texvent.pairs.instants import intermediate_times_us
 from texvent.video import Frame
@@ -22,9 +21,8 @@ WHITE = np.full((2, 2), 255, np.uint8)
 
 
 def count(first, second, *, balance=30.0, threshold=0.2, **options):
-    return count_intermediate(
-        first, second, balance=balance, contrast_threshold=threshold, **options
-    )
+    lumas = (Frame(one, 0).luma for one in (first, second))
+    return count_intermediate(*lumas, balance=balance, contrast_threshold=threshold, **options)
 
 
 def with_change(change: float, balance: float = 30.0):
@@ -43,14 +41,6 @@ def test_eq4_change_divided_by_the_threshold_is_rounded_down(change, expected):
     assert count(*with_change(change)) == expected
 
 
-def test_eq4_quotient_has_no_tolerance_at_exact_multiples():
-    # 0.6 / 0.2 is 2.9999999999999996 in binary; the docstring says so.
-    assert 0.6 / 0.2 < 3
-    first, second = with_change(0.6)
-    change = float(np.log(30 + second[0, 0]) - np.log(30.0))
-    assert count(first, second) == int(change / 0.2)
-
-
 def test_cap_limits_the_count():
     assert count(BLACK, WHITE, threshold=0.01) == 64
     assert count(BLACK, WHITE, threshold=0.01, cap=7) == 7
@@ -62,20 +52,8 @@ def test_every_dtype_and_colour_counts_alike():
     for scale, dtype in ((257, np.uint16), (1, np.float32), (1, np.float64)):
         first, second = (np.full((2, 2), level * scale, dtype) for level in (51, 204))
         assert count(first, second) == expected
-        assert count(Frame(first, 0), Frame(second, 9)) == expected
     grey_rgb = [np.full((2, 2, 3), level, np.uint8) for level in (51, 204)]
     assert count(*grey_rgb) == expected
-
-
-def test_bad_input_is_refused_with_the_value():
-    with pytest.raises(InputError, match=r"\[2, 2\] and \[3, 2\]"):
-        count(BLACK, np.zeros((3, 2), np.uint8))
-    with pytest.raises(ConfigError, match="contrast_threshold is 0"):
-        count(BLACK, WHITE, threshold=0.0)
-    with pytest.raises(ConfigError, match="cap is -1"):
-        count(BLACK, WHITE, cap=-1)
-    with pytest.raises(ConfigError, match="balance is 0"):
-        count(BLACK, WHITE, balance=0.0)
 
 
 luma = hnp.arrays(np.uint8, (3, 4))
@@ -98,12 +76,6 @@ def test_count_is_zero_exactly_when_nothing_can_fire(first, second, balance, thr
     change = np.abs(balanced_log(first, balance) - balanced_log(second, balance))
     can_fire = bool((change >= threshold).any())
     assert (count(first, second, balance=balance, threshold=threshold) > 0) == can_fire
-
-
-@given(st.floats(0.01, 4.0), st.floats(0.05, 1.0).filter(lambda value: value > 0.05))
-def test_steady_change_stays_below_the_threshold_per_step(change, threshold):
-    steps = count(*with_change(change), threshold=threshold, cap=1000) + 1
-    assert change / steps < threshold * (1 + 1e-9)
 
 
 times = st.integers(-(2**40), 2**40)

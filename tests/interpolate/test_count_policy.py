@@ -3,14 +3,12 @@
 import numpy as np
 import pytest
 
-from texvent._registry import INTERPOLATORS, SIMULATORS
+from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.flow import PairFlow
-from texvent.interpolate.pairing import densify
+from texvent.interpolate.pairing import pair_frames
 from texvent.interpolate.simple import BlendInterpolator
-from texvent.simulate.build import benefits_from_denser_frames
-from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent.video import Frame, Motion, Video
 
 
@@ -71,14 +69,6 @@ def test_where_nothing_can_fire_motion_is_not_even_estimated(policy, faint_pair,
     assert policy(interpolate="flow", counts_motion=True).count(*faint_pair) == 0
 
 
-def test_models_whose_pixels_fire_once_per_frame_get_eq4_alone():
-    models = {name: SIMULATORS.load(name) for name in SIMULATORS.builtin}
-    made = {name: kind() for name, kind in models.items() if name != "v2ce"}  # needs weights
-    made["paper"] = TexventSimulator(TexventSimulator.presets["paper"])
-    gaining = {name for name, simulator in made.items() if benefits_from_denser_frames(simulator)}
-    assert gaining == {"physical", "esim", "v2e", "voltmeter", "texvent"}
-
-
 def test_a_fixed_count_and_none_ignore_motion(policy, faint_pair):
     assert policy(frames_per_pixel=1.0, fixed_count=2).count(*faint_pair) == 2
     assert policy(frames_per_pixel=1.0, interpolate="none").count(*faint_pair) == 0
@@ -92,9 +82,10 @@ def test_flow_for_the_count_and_for_the_frames_is_computed_once(moving_texture, 
     calls = []
     compute = dis.both_ways
     monkeypatch.setattr(dis, "both_ways", lambda *pair: calls.append(pair) or compute(*pair))
-    frames = list(densify(video, interpolator, config, balance=30.0, contrast_threshold=0.2))
+    policy = CountPolicy(config, video, interpolator, balance=30.0, contrast_threshold=0.2)
+    pairs = list(pair_frames(video, interpolator, config, policy))
     assert len(calls) == 2
-    assert len(frames) >= 3 + 2 * 4
+    assert min(len(pair.times_us) for pair in pairs[1:]) >= 4
 
 
 def test_a_pairs_flow_is_remembered_but_not_its_frames(moving_texture):

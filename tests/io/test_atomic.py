@@ -2,37 +2,13 @@ from __future__ import annotations
 
 import errno
 import os
-import signal
-import sys
-import time
 from collections.abc import Callable
 from pathlib import Path
-from subprocess import PIPE, Popen
 
 import pytest
 
 from texvent.errors import OutputError
 from texvent.io.atomic import atomic_file, check_output, is_disk_full
-
-WRITER = """
-import sys, time
-import numpy as np
-from texvent.events import EventStream
-from texvent.io.files import open_writer
-from texvent.sensor import SensorSize
-
-with open_writer(sys.argv[1], size=SensorSize(8, 8)) as writer:
-    for step in range(10_000):
-        count = 200_000
-        zeros = np.zeros(count, dtype=np.uint16)
-        times = np.full(count, step, dtype=np.int64)
-        writer.append(EventStream(zeros, zeros, times, zeros, SensorSize(8, 8)))
-        if step == 3:
-            sys.stdout.write("writing\\n")
-            sys.stdout.flush()
-        if step > 3:
-            time.sleep(0.05)
-"""
 
 
 def test_the_file_appears_only_when_the_block_ends(tmp_path: Path) -> None:
@@ -121,31 +97,3 @@ def test_other_system_errors_are_not_called_a_full_disk() -> None:
     assert not is_disk_full(OSError(errno.EACCES, "Permission denied"))
     assert not is_disk_full(ValueError("No space left on device"))
     assert is_disk_full(OSError(errno.EDQUOT, "Disk quota exceeded"))
-
-
-@pytest.fixture
-def writer(tmp_path: Path, spawn: Callable[..., Popen[str]]) -> Popen[str]:
-    """A process that writes `out.h5`."""
-    words = [sys.executable, "-c", WRITER, str(tmp_path / "out.h5")]
-    process = spawn(words, stdout=PIPE, text=True)
-    assert process.stdout is not None
-    assert process.stdout.readline() == "writing\n"
-    return process
-
-
-def test_a_killed_writer_leaves_no_file_under_the_name(tmp_path: Path, writer: Popen[str]) -> None:
-    writer.kill()
-    writer.communicate()
-    assert not (tmp_path / "out.h5").exists()
-    left = [path.name for path in tmp_path.iterdir()]
-    assert all(name.startswith(".texvent-") and ".part" in name for name in left)
-
-
-def test_ctrl_c_leaves_nothing_at_all(
-    writer: Popen[str], folder_is_clean: Callable[[], bool]
-) -> None:
-    time.sleep(0.1)
-    writer.send_signal(signal.SIGINT)
-    writer.communicate(timeout=300)
-    assert writer.returncode != 0
-    assert folder_is_clean()

@@ -13,10 +13,12 @@ import pytest
 from texvent.errors import MissingDependencyError
 from texvent.events import EventStream
 from texvent.io.files import load, save
+from texvent.sensor import SensorSize
 
 from .format_cases import ALL_CASES, CASES, FormatCase, random_events
 
 CORPUS = Path(__file__).with_name("corpus")
+SMALL = SensorSize(64, 48)
 
 
 def expected(case: FormatCase) -> EventStream:
@@ -26,12 +28,24 @@ def expected(case: FormatCase) -> EventStream:
     return EventStream.concat([burst, late])
 
 
-@pytest.mark.parametrize("case", ALL_CASES, ids=lambda case: case.name)
+OTHER_LAYOUTS = (
+    FormatCase("aedat4-none", "e.aedat4", SMALL),
+    FormatCase("aedat4-zstd", "e.aedat4", SMALL),
+    FormatCase("dsec-blosc", "e.h5", SMALL, extra="hdf5plugin"),
+    FormatCase("event-utils", "e.h5", SMALL),
+    FormatCase("v2e", "e.h5", SMALL),
+    FormatCase("timelens", "e.npz", SMALL),
+)
+"""Files that former versions wrote, which are read by their content."""
+
+
+@pytest.mark.parametrize("case", [*ALL_CASES, *OTHER_LAYOUTS], ids=lambda case: case.name)
 def test_a_committed_file_still_reads(case: FormatCase) -> None:
     if case.extra:
         pytest.importorskip(case.extra, reason=f"{case.name} needs {case.extra}")
+    format = None if case in OTHER_LAYOUTS else case.name
     size = None if case.keeps_metadata else case.sensor
-    events = load(CORPUS / case.name / case.file, format=case.name, size=size)
+    events = load(CORPUS / case.name / case.file, format=format, size=size)
     assert events.equals(expected(case))
     assert events.metadata == (expected(case).metadata if case.keeps_metadata else {})
 

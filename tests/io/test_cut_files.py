@@ -19,8 +19,8 @@ FILES = [
     if case.file != "folder" and (case.extra is None or importlib.util.find_spec(case.extra))
 ]
 SEALED = (
-    *("hdf5", "npz", "prophesee-hdf5", "event-utils", "timelens", "e2vid", "n-imagenet", "v2e"),
-    *("dsec", "dsec-blosc", "rosbag1", "mcap", "parquet"),
+    *("hdf5", "npz", "prophesee-hdf5", "e2vid", "n-imagenet", "dsec", "rosbag1", "mcap"),
+    "parquet",
 )
 """Formats whose end can be told; of the others, a cut file may be a shorter recording."""
 

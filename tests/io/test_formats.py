@@ -24,7 +24,7 @@ EMPTY_FILES = ("atis", "csv", "ecd")
 """Formats without a header: an empty file is a recording without events."""
 ANY_BYTES = ("atis",)
 """Every file of the right length is a recording."""
-LABELLED = ("hdf5", "npz", "dsec", "dsec-blosc")
+LABELLED = ("hdf5", "npz", "dsec")
 """Formats that keep the noise label."""
 LIMITED = [case for case in CASES if case.largest.width < 65_535]
 

@@ -21,7 +21,6 @@ from texvent.sensor import SensorSize
 from .format_cases import random_events
 
 SIZE = SensorSize(346, 260)
-AEDAT4 = ("aedat4", "aedat4-none", "aedat4-zstd")
 
 
 @pytest.fixture(scope="module")
@@ -41,22 +40,18 @@ def columns_equal(events: EventStream, x: Any, y: Any, t: Any, p: Any) -> bool:
     )
 
 
-@pytest.mark.parametrize("format", AEDAT4)
-def test_aedat_reads_aedat4(tmp_path: Path, events: EventStream, format: str) -> None:
+def test_aedat_reads_aedat4(tmp_path: Path, events: EventStream) -> None:
     aedat = pytest.importorskip("aedat", reason="the reader `aedat` is not installed")
-    path = save(tmp_path / "e.aedat4", events, format=format)
+    path = save(tmp_path / "e.aedat4", events)
     decoder = aedat.Decoder(str(path))
     assert decoder.id_to_stream() == {0: {"type": "events", "width": 346, "height": 260}}
     theirs = np.concatenate([packet["events"] for packet in decoder])
     assert columns_equal(events, theirs["x"], theirs["y"], theirs["t"], theirs["on"])
 
 
-@pytest.mark.parametrize("format", AEDAT4)
-def test_dv_processing_reads_aedat4_and_seeks_in_it(
-    tmp_path: Path, events: EventStream, format: str
-) -> None:
+def test_dv_processing_reads_aedat4_and_seeks_in_it(tmp_path: Path, events: EventStream) -> None:
     dv = pytest.importorskip("dv_processing", reason="the reader dv-processing is not installed")
-    path = save(tmp_path / "e.aedat4", events, format=format)
+    path = save(tmp_path / "e.aedat4", events)
     recording = dv.io.MonoCameraRecording(str(path))
     assert recording.getEventResolution() == (346, 260)
     assert recording.getTimeRange() == (int(events.t[0]), int(events.t[-1]))
@@ -154,25 +149,6 @@ def test_plain_h5py_slices_dsec_as_its_own_loader_does(tmp_path: Path) -> None:
         assert columns_equal(events, x, y, t + offset, p)
 
 
-def test_blosc_needs_hdf5plugin_and_is_dsec_s_own_filter(
-    tmp_path: Path, events: EventStream
-) -> None:
-    pytest.importorskip("hdf5plugin", reason="hdf5plugin (180 MB, extra `blosc`) is not installed")
-    path = save(tmp_path / "events.h5", events, format="dsec-blosc")
-    with h5py.File(path) as file:
-        properties = file["events/t"].id.get_create_plist()
-        assert properties.get_filter(0)[0] == 32_001
-        assert np.array_equal(file["events/t"][:] + file["t_offset"][()], events.t)
-
-
-def test_plain_h5py_reads_v2e_rows(tmp_path: Path, events: EventStream) -> None:
-    path = save(tmp_path / "events.h5", events, format="v2e")
-    with h5py.File(path) as file:
-        rows = file["events"][:]
-    assert rows.dtype == np.uint32
-    assert columns_equal(events, rows[:, 1], rows[:, 2], rows[:, 0], rows[:, 3])
-
-
 def test_plain_numpy_reads_n_imagenet_as_its_loader_does(
     tmp_path: Path, events: EventStream
 ) -> None:
@@ -191,10 +167,3 @@ def test_plain_zipfile_reads_e2vid(tmp_path: Path, events: EventStream) -> None:
     assert first == "346 260"
     t, x, y, p = np.array([row.split() for row in rows], dtype=np.float64).T
     assert columns_equal(events, x, y, np.rint(t * 1e6), p)
-
-
-def test_parquet_is_read_by_pyarrow(tmp_path: Path, events: EventStream) -> None:
-    parquet = pytest.importorskip("pyarrow.parquet", reason="pyarrow (170 MB) is not installed")
-    table = parquet.read_table(save(tmp_path / "e.parquet", events))
-    assert columns_equal(events, *(table.column(name).to_numpy() for name in "xytp"))
-    assert table.schema.metadata[b"width"] == b"346"

@@ -11,8 +11,8 @@ import pytest
 from texvent.errors import FileFormatError, TexventWarning
 from texvent.events import EventStream
 from texvent.io import repair
+from texvent.io.columns import Columns
 from texvent.io.files import load, open_events, save
-from texvent.io.protocol import Columns
 from texvent.io.repair import RepairCounts, repair_blocks
 from texvent.sensor import SensorSize
 

@@ -52,10 +52,9 @@ def test_the_events_of_an_evreal_folder(tmp_path: Path, monkeypatch: pytest.Monk
         list(packets)
 
 
-@pytest.mark.parametrize("name", ["aedat4", "aedat4-none"])
-def test_an_aedat4_file_of_many_packets(tmp_path: Path, name: str) -> None:
-    events = random_events(100_000, CASE_OF[name].sensor, span_us=5_000_000)
-    path = save(tmp_path / "e.aedat4", events, format=name)
+def test_an_aedat4_file_of_many_packets(tmp_path: Path) -> None:
+    events = random_events(50_000, CASE_OF["aedat4"].sensor, span_us=5_000_000)
+    path = save(tmp_path / "e.aedat4", events)
     packets = iter(open_events(path))
     next(packets)
     os.truncate(path, path.stat().st_size // 2)

@@ -77,14 +77,14 @@ def test_what_is_no_table_of_times_is_refused(tmp_path: Path) -> None:
 def test_a_folder_has_one_file_per_frame_interval(tmp_path: Path) -> None:
     folder = tmp_path / "split"
     intervals = [Interval(10, 25), Interval(25, 40)]
-    assert write_split(packets(3), intervals, folder, format="timelens") == 4
+    assert write_split(packets(3), intervals, folder, format="npz") == 4
     assert sorted(one.name for one in folder.iterdir()) == [
         *("000000.npz", "000001.npz", "timestamps.txt")
     ]
     assert (folder / "timestamps.txt").read_text() == "0.000010\n0.000025\n0.000040\n"
     with np.load(folder / "000001.npz") as arrays:
-        assert arrays["timestamp"].tolist() == [25, 39]
-        assert arrays["polarity"].tolist() == [0, 0]
+        assert arrays["t"].tolist() == [25, 39]
+        assert arrays["p"].tolist() == [0, 0]
     assert read_intervals(folder / "timestamps.txt") == intervals
     write_split(packets(), intervals, folder, overwrite=True)
 

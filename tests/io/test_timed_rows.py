@@ -24,7 +24,7 @@ from texvent.sensor import SensorSize
 from .read_only_formats import write_ecf, write_evreal
 
 SIZE = SensorSize(64, 48)
-FORMATS = {"hdf5": "a.h5", "dsec": "b.h5", "v2e": "c.h5", "prophesee-hdf5": "d.hdf5", "evreal": "e"}
+FORMATS = {"hdf5": "a.h5", "dsec": "b.h5", "prophesee-hdf5": "d.hdf5", "evreal": "e"}
 COUNT = 60_000
 
 
@@ -89,10 +89,10 @@ def test_bisection_reads_few_events(unit: int) -> None:
         assert all(index % unit == 0 for index in asked)
 
 
-def write_v2e(path: Path, times: list[int]) -> Path:
-    recording(len(times)).save(path, format="v2e")
+def write_times(path: Path, times: list[int]) -> Path:
+    recording(len(times)).save(path)
     with h5py.File(path, "r+") as file:
-        file["events"][:, 0] = times
+        file["events/t"][:] = times
     return path
 
 
@@ -100,7 +100,7 @@ def write_v2e(path: Path, times: list[int]) -> Path:
 def test_bisection_of_a_file_out_of_order_is_refused(tmp_path: Path, is_first_least: bool) -> None:
     times = np.random.default_rng(3).integers(0, 400_000, 2000)
     times[[0, -1]] = (0, 400_000) if is_first_least else (400_000, 0)
-    opened = open_events(write_v2e(tmp_path / "a.h5", times.tolist()), format="v2e")
+    opened = open_events(write_times(tmp_path / "a.h5", times.tolist()))
     with pytest.raises(FileFormatError, match="time decreases from"):
         opened.between(100_000, 200_000).collect()
     with pytest.raises(FileFormatError, match="time decreases from"):

@@ -8,7 +8,8 @@ from hypothesis import strategies as st
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
-from texvent.interpolate.pairing import densify
+from texvent.interpolate.count_policy import CountPolicy
+from texvent.interpolate.pairing import pair_frames
 from texvent.pairs.deflicker import PASSED_SHARE, global_gain, steady_frames
 from texvent.video import Frame, Video
 
@@ -50,11 +51,6 @@ def test_a_fade_keeps_its_pace(moving_texture):
     assert np.diff(steady)[25:] == pytest.approx(-rate, abs=2e-3)
 
 
-def test_steady_frames_pass_untouched(moving_texture):
-    frames = clip(moving_texture, np.ones(6), speed=2.0, dtype=np.uint8)
-    assert all(a is b for a, b in zip(steady_frames(iter(frames)), frames, strict=True))
-
-
 def test_motion_alone_is_no_gain(moving_texture):
     background = 0.3 * moving_texture(0)
     pair = []
@@ -88,8 +84,9 @@ def test_the_guard_acts_before_the_count(moving_texture):
     for guard in (False, True):
         config = InterpolateConfig(interpolate="blend", deflicker=guard)
         interpolator = INTERPOLATORS.load("blend")(config, video)
-        dense = densify(video, interpolator, config, balance=30.0, contrast_threshold=0.1)
-        counts[guard] = sum(not frame.is_source for frame in dense)
+        policy = CountPolicy(config, video, interpolator, balance=30.0, contrast_threshold=0.1)
+        pairs = pair_frames(video, interpolator, config, policy)
+        counts[guard] = sum(len(pair.times_us) for pair in pairs)
     assert counts == {False: 6, True: 0}
 
 

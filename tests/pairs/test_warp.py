@@ -55,8 +55,8 @@ def test_what_enters_the_image_is_taken_from_the_frame_that_shows_it(warp):
     assert got[0, 19] == pytest.approx(0.0)
 
 
-@pytest.mark.parametrize("shape", [(1, 1), (1, 7), (17, 23), (40, 64)])
-@pytest.mark.parametrize("position", [0.01, 0.5, 0.9])
+@pytest.mark.parametrize("shape", [(1, 1), (17, 23)])
+@pytest.mark.parametrize("position", [0.01, 0.9])
 def test_compiled_kernel_equals_the_definition(shape, position):
     rng = np.random.default_rng(5)
     first, second = (rng.uniform(0, 255, shape).astype(np.float32) for _ in range(2))

@@ -11,7 +11,6 @@ from texvent.run.rate_search import (
     MAX_STEPS,
     find_threshold,
     match_rate,
-    threshold_for_rate,
 )
 from texvent.settings.resolution import resolve
 from texvent.video import Video
@@ -32,14 +31,14 @@ def simulation(video=None, **options):
 
 
 def test_the_search_ends_within_two_percent():
-    found = threshold_for_rate(lambda threshold: 1000 / threshold, 4000.0)
+    found = find_threshold(lambda threshold: 1000 / threshold, 4000.0)
     assert found.ratio == pytest.approx(1, rel=0.02)
     assert found.threshold == pytest.approx(0.25, rel=0.02)
     assert found.steps <= 9
 
 
 def test_the_search_takes_the_nearest_where_rates_jump():
-    found = threshold_for_rate(lambda threshold: 1050.0 if threshold < 0.3 else 500.0, 1000.0)
+    found = find_threshold(lambda threshold: 1050.0 if threshold < 0.3 else 500.0, 1000.0)
     assert found.ratio == pytest.approx(1.05)
     assert found.steps == 9
 
@@ -47,7 +46,7 @@ def test_the_search_takes_the_nearest_where_rates_jump():
 @pytest.mark.parametrize("target", [1.0, 1e9])
 def test_a_rate_out_of_reach_fails_and_says_what_is_near(target):
     with pytest.raises(InputError, match=r"no contrast threshold.*the nearest is"):
-        threshold_for_rate(lambda threshold: 1000 / threshold, target)
+        match_rate(simulation(), target)
 
 
 @pytest.mark.parametrize(("simulator", "target"), [("physical", 30_000), ("esim", 10_000)])

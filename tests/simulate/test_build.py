@@ -20,37 +20,21 @@ from .pixel_frames import moving_texture
 SIMULATORS = [name for name in _registry.SIMULATORS.builtin if name != "v2ce"]  # needs weights
 
 
-class Plain(SteppingSimulator):
-    """A plug-in that is right; the others break it in one place."""
+class PlugIn(SteppingSimulator):
+    """A plug-in that gives the packets of ESIM, changed in one place."""
 
-    config_type = EsimSimulator.config_type
-    presets = EsimSimulator.presets
-    contrast_threshold = 0.2
-    balance = 0.255
-
-    def __init__(self, config, seed):
-        self.inner = EsimSimulator(config, seed=seed)
-
-    def reset(self):
-        self.inner.reset()
-
-    def step(self, frame):
-        return self.inner.step(frame)
-
-
-class Broken(Plain):
-    """Changes the packets of a plug-in that is right."""
-
+    config_type, presets = EsimSimulator.config_type, EsimSimulator.presets
+    contrast_threshold, balance = 0.2, 0.255
     built = 0
 
-    def __init__(self, config, seed, change):
-        super().__init__(config, seed)
-        self.change = change
-        Broken.built += 1
-        self.number = Broken.built
+    def __init__(self, config, seed, change=None):
+        self.inner, self.change = EsimSimulator(config, seed=seed), change
+        PlugIn.built += 1
+        self.number = PlugIn.built
 
     def step(self, frame):
-        return self.change(self, super().step(frame), frame)
+        packet = self.inner.step(frame)
+        return self.change(self, packet, frame) if self.change else packet
 
 
 def gives_tuples(plug_in, packet, frame):
@@ -94,27 +78,17 @@ BROKEN = [
 
 @pytest.fixture
 def install(tmp_path, monkeypatch):
-    """A function that makes a class the simulator "mine" of an installed package."""
+    """A function that makes attributes of a module those of an installed package."""
     info = tmp_path / "mine-1.0.dist-info"
     info.mkdir()
     (info / "METADATA").write_text("Metadata-Version: 2.1\nName: mine\nVersion: 1.0\n")
     (info / "entry_points.txt").write_text("[texvent.simulators]\nmine = mine_module:Part\n")
     monkeypatch.syspath_prepend(tmp_path)
     _registry._plugged_in.cache_clear()
-
-    def put(kind):
-        module = types.ModuleType("mine_module")
-        if kind is not None:
-            module.Part = kind
-        monkeypatch.setitem(sys.modules, "mine_module", module)
-
-    yield put
+    yield lambda **parts: monkeypatch.setitem(
+        sys.modules, "mine_module", types.SimpleNamespace(**parts)
+    )
     _registry._plugged_in.cache_clear()
-
-
-def simulate():
-    frames = np.stack([frame.luma for frame in moving_texture()])
-    return texvent.simulate(frames, fps=25, simulator="mine", interpolate="blend")
 
 
 @pytest.mark.parametrize("name", SIMULATORS)
@@ -123,17 +97,20 @@ def test_our_simulators_keep_the_contract(name):
 
 
 def test_a_plug_in_that_is_right_is_run_and_passes(install):
-    install(Plain)
+    install(Part=PlugIn)
     frames = np.stack([frame.luma for frame in moving_texture()])
-    wanted = texvent.simulate(frames, fps=25, simulator="esim", interpolate="blend")
-    assert simulate().equals(wanted)
+    wanted, events = (
+        texvent.simulate(frames, fps=25, simulator=name, interpolate="blend")
+        for name in ("esim", "mine")
+    )
+    assert events.equals(wanted)
     texvent.check_simulator("mine")
-    texvent.check_simulator(Plain)
+    texvent.check_simulator(PlugIn)
 
 
 @pytest.mark.parametrize(("change", "said"), BROKEN)
 def test_a_broken_simulator_is_named_by_the_check(change, said):
-    class Mine(Broken):
+    class Mine(PlugIn):
         def __init__(self, config, seed):
             super().__init__(config, seed, change)
 
@@ -144,7 +121,7 @@ def test_a_broken_simulator_is_named_by_the_check(change, said):
 
 
 def test_a_plug_in_that_cannot_be_imported_is_named(install):
-    install(None)
+    install()
     assert "mine" in texvent.simulators()
     with pytest.raises(TexventError, match=r"simulator 'mine' of another package .*mine_module"):
         texvent.presets("mine")

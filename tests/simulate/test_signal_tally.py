@@ -6,9 +6,6 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.events import EventStream
-from texvent.simulate.signal_tally import SignalTally
-from texvent.video import Frame
 
 FPS = 120
 
@@ -67,18 +64,3 @@ def test_a_scene_at_rest_with_noise_is_said_to_be_noise():
         )[1]
         == ""
     )
-
-
-def test_the_range_of_pixels_is_followed_on_a_grid_so_memory_does_not_grow_with_the_sensor():
-    tally = SignalTally()
-    for level in (10, 200):
-        tally.see(Frame(np.full((1080, 1920), level, np.uint8), level))
-    assert tally._low.size < 2**14
-    assert tally._low.max() == 10
-    assert tally._high.min() == 200
-
-
-def test_events_without_a_label_count_as_signal():
-    tally = SignalTally()
-    tally.count(EventStream.from_columns([1, 1], [1, 1], [1, 2], [0, 1], size=(4, 4)))
-    assert (tally.signal, tally.noise) == (2, 0)

@@ -18,7 +18,7 @@ def test_every_figure_is_measured_and_stored():
     pytest.importorskip("triton")
     plan = gpu.Plan(
         size=TINY, densities=(0.2,), batches=(1, 2), frames=2, repeats=1, calls=1,
-        rife_sizes=(TINY,), between=1, copy_bytes=2**20, rife_width=8,
+        copy_bytes=2**20,
     )  # fmt: skip
     document = json.loads(
         json.dumps(gpu.measure(plan, "cuda" if torch.cuda.is_available() else "cpu"))
@@ -33,6 +33,5 @@ def test_every_figure_is_measured_and_stored():
         assert 0 <= share < 0.4
         if row["density"] == 0.2:
             assert share > 0.1
-    assert document["rife_pairs"][0]["frames_per_pair"] == 2
     text = gpu.as_markdown(document)
     assert text.count("| paper |") == len(plan.densities) + len(plan.batches)

@@ -11,7 +11,8 @@ from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
 from texvent.events import EventStream
-from texvent.interpolate.pairing import densify
+from texvent.interpolate.count_policy import CountPolicy
+from texvent.interpolate.pairing import pair_frames
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import MICROSECONDS, Frame, FrameStream
@@ -88,15 +89,17 @@ class Recording:
         interpolator = INTERPOLATORS.load(self.interpolate.interpolate)(
             self.interpolate, self.frames
         )
-        dense = densify(
-            _Part(self.frames, span),
-            interpolator,
+        part = _Part(self.frames, span)
+        policy = CountPolicy(
             self.interpolate,
+            part,
+            interpolator,
             balance=model.balance,
             contrast_threshold=model.contrast_threshold,
             counts_motion=model.benefits_from_denser_frames,
         )
-        return list(dense)
+        pairs = pair_frames(part, interpolator, self.interpolate, policy)
+        return [frame for pair in pairs for frame in pair.frames]
 
 
 class _Part(FrameSource):

@@ -135,13 +135,12 @@ def _refuse_if_empty(is_empty: bool) -> None:
 
 def _refuse_unit_floats(frames: Iterable[Any]) -> None:
     """Look for the first value above 1; usually the first frame has it."""
-    highest = lowest = 0.0
+    highest = 0.0
     for image in frames:
         pixels = np.asarray(image)
         if pixels.dtype.kind != "f":
             return
         highest = max(highest, float(pixels.max()))
-        lowest = min(lowest, float(pixels.min()))
         if not highest <= 1.0:
             return
-    refuse_unit_range(highest, "the array", lowest=lowest)
+    refuse_unit_range(highest, "the array")

@@ -84,17 +84,12 @@ def warn_of_few_bits(pixels: PixelArray, where: str) -> None:
         )
 
 
-def refuse_unit_range(highest: float, where: str, *, lowest: float = 0.0) -> None:
+def refuse_unit_range(highest: float, where: str) -> None:
     """Refuse float pixels that never exceed 1: they are most likely 0..1, which would be black.
 
     Raises:
         InputError: the highest value lies in (0, 1].
     """
-    if lowest < 0.0 < highest <= 1.0:
-        raise InputError(
-            f"{where} holds floats from {lowest:g} to {highest:g}, so they are probably -1..1; "
-            "texvent's intensities are 0..255. Give (frames + 1) * 127.5"
-        )
     if 0.0 < highest <= 1.0:
         raise InputError(
             f"{where} holds floats that never exceed {highest:g}, so they are probably 0..1, while "

@@ -193,11 +193,7 @@ def _open_video(address: _Address) -> FrameStream:
 
 SOURCES = (
     _Source("live video", lambda a: a.is_live, _open_live),
-    _Source(
-        "EVREAL folder",
-        lambda a: is_evreal(a.path),
-        lambda a: open_evreal(a.path, a.times, a.config.white_level),
-    ),
+    _Source("EVREAL folder", lambda a: is_evreal(a.path), _open_evreal),
     _Source(
         "DSEC sequence",
         lambda a: is_dsec(a.path) and a.has_own_times,

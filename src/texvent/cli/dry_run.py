@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import time
-from dataclasses import dataclass
 
 from texvent.pipeline import Simulation
 from texvent.run.prepare import estimate_bytes
@@ -14,66 +13,33 @@ MOST_SECONDS = 10.0
 """No further pair is begun after this time."""
 
 
-@dataclass(frozen=True)
-class DryRun:
-    """Measurements of the first pairs of a run."""
-
-    pairs: int
-    """Pairs that were simulated."""
-    events: int
-    """Events that they fired."""
-    seconds: float
-    """Time per pair, s, without compilation where more than one pair was simulated."""
-    pairs_in_all: int | None
-    """Pairs of the whole video; None where its length is not known."""
-    memory_bytes: int
-    """Estimated memory of the run; it does not grow with the clip."""
-
-    def describe(self) -> str:
-        """The estimate in two lines."""
-        memory = f"memory about {size_text(self.memory_bytes)}, however long the clip is"
-        if not self.pairs:
-            return f"no events: there is one frame only, so nothing could change\n{memory}"
-        each = self.events / self.pairs
-        tried = f"{self.pairs} of {self.pairs_in_all or 'unknown'} pairs of frames tried"
-        if self.pairs_in_all is None:
-            return f"about {each:,.0f} events per pair ({tried})\n{memory}"
-        count = self.pairs_in_all
-        return (
-            f"about {each * count:,.0f} events in {self.seconds * count:,.1f} s ({tried})\n{memory}"
-        )
-
-
-def measure_start(simulation: Simulation) -> DryRun:
-    """Simulate the first pairs of a run; nothing is written.
+def estimate_run(simulation: Simulation) -> str:
+    """Events, time and memory of a run in two lines, from its first pairs; nothing is written.
 
     Raises:
         InputError: the frames cannot be used.
     """
     total = simulation.video.frame_count
-    began = timed = time.perf_counter()
-    pairs = events = 0
-    is_first = True
-    for frame, packet in simulation.steps():
+    size = size_text(estimate_bytes(simulation.settings, simulation.video.size))
+    memory = f"memory about {size}, however long the clip is"
+    ends_s = [time.perf_counter()]
+    events = 0
+    for number, (frame, packet) in enumerate(simulation.steps()):
         events += len(packet)
-        if is_first:
-            is_first = False
-            continue
-        if not frame.is_source:
-            continue
-        pairs += 1
-        if pairs == 1:
-            first_s, timed = time.perf_counter() - began, time.perf_counter()
-        if pairs >= MOST_PAIRS or time.perf_counter() - began > MOST_SECONDS:
-            break
-    later_s = (time.perf_counter() - timed) / max(pairs - 1, 1)
-    return DryRun(
-        pairs=pairs,
-        events=events,
-        seconds=0.0 if not pairs else first_s if pairs == 1 else later_s,
-        pairs_in_all=None if total is None else max(total - 1, 0),
-        memory_bytes=estimate_bytes(simulation.settings, simulation.video.size),
-    )
+        if number and frame.is_source:
+            ends_s.append(time.perf_counter())
+            if len(ends_s) > MOST_PAIRS or ends_s[-1] - ends_s[0] > MOST_SECONDS:
+                break
+    pairs = len(ends_s) - 1
+    if not pairs:
+        return f"no events: there is one frame only, so nothing could change\n{memory}"
+    tried = f"{pairs} of {'unknown' if total is None else total - 1} pairs of frames tried"
+    if total is None:
+        return f"about {events / pairs:,.0f} events per pair ({tried})\n{memory}"
+    timed_s = ends_s if pairs == 1 else ends_s[1:]
+    seconds = (timed_s[-1] - timed_s[0]) / (len(timed_s) - 1) * (total - 1)
+    whole = f"about {events / pairs * (total - 1):,.0f} events in {seconds:,.1f} s"
+    return f"{whole} ({tried})\n{memory}"
 
 
 def size_text(size: float) -> str:

@@ -10,7 +10,7 @@ from typing import Any
 
 import tomli_w
 
-from texvent.cli.dry_run import measure_start
+from texvent.cli.dry_run import estimate_run
 from texvent.cli.notices import say, write_out
 from texvent.cli.outputs import OutputOptions
 from texvent.errors import few
@@ -136,7 +136,7 @@ def _estimate(simulation: Simulation, options: OutputOptions, files: RunFiles) -
     if not options.quiet:
         for line in describe_scene(simulation.video.metadata, with_words=True):
             say(line)
-    write_out(measure_start(simulation).describe() + "\n")
+    write_out(estimate_run(simulation) + "\n")
     there = [str(path) for path in files.outputs if path.exists()]
     if there and not (options.overwrite or options.quiet):
         say(f"note     the run needs --overwrite: there is already {few(there)}")

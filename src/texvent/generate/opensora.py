@@ -37,16 +37,8 @@ ROOT_VARIABLE = "OPENSORA_ROOT"
 """Environment variable that names the folder of Open-Sora."""
 SCRIPT = Path("scripts/diffusion/inference.py")
 CONFIGS = Path("configs/diffusion/inference")
-WEIGHTS = tuple(
-    Path("ckpts", name)
-    for name in (
-        "Open_Sora_v2.safetensors",
-        "hunyuan_vae.safetensors",
-        "google/t5-v1_1-xxl",
-        "openai/clip-vit-large-patch14",
-    )
-)
-"""What its configs load, from its own folder."""
+WEIGHTS = Path("ckpts/Open_Sora_v2.safetensors")
+"""The last of the files that its configs load, in its own folder."""
 LAUNCHERS = (Path(".venv/bin/torchrun"), Path("venv/bin/torchrun"))
 SEED_MODULUS = 2**31 - 2
 MP4 = ".mp4"
@@ -100,32 +92,25 @@ class OpenSoraGenerator:
         self.seed = seed
 
     @classmethod
-    def find_missing(cls, config: OpenSoraConfig | None = None) -> str | None:
-        """What keeps Open-Sora from running, and what to do; None if nothing does."""
-        config = config or OpenSoraConfig()
+    def find_missing(cls) -> str | None:
+        """The first missing piece of the installation, and what to do; None if it is complete."""
         root = _root()
-        if root is None:
+        if root is None or not (root / SCRIPT).is_file():
             return (
-                "the folder of Open-Sora is not known; install Open-Sora 2 "
+                f"there is no Open-Sora 2 checkout in {root or 'the environment'}; install it "
                 "(github.com/hpcaitech/Open-Sora) in an environment of its own, then set "
-                f"{ROOT_VARIABLE}"
+                f"{ROOT_VARIABLE} to its folder"
             )
-        if not root.is_dir():
-            return f"there is no folder {root}; set {ROOT_VARIABLE} to your Open-Sora checkout"
-        for path in (SCRIPT, CONFIGS / f"{config.height}px.py"):
-            if not (root / path).is_file():
-                return f"{root} has no {path}; it must be a checkout of Open-Sora 2.0"
         if _launcher() is None:
             return (
                 f"no torchrun in {root}/.venv, {root}/venv or on the PATH; activate Open-Sora's "
                 "environment, or link it as .venv of the checkout"
             )
-        for path in WEIGHTS:
-            if not (root / path).exists():
-                return (
-                    f"the weights {root / path} are missing; in {root} run: hf download "
-                    "hpcai-tech/Open-Sora-v2 --local-dir ./ckpts"
-                )
+        if not (root / WEIGHTS).exists():
+            return (
+                f"the weights {root / WEIGHTS} are missing; in {root} run: hf download "
+                "hpcai-tech/Open-Sora-v2 --local-dir ./ckpts"
+            )
         return None
 
     def generate(self, prompt: str, *, progress: Progress | None = None) -> StoredVideo:
@@ -153,7 +138,7 @@ class OpenSoraGenerator:
         config = self.config
         if VideoCache(is_kept=config.reuse_video).has(self._key(prompt, self.seed), MP4):
             return None
-        state = self.find_missing(config) or "it is ready"
+        state = self.find_missing() or "it is ready"
         return (
             f"the video is not made yet: Open-Sora would make it ({config.frames} frames, "
             f"{config.steps} steps, {config.height}px); {state}"
@@ -180,7 +165,7 @@ class OpenSoraGenerator:
         if cache.has(key, MP4):
             progress.announce(f"this video was generated before: {path}")
             return open_stored(path, fps, origin)
-        missing = self.find_missing(config)
+        missing = self.find_missing()
         if missing is not None:
             raise TexventError(missing)
         with tempfile.TemporaryDirectory(prefix="texvent-opensora-") as folder:
@@ -232,9 +217,9 @@ class OpenSoraGenerator:
 
 def _launcher() -> Path | None:
     """The torchrun of Open-Sora's environment, or None."""
-    root = _root()
-    for path in LAUNCHERS if root is not None else ():
-        if root is not None and os.access(root / path, os.X_OK):
+    root = _root() or Path()
+    for path in LAUNCHERS:
+        if os.access(root / path, os.X_OK):
             return (root / path).absolute()
     on_path = shutil.which("torchrun")
     return Path(on_path) if on_path else None

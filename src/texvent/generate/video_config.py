@@ -51,8 +51,8 @@ class DiffusersConfig(GeneratedVideoConfig):
     image: Path | None = None
     """Image to start from, where the model can."""
     lora: tuple[str, ...] = ()
-    """LoRA that diffusers loads: FILE or hub:org/name[/file], each with :WEIGHT if it is not 1.
-    May be repeated."""
+    """LoRA that diffusers loads: a .safetensors file, with :WEIGHT if it is not 1; may be
+    repeated."""
     offload: Literal["auto", "none", "model", "sequential"] = "auto"
     """Which parts wait in the computer's memory: none, whole parts that are not in use, or every
     layer (slow, fits small GPUs); auto: by the GPU's free memory."""

@@ -9,7 +9,6 @@ import numpy as np
 
 from texvent.brightness import balanced_log
 from texvent.config import InterpolateConfig
-from texvent.errors import ConfigError, InputError
 from texvent.interpolate.protocol import Interpolator
 from texvent.video import MICROSECONDS, FlickeringStream, Frame, FrameStream, Motion, PixelArray
 
@@ -92,8 +91,8 @@ class CountPolicy:
             return config.fixed_count
         cap = config.max_intermediate
         count = count_intermediate(
-            first,
-            second,
+            first.luma,
+            second.luma,
             balance=self._balance,
             contrast_threshold=self._threshold,
             cap=cap,
@@ -127,8 +126,8 @@ def _pair_flow(interpolator: Interpolator) -> PairFlow:
 
 
 def count_intermediate(
-    first: Frame | PixelArray,
-    second: Frame | PixelArray,
+    earlier: PixelArray,
+    later: PixelArray,
     *,
     balance: float,
     contrast_threshold: float,
@@ -140,8 +139,8 @@ def count_intermediate(
     change every sub-step stays below the threshold, so a pixel fires at most once per sub-step.
 
     Args:
-        first: the earlier frame, or its pixels as in `Frame.pixels`.
-        second: the later frame, same size.
+        earlier: luma of the earlier frame, [H, W], 0..255 scale.
+        later: luma of the later frame, [H, W].
         balance: α, on the 0..255 scale.
         contrast_threshold: δ, log units.
         cap: upper limit of the count.
@@ -150,8 +149,7 @@ def count_intermediate(
         K, 0..cap.
 
     Raises:
-        InputError: the frames differ in size.
-        ConfigError: δ is not above 0, the cap is negative, or α + I is 0 somewhere.
+        ConfigError: α + I is 0 somewhere.
 
     Equation: (4), section 3.2.1.
     Deviation: the paper takes the remainder by δ, which is below δ and would never interpolate,
@@ -164,13 +162,6 @@ def count_intermediate(
         >>> count_intermediate(black, white, balance=30.0, contrast_threshold=0.2)
         11
     """
-    _check_options(contrast_threshold, cap)
-    earlier, later = _luma(first), _luma(second)
-    if earlier.shape != later.shape:
-        raise InputError(
-            f"the frames are {list(earlier.shape)} and {list(later.shape)} (height, width); "
-            "both must have one size"
-        )
     if balance >= 1.0:
         low, high = _bound_largest_change(earlier, later, balance)
         count = math.floor(low / contrast_threshold)
@@ -237,14 +228,3 @@ def _bound_largest_change(
         lowest, highest = min(lowest, float(ratio.min())), max(highest, float(ratio.max()))
     largest = max(math.log(highest), -math.log(lowest))
     return largest - FLOAT32_ERROR, largest + FLOAT32_ERROR
-
-
-def _luma(frame: Frame | PixelArray) -> PixelArray:
-    return frame.luma if isinstance(frame, Frame) else Frame(frame, t_us=0).luma
-
-
-def _check_options(contrast_threshold: float, cap: int) -> None:
-    if not 0 < contrast_threshold < math.inf:
-        raise ConfigError(f"contrast_threshold is {contrast_threshold:g}; it must be above 0")
-    if cap < 0:
-        raise ConfigError(f"cap is {cap}; it must be at least 0")

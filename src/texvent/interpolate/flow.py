@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.config import InterpolateConfig
 from texvent.interpolate.dis_flow.estimator import DisFlow, FlowArray
-from texvent.pairs.instants import check_between, matching_luma
+from texvent.pairs.instants import matching_luma
 from texvent.pairs.motion_interpolation import MotionInterpolation
 from texvent.video import Frame, FrameStream
 
@@ -47,11 +47,7 @@ class FlowInterpolator:
         Returns:
             One frame per time, [H, W] float32 luma, 0..255 scale; the flow is computed at once,
             each frame when it is asked for.
-
-        Raises:
-            InputError: the frames differ in size, or a time is not between theirs.
         """
-        check_between(first, second, times_us)
         # Now, not at the first frame: this may run in the prefetch thread.
         flows = self.pair_flow.both_ways(first, second)
         return MotionInterpolation.between(first, second, times_us, flows)

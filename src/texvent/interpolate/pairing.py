@@ -13,9 +13,7 @@ from texvent.interpolate.protocol import Interpolator
 from texvent.pairs.deflicker import steady_frames
 from texvent.pairs.frame_pair import (
     FramePair,
-    OnSceneChange,
     hold_earlier,
-    notify_scene_change,
 )
 from texvent.pairs.instants import intermediate_times_us
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
@@ -90,6 +88,7 @@ def pair_frames(
 ) -> Iterator[FramePair]:
     """Source frames as pairs with the frames between them; the first pair has no earlier frame.
 
+    Source frames keep their pixels unless `config` removes flicker; at most two are held at a time.
     What a pair costs once, such as its optical flow, is computed here; its intermediate frames are
     made when `FramePair.between` is read. So one thread may run ahead here while another reads.
 
@@ -102,6 +101,11 @@ def pair_frames(
     Raises:
         InputError: a source frame has another size than the first, a time that does not
             increase, or a pixel that is NaN, infinite or negative.
+
+    Equation: (4), section 3.2.1.
+    Deviation: the paper interpolates across scene cuts; here the earlier image is held and the
+        change happens within the last millisecond. Light that is known to beat between the
+        frames gets enough intermediate frames to be seen, where they can be rendered.
     """
     previous: Frame | None = None
     checked = map(StreamChecker().check, frames)
@@ -111,58 +115,6 @@ def pair_frames(
         else:
             yield _make_pair(previous, frame, interpolator, config, policy)
         previous = frame
-
-
-def densify(
-    stream: FrameStream,
-    interpolator: Interpolator,
-    config: InterpolateConfig,
-    *,
-    balance: float,
-    contrast_threshold: float,
-    counts_motion: bool = False,
-    on_scene_change: OnSceneChange | None = None,
-) -> Iterator[Frame]:
-    """The frames of `stream` with intermediate frames between them.
-
-    A run does not need this: its simulator takes pairs of frames and draws what is between them
-    itself. At most two source frames are held at a time.
-
-    Args:
-        stream: source frames.
-        interpolator: makes the intermediate frames.
-        config: how many there are, and whether cuts and flicker are looked for.
-        balance: the simulator's α, for Eq. 4.
-        contrast_threshold: the simulator's δ, for Eq. 4.
-        counts_motion: whether the simulator gains from more frames under fast motion; then
-            motion counts unless `config.frames_per_pixel` is set.
-        on_scene_change: called at every cut and flash, before the frames that show it.
-
-    Yields:
-        Source frames as they came (`is_source` True, pixels untouched unless `config` removes
-        flicker), and between them the intermediate frames (`is_source` False, [H, W] float32
-        luma); times strictly increase.
-
-    Raises:
-        InputError: a source frame has another size than the first, a time that does not
-            increase, or a pixel that is NaN, infinite or negative.
-
-    Equation: (4), section 3.2.1.
-    Deviation: the paper interpolates across scene cuts; here the earlier image is held and the
-        change happens within the last millisecond. Light that is known to beat between the
-        frames gets enough intermediate frames to be seen, where they can be rendered.
-    """
-    policy = CountPolicy(
-        config,
-        stream,
-        interpolator,
-        balance=balance,
-        contrast_threshold=contrast_threshold,
-        counts_motion=counts_motion,
-    )
-    for pair in pair_frames(stream, interpolator, config, policy):
-        notify_scene_change(pair, on_scene_change)
-        yield from pair.frames
 
 
 def _make_pair(

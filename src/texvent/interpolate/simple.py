@@ -7,7 +7,7 @@ from typing import ClassVar
 
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
-from texvent.pairs.instants import check_between, float_luma
+from texvent.pairs.instants import float_luma
 from texvent.pairs.motion_interpolation import MotionInterpolation
 from texvent.video import Frame, FrameStream, RenderableStream
 
@@ -44,9 +44,6 @@ class BlendInterpolator:
 
         Returns:
             One frame per time, [H, W] float32 luma, 0..255 scale.
-
-        Raises:
-            InputError: the frames differ in size, or a time is not between theirs.
         """
         return MotionInterpolation.between(first, second, times_us, None)
 
@@ -80,11 +77,7 @@ class ExactInterpolator:
 
         Yields:
             One frame per time, [H, W] float32 luma, 0..255 scale.
-
-        Raises:
-            InputError: the frames differ in size, or a time is not between theirs.
         """
-        check_between(first, second, times_us)
         for t_us in times_us:
             exact = self._stream.at(t_us)
             yield Frame(float_luma(exact), t_us, is_source=False, transfer=exact.transfer)

@@ -43,9 +43,9 @@ from texvent.io.block_codec import (
     write_records,
 )
 from texvent.io.block_writer import UNLIMITED, FileTarget, FormatLimits, WriteBlock
+from texvent.io.columns import Columns
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import read_sidecar
-from texvent.io.protocol import Columns
 from texvent.io.reading import ReadOptions
 from texvent.sensor import SensorSize
 

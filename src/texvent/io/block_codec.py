@@ -23,13 +23,13 @@ from texvent.errors import ConfigError, FileFormatError, warn
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.block_writer import BlockWriter, FileTarget, FormatLimits, WriteBlock
+from texvent.io.columns import Columns
 from texvent.io.input_checks import (
     existing_file,
     existing_folder,
     stored_or_given_size,
     stream_from_file,
 )
-from texvent.io.protocol import Columns, SideData
 from texvent.io.reading import ReadOptions, TimeUnitError
 from texvent.io.repair import RepairCounts, repair_blocks, valid_events
 from texvent.sensor import SensorSize
@@ -62,10 +62,11 @@ class FileContents:
 
 
 class BlockReader(ABC):
-    """Reads one format; see `EventReader`."""
+    """Reads one event-file format. Units, order and polarity are converted here only."""
 
     name: ClassVar[str]
     extensions: ClassVar[tuple[str, ...]] = ()
+    """Lower case, with the dot; the first one is the usual one."""
     has_checksums: ClassVar[bool] = False
     """Whether events that were changed by damage are noticed; `texvent validate` says where not."""
     is_folder: ClassVar[bool] = False
@@ -76,6 +77,10 @@ class BlockReader(ABC):
 
     def read(self, path: Path, options: ReadOptions | None = None) -> EventPackets:
         """Events of a file, block by block; each pass opens the file again.
+
+        Args:
+            path: the file.
+            options: facts that the file does not state, such as the sensor size.
 
         Raises:
             ConfigError: the format does not take an option.
@@ -97,14 +102,19 @@ class BlockReader(ABC):
             packets = SeekableBlockPackets(path, contents, final_size, contents.seek)
         return EventPackets(packets, final_size, contents.metadata)
 
-    def side_data(self, path: Path) -> SideData:
-        """Triggers and IMU samples of an existing file; most formats have none.
+    def recognises(self, path: Path) -> bool | None:
+        """True if the beginning of a file is of this format; None: the format has no mark."""
+        del path
+        return None
+
+    def triggers(self, path: Path) -> Iterator[Columns] | None:
+        """External triggers of an existing file, t in µs; None: it has none, as most formats.
 
         Raises:
             FileFormatError: the file is damaged.
         """
         del path
-        return {}
+        return None
 
     @abstractmethod
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
@@ -117,7 +127,7 @@ class BlockReader(ABC):
 
 
 class BlockCodec(BlockReader):
-    """Reads and writes one format; see `EventCodec`."""
+    """Reads and writes one event-file format."""
 
     limits: ClassVar[FormatLimits]
     has_sidecar: ClassVar[bool] = False
@@ -127,7 +137,12 @@ class BlockCodec(BlockReader):
     def open_writer(
         self, path: Path, *, size: SensorSize, metadata: Mapping[str, Any], overwrite: bool
     ) -> BlockWriter:
-        """Start a file; see `EventCodec.open_writer`."""
+        """Start a file. It appears under its name only when it is complete.
+
+        Raises:
+            OutputError: it exists already, or its folder cannot be written.
+            InputError: the format cannot hold this sensor size.
+        """
         target = FileTarget(path, size, metadata, overwrite)
         self.check_target(target)
         return self.writer(

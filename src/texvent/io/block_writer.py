@@ -16,8 +16,8 @@ from typing import Any, Self, TypeAlias
 from texvent.errors import InputError, OutputError, warn
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
+from texvent.io.columns import Columns
 from texvent.io.metadata import metadata_to_json, sidecar_path, sidecar_text
-from texvent.io.protocol import Columns
 from texvent.sensor import SensorSize
 
 UNLIMITED = "hdf5 (.h5), npz (.npz) and ecd (.txt)"

@@ -7,9 +7,8 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 
-OVERFLOW = 0xFF
 RESET = 0xFE
-"""Both are larger than the first byte of every event."""
+"""It and the overflow, 0xFF, are larger than the first byte of every event."""
 OVERFLOW_US = 127
 EVENT_BYTES = 5
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -11,8 +11,10 @@ from texvent._registry import CODECS
 from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
+from texvent.io.block_codec import BlockCodec, BlockReader
+from texvent.io.block_writer import BlockWriter
+from texvent.io.columns import Columns
 from texvent.io.input_checks import refuse_missing, refuse_other_kind
-from texvent.io.protocol import EventCodec, EventReader, EventWriter, RecognisingCodec, SideData
 from texvent.io.reading import read_options
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.file_names import usable_path
@@ -22,7 +24,7 @@ FIRST_LINES = 8
 """Lines of a text among which its first row is."""
 
 
-def codec_for(path: str | Path, format: str | None = None) -> EventCodec:
+def codec_for(path: str | Path, format: str | None = None) -> BlockCodec:
     """The codec that writes `path`: the one called `format`, or the first of its extension.
 
     Raises:
@@ -32,7 +34,7 @@ def codec_for(path: str | Path, format: str | None = None) -> EventCodec:
     """
     path = usable_path(path)
     candidates = _codecs_for(path, format)
-    codec = next((one for one in candidates if isinstance(one, EventCodec)), None)
+    codec = next((one for one in candidates if isinstance(one, BlockCodec)), None)
     if codec is None:
         raise ConfigError(
             f"cannot write {path}: {candidates[0].name} files are only read; write hdf5 (.h5), "
@@ -53,7 +55,7 @@ def writable_formats() -> list[str]:
     return [name for name in CODECS.names() if hasattr(CODECS.load(name), "open_writer")]
 
 
-def codec_that_reads(path: str | Path, format: str | None = None) -> EventReader:
+def codec_that_reads(path: str | Path, format: str | None = None) -> BlockReader:
     """The codec that reads `path`: called `format`, or the one that recognises its content.
 
     Those of its extension are asked first, then all others. Formats without a mark of their own
@@ -76,12 +78,12 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> EventReader
         return found
     refuse_missing(path)
     extension = path.suffix.lower()
-    codecs: list[EventReader] = [codec() for codec in CODECS.load_all()]
+    codecs: list[BlockReader] = [codec() for codec in CODECS.load_all()]
     own = [codec for codec in codecs if extension in codec.extensions]
     for codec in own + codecs:
-        if isinstance(codec, RecognisingCodec) and codec.recognises(path):
+        if codec.recognises(path):
             return codec
-    unmarked = [codec for codec in own if not isinstance(codec, RecognisingCodec)]
+    unmarked = [codec for codec in own if codec.recognises(path) is None]
     if own:
         return (unmarked or own)[0]
     refuse_other_kind(path)
@@ -111,18 +113,16 @@ def is_event_path(path: Path) -> bool:
     except InputError:
         return False
     is_npy = path.suffix.lower() == ".npy"  # most arrays are frames
-    return not is_npy or (isinstance(codec, RecognisingCodec) and codec.recognises(path))
+    return not is_npy or bool(codec.recognises(path))
 
 
-def side_data(path: str | Path, format: str | None = None) -> SideData:
-    """Triggers and IMU samples beside the events of a file.
+def read_triggers(path: str | Path, format: str | None = None) -> Iterator[Columns] | None:
+    """External triggers beside the events of a file, t in µs; None where it holds none.
 
     Raises:
         ConfigError, InputError: as `codec_that_reads`.
     """
-    codec = codec_that_reads(path, format)
-    read = getattr(codec, "side_data", None)
-    return {} if read is None else dict(read(Path(path)))
+    return codec_that_reads(path, format).triggers(Path(path))
 
 
 def has_checksums(path: str | Path, format: str | None = None) -> bool:
@@ -131,14 +131,14 @@ def has_checksums(path: str | Path, format: str | None = None) -> bool:
     Raises:
         ConfigError, InputError: as `codec_that_reads`.
     """
-    return bool(getattr(codec_that_reads(path, format), "has_checksums", False))
+    return codec_that_reads(path, format).has_checksums
 
 
-def find_folder_codec(path: Path) -> EventReader | None:
+def find_folder_codec(path: Path) -> BlockReader | None:
     """The codec of formats made of several files that recognises those in a folder, or None."""
-    codecs: list[EventReader] = [codec() for codec in CODECS.load_all()]
+    codecs: list[BlockReader] = [codec() for codec in CODECS.load_all()]
     for codec in codecs:
-        if not codec.extensions and isinstance(codec, RecognisingCodec) and codec.recognises(path):
+        if not codec.extensions and codec.recognises(path):
             return codec
     return None
 
@@ -164,12 +164,12 @@ def event_extensions() -> set[str]:
     return {extension for name in CODECS.names() for extension in CODECS.load(name).extensions}
 
 
-def _codecs_for(path: str | Path, format: str | None) -> list[EventReader]:
+def _codecs_for(path: str | Path, format: str | None) -> list[BlockReader]:
     """The codec called `format` alone, or all that share the path's extension, at least one."""
     if format is not None:
         return [CODECS.load(format)()]
     extension = Path(path).suffix.lower()
-    codecs: list[EventReader] = [codec() for codec in CODECS.load_all()]
+    codecs: list[BlockReader] = [codec() for codec in CODECS.load_all()]
     found = [codec for codec in codecs if extension in codec.extensions]
     if found:
         return found
@@ -191,17 +191,22 @@ def open_events(
     stream: str | None = None,
     repair: bool = False,
 ) -> EventPackets:
-    """Events of a file, packet by packet, with flat memory (npz excepted).
+    """Events of a file, which is read when they are asked for, with flat memory (npz excepted).
+
+    Iterate over the packets, cut with `between(start_us, stop_us)`, ask for `size`, `metadata` and
+    `time_range`, or take all with `collect()`. An HDF5 file finds a time without reading the events
+    before; others are read from the start, and no further than needed.
 
     Args:
-        path: the file.
-        format: name of a codec; default: from content and extension.
-        size: for files that do not store it: (width, height), "346x260" or "davis346".
+        path: the file or folder; see `texvent.formats()`.
+        format: its format, where neither content nor extension says.
+        size: sensor size, for formats that do not store it: (width, height), "346x260" or a name,
+            such as "davis346".
         time_unit: of text, npz, npy and HDF5: s, ms, us or ns; default: as the file states, else
             µs of whole numbers and s of fractions.
         columns: of text, npz, npy and HDF5: their order ("x,y,p,t") or names ("t=stamp,x=col,...").
         stream: which recording of a file of several: group, topic, or number of the camera.
-        repair: repair damage, and count it in the metadata, instead of refusing it.
+        repair: repair damage, and count it in `metadata["repair"]`, instead of refusing it.
 
     Raises:
         InputError: no such file, the size is neither stored nor given, or the file holds several
@@ -216,7 +221,7 @@ def open_events(
 
 
 def load(path: str | Path, **options: Any) -> EventStream:
-    """All events of a file, in memory; options and errors as in `open_events`."""
+    """Events of a file, in memory; options and errors as of `texvent.open`."""
     return open_events(path, **options).collect()
 
 
@@ -227,7 +232,7 @@ def open_writer(
     metadata: Mapping[str, Any] | None = None,
     format: str | None = None,
     overwrite: bool = False,
-) -> EventWriter:
+) -> BlockWriter:
     """A writer to use in a `with` block; the file appears when the block ends without error.
 
     Args:

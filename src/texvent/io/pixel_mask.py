@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
 from texvent.io.arrays.npy_file import StoredArray
-from texvent.io.atomic import atomic_file
 from texvent.io.input_checks import existing_file
 from texvent.sensor import SensorSize
 
@@ -29,51 +28,21 @@ def read_pixel_mask(path: Path, size: SensorSize) -> NDArray[np.bool_]:
         ConfigError: another extension.
         FileFormatError: it holds something else.
     """
-    check_mask_name(path)
+    extension = path.suffix.lower()
+    if extension not in EXTENSIONS:
+        raise ConfigError(
+            f"{path} is no name of a mask; masks end in .npy, .png or .txt, which says the format"
+        )
     path = existing_file(path)
-    if path.suffix.lower() == ".txt":
+    if extension == ".txt":
         return _read_text(path, size)
-    array: Any = _read_image(path) if path.suffix.lower() == ".png" else _read_array(path)
+    array: Any = _read_image(path) if extension == ".png" else _read_array(path)
     if array.shape != size.shape:
         raise InputError(
             f"{path} is a mask of shape {array.shape}; for a sensor of {size} it must be "
             f"{size.shape}: rows, columns"
         )
     return np.asarray(array != 0)
-
-
-def write_pixel_mask(path: Path, mask: NDArray[np.bool_], *, overwrite: bool) -> None:
-    """A mask as a file that `read_pixel_mask` reads.
-
-    Raises:
-        OutputError: it exists already, or its folder cannot be written.
-        ConfigError: another extension.
-    """
-    check_mask_name(path)
-    with atomic_file(path, overwrite=overwrite) as part:
-        if path.suffix.lower() == ".txt":
-            y, x = np.nonzero(mask)
-            lines = [f"{column} {row}\n" for column, row in zip(x, y, strict=True)]
-            part.write_text("# x y of pixels whose events are left out\n" + "".join(lines))
-        elif path.suffix.lower() == ".png":
-            import cv2  # only images need it
-
-            part.write_bytes(cv2.imencode(".png", mask.astype(np.uint8) * 255)[1].tobytes())
-        else:
-            with part.open("wb") as file:  # of a path, np.save takes .NPY for no extension
-                np.save(file, mask)
-
-
-def check_mask_name(path: Path) -> None:
-    """Refuse a name that says no format.
-
-    Raises:
-        ConfigError: another extension.
-    """
-    if path.suffix.lower() not in EXTENSIONS:
-        raise ConfigError(
-            f"{path} is no name of a mask; masks end in .npy, .png or .txt, which says the format"
-        )
 
 
 def _read_array(path: Path) -> NDArray[Any]:

@@ -37,9 +37,9 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError
 from texvent.io.block_codec import BlockCodec, FileContents, write_records
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
+from texvent.io.columns import Columns
 from texvent.io.input_checks import ZIP_DAMAGE, check_zip, reporting_damage
 from texvent.io.metadata import read_sidecar
-from texvent.io.protocol import Columns
 from texvent.io.reading import (
     MICROSECONDS,
     PER_SECOND,
@@ -342,7 +342,6 @@ class EcdCodec(TextCodec):
 LEVEL = 1
 """Of zip's compression: text shrinks to a fourth even so."""
 ENTRY = "events.txt"
-MAX_FIRST_LINE = 64
 
 
 class E2vidZipCodec(TextCodec):

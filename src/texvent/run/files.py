@@ -11,8 +11,8 @@ from typing import Any
 
 from texvent.errors import InputError
 from texvent.events import EventStream
+from texvent.io.block_writer import BlockWriter
 from texvent.io.files import open_writer
-from texvent.io.protocol import EventWriter
 from texvent.pairs.frame_pair import OnSceneChange
 from texvent.pipeline import Simulation
 from texvent.runtime.background_writer import BackgroundWriter
@@ -127,8 +127,7 @@ def write_run(
 
         def append_labelled(packet: EventStream) -> None:
             # A file without a place for the ids of objects has them in the folder of truth.
-            is_kept = getattr(writer, "keeps_labels", False)
-            append(packet if is_kept else packet.with_ids(None, None))
+            append(packet if writer.keeps_labels else packet.with_ids(None, None))
 
         # The truth ends before the event file does, for it may give it its events.
         truth = _open_truth(outputs, simulation, files, facts, append_labelled)
@@ -168,7 +167,7 @@ def _run_steps(
     return None
 
 
-def _open_events(simulation: Simulation, files: RunFiles, facts: Mapping[str, Any]) -> EventWriter:
+def _open_events(simulation: Simulation, files: RunFiles, facts: Mapping[str, Any]) -> BlockWriter:
     """A writer of the events; a format that the name does not tell is stored."""
     return open_writer(
         files.events,

@@ -86,29 +86,14 @@ def match_rate(
             progress.advance("target rate", next(trials), MAX_STEPS)
         return measure_rate(with_threshold(threshold), seconds)
 
-    match = threshold_for_rate(rate_of, target_hz)
-    return with_threshold(match.threshold), match
-
-
-def threshold_for_rate(rate_of: Callable[[float], float], target_hz: float) -> ThresholdMatch:
-    """The threshold at which a falling function takes a value, by bisection of its logarithm.
-
-    Args:
-        rate_of: threshold → events per second.
-        target_hz: rate wanted, events per second.
-
-    Raises:
-        InputError: the nearest rate found differs by more than a tenth.
-    """
     match = find_threshold(rate_of, target_hz)
-    rate_hz = match.ratio * target_hz
     if abs(match.ratio - 1) > UNREACHED:
         raise InputError(
             f"no contrast threshold of {LOWEST:g}..{HIGHEST:g} gives {target_hz:,.0f} events per "
-            f"second; the nearest is {rate_hz:,.0f} at {match.threshold:.3g}. Choose "
-            "a rate nearer to that, or change the noise, which no threshold removes"
+            f"second; the nearest is {match.ratio * target_hz:,.0f} at {match.threshold:.3g}. "
+            "Choose a rate nearer to that, or change the noise, which no threshold removes"
         )
-    return match
+    return with_threshold(match.threshold), match
 
 
 def measure_rate(simulation: Simulation, seconds: float) -> float:

@@ -159,8 +159,7 @@ def _index(id: str | None, ids: tuple[str, ...]) -> int | None:
 _UNITS = {"_m_s": "m/s", "_hz": "Hz", "_m": "m", "_s": "s", "_deg": "degrees"}
 """End of a field's name → its unit."""
 _SIDES = {"left": "on the left", "right": "on the right", "centre": "in the middle",
-          "far": "far away", "lane": "on the road", "near": "in the foreground",
-          "row": "in a row", "together": "side by side", "ring": "in a circle"}  # fmt: skip
+          "far": "far away", "lane": "on the road", "near": "in the foreground"}  # fmt: skip
 RELATIONS = {"front": "in front of", "collide": "meets"}
 """Kind of relation → its words, where they differ."""
 _VERBS = {"throw": "fly through the air", "work": "move in place", "stand": "stand still"}

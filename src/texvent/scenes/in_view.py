@@ -124,7 +124,7 @@ def _unlit(
 ) -> Iterator[Unheld]:
     """Words of light, sky, ground and weather that leave no trace in the picture."""
     said, times = description.surroundings, [share * duration_s for share in _INSTANTS]
-    base, place = scene.animated_environment.base, PLACES[said.name or "grass"]
+    base, place = scene.animated_environment.base, scene.place
     x, y = map(float, base.road_offset)
     road = RoadLine(base.road_angle, (x, y), tuple(map(tuple, base.road_crossings)))
 
@@ -155,12 +155,12 @@ def _unshown(
 ) -> Iterator[Unheld]:
     """Effects, spin and a place that leave no trace in the picture."""
     said, times = description.surroundings, [share * duration_s for share in _INSTANTS]
-    place, staged = PLACES[said.name or "grass"], scene.particles
+    place, staged = scene.place, scene.particles
     for kind in dict.fromkeys((said.weather, *(one.kind for one in description.effects))):
         pairs = zip(staged.effects, staged.kinds, strict=True)
         rest = tuple(effect for effect, own in pairs if own != kind)
         if len(rest) < len(staged.effects):
-            other = replace(scene, particles=replace(staged, effects=rest, ends_s={}))
+            other = replace(scene, particles=replace(staged, effects=rest))
             name = "weather" if kind == said.weather else "effect"
             yield from _unseen(scene, other, times, name, kind)
     turning = [one for one in description.objects

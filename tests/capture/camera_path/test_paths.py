@@ -95,31 +95,17 @@ def test_between_rows_a_path_is_smooth(tmp_path):
     [
         ("", r"has 0 row\(s\); a camera path needs at least two"),
         ("0 1\n1 2\n", r"rows of 2 columns; allowed: t \[s\], x, y"),
-        ("0 1 2\n1 2\n", "number of columns changed from 3 to 2 at row 2"),
         ("0 1 2\n0 2 3\n", "row 2, has a time that is not at least 1 µs after"),
         ("0 1 nan\n1 2 3\n", r"row 1, has a number that is not within ±1e\+06"),
-        ("nan 1 2\n1 2 3\n", "row 1, has a time that is no number of s"),
         ("1e30 1 2\n2e30 2 3\n", "below 285 years"),
         ("0 1 2\n1 2 wall\n", "could not convert string 'wall'"),
         ("0 1 2 0 0\n1 2 3 0 1\n", "row 1, has a zoom that is not above 0"),
-        ("0 0 0 0 0 0 0 1\n1 0 0 0 0 0 0 1\n", "rows of 8 columns; allowed"),
     ],
 )
 def test_a_bad_file_gets_one_clear_line(tmp_path, text, said):
     with pytest.raises((InputError, FileFormatError), match=said) as caught:
         read_trajectory(written(tmp_path, text))
     assert "\n" not in str(caught.value)
-
-
-def test_what_is_no_text_is_refused(tmp_path):
-    with pytest.raises(InputError, match="no such camera path"):
-        read_trajectory(tmp_path / "none.csv")
-    with pytest.raises(FileFormatError, match="cannot be read"):
-        read_trajectory(tmp_path)
-    file = tmp_path / "photo.png"
-    file.write_bytes(b"\x89PNG\xff\xfe")
-    with pytest.raises(FileFormatError, match="must be a text"):
-        read_trajectory(file)
 
 
 NUMBERS = st.floats(-1e6, 1e6, allow_nan=False)

@@ -80,17 +80,6 @@ def test_fractional_shifts_scales_and_zooms_are_means_over_the_area(scale, place
     np.testing.assert_allclose(sample(view, place), slow_sample(view, place), atol=255 * 4 / 80)
 
 
-@given(st.floats(-3, 3), st.floats(-3, 3))
-def test_shifts_keep_flat_images_and_ramps(x, y):
-    rows, columns = np.mgrid[:40, :40].astype(np.float32)
-    ramp = 3 * columns + rows
-    view = view_of(8, 8, image=ramp)
-    expected = 3 * (16 + np.arange(8) + x)[None] + (16 + np.arange(8) + y)[:, None]
-    np.testing.assert_allclose(sample(view, CameraPose2D(x, y), ramp), expected, rtol=1e-6)
-    flat = np.full((40, 40), 77, np.float32)
-    np.testing.assert_allclose(sample(view, CameraPose2D(x, y, 0.3, 1.2), flat), 77, rtol=1e-6)
-
-
 def test_a_quarter_turn_clockwise_turns_the_image_counterclockwise():
     image = IMAGE[:, :14]
     view = view_of(14, 14, image=image)

@@ -8,7 +8,6 @@ from texvent.capture.motion_vectors.conventions import (
     changes,
     parse_convention,
     to_pixels,
-    with_words,
 )
 from texvent.errors import ConfigError
 
@@ -85,5 +84,5 @@ def test_the_words_that_are_named_make_one_convention_of_the_other(name, more):
     given_one = parse_convention(name)
     other = parse_convention(",".join([name, *more]))
     direction = given_one.direction
-    text = with_words(name, changes(given_one, other, direction))
+    text = ",".join([name, *changes(given_one, other, direction)])
     assert changes(parse_convention(text), other, direction) == ()

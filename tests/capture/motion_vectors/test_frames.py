@@ -114,14 +114,6 @@ def test_vectors_of_another_convention_are_refused_with_the_option_to_give(flow,
     list(opened({"motion": flow}, check_motion=False))
 
 
-def test_exchanged_directions_are_named():
-    uneven = scene.stack(lambda index: scene.frame(index * index), 4)
-    first = np.stack([scene.forward(i * i) * (2 * i + 1) for i in range(4)])
-    second = np.stack([scene.backward(i * i) * (2 * i - 1) for i in range(4)])
-    with pytest.raises(InputError, match=r"meant (forward|backward); exchange the two"):
-        opened({"motion": second, "motion_back": first}, film=uneven)
-
-
 @pytest.mark.parametrize(
     ("given", "message"),
     [
@@ -129,13 +121,9 @@ def test_exchanged_directions_are_named():
             {"motion": FORWARD[:-2]},
             r"motion has fields of 4 frames, and there are 6 frames; give 6",
         ),
-        ({"motion": FORWARD, "depth": DEPTH[:-1]}, r"depth has fields of 5 frames"),
         ({"motion": FORWARD[:, :-1]}, r"forward field is 64x47, the frames are 64x48"),
-        ({"motion": FORWARD[:, ::3, ::3]}, r"is 22x16, the frames are 64x48; it must have"),
         ({"motion": np.full_like(FORWARD, np.nan)}, r"is NaN in 100% of its pixels"),
-        ({"motion": np.full_like(FORWARD, np.inf)}, r"has 3072 infinite vector"),
         ({"motion": FORWARD.transpose(0, 3, 1, 2)}, r"components come last: \.transpose"),
-        ({"motion": 3}, r"motion: 3 is no field of motion; give a path"),
         (
             {"motion": FORWARD, "depth": np.full_like(DEPTH, np.nan)},
             r"3072 value\(s\) that are NaN",
@@ -151,36 +139,19 @@ def test_bad_fields_are_one_clear_line(given, message):
 
 
 def test_files_that_are_not_there(tmp_path):
-    (tmp_path / "empty").mkdir()
     (tmp_path / "both").mkdir()
     np.save(tmp_path / "both" / "a.npy", FORWARD[0])
     cv2.imwrite(str(tmp_path / "both" / "a.png"), FILM[0].astype(np.uint8))
     cv2.imwrite(str(tmp_path / "one.png"), FILM[0].astype(np.uint8))
-    (tmp_path / "flow.txt").write_text("0 0")
     np.savez(tmp_path / "odd.npz", u=FORWARD, v=FORWARD)
     for name, message in {
         "missing": "no file or folder",
-        "empty": "holds no file of motion vectors",
         "both": r"holds \.npy and \.png files; name those",
-        "flow.txt": "is no file of motion vectors, depth or ids; known",
         "one.png": "is the field of one frame",
         "odd.npz": "holds u, v; arrays must be called flow",
     }.items():
         with pytest.raises(InputError, match=message):
             open_frames(FILM, CaptureConfig(fps=Fraction(25), motion=tmp_path / name))
-
-
-def test_some_nan_count_as_not_known():
-    flow = FORWARD.copy()
-    flow[:, 0, 0] = np.nan
-    motions = [frame.motion for frame in opened({"motion": flow})]
-    assert np.isnan(motions[0].forward[0, 0]).all()
-
-
-def test_depth_in_millimetres():
-    millimetres = (DEPTH * 1000).astype(np.float32)
-    stream = opened({"motion": FORWARD, "depth": millimetres.astype(np.uint16)}, depth_scale=1e-3)
-    np.testing.assert_allclose(next(iter(stream)).motion.depth, DEPTH[0], 1e-6)
 
 
 def test_start_stop_and_fit_change_motion_as_pixels():

@@ -1,7 +1,7 @@
-"""The table, as `texvent generators --json` prints it, against the pinned diffusers."""
+"""The table of models against the pinned diffusers."""
 
+import dataclasses
 import inspect
-import json
 
 import pytest
 
@@ -9,7 +9,6 @@ pytestmark = pytest.mark.torch
 pytest.importorskip("torch")
 diffusers = pytest.importorskip("diffusers")
 
-from texvent.cli.app import main  # noqa: E402
 from texvent.generate.diffusers_models.pipeline_call import ARGUMENTS  # noqa: E402
 from texvent.generate.video_models.known_models import MODELS  # noqa: E402
 
@@ -28,26 +27,18 @@ def default(call, option):
     return sum(value) if isinstance(value, list) else value
 
 
-@pytest.fixture(scope="module")
-def rows():
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("texvent.cli.setup.generators._is_here", lambda model: "")
-        lines = []
-        patch.setattr("texvent.cli.setup.generators.write_out", lines.append)
-        assert main(["generators", "--json"]) == 0
-    listed = {row["name"]: row for row in json.loads("".join(lines))}
-    return [listed[name] for name in MODELS]
+ROWS = [dataclasses.asdict(model) for model in MODELS.values()]
 
 
-def test_diffusers_has_every_pipeline_of_the_list_and_each_takes_a_prompt(rows):
-    for row in rows:
+def test_diffusers_has_every_pipeline_of_the_list_and_each_takes_a_prompt():
+    for row in ROWS:
         for pipeline in filter(None, (row["pipeline"], row["image_pipeline"])):
             assert hasattr(diffusers, pipeline), f"{row['name']}: {pipeline}"
             assert "prompt" in call_of(pipeline), f"{row['name']}: {pipeline}"
 
 
-def test_frames_size_steps_and_guidance_are_the_calls_own_or_the_row_says_why_not(rows):
-    for row in rows:
+def test_frames_size_steps_and_guidance_are_the_calls_own_or_the_row_says_why_not():
+    for row in ROWS:
         call = call_of(row["pipeline"])
         differing = [
             option
@@ -58,8 +49,8 @@ def test_frames_size_steps_and_guidance_are_the_calls_own_or_the_row_says_why_no
         assert bool(differing) == bool(row["differs"]), f"{row['name']}: {differing}"
 
 
-def test_pipelines_that_start_from_an_image_take_one(rows):
-    for row in rows:
+def test_pipelines_that_start_from_an_image_take_one():
+    for row in ROWS:
         image = call_of(row["pipeline"]).get("image")
         assert row["needs_image"] == (image is not None and image.default is ABSENT), row["name"]
         if row["image_pipeline"]:
@@ -67,8 +58,8 @@ def test_pipelines_that_start_from_an_image_take_one(rows):
             assert row["image_pipeline"] != row["pipeline"], row["name"]
 
 
-def test_the_arguments_and_schedules_of_rows_are_known_to_diffusers(rows):
-    for row in rows:
+def test_the_arguments_and_schedules_of_rows_are_known_to_diffusers():
+    for row in ROWS:
         for pipeline in filter(None, (row["pipeline"], row["image_pipeline"])):
             call = call_of(pipeline)
             assert set(row["call"]) <= set(call), f"{row['name']}: {pipeline}"
@@ -81,7 +72,7 @@ def test_the_arguments_and_schedules_of_rows_are_known_to_diffusers(rows):
             assert "sigmas" in call
 
 
-def test_rows_that_take_the_frame_rate_do_not_say_that_they_ignore_it(rows):
-    for row in rows:
+def test_rows_that_take_the_frame_rate_do_not_say_that_they_ignore_it():
+    for row in ROWS:
         if {"fps", "frame_rate"} & set(call_of(row["pipeline"])):
             assert not row["ignores_fps"], row["name"]

@@ -16,7 +16,7 @@ from texvent.generate.videos.stored_video import (
     write_stream,
     write_video,
 )
-from texvent.generate.videos.video_cache import VideoCache, content_key, made_folder
+from texvent.generate.videos.video_cache import VideoCache, content_key, kept_folder
 from texvent.transfer import Transfer
 from texvent.video import transfer_of
 
@@ -70,16 +70,6 @@ def test_a_nan_of_the_model_is_refused_and_leaves_nothing(tmp_path):
     assert list(tmp_path.iterdir()) == []
 
 
-def test_an_interrupted_write_leaves_nothing(tmp_path):
-    def interrupted():
-        yield noise(1)[0]
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        write_video(interrupted(), tmp_path / "v.avi", FPS, {}, overwrite=False)
-    assert list(tmp_path.iterdir()) == []
-
-
 def test_a_video_is_found_again_by_its_key_with_its_metadata(cache):
     stored = cache.store("abc", noise(), FPS, {"prompt": "ä cat", "seed": 0})
     found = cache.find("abc", Fraction(10))
@@ -90,20 +80,12 @@ def test_a_video_is_found_again_by_its_key_with_its_metadata(cache):
     assert cache.find("abd", FPS) is None
 
 
-def test_a_video_that_is_no_video_or_lost_does_not_count(cache):
-    stored = cache.store("abc", noise(), FPS, {})
-    stored.path.write_bytes(b"no video")
-    assert cache.find("abc", FPS) is None
-    stored.path.unlink()
-    assert cache.find("abc", FPS) is None
-
-
 def test_without_reuse_nothing_is_kept_in_the_made_folder():
     passing = VideoCache(is_kept=False)
     video = passing.store("abc", noise(), FPS, {})
     assert len(list(video)) == 5
     assert passing.find("abc", FPS) is None
-    assert list(made_folder("videos").iterdir()) == []
+    assert list(kept_folder().iterdir()) == []
 
 
 def test_the_key_follows_every_fact_and_not_their_order():

@@ -25,7 +25,7 @@ def test_flow_is_the_same_with_one_and_two_threads(moving_texture, monkeypatch):
     np.testing.assert_array_equal(*flows)
 
 
-@pytest.mark.parametrize("shape", [(1, 1), (6, 8), (8, 300), (300, 8), (2, 900)])
+@pytest.mark.parametrize("shape", [(1, 1), (8, 300), (300, 8)])
 def test_flow_is_finite_on_tiny_frames_and_strips(shape):
     first = np.random.default_rng(3).uniform(0, 255, shape).astype(np.float32)
     for flow in DisFlow().both_ways(first, np.roll(first, 1, axis=1)):

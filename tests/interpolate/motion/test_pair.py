@@ -60,7 +60,7 @@ def test_a_bar_before_a_background_is_drawn_as_defined(place):
 
 def test_random_surfaces_are_drawn_as_defined():
     random = np.random.default_rng(5)
-    for _ in range(3):
+    for _ in range(2):
         depth = np.where(random.random((HEIGHT, WIDTH)) < 0.2, OBJECT_M, BACKGROUND_M)
         turn = random.normal(0, 0.05, (2, 2))
         y, x = np.mgrid[:HEIGHT, :WIDTH]
@@ -79,13 +79,6 @@ def test_random_surfaces_are_drawn_as_defined():
         image, expected = both_at(*frames, 0.4, random.permutation(PIXELS)[:60])
         # A place exactly on a limit may fall to either side in float32.
         assert np.mean(np.abs(image - expected) > 0.05) < 0.02
-
-
-def test_source_frames_are_met_exactly_at_both_ends():
-    for first, second in (moving_texture(2.0, 1.0), bar_pair()):
-        pair = MotionPair.of(first, second)
-        assert pair.draw(0.0)[0] == pytest.approx(first.luma, abs=0.02)
-        assert pair.draw(1.0)[0] == pytest.approx(second.luma, abs=0.02)
 
 
 def test_an_edge_moves_by_parts_of_a_pixel():
@@ -115,13 +108,6 @@ def test_without_depth_the_faster_thing_is_nearer():
     image, _ = MotionPair.of(*bare).draw(0.5)
     assert image[:, 8] == pytest.approx(40.0, abs=1.0)
     assert image[:, 4] == pytest.approx(160.0, abs=1.0)
-
-
-@pytest.mark.parametrize("missing", ["forward", "backward"])
-def test_one_direction_is_enough_where_nothing_hides(missing):
-    pair = MotionPair.of(*moving_texture(2.0, 1.0, **{missing: False}))
-    image, _ = pair.draw(0.5)
-    assert np.abs(image - texture(1.0, 0.5))[3:-3, 3:-3].max() < 0.5
 
 
 @pytest.mark.parametrize("missing", ["forward", "backward"])

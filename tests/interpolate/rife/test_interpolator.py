@@ -61,8 +61,9 @@ def noise(height=40, width=50, seed=0, *, channels=None):
     return np.random.default_rng(seed).integers(0, 256, shape).astype(np.uint8)
 
 
-@pytest.mark.parametrize("layout", LAYOUTS)
-@pytest.mark.parametrize("size", [(1, 1), (33, 70), (64, 64)])
+@pytest.mark.parametrize(
+    ("layout", "size"), [("4.0", (64, 64)), ("4.6", (1, 1)), ("4.25", (33, 70))]
+)
 def test_every_layout_takes_any_size(build, layout, size):
     for image in frames_of(build(layout), *noise(*size)):
         assert image.shape == size
@@ -136,25 +137,15 @@ def edited(path, **changes):
     torch.save({name: one for name, one in tensors.items() if one is not None}, path)
 
 
-def another_version(path):
-    edited(path, **{"block1.conv0.0.0.weight": torch.zeros(4, 20, 3, 3)})
-
-
 def a_layer_less(path):
     edited(path, **{"block3.lastconv.0.bias": None})
-
-
-def one_more(path):
-    edited(path, **{"block4.conv": torch.zeros(1)})
 
 
 @pytest.mark.parametrize(
     ("spoil", "complaint"),
     [
         (other_network, "has no tensor of RIFE's network"),
-        (another_version, r"size mismatch for block1\.conv0\.0\.0\.weight.*4\.6"),
         (a_layer_less, r"Missing key.*block3\.lastconv\.0\.bias"),
-        (one_more, r"Unexpected key.*block4\.conv"),
     ],
     ids=lambda value: getattr(value, "__name__", ""),
 )
@@ -166,11 +157,6 @@ def test_a_wrong_file_is_refused_by_name(files, tmp_path, spoil, complaint):
         read_rife_weights(path)
     assert str(path) in str(told.value)
     assert "\n" not in str(told.value)
-
-
-def test_inference_mode_does_not_leak_to_the_caller(build):
-    for _ in build().between(Frame(noise()[0], 0), Frame(noise()[1], 1000), TIMES_US):
-        assert not torch.is_inference_mode_enabled()
 
 
 def test_events_store_which_weights_made_them(files, tmp_path):

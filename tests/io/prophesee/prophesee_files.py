@@ -25,7 +25,8 @@ EXTENSIONS = {
     "evt3": ".raw",
     "dat": ".dat",
 }
-FORMATS = tuple(EXTENSIONS)
+FORMATS = ("evt3", "dat")
+"""Formats that are written."""
 
 
 def write_words(
@@ -95,6 +96,6 @@ STREAMS: dict[str, Callable[[], EventStream]] = {
 }
 LATE_STREAMS: dict[str, Callable[[], EventStream]] = {
     "times past 32 bits": lambda: at_times(2**32 - 1, 2**32, 2**32 + 1, 2**33),
-    "the last time of EVT2": lambda: at_times(5, 2**34 - 1),
+    "a time past 34 bits": lambda: at_times(5, 2**34 + 1),
 }
 """Times that DAT does not hold."""

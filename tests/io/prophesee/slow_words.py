@@ -21,11 +21,10 @@ def decode_evt2(data: bytes) -> list[Event]:
     return events
 
 
-def decode_evt21(data: bytes, *, legacy: bool = False) -> list[Event]:
+def decode_evt21(data: bytes) -> list[Event]:
     events: list[Event] = []
     high = None
-    for first, second in struct.iter_unpack("<II", data):
-        valid, upper = (second, first) if legacy else (first, second)
+    for valid, upper in struct.iter_unpack("<II", data):
         kind = upper >> 28
         if kind == 0b1000:
             high = upper & 0x0FFFFFFF

@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-import contextlib
 import struct
 
 import pytest
@@ -74,7 +73,7 @@ def test_every_legal_body_is_read(kind: str, events: list[Event]) -> None:
 
 
 @pytest.mark.parametrize("kind", KINDS)
-@pytest.mark.parametrize("count", [14, 15, 30, 31, 126, 127, 300, 16_384])
+@pytest.mark.parametrize("count", [15, 31, 127, 16_384])
 def test_runs_longer_than_their_nibbles_are_read(kind: str, count: int) -> None:
     events = [(8, 9, 5, 1)] * count + [(9, 10, 5 + 2**35, 0)]
     assert events_in(make_chunk(events, kind)) == events
@@ -116,17 +115,3 @@ def test_a_chunk_cut_anywhere_is_refused(kind: str) -> None:
 def test_absurd_numbers_are_refused(chunk: bytes) -> None:
     with pytest.raises(FileFormatError):
         ecf_chunks.decode_chunk(chunk)
-
-
-@pytest.mark.parametrize("kind", KINDS)
-@settings(max_examples=150)
-@given(data=st.data())
-def test_flipped_bytes_are_refused_or_give_some_events(kind: str, data: st.DataObject) -> None:
-    events = [(8 + i % 7, 9 + i // 20, 5 + 40 * i, i // 9 % 2) for i in range(60)]
-    chunk = bytearray(make_chunk(events, kind))
-    for _ in range(data.draw(st.integers(1, 4))):
-        chunk[data.draw(st.integers(0, len(chunk) - 1))] = data.draw(st.integers(0, 255))
-    columns: ecf_chunks.Columns = {}
-    with contextlib.suppress(FileFormatError):
-        columns = ecf_chunks.decode_chunk(bytes(chunk))
-    assert len({len(column) for column in columns.values()}) <= 1

@@ -8,10 +8,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.errors import FileFormatError
-from texvent.io.files import load, save
+from texvent.io.files import load
 from texvent.io.prophesee.evt import Evt2Codec
 
-from .prophesee_files import HEADERS, SIZE, at_times, events_of, write_words
+from .prophesee_files import SIZE, events_of, write_words
 from .slow_words import decode_evt2
 
 
@@ -28,28 +28,6 @@ def test_words_built_by_hand_from_the_published_table(tmp_path: Path) -> None:
     events = load(write_words(tmp_path, "evt2", words))
     assert events.size == SIZE
     assert events_of(events) == [(1279, 719, 133, 1), (3, 4, 191, 0), (0, 0, 192, 0)]
-
-
-def test_a_file_begins_with_time_high_zero_and_repeats_it_only_on_change(tmp_path: Path) -> None:
-    path = save(tmp_path / "e.raw", at_times(64, 65, 300), format="evt2")
-    words = np.frombuffer(path.read_bytes().split(b"% end\n")[1], dtype="<u4")
-    highs = [hex(word) for word in words if word >> 28 == 8]
-    assert highs == ["0x80000000", "0x80000001", "0x80000004"]
-    assert words[0] >> 28 == 8
-    assert len(words) == 6
-
-
-def test_the_header_says_what_openeb_asks_for(tmp_path: Path) -> None:
-    path = save(tmp_path / "e.raw", at_times(1), format="evt2")
-    assert path.read_bytes().split(b"% end\n")[0].decode().splitlines() == [
-        "% camera_integrator_name Prophesee",
-        "% evt 2.0",
-        "% format EVT2;height=720;width=1280",
-        "% geometry 1280x720",
-        "% integrator_name Prophesee",
-        "% plugin_integrator_name Prophesee",
-        '% texvent {"seed": 0}',
-    ]
 
 
 def test_a_wrapped_counter_of_another_writer_is_unrolled(tmp_path: Path) -> None:
@@ -84,10 +62,3 @@ def test_any_words_mean_what_the_slow_decoder_says(words: list[int]) -> None:
     columns = Evt2Codec().make_decoder().decode(array)
     rows = zip(*(columns[name].tolist() for name in "xytp"), strict=True)
     assert list(rows) == decode_evt2(array.tobytes())
-
-
-def test_the_words_written_mean_the_events_to_the_slow_decoder(tmp_path: Path) -> None:
-    events = at_times(0, 1, 63, 64, 64, 1000, 2**33)
-    path = save(tmp_path / "e.raw", events, format="evt2")
-    assert decode_evt2(path.read_bytes().split(b"% end\n")[1]) == events_of(events)
-    assert HEADERS["evt2"].splitlines()[1] in path.read_text(errors="replace")

@@ -7,12 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from texvent.events import EventStream
-from texvent.io.files import load, save
+from texvent.io.files import load
 from texvent.io.prophesee import evt21_coding
 from texvent.io.prophesee.evt import SwappedWordDecoder
 
-from .prophesee_files import SIZE, at_times, events_of, row_bursts, write_words
+from .prophesee_files import events_of, write_words
 from .slow_words import decode_evt21
 
 WORDS = [
@@ -50,32 +49,6 @@ def test_the_header_decides_which_half_of_a_word_comes_first(
 ) -> None:
     words = [exchange_halves(word) if legacy else word for word in WORDS]
     assert events_of(load(write_words(tmp_path, "evt21", words, header=header))) == MEANING
-
-
-def test_neighbours_share_a_word_and_keep_their_order(tmp_path: Path) -> None:
-    x, y, t, p = zip(
-        *[(31, 0, 9, 1), (32, 0, 9, 1), (63, 0, 9, 1), (40, 0, 9, 1), (41, 0, 9, 0), (42, 1, 9, 0)],
-        strict=True,
-    )
-    events = EventStream.from_columns(x, y, t, p, size=SIZE)
-    data = save(tmp_path / "e.raw", events, format="evt21").read_bytes().split(b"% end\n")[1]
-    assert len(data) // 8 == 1 + 5, "TIME_HIGH 0, then 31 | 32, 63 | 40 | 41 OFF | the next row"
-    assert decode_evt21(data, legacy=True) == events_of(events)
-
-
-def test_bursts_of_an_edge_are_half_the_size_of_evt2(tmp_path: Path) -> None:
-    events = row_bursts(300)
-    sizes = {
-        format: save(tmp_path / f"{format}.raw", events, format=format).stat().st_size
-        for format in ("evt2", "evt21")
-    }
-    assert sizes["evt21"] < 0.6 * sizes["evt2"]
-
-
-def test_the_header_states_the_order_of_halves_twice(tmp_path: Path) -> None:
-    lines = save(tmp_path / "e.raw", at_times(1), format="evt21").read_bytes().split(b"\n")
-    assert b"% endianness legacy" in lines
-    assert b"% format EVT21;endianness=legacy;height=720;width=1280" in lines
 
 
 @settings(max_examples=100)

@@ -122,3 +122,16 @@ def test_the_words_written_mean_the_events_to_the_slow_decoder(tmp_path: Path) -
     for index, events in enumerate((row_bursts(200), at_times(0, 1, 4095, 4096, 2**24, 2**30))):
         path = save(tmp_path / f"{index}.raw", events)
         assert decode_evt3(path.read_bytes().split(b"% end\n")[1]) == events_of(events)
+
+
+def test_the_header_says_what_openeb_asks_for(tmp_path: Path) -> None:
+    path = save(tmp_path / "e.raw", at_times(1))
+    assert path.read_bytes().split(b"% end\n")[0].decode().splitlines() == [
+        "% camera_integrator_name Prophesee",
+        "% evt 3.0",
+        "% format EVT3;height=720;width=1280",
+        "% geometry 1280x720",
+        "% integrator_name Prophesee",
+        "% plugin_integrator_name Prophesee",
+        '% texvent {"seed": 0}',
+    ]

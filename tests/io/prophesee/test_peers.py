@@ -43,7 +43,7 @@ def test_evt3_reads_every_event_of_our_evt3(tmp_path: Path, name: str) -> None:
 
 
 @streams
-@pytest.mark.parametrize("format", ["evt2", "evt3", "dat"])
+@pytest.mark.parametrize("format", ["evt3", "dat"])
 def test_eventcv_reads_every_event_we_write(tmp_path: Path, name: str, format: str) -> None:
     eventcv = pytest.importorskip("eventcv", reason=f"eventcv {REASON}")
     if format == "dat" and name in LATE_STREAMS:

@@ -12,9 +12,7 @@ import pytest
 
 from texvent.data.pull import pull
 from texvent.errors import InputError
-from texvent.io.files import load, save
-
-from .prophesee_files import EXTENSIONS, FORMATS
+from texvent.io.files import load
 
 pytestmark = pytest.mark.network
 FIRST_TIME_HIGH_US = 0xAAE << 12
@@ -39,17 +37,6 @@ def test_an_old_evt2_recording_without_size_is_read() -> None:
     events = load(pull("gen3"), size=(640, 480))
     assert len(events) == 521_252
     assert int(events.t[-1] - events.t[0]) == 95_871
-
-
-@pytest.mark.parametrize("format", FORMATS)
-@pytest.mark.parametrize("name", ["evk4", "gen3"])
-def test_recordings_survive_every_format(tmp_path: Path, name: str, format: str) -> None:
-    path = pull(name)
-    recorded = load(path / "gen4.dat") if name == "evk4" else load(path, size=(640, 480))
-    converted = save(tmp_path / f"e{EXTENSIONS[format]}", recorded, format=format)
-    back = load(converted)
-    assert back.equals(recorded)
-    assert back.metadata == recorded.metadata
 
 
 def test_evt3_and_eventcv_read_the_recording_as_we_do(tmp_path: Path) -> None:

@@ -102,3 +102,19 @@ def test_lamps_are_modulated_at_their_frequency(wave, levels):
         np.testing.assert_allclose(lamps[0, :3], position)
         np.testing.assert_allclose(lamps[0, 3:6], (level, 0.0, 0.0), atol=1e-6)
         np.testing.assert_allclose(lamps[1, 3:6], 1.0)
+
+
+@pytest.mark.parametrize("colour", ["white", "grey", "black", "red", "yellow"])
+def test_edges_stand_out_from_a_backdrop_that_nobody_asked_for(colour):
+    bar = SceneObject("bar", colour=colour)
+    open_, said = (
+        compose_scene(
+            describe_scene(Scene(objects=(bar,), place=place), list_nouns()),
+            seed=0, size=SIZE, duration_s=1.0,
+        )
+        for place in (Place(), Place("plain"))
+    )  # fmt: skip
+    image = 2.2 * np.log(render(open_, 0.0, SIZE).mean(axis=2) + 1e-3)  # log light
+    assert np.ptp(np.quantile(image, [0.01, 0.99])) > 4 * 0.25
+    greys = [float(one.environment(0.0).ground_colour[0]) for one in (open_, said)]
+    assert (greys[0] == greys[1]) == (colour in ("black", "red"))

@@ -27,12 +27,7 @@ def small(scene: ComposedScene, time_s: float) -> Float64Array:
     return np.concatenate([one.at(time_s).to_world for one in scene.particles.effects])
 
 
-CASES = [
-    (kind, source)
-    for kind, words in EFFECTS.items()
-    for source in (0, None)
-    if source == 0 or not words.ends_source
-]
+CASES = [(kind, source) for kind in EFFECTS for source in (0, None)]
 
 
 @pytest.mark.parametrize(("kind", "source"), CASES)
@@ -57,14 +52,10 @@ def test_every_effect_is_a_function_of_time_with_as_many_shapes_at_every_instant
 
 @pytest.mark.parametrize(("kind", "source"), CASES)
 def test_what_is_seen_of_an_effect_moves_without_jumps(kind, source):
-    """In 0.1 ms, nothing moves by more than a hundredth of the scene; births are too small to see.
-
-    At the instant at which a thing breaks, its pieces appear: that is a jump.
-    """
+    """In 0.1 ms, nothing moves by more than a hundredth of the scene; births are tiny."""
     scene = staged(Effect(kind, source))
     reach = scene.camera_path.framing.distance_m
-    start = 0.0 if EFFECTS[kind].ends_source else 0.2
-    for time_s in np.linspace(start, start + 0.35, 15):
+    for time_s in np.linspace(0.2, 0.55, 15):
         first, second = small(scene, time_s), small(scene, time_s + 1e-4)
         way = np.linalg.norm(second[:, :, 3] - first[:, :, 3], axis=1)
         size = np.minimum(
@@ -79,21 +70,6 @@ def test_what_is_seen_of_an_effect_moves_without_jumps(kind, source):
         thick = np.minimum(clouds[0][:, 15], clouds[1][:, 15])
         assert drift[thick > 0.02].max(initial=0.0) < 0.01 * reach
         assert np.abs(clouds[1][:, 15] - clouds[0][:, 15]).max(initial=0.0) < 0.05
-
-
-@pytest.mark.parametrize("kind", [kind for kind, words in EFFECTS.items() if words.ends_source])
-def test_what_bursts_is_gone_and_its_pieces_fly(kind):
-    scene = staged(Effect(kind, 0, start_s=0.5))
-    for time_s, is_there in ((0.499, True), (0.501, False)):
-        shapes = scene.primitives(time_s)
-        size = np.abs(shapes.to_world[shapes.instance == 1, :, :3]).max()
-        assert (size > 1e-3) == is_there
-        pieces = np.abs(scene.particles.effects[0].at(time_s).to_world[:, :, :3]).max()
-        assert (pieces > 10 * TINY_M) != is_there
-    later = scene.particles.effects[0].at(0.8).to_world[:, :, 3]
-    spread = np.ptp(later, axis=0)
-    assert spread.max() > 1.2 * max(scene.actors[0].model.length, scene.actors[0].model.width)
-    assert (later[:, 2] > -0.2).all()
 
 
 def test_no_chip_is_seen_right_before_the_camera():

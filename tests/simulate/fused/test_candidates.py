@@ -1,4 +1,4 @@
-"""Candidates: what the definition lists, and that the compiled kernel lists the same."""
+"""Candidates by hand, and bounds that leave out no pixel; `test_fused` has their events."""
 
 from __future__ import annotations
 
@@ -7,8 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from tests.pairs.reference import sample_along, warp_between
-from tests.simulate.references import candidates as definition
+from tests.pairs.reference import sample_along
 
 from texvent.pairs.warp_cpu import prepare_pair
 from texvent.runtime.read_only import read_only
@@ -29,8 +28,6 @@ def find_candidates(arrays, positions, levels):
     return candidates.find_in_rows(arrays, positions, levels, prepared, rows)
 
 
-KERNELS = [definition.find_candidates, find_candidates]
-kernels = pytest.mark.parametrize("find", KERNELS, ids=["reference", "cpu"])
 STILL = np.zeros((1, 1, 2), np.float32)
 THIRDS = np.array([1 / 3, 2 / 3])
 UP = math.exp(0.2)
@@ -49,79 +46,34 @@ def at_rest(first, second):
     return pair_of(np.float32([[first]]), np.float32([[second]]), STILL, STILL)
 
 
-def moving(shape, speed, seed=0):
-    """Two unrelated smooth arrays and flows of up to about `speed` px."""
-    rng = np.random.default_rng(seed)
-    y, x = np.mgrid[: shape[0], : shape[1]]
-    first, second = (
-        (128 + 90 * np.sin(x / rng.uniform(2, 9) + y / rng.uniform(2, 9))).astype(np.float32)
-        for _ in range(2)
-    )
-    forward = rng.normal(0, speed / 2, (*shape, 2)).astype(np.float32)
-    backward = (-forward + rng.normal(0, 0.3, (*shape, 2))).astype(np.float32)
-    return pair_of(first, second, forward, backward)
-
-
-@kernels
-def test_a_pixel_is_listed_where_it_passes_a_level_and_its_reference_goes_along(find):
+def test_a_pixel_is_listed_where_it_passes_a_level_and_its_reference_goes_along():
     # α + I: 50, 70, 90, 110; ln steps .336, .251, .201: with δ = .3 the first fires (A := 70), then
     # ln(90/70) = .251 does not, and ln(110/70) = .452 does.
     levels = own_levels(up=math.exp(0.3))
-    found = find(at_rest(20, 80), THIRDS, levels)
+    found = find_candidates(at_rest(20, 80), THIRDS, levels)
     assert found.segment.tolist() == [0, 2]
     np.testing.assert_allclose(found.before, [20, 60], rtol=1e-6)
     np.testing.assert_allclose(found.now, [40, 80], rtol=1e-6)
 
 
-@kernels
-def test_a_reference_that_steps_stays_behind(find):
+def test_a_reference_that_steps_stays_behind():
     # The same, A := 50 · e^.3 = 67.5, and ln(90/67.5) = .288 does not fire, ln(110/67.5) = .488
     # does. Falling levels are the mirror image.
     levels = own_levels(is_step=True, up=math.exp(0.3))
-    assert find(at_rest(20, 80), THIRDS, levels).segment.tolist() == [0, 2]
+    assert find_candidates(at_rest(20, 80), THIRDS, levels).segment.tolist() == [0, 2]
     # 110, 90, 70, 50: .2007, .452 (fires, A := 81.5), .488 (fires).
-    assert find(at_rest(80, 20), THIRDS, levels).segment.tolist() == [1, 2]
+    assert find_candidates(at_rest(80, 20), THIRDS, levels).segment.tolist() == [1, 2]
 
 
-@kernels
-def test_where_it_is_open_whether_a_pixel_fires_all_its_later_pictures_are_listed(find):
+def test_where_it_is_open_whether_a_pixel_fires_all_its_later_pictures_are_listed():
     # The change is δ but for rounding, so the finishing pass must see everything from there on.
     levels = own_levels(up=60 / 50)
     arrays = pair_of(np.float32([[20]]), np.float32([[30]]), STILL, STILL)
-    assert find(arrays, np.array([0.99999]), levels).segment.tolist() == [1]
+    assert find_candidates(arrays, np.array([0.99999]), levels).segment.tolist() == [1]
     for is_step in (False, True):
         levels = own_levels(is_step=is_step, up=60 / 50)
-        late = find(at_rest(20, 30), np.array([1.0, 0.5, 0.3]), levels)
+        late = find_candidates(at_rest(20, 30), np.array([1.0, 0.5, 0.3]), levels)
         assert late.segment.tolist() == [0, 1, 2, 3]
-
-
-@pytest.mark.parametrize("shape", [(1, 1), (3, 40), (35, 41)])
-@pytest.mark.parametrize("speed", [0.0, 0.4, 6.0, 300.0])
-def test_compiled_kernel_lists_what_the_definition_lists(shape, speed):
-    arrays = moving(shape, speed)
-    spread = np.random.default_rng(1).normal(0, 0.1, shape)
-    kept = (arrays.earlier + 30.0) * np.exp(spread)
-    places = (np.array([]), np.array([0.2, 0.5, 0.6]))
-    for positions, is_step, reference in itertools.product(
-        places, (False, True), (np.empty((0, 0)), kept)
-    ):
-        levels = ReferenceLevels(reference, 30.0, math.exp(0.1), math.exp(-0.15), is_step)
-        got = find_candidates(arrays, positions, levels)
-        wanted = definition.find_candidates(arrays, positions, levels)
-        for one, other in zip(got, wanted, strict=True):
-            np.testing.assert_array_equal(one, other)
-
-
-def test_rows_can_be_searched_in_bands():
-    arrays, positions, levels = moving((30, 20), 2.0), np.array([0.5]), own_levels()
-    prepared = PreparedPair(prepare_pair(*arrays), bound_cells(arrays))
-    bands = [
-        candidates.find_in_rows(arrays, positions, levels, prepared, rows)
-        for rows in ((0, 7), (7, 16), (16, 30))
-    ]
-    whole = find_candidates(arrays, positions, levels)
-    for joined, column in zip(zip(*bands, strict=True), whole, strict=True):
-        np.testing.assert_array_equal(np.concatenate(joined), column)
 
 
 def test_pixels_that_cannot_fire_are_not_followed():
@@ -158,12 +110,3 @@ def test_no_pixel_is_left_out_whose_trigger_level_a_sample_reaches(shape, speed)
     ):
         found = [list_active(arrays, levels, bounds, row, active) for row in range(shape[0])]
         assert found == [shape[1]] * shape[0]
-
-
-def test_some_pixels_of_a_picture_are_those_of_the_whole_picture():
-    arrays = moving((20, 30), 3.0)
-    pixel = np.array([0, 17, 311, 599])
-    whole = warp_between(*arrays, 0.3)
-    np.testing.assert_array_equal(
-        candidates._warp_pixels(prepare_pair(*arrays), 0.3, pixel), whole.reshape(-1)[pixel]
-    )

@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-import gc
 import itertools
-import weakref
 
 import numpy as np
 import pytest
@@ -12,17 +10,15 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import texvent
-from texvent.pairs.motion_interpolation import MotionInterpolation, UndrawnFrame
 from texvent.simulate.esim import pixels as esim_pixels
 from texvent.simulate.fused import candidates
 from texvent.simulate.fused.candidates import find_bounds
 from texvent.simulate.texvent import fused as texvent_fused
-from texvent.video import Frame, Video
+from texvent.video import Video
 
 from .clips import fused, panning, readable
 
-NOISY = {"noise_rate_hz": 20.0, "seed": 3}
-TEXVENT = {
+OPTIONS = {
     "default": {},
     "the paper's": {"preset": "paper"},
     "without noise": {"noise": "none"},
@@ -32,12 +28,14 @@ TEXVENT = {
     "random times": {"timestamp_rule": "random"},
     "many events": {"multi_event": True, "contrast_threshold": 0.06},
     "times at the end": {"timestamp_rule": "end"},
-}
-ESIM = {
-    "default": {},
-    "two thresholds": {"contrast_threshold_on": 0.1, "contrast_threshold_off": 0.3},
-    "refractory": {"refractory_period_us": 9000, "contrast_threshold_on": 0.05},
-}
+    "ESIM": {"simulator": "esim"},
+    "two thresholds": {
+        "simulator": "esim", "contrast_threshold_on": 0.1, "contrast_threshold_off": 0.3,
+    },
+    "refractory": {
+        "simulator": "esim", "refractory_period_us": 9000, "contrast_threshold_on": 0.05,
+    },
+}  # fmt: skip
 
 
 def assert_equal(video, **options):
@@ -50,28 +48,18 @@ def assert_equal(video, **options):
     return sum(len(packet) for _, packet in got)
 
 
-INTERPOLATE = ["flow", "blend", "none"]
-
-
 @pytest.fixture(autouse=True)
 def _busy_pairs_are_not_drawn(monkeypatch):
     # Small test clips are all motion; what is chosen otherwise has tests of its own.
     monkeypatch.setattr(candidates, "BUSY", 2.0)
 
 
-@pytest.mark.parametrize("interpolate", ["flow", "none"])
-@pytest.mark.parametrize("name", TEXVENT)
-def test_texvent_pairs_may_be_drawn_or_not_without_a_difference(name, interpolate, monkeypatch):
+@pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
+def test_pairs_may_be_drawn_or_not_without_a_difference(options, monkeypatch):
     use_bounds(monkeypatch, _every_other(find_bounds))
-    options = {**NOISY, "max_intermediate": 5, "interpolate": interpolate, **TEXVENT[name]}
-    assert assert_equal(panning(6), **options) > 300
-
-
-@pytest.mark.parametrize("name", ESIM)
-def test_esim_pairs_may_be_drawn_or_not_without_a_difference(name, monkeypatch):
-    use_bounds(monkeypatch, _every_other(find_bounds))
-    options = {"simulator": "esim", "max_intermediate": 5, **ESIM[name]}
-    assert assert_equal(panning(6), **options) > 300
+    if "simulator" not in options and options.get("noise") != "none":
+        options = {"noise_rate_hz": 20.0, "seed": 3, **options}
+    assert assert_equal(panning(6), max_intermediate=5, **options) > 300
 
 
 def use_bounds(monkeypatch, function):
@@ -108,21 +96,6 @@ def _recorded(survey, results):
         return results[-1]
 
     return survey_and_keep
-
-
-@pytest.mark.parametrize("name", TEXVENT)
-def test_texvent_events_are_those_of_the_drawn_frames(name):
-    options = {**NOISY, "max_intermediate": 9, **TEXVENT[name]}
-    # Every way of filling the time between frames is seen by several of the options.
-    options["interpolate"] = INTERPOLATE[list(TEXVENT).index(name) % 3]
-    assert assert_equal(panning(4), **options) > 300
-
-
-@pytest.mark.parametrize("interpolate", INTERPOLATE)
-@pytest.mark.parametrize("name", ESIM)
-def test_esim_events_are_those_of_the_drawn_frames(name, interpolate):
-    options = {"simulator": "esim", "max_intermediate": 9, **ESIM[name]}
-    assert assert_equal(panning(3), interpolate=interpolate, **options) > 200
 
 
 @pytest.mark.parametrize("simulator", ["texvent", "esim"])
@@ -169,20 +142,6 @@ def test_the_number_of_threads_changes_nothing(simulator, monkeypatch):
     for one, two, three in zip(*packets, strict=True):
         assert one.equals(two)
         assert one.equals(three)
-
-
-def test_an_undrawn_frame_releases_the_source_frames_once_it_is_drawn():
-    first, second = (np.full((4, 6), level, np.float32) for level in (10, 30))
-    motion = MotionInterpolation.between(Frame(first, 0), Frame(second, 100), [25], None)
-    watched = weakref.ref(motion)
-    frame = UndrawnFrame(motion, 0)
-    del motion
-    assert (frame.size, frame.t_us, frame.is_source) == ((6, 4), 25, False)
-    assert watched() is not None
-    np.testing.assert_array_equal(frame.luma, np.full((4, 6), 15))
-    gc.collect()
-    assert watched() is None
-    assert frame.pixels is frame.pixels
 
 
 @pytest.mark.parametrize(

@@ -130,19 +130,6 @@ def test_floats_differ_from_the_cpu_at_most_within_rounding_of_the_threshold(dev
     assert pixels[0] - on_threshold == set(np.flatnonzero(steps > 0).tolist())
 
 
-@pytest.mark.parametrize("chunks", [(1, 4), (2, 1, 2)])
-@pytest.mark.parametrize("config", [TexventConfig(noise_rate_hz=5.0), EsimConfig(**FEW)])
-def test_chunks_change_nothing(config, chunks, device):
-    clips, times_us = random_clips(np.uint8), random_times()
-    runs = [
-        on_gpu(torch, GpuSimulator(config), clips, times_us, TWO_PAIRS, device=device, chunks=cut)
-        for cut in ((5,), chunks)
-    ]
-    for one, other in zip(*runs, strict=True):
-        assert len(one) > 200
-        assert one.equals(other)
-
-
 def test_bytes_followed_by_floats_keep_their_references(device):
     clips, times_us = random_clips(np.uint8), random_times()
     config = TexventConfig(noise="none", cache="global")
@@ -171,18 +158,6 @@ def test_a_batch_lies_in_one_piece_clip_by_clip_in_order(device):
             inside = events.t[first:last].cpu().numpy()
             assert (inside >= times_us[clip, interval]).all()
             assert (inside < times_us[clip, interval + 1]).all()
-
-
-def test_no_clip_hears_of_another(device):
-    clips, times_us = random_clips(np.uint8), random_times()
-    config = TexventConfig(noise_rate_hz=5.0)
-    together = on_gpu(torch, GpuSimulator(config, seed=[3, 11]), clips, times_us, device=device)
-    for clip, seed in enumerate((3, 11)):
-        alone = on_gpu(
-            torch, GpuSimulator(config, seed=[seed]), clips[clip:clip + 1],
-            times_us[clip:clip + 1], device=device,
-        )[0]  # fmt: skip
-        assert alone.equals(together[clip])
 
 
 def test_a_bad_intensity_is_refused_and_changes_nothing(device):

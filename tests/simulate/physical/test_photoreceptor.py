@@ -15,7 +15,7 @@ def follow_line(t: float, slope: float, tau: float) -> float:
 
 
 @pytest.mark.parametrize("count", [1, 7, 100])
-def test_the_low_pass_follows_a_line_by_its_closed_form(kernels, count):
+def test_the_low_pass_follows_a_line_by_its_closed_form(count):
     # So small a contrast that the corner frequency, (10 + 100) / 265 of the cutoff, stays.
     cutoff, threshold, balance = 5.0, 0.011, 10.0
     tau = 1 / (math.tau * cutoff * 110 / 265)
@@ -30,7 +30,7 @@ def test_the_low_pass_follows_a_line_by_its_closed_form(kernels, count):
     assert reached == pytest.approx([threshold, 2 * threshold, 3 * threshold], rel=0.02)
 
 
-def test_frames_an_hour_apart_are_simulated_at_once(kernels):
+def test_frames_an_hour_apart_are_simulated_at_once():
     hour_us = 3_600_000_000
     start = math.log(110)
     values = [intensity(start, 10.0), intensity(start + 0.65, 10.0)]
@@ -40,7 +40,7 @@ def test_frames_an_hour_apart_are_simulated_at_once(kernels):
 
 
 @pytest.mark.parametrize("fps", [240, 1000])
-def test_bandwidth_does_not_depend_on_the_frame_rate(kernels, fps):
+def test_bandwidth_does_not_depend_on_the_frame_rate(fps):
     knots = np.array([4.0, 4.4, 5.2, 4.9, 4.1, 4.1, 4.8, 3.9, 4.0])
 
     def sampled(rate):
@@ -55,7 +55,7 @@ def test_bandwidth_does_not_depend_on_the_frame_rate(kernels, fps):
 
 
 @pytest.mark.parametrize("limit_hz", [0.0, 20.0])
-def test_dark_pixels_are_slower_than_bright_ones(kernels, limit_hz):
+def test_dark_pixels_are_slower_than_bright_ones(limit_hz):
     def delay(level):
         start = math.log(10 + level)
         values = [level, intensity(start + 0.4), intensity(start + 0.4)]

@@ -17,28 +17,28 @@ from .physical_pixels import clean, intensity
 
 
 @pytest.mark.parametrize("sign", [1, -1])
-def test_a_ramp_fires_where_it_crosses_each_threshold(kernels, sign):
+def test_a_ramp_fires_where_it_crosses_each_threshold(sign):
     frames = frames_of([intensity(4), intensity(4 + sign * 1.05)], [0, 1_000_000])
     events = run(clean(), frames)
     assert events.t == pytest.approx([k * 0.2 / 1.05 * 1e6 for k in range(1, 6)], abs=2)
     assert (events.polarity == sign).all()
 
 
-def test_a_slow_ramp_is_summed_over_frames_and_keeps_the_rest(kernels):
+def test_a_slow_ramp_is_summed_over_frames_and_keeps_the_rest():
     # Ramp B' of docs/equations.md: 0.055 per frame.
     frames = frames_of([intensity(4 + 0.055 * i) for i in range(21)], range(0, 21_000, 1000))
     events = run(clean(), frames)
     assert events.t == pytest.approx([k * 0.2 / 0.055 * 1000 for k in range(1, 6)], abs=1)
 
 
-def test_a_step_fires_once_per_threshold(kernels):
+def test_a_step_fires_once_per_threshold():
     frames = frames_of([intensity(v) for v in (4, 4, 4.9, 4.9)], [0, 1000, 1001, 500_000])
     events = run(clean(), frames)
     assert events.t.tolist() == [1000] * 4
     assert events.p.all()
 
 
-def test_gamma_makes_video_linear(kernels):
+def test_gamma_makes_video_linear():
     levels = [255 * (linear / 255) ** (1 / 2.2) for linear in (50, 120)]
     coded = run(clean(gamma=2.2), frames_of(levels, [0, 100_000]))
     linear = run(clean(), frames_of([50, 120], [0, 100_000]))
@@ -46,7 +46,7 @@ def test_gamma_makes_video_linear(kernels):
     assert coded.t == pytest.approx(linear.t, abs=2)
 
 
-def test_on_and_off_have_their_own_thresholds(kernels):
+def test_on_and_off_have_their_own_thresholds():
     simulator = clean(contrast_threshold=0.2, on_off_ratio=1.44)
     assert simulator.config.contrast_threshold_on == pytest.approx(0.24)
     assert simulator.config.contrast_threshold_off == pytest.approx(0.2 / 1.2)
@@ -58,7 +58,7 @@ def test_on_and_off_have_their_own_thresholds(kernels):
     assert int((events.p == 0).sum()) == 5
 
 
-def test_refractory_time_adds_to_the_time_between_events(kernels):
+def test_refractory_time_adds_to_the_time_between_events():
     # 1 log unit per second, threshold 0.2: 200 ms to charge after each 50 ms in reset.
     frames = frames_of([intensity(4), intensity(5)], [0, 1_000_000])
     events = run(clean(refractory_period_us=50_000), frames)
@@ -66,7 +66,7 @@ def test_refractory_time_adds_to_the_time_between_events(kernels):
     assert events.t == pytest.approx([200_000, 450_000, 700_000, 950_000], abs=6)
 
 
-def test_a_change_in_the_refractory_period_is_lost(kernels):
+def test_a_change_in_the_refractory_period_is_lost():
     values, times = [intensity(v) for v in (4, 4.25, 4.25, 4.45, 4.45)], [0, 10, 20, 30, 10**6]
     kept = run(clean(), frames_of(values, times))
     lost = run(clean(refractory_period_us=1000), frames_of(values, times))
@@ -77,7 +77,7 @@ def test_a_change_in_the_refractory_period_is_lost(kernels):
 # Everything at once.
 
 
-def test_ideal_events_are_recovered_from_240_frames_per_second(kernels):
+def test_ideal_events_are_recovered_from_240_frames_per_second():
     """An ideal camera, written down independently: every threshold passed at 4800 fps."""
 
     def radiance(t: float) -> np.ndarray:

@@ -29,7 +29,7 @@ def path(tmp_path):
 
 
 @pytest.mark.parametrize(("end", "counts"), [(4.85, [8, 4, 2, 4]), (3.15, [4, 2, 4, 8])])
-def test_each_pixel_fires_at_its_own_threshold(kernels, path, end, counts):
+def test_each_pixel_fires_at_its_own_threshold(path, end, counts):
     """A change of 0.85 over thresholds of 0.1, 0.2, 0.4, and 0.2 where none was measured."""
     frames = [
         Frame(np.full((1, 4), intensity(level)), t_us) for level, t_us in ((4, 0), (end, 10**6))

@@ -25,7 +25,7 @@ def counts(rate_hz, seconds, **options):
 
 
 @pytest.mark.parametrize("mean", [0.05, 1.0, 30.0])
-def test_counts_are_poisson(kernels, mean):
+def test_counts_are_poisson(mean):
     found = counts(np.full((50, 60), mean), 1.0)
     assert found.mean() == pytest.approx(mean, abs=4 * math.sqrt(mean / 3000))
     # The variance of a sample variance of 3000 Poisson numbers.
@@ -33,14 +33,14 @@ def test_counts_are_poisson(kernels, mean):
     assert found.var() == pytest.approx(mean, abs=4 * spread)
 
 
-def test_each_pixel_has_its_own_rate(kernels):
+def test_each_pixel_has_its_own_rate():
     rate_hz = np.repeat([[0.0, 2.0, 20.0]], 2000, axis=0)
     found = counts(rate_hz, 0.5).mean(axis=0)
     assert found[0] == 0
     assert found[1:] == pytest.approx([1.0, 10.0], abs=0.3)
 
 
-def test_times_are_uniform_and_polarity_has_its_share(kernels):
+def test_times_are_uniform_and_polarity_has_its_share():
     on_fraction = np.repeat([[0.1, 0.9]], 3000, axis=0)
     rates = PoissonNoise(np.full((3000, 2), 3.0))
     events = rates.draw(interval(1.0), on_fraction=on_fraction)
@@ -54,7 +54,7 @@ def test_times_are_uniform_and_polarity_has_its_share(kernels):
     assert (events.label == NOISE).all()
 
 
-def test_a_share_of_the_rate_keeps_that_share_of_the_events(kernels):
+def test_a_share_of_the_rate_keeps_that_share_of_the_events():
     rates = PoissonNoise(np.full((2000, 3), 4.0))
     share = np.array([0.0, 0.25, 1.0])
     events = rates.draw(interval(1.0), rate_fraction=lambda pixel: share[pixel % 3])
@@ -63,7 +63,7 @@ def test_a_share_of_the_rate_keeps_that_share_of_the_events(kernels):
     assert found[1:] == pytest.approx([2000, 8000], abs=4 * math.sqrt(8000))
 
 
-def test_events_come_by_pixel_and_then_in_time(kernels):
+def test_events_come_by_pixel_and_then_in_time():
     events = PoissonNoise(np.full((7, 9), 6.0)).draw(interval(1.0))
     order = np.lexsort((events.t, events.pixel))
     assert (order == np.arange(len(order))).all()

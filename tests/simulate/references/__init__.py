@@ -16,10 +16,6 @@ Result = TypeVar("Result")
 
 KERNELS = {
     "texvent.simulate.kernels.radix_sort:sort_events": "sorting:sort_events",
-    "texvent.simulate.crossing.trigger_levels:_find_outside_levels": (
-        "trigger_levels:find_outside_levels"
-    ),
-    "texvent.simulate.crossing.trigger_levels:_set_levels": "trigger_levels:set_levels",
     "texvent.simulate.random.poisson_noise:draw_arrivals": "poisson_arrivals:draw_arrivals",
     "texvent.simulate.texvent.noise:place_noise": "noise_blocks:place_noise",
     "texvent.simulate.texvent.pixels:SparsePixels": "texvent:TexventPixels",
@@ -31,7 +27,6 @@ KERNELS = {
         "voltmeter:find_first_passages"
     ),
     "texvent.simulate.physical.pixels:advance_pixels": "physical:advance_pixels",
-    "texvent.simulate.v2ce.simulator:sample_events": "ldati:sample_events",
 }
 """Kernel → its definition, in a module of this folder."""
 

@@ -1,14 +1,14 @@
-"""The definition of threshold crossings on a straight line, in NumPy float64."""
+"""The definition of threshold crossings on a straight line, pixel by pixel."""
 
 from __future__ import annotations
 
+import math
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.crossing.ramp import RefractoryPeriod
-from texvent.simulate.packets import check_event_number
 
 Float64Array = NDArray[np.float64]
 
@@ -65,35 +65,20 @@ def cross_ramp(
         section 3.1: linear interpolation of log intensity between samples.
     """
     start_us, stop_us = span_us
-    threshold = np.where(ramp.stop > 0, ramp.threshold_on, ramp.threshold_off)
-    check_event_number(float(np.abs(ramp.stop / threshold).sum()))
-    steps = np.zeros(ramp.start.shape, np.int64)
-    pixels, times, polarities = [], [], []
-    for sign, threshold in ((1, ramp.threshold_on), (-1, ramp.threshold_off)):
-        first, last = sign * ramp.start, sign * ramp.stop
-        own = np.flatnonzero(last >= threshold)
-        k = 1
-        while len(own):
-            level = k * threshold[own]
-            begin = first[own]
-            fraction = np.zeros_like(level)
-            np.divide(level - begin, last[own] - begin, out=fraction, where=begin < level)
-            offset = np.floor(fraction * (stop_us - start_us)).astype(np.int64)
-            t = np.minimum(start_us + offset, stop_us - 1)
-            fires = np.ones(len(own), np.bool_)
-            if refractory.period_us > 0:
-                fires = t - fired_us[ramp.pixel[own]] >= refractory.period_us
-                fired_us[ramp.pixel[own[fires]]] = t[fires]
-            fired = ramp.pixel[own[fires]]
-            steps[own] += sign * (1 if refractory.is_level_lost else fires)
-            pixels.append(fired)
-            times.append(t[fires])
-            polarities.append(np.full(len(fired), sign > 0, np.uint8))
+    steps, events = np.zeros(ramp.start.shape, np.int64), []
+    for n, pixel in enumerate(ramp.pixel):
+        sign = 1 if ramp.stop[n] > 0 else -1
+        threshold = (ramp.threshold_on if sign > 0 else ramp.threshold_off)[n]
+        first, last, k = sign * ramp.start[n], sign * ramp.stop[n], 1
+        while last >= k * threshold:
+            fraction = (k * threshold - first) / (last - first) if first < k * threshold else 0.0
+            t = min(start_us + math.floor(fraction * (stop_us - start_us)), stop_us - 1)
+            rests = refractory.period_us > 0 and t - fired_us[pixel] < refractory.period_us
+            if not rests:
+                events.append((pixel, t, int(sign > 0)))
+            if not rests and refractory.period_us > 0:
+                fired_us[pixel] = t
+            steps[n] += sign if refractory.is_level_lost or not rests else 0
             k += 1
-            own = own[last[own] >= k * threshold[own]]
-    pixel = np.concatenate([np.empty(0, np.int64), *pixels])
-    # Stable, so a pixel's events keep their order k = 1, 2, ...
-    order = np.argsort(pixel, kind="stable")
-    t = np.concatenate([np.empty(0, np.int64), *times])
-    p = np.concatenate([np.empty(0, np.uint8), *polarities])
-    return RampCrossings(pixel[order], t[order], p[order], steps)
+    pixel, t, p = np.array(events, np.int64).reshape(-1, 3).T
+    return RampCrossings(pixel, t, p.astype(np.uint8), steps)

@@ -1,17 +1,16 @@
-"""The definition of first-passage sampling, in NumPy float64: all pixels, one event a round."""
+"""The definition of first-passage sampling: one pixel and one event after the other."""
 
 from __future__ import annotations
 
 import math
-from typing import NamedTuple, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.events import NOISE, SIGNAL
-from texvent.simulate.kernels.elementary import cosine_of_turns, natural_log
+from texvent.runtime.jit import jit
+from texvent.simulate.kernels.elementary_cpu import cosine_of_turns, natural_log
 from texvent.simulate.packets import FrameInterval, UnsortedEvents
-from texvent.simulate.random.draws import HALF_UNIT, draw_uniforms, draw_words
+from texvent.simulate.random.draws_cpu import draw_halves_at, draw_uniform_at, place_of
 from texvent.simulate.voltmeter.first_passage import (
     CERTAIN,
     DRAWS_PER_PASSAGE,
@@ -21,40 +20,9 @@ from texvent.simulate.voltmeter.first_passage import (
 from texvent.simulate.voltmeter.voltage import (
     LONGEST_US,
     FirstPassageInput,
-    Float64Array,
     Voltage,
     drift_and_diffusion,
 )
-
-_Events: TypeAlias = tuple[NDArray[np.int64], Float64Array, NDArray[np.uint8], NDArray[np.uint8]]
-"""Pixel, µs after the first frame, p and label, [n] each."""
-
-
-class _BrownianMotion(NamedTuple):
-    """Motion of the voltages in the interval, [n] each."""
-
-    signal_drift: Float64Array
-    """Drift that the change of luma causes, 1/µs."""
-    drift: Float64Array
-    """Whole drift μ, leakage included, 1/µs."""
-    sigma: Float64Array
-    """Diffusion σ, 1/√µs."""
-    displacement: Float64Array
-    """Since the last event, thresholds."""
-    since_us: Float64Array
-    """Time of that event, or the start, µs after the first frame."""
-    signal_displacement: Float64Array
-    """Part of the displacement that the signal caused until then."""
-
-
-class _Draw(NamedTuple):
-    """Which random draws a round of first passages uses."""
-
-    key: np.uint64
-    width: int
-    """Of the frame, pixels."""
-    order: int
-    """Number of the first draw."""
 
 
 def find_first_passages(
@@ -66,117 +34,103 @@ def find_first_passages(
     light.before[:] = light.now
     must_draw = voltage.has_changed | (before != now)
     voltage.has_changed[:] = before != now
-    motion = _BrownianMotion(
-        *drift_and_diffusion(before, now, float(interval.duration_us), light.constants),
-        displacement=_displacement_at(voltage, start),
-        since_us=np.full(now.shape, start),
-        signal_displacement=voltage.signal_displacement.astype(np.float64),
-    )
-    crosses = ~must_draw & (voltage.next_crossing_us < stop)
-    pixel, order = np.flatnonzero(must_draw | crosses), FIRST_DRAW
-    found = [_fire(voltage, motion, np.flatnonzero(crosses))]
-    while pixel.size:
-        _draw_passages(voltage, motion, pixel, _Draw(interval.key, light.now.shape[1], order))
-        found.append(_fire(voltage, motion, pixel[voltage.next_crossing_us[pixel] < stop]))
-        pixel, order = found[-1][0], order + DRAWS_PER_PASSAGE
-    elapsed = stop - motion.since_us
-    voltage.signal_displacement[:] = motion.signal_displacement + motion.signal_drift * elapsed
-    pixel, after, p, label = (
-        np.concatenate([events[column] for events in found]) for column in range(4)
-    )
-    # Stable, so a pixel's events keep their order.
-    by_pixel = np.argsort(pixel, kind="stable")
-    t = interval.start_us + np.floor(after - start).astype(np.int64)
-    return UnsortedEvents(pixel[by_pixel], t[by_pixel], p[by_pixel], label[by_pixel])
+    motion = drift_and_diffusion(before, now, float(interval.duration_us), light.constants)
+    found: list[tuple[int, ...]] = []
+    for i in np.flatnonzero(must_draw | (voltage.next_crossing_us < stop)).tolist():
+        passage, signal, events = _pass_thresholds(
+            (float(motion[0][i]), float(motion[1][i]), float(motion[2][i])),
+            (voltage.next_crossing_us[i], voltage.rate[i], float(voltage.signal_displacement[i])),
+            bool(must_draw[i]),
+            (start, stop),
+            (interval.key, np.uint64(place_of(*divmod(i, light.now.shape[1])))),
+        )
+        voltage.next_crossing_us[i], voltage.rate[i] = passage
+        voltage.signal_displacement[i] = signal
+        found += [(i, interval.start_us + after, p, label) for after, p, label in events]
+    pixel, t, p, label = np.array(found, np.int64).reshape(-1, 4).T
+    return UnsortedEvents(pixel, t, p.astype(np.uint8), label.astype(np.uint8))
 
 
-def _displacement_at(voltage: Voltage, time: float) -> Float64Array:
-    """Displacements at a time, between the thresholds, whatever is rounded."""
-    left = voltage.rate * (voltage.next_crossing_us - time)
-    displacement = np.copysign(1.0, voltage.rate) - left
-    return np.clip(displacement, -MOST_DISPLACEMENT, MOST_DISPLACEMENT)
+@jit(error_model="numpy")
+def _pass_thresholds(
+    motion: tuple[float, float, float],
+    state: tuple[float, float, float],
+    must_draw: bool,
+    span: tuple[float, float],
+    source: tuple[np.uint64, np.uint64],
+) -> tuple[tuple[float, float], float, list[tuple[int, int, int]]]:
+    """A pixel's next passage, its displacement by the signal; and events: µs, p and label."""
+    (signal_drift, drift, sigma), (next_us, rate, by_signal), (start, stop) = motion, state, span
+    # Between the thresholds, whatever is rounded.
+    displacement = math.copysign(1.0, rate) - rate * (next_us - start)
+    displacement = min(max(displacement, -MOST_DISPLACEMENT), MOST_DISPLACEMENT)
+    since, order, events = start, FIRST_DRAW, [(0, 0, 0)][:0]
+    while must_draw or next_us < stop:
+        if not must_draw:
+            sign = 1.0 if rate > 0 else -1.0
+            by_signal += signal_drift * (next_us - since)
+            label = NOISE if sign * by_signal < 0.5 else SIGNAL
+            events.append((math.floor(next_us - start), int(rate > 0), label))
+            displacement, by_signal, since = 0.0, 0.0, next_us
+        wait, rate = _draw_passage(drift, sigma, displacement, source, order)
+        next_us, order, must_draw = since + wait, order + DRAWS_PER_PASSAGE, False
+    return (next_us, rate), by_signal + signal_drift * (stop - since), events
 
 
-def _fire(voltage: Voltage, motion: _BrownianMotion, pixel: NDArray[np.int64]) -> _Events:
-    """The events of pixels that cross a threshold; resets their displacement."""
-    after, sign = voltage.next_crossing_us[pixel], np.sign(voltage.rate[pixel])
-    elapsed = after - motion.since_us[pixel]
-    by_signal = motion.signal_displacement[pixel] + motion.signal_drift[pixel] * elapsed
-    label = np.where(sign * by_signal < 0.5, NOISE, SIGNAL).astype(np.uint8)
-    motion.displacement[pixel] = motion.signal_displacement[pixel] = 0.0
-    motion.since_us[pixel] = after
-    return pixel, after, (sign > 0).astype(np.uint8), label
-
-
-def _draw_passages(
-    voltage: Voltage, motion: _BrownianMotion, pixel: NDArray[np.int64], draw: _Draw
-) -> None:
-    """Draw the next first passages of some pixels."""
-    (key, width, order) = draw
-    y, x = np.divmod(pixel, width)
-    drift, sigma = motion.drift[pixel], motion.sigma[pixel]
-    speed, direction = np.abs(drift), np.where(drift >= 0, 1.0, -1.0)
-    displacement = direction * motion.displacement[pixel]
-    along, against = 1.0 - displacement, 1.0 + displacement
+@jit(error_model="numpy")
+def _draw_passage(
+    drift: float,
+    sigma: float,
+    displacement: float,
+    source: tuple[np.uint64, np.uint64],
+    order: int,
+) -> tuple[float, float]:
+    """Time until the next passage, µs, and the rate of the displacement until then."""
+    (key, place), speed, direction = source, abs(drift), 1.0 if drift >= 0 else -1.0
+    along, against = 1.0 - direction * displacement, 1.0 + direction * displacement
     probability = probability_along_drift(speed, sigma, along, against)
-    is_along = draw_uniforms(key, y, x, order) < probability
-    distance = np.where(is_along, along, against)
-    words = draw_words(key, y, x, order + 2)
-    turns = (words >> np.uint64(32)).astype(np.float64) * HALF_UNIT
-    chance = (words & np.uint64(0xFFFF_FFFF)).astype(np.float64) * HALF_UNIT
+    is_along = draw_uniform_at(key, place, order) < probability
+    distance = along if is_along else against
+    turns, chance = draw_halves_at(key, place, order + 2)
     cosine = cosine_of_turns(turns)
-    square = -2.0 * natural_log(1.0 - draw_uniforms(key, y, x, order + 1)) * (cosine * cosine)
-    wait = np.minimum(first_passage_time(distance, speed, sigma, square, chance), LONGEST_US)
-    voltage.next_crossing_us[pixel] = motion.since_us[pixel] + wait
-    voltage.rate[pixel] = np.where(is_along, direction, -direction) * (distance / wait)
+    radius = -2.0 * natural_log(1.0 - draw_uniform_at(key, place, order + 1))
+    wait = first_passage_time(distance, speed, sigma, radius * (cosine * cosine), chance)
+    wait = min(wait, LONGEST_US)
+    return wait, (direction if is_along else -direction) * (distance / wait)
 
 
-def probability_along_drift(
-    speed: Float64Array, sigma: Float64Array, along: Float64Array, against: Float64Array
-) -> Float64Array:
+@jit(error_model="numpy")
+def probability_along_drift(speed: float, sigma: float, along: float, against: float) -> float:
     """Probability that the threshold in the direction of the drift is reached first.
 
     `(1 − e^{−s b}) / (1 − e^{−s (a + b)})` with s = 2 μ / σ²; b / (a + b) without drift.
 
     Args:
-        speed: |μ|, [n].
-        sigma: σ, [n].
-        along: distance a to the threshold ahead, [n], above 0.
-        against: distance b to the threshold behind, [n], above 0.
+        speed: |μ|.
+        sigma: σ.
+        along: distance a to the threshold ahead, above 0.
+        against: distance b to the threshold behind, above 0.
     """
-    # Extremes overflow to infinity or vanish, and the formula still has its limit.
-    with np.errstate(all="ignore"):
-        chance = np.ones(speed.shape)
-        undecided = ~(2.0 * speed * against > CERTAIN * (sigma * sigma))
-        speed, sigma, along, against = (
-            column[undecided] for column in (speed, sigma, along, against)
-        )
-        # Without drift it is 0, also where there is no diffusion either.
-        steer = np.where(speed == 0, 0.0, 2.0 * speed / (sigma * sigma))
-        whole = _expm1(-steer * (along + against))
-        driftless = against / (along + against)
-        chance[undecided] = np.where(whole == 0, driftless, _expm1(-steer * against) / whole)
-        return chance
+    if 2.0 * speed * against > CERTAIN * (sigma * sigma):
+        return 1.0
+    # Without drift it is 0, also where there is no diffusion either.
+    steer = 0.0 if speed == 0 else 2.0 * speed / (sigma * sigma)
+    whole = math.expm1(-steer * (along + against))
+    return against / (along + against) if whole == 0 else math.expm1(-steer * against) / whole
 
 
+@jit(error_model="numpy")
 def first_passage_time(
-    distance: Float64Array,
-    speed: Float64Array,
-    sigma: Float64Array,
-    square: Float64Array,
-    chance: Float64Array,
-) -> Float64Array:
-    """Time of the first passage: inverse Gaussian, or Lévy without drift.
+    distance: float, speed: float, sigma: float, square: float, chance: float
+) -> float:
+    """Time of the first passage, µs: inverse Gaussian, or Lévy without drift.
 
     Args:
-        distance: d to the threshold, [n], above 0.
-        speed: |μ|, [n], 1/µs.
-        sigma: σ, [n], 1/√µs.
-        square: z², of standard normal numbers, [n].
-        chance: uniform numbers in [0, 1), [n].
-
-    Returns:
-        [n] µs; infinite where nothing moves.
+        distance: d to the threshold, above 0.
+        speed: |μ|, 1/µs.
+        sigma: σ, 1/√µs.
+        square: z², of a standard normal number.
+        chance: uniform number in [0, 1).
 
     Source: Michael, Schucany and Haas, "Generating random variates using transformations with
         multiple roots", The American Statistician 1976. The roots are 2 d² / w and w / (2 μ²) with
@@ -184,13 +138,7 @@ def first_passage_time(
         probability w / (w + 2 μ d). Nothing cancels, and nothing divides by the drift alone.
     """
     spread, pull = sigma * sigma * square, 2.0 * speed * distance
-    with np.errstate(all="ignore"):
-        whole = pull + spread + np.sqrt(spread * (spread + 2.0 * pull))
-        is_short = chance * (whole + pull) <= whole
-        above = np.where(is_short, 2.0 * distance * distance, whole)
-        return np.asarray(above / np.where(is_short, whole, 2.0 * speed * speed))
-
-
-def _expm1(x: Float64Array) -> Float64Array:
-    """e^x − 1 of the C library, as the compiled twin calls it: NumPy's may round otherwise."""
-    return np.asarray(np.frompyfunc(math.expm1, 1, 1)(x), np.float64)
+    whole = pull + spread + math.sqrt(spread * (spread + 2.0 * pull))
+    if chance * (whole + pull) <= whole:
+        return 2.0 * distance * distance / whole
+    return whole / (2.0 * speed * speed)

@@ -45,16 +45,7 @@ def simulate(frames, *, seed=0, **options) -> EventStream:
     return EventStream.concat([simulator.step(frame) for frame in frames])
 
 
-@pytest.mark.parametrize("inner_frames", [0, 1, 11])
-def test_eq6_expected_noise_does_not_depend_on_the_intermediate_frames(inner_frames, kernels):
-    """λ1 = 0.1 /s over 346×260 resting dark pixels and 1 s: mean 8996, sd 95."""
-    times = np.linspace(0, SECOND, inner_frames + 2).round().astype(int).tolist()
-    events = simulate(resting((260, 346), times), seed=inner_frames)
-    assert abs(len(events) - 8996) < 4 * 95
-
-
-@pytest.mark.parametrize("kind", ["adaptive", "random", "gaussian"])
-@pytest.mark.parametrize("fps", [24, 1000])
+@pytest.mark.parametrize(("kind", "fps"), [("random", 24), ("gaussian", 24), ("gaussian", 1000)])
 def test_noise_rate_is_the_stated_one_at_any_frame_rate(kind, fps):
     """2 Hz · 1.5 over 32×32 pixels and 1 s: mean 3072."""
     times = [frame_time_us(k, fps) for k in range(fps + 1)]
@@ -73,7 +64,7 @@ def test_gaussian_noise_leaves_no_trace_in_the_reference(reset, cache):
     assert abs(len(events) - 3072) < 4 * np.sqrt(3072)
 
 
-def test_adaptive_noise_is_only_in_dark_resting_pixels(kernels):
+def test_adaptive_noise_is_only_in_dark_resting_pixels():
     first = np.full((30, 30), 20.0)
     first[:, 20:] = 79.0
     first[10:20] = 80.0
@@ -92,7 +83,7 @@ def test_adaptive_noise_is_only_in_dark_resting_pixels(kernels):
     assert as_set(clean) <= as_set(noisy)
 
 
-def test_random_noise_ignores_intensity_and_firing(kernels):
+def test_random_noise_ignores_intensity_and_firing():
     frames = [Frame(np.full((30, 30), 200.0), 0), Frame(np.full((30, 30), 10.0), SECOND)]
     events = simulate(frames, noise="random", noise_rate_hz=10.0)
     assert abs(len(events) - 900 - 9000) < 4 * np.sqrt(9000)
@@ -103,7 +94,7 @@ def as_set(events):
 
 
 @pytest.mark.parametrize("kind", ["adaptive", "random"])
-def test_noise_never_touches_the_reference(kind, kernels):
+def test_noise_never_touches_the_reference(kind):
     """Every event of the clean run is there in the noisy one."""
     pictures = np.random.default_rng(2).uniform(0, 120, (6, 12, 12))
     frames = [Frame(picture, 1000 * k, k % 3 == 0) for k, picture in enumerate(pictures)]
@@ -120,19 +111,6 @@ def test_noise_is_uniform_in_time_and_half_on():
     expected = len(events) / 20
     assert float(((counts - expected) ** 2 / expected).sum()) < 19 + 5 * np.sqrt(2 * 19)
     assert events.p.mean() == pytest.approx(0.5, abs=4 * 0.5 / np.sqrt(len(events)))
-
-
-@pytest.mark.parametrize("off", [{"noise": "none"}, {"noise_rate_hz": 0.0}, {"noise_scale": 0.0}])
-def test_noise_can_be_switched_off(off, kernels):
-    assert len(simulate(resting((50, 50), [0, SECOND]), **off)) == 0
-
-
-def test_gaussian_noise_of_rate_zero_changes_nothing():
-    pictures = np.random.default_rng(3).uniform(0, 255, (4, 8, 8))
-    frames = [Frame(picture, 1000 * k) for k, picture in enumerate(pictures)]
-    silent = simulate(frames, noise="gaussian", noise_rate_hz=0.0)
-    assert silent.equals(simulate(frames, noise="none"))
-    assert len(silent) > 100
 
 
 def test_mask_is_dark_and_at_rest():
@@ -171,7 +149,7 @@ def test_poisson_table_has_the_mean_and_variance_of_its_distribution(mean):
 
 
 @pytest.mark.parametrize("mean", [0.01, 0.7, 3.0])
-def test_noise_counts_are_poisson_numbers_of_every_pixel(mean, kernels):
+def test_noise_counts_are_poisson_numbers_of_every_pixel(mean):
     """Although they are drawn per block of pixels; the last block is a partial one."""
     pixels = 40_000
     span = FrameInterval(1000, 2000, frame_key(0, 0))
@@ -196,7 +174,7 @@ def test_noise_is_independent_between_places_times_and_polarities():
     assert np.abs(correlation - np.eye(4)).max() < 5 / np.sqrt(len(noise.p))
 
 
-def test_blocks_draw_the_same_noise_whatever_the_size_of_the_frame(kernels):
+def test_blocks_draw_the_same_noise_whatever_the_size_of_the_frame():
     """So bands of a frame can be simulated apart."""
     span = FrameInterval(0, 1000, frame_key(1, 1))
     small, large = (anywhere(pixels, span, 0.1, on_fraction=0.3) for pixels in (5000, 20_000))

@@ -14,7 +14,6 @@ from tests.simulate.references import definitions, in_both_forms
 
 from texvent.errors import InputError
 from texvent.events import EventStream
-from texvent.simulate.texvent.pixel_memory import brightness_table, least_difference
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
 from texvent.video import HIGHEST_INTENSITY, Frame
 
@@ -126,17 +125,6 @@ def test_the_scan_misses_no_float_beside_a_trigger_level(intensity, threshold, b
     assert_forms_agree([before, after], contrast_threshold=threshold, balance=balance, noise="none")
 
 
-@pytest.mark.parametrize("balance", [1e-6, 30.0, 1e6])
-@pytest.mark.parametrize("threshold", [1e-4, 0.2, 1.0, 10.0])
-def test_no_bytes_closer_than_the_least_difference_fire(threshold, balance):
-    table = brightness_table("uint8", balance)
-    least = int(least_difference(threshold, balance))
-    size = np.abs(table[:, None] - table[None, :])
-    distance = np.abs(np.subtract.outer(np.arange(len(table)), np.arange(len(table))))
-    assert not np.any((size >= threshold) & (distance < least))
-    assert np.any((size >= threshold) & (distance == least)) or least == 255
-
-
 @pytest.mark.parametrize(
     ("bad", "place"), [(np.nan, 0), (np.inf, 63), (-1.0, 64), (np.nan, 4100), (-1.0, 4222)]
 )
@@ -179,18 +167,6 @@ def test_frames_need_not_be_contiguous_or_writable():
     assert simulate(cut).equals(defined(whole))
 
 
-def test_packets_stay_as_they_were_when_the_next_frame_comes():
-    rng = np.random.default_rng(4)
-    frames = [frame(rng.uniform(0, 255, (40, 40)), np.uint8, 10 * k) for k in range(3)]
-    simulator = TexventSimulator()
-    simulator.step(frames[0])
-    packet = simulator.step(frames[1])
-    kept = copy.deepcopy(packet.columns())
-    simulator.step(frames[2])
-    assert all(np.array_equal(kept[name], column) for name, column in packet.columns().items())
-    assert not any(column.flags.writeable for column in packet.columns().values())
-
-
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
 def test_no_array_as_large_as_a_frame_is_made_after_the_first(dtype):
     """Where little fires and references are intensities."""
@@ -209,23 +185,6 @@ def test_no_array_as_large_as_a_frame_is_made_after_the_first(dtype):
     finally:
         tracemalloc.stop()
     assert peak < 100_000
-
-
-@CHECKED
-@given(clips(), switches, noises, seeds)
-def test_convention_packets_are_half_open_sorted_and_inside_the_sensor(
-    frames, options, noise, seed
-):
-    simulator = TexventSimulator(TexventConfig(noise=noise, **NOISY, **options), seed=seed)
-    assert len(simulator.step(frames[0])) == 0
-    for earlier, later in itertools.pairwise(frames):
-        packet = simulator.step(later)
-        assert packet.size == later.size
-        rows = list(zip(packet.t, packet.y, packet.x, packet.p, strict=True))
-        assert rows == sorted(rows)
-        if len(packet):
-            first, stop = packet.time_range
-            assert earlier.t_us <= first < stop <= later.t_us
 
 
 @CHECKED
@@ -259,22 +218,6 @@ def test_local_cache_needs_no_state_at_a_source_frame(frames, options, noise, se
     options = {"seed": seed, "noise": noise, **NOISY, **options}
     parts = [simulate(frames[: cut + 1], **options), simulate(frames[cut:], **options)]
     assert EventStream.concat(parts).equals(simulate(frames, **options))
-
-
-@CHECKED
-@given(
-    clips(),
-    st.sampled_from(WITHOUT_DRAWS),
-    st.integers(-(10**15), 10**15),
-)
-def test_shifting_a_clip_in_time_shifts_its_events(frames, options, shift_us):
-    """Without noise: noise is keyed by the time itself, so that clips can be cut anywhere."""
-    moved = [Frame(frame.pixels, frame.t_us + shift_us, frame.is_source) for frame in frames]
-    events = simulate(frames, noise="none", **options)
-    shifted = simulate(moved, noise="none", **options)
-    assert np.array_equal(shifted.t, events.t + shift_us)
-    for column in "xyp":
-        assert np.array_equal(getattr(shifted, column), getattr(events, column))
 
 
 @CHECKED

@@ -25,19 +25,19 @@ def test_brightness_is_linear_below_20_and_logarithmic_above():
     assert lin_log(levels) == pytest.approx(expected, rel=1e-15)
 
 
-def test_a_ramp_of_the_logarithm_fires_at_each_threshold(kernels):
+def test_a_ramp_of_the_logarithm_fires_at_each_threshold():
     frames = frames_of([40, 40 * math.exp(1.05)], [0, 1_000_000])
     events = run(V2eSimulator(CLEAN), frames)
     assert events.t == pytest.approx([k * 0.2 / 1.05 * 1e6 for k in range(1, 6)], abs=1)
     assert events.p.all()
 
 
-def test_dark_pixels_fire_in_proportion_to_intensity(kernels):
+def test_dark_pixels_fire_in_proportion_to_intensity():
     events = run(V2eSimulator(CLEAN), frames_of([0, 20], [0, 1_000_000]))
     assert events.t == pytest.approx([k * 0.2 / math.log(20) * 1e6 for k in range(1, 15)], abs=1)
 
 
-def test_a_sinusoid_fires_as_often_up_as_down(kernels):
+def test_a_sinusoid_fires_as_often_up_as_down():
     # The amplitude 0.51 spans the levels -0.4..0.4: after the first rise, 4 OFF and 4 ON a period.
     frames = curve(lambda s: 80 * math.exp(0.51 * math.sin(math.tau * s)), fps=500, seconds=3.2)
     events = run(V2eSimulator(CLEAN), frames)
@@ -47,7 +47,7 @@ def test_a_sinusoid_fires_as_often_up_as_down(kernels):
     assert events.t[:2] == pytest.approx(first, abs=8)
 
 
-def test_the_photoreceptor_follows_a_step_by_its_bandwidth(kernels):
+def test_the_photoreceptor_follows_a_step_by_its_bandwidth():
     # Weight per frame: (80 + 20) / 275 * 2 pi * f * 1 ms = 0.1, so 1 - 0.9^n of the step is seen.
     cutoff_hz = 0.1 / (100 / 275 * math.tau * 1e-3)
     config = with_only(cutoff_hz=cutoff_hz, contrast_threshold_on=0.05)
@@ -59,14 +59,14 @@ def test_the_photoreceptor_follows_a_step_by_its_bandwidth(kernels):
         assert total == math.floor(math.log(2) * (1 - 0.9**n) / 0.05)
 
 
-def test_a_bandwidth_above_the_frame_rate_follows_at_once(kernels):
+def test_a_bandwidth_above_the_frame_rate_follows_at_once():
     frames = frames_of([40, 80, 80], [0, 41_667, 83_333])
     fast = run(V2eSimulator(with_only(cutoff_hz=300.0)), frames)
     assert fast.equals(run(V2eSimulator(CLEAN), frames))
 
 
 @pytest.mark.parametrize("fps", [24, 1000])
-def test_leak_fires_on_events_at_its_rate_at_any_frame_rate(kernels, fps):
+def test_leak_fires_on_events_at_its_rate_at_any_frame_rate(fps):
     config = with_only(leak_rate_hz=10.0, leak_rate_decades=0.0, threshold_sigma=0.02)
     frames = static(100.0, fps=fps, seconds=1.05)
     events = run(V2eSimulator(config), frames)
@@ -75,8 +75,7 @@ def test_leak_fires_on_events_at_its_rate_at_any_frame_rate(kernels, fps):
     assert (events.label == NOISE).all()
 
 
-@pytest.mark.parametrize("fps", [24, 1000])
-@pytest.mark.parametrize("intensity", [0.0, 255.0])
+@pytest.mark.parametrize(("fps", "intensity"), [(24, 0.0), (24, 255.0), (500, 0.0)])
 def test_shot_noise_has_its_rate_at_any_frame_rate(fps, intensity):
     config = with_only(shot_noise_rate_hz=5.0)
     frames = static(intensity, fps=fps, seconds=0.5, shape=(60, 80))
@@ -102,7 +101,7 @@ def test_pixels_with_a_low_threshold_have_more_shot_noise():
     assert np.corrcoef(counts.reshape(-1), 1 / thresholds.reshape(-1))[0, 1] > 0.2
 
 
-def test_shot_noise_resets_its_pixel_to_the_present_brightness(kernels):
+def test_shot_noise_resets_its_pixel_to_the_present_brightness():
     config = with_only(shot_noise_rate_hz=1000.0)
     simulator = V2eSimulator(config)
     # 0.15 up, then noise (certain in 1 s), then 0.15 up: without the reset, 0.3 would fire.
@@ -111,7 +110,7 @@ def test_shot_noise_resets_its_pixel_to_the_present_brightness(kernels):
     assert (events.label == NOISE).all()
 
 
-def test_noise_brings_the_next_leak_event_nearer(kernels):
+def test_noise_brings_the_next_leak_event_nearer():
     leak = {"leak_rate_hz": 1.0, "leak_rate_decades": 0.0}
     config = with_only(shot_noise_rate_hz=0.5, contrast_threshold_off=2.0, **leak)
     # 0.9 down, so that the leak fires after 5.5 s; noise within 1.1..1.2 s forgets that.
@@ -121,7 +120,7 @@ def test_noise_brings_the_next_leak_event_nearer(kernels):
     assert events.t[1:] == pytest.approx([2_200_000], abs=1)
 
 
-def test_leak_before_a_noise_event_makes_no_light_noise(kernels):
+def test_leak_before_a_noise_event_makes_no_light_noise():
     leak = {"leak_rate_hz": 0.3, "leak_rate_decades": 0.0}
     simulator = V2eSimulator(with_only(shot_noise_rate_hz=0.5, **leak), seed=7)
     # Noise within 1.1..1.2 s; from then on 0.06 of leak and 0.2 of light per second.
@@ -131,19 +130,13 @@ def test_leak_before_a_noise_event_makes_no_light_noise(kernels):
     assert events.t[1] == pytest.approx(1_200_000 + 0.2 / 0.26 * 1e6, abs=1)
 
 
-def test_a_change_kept_back_by_the_refractory_period_fires_later(kernels):
+def test_a_change_kept_back_by_the_refractory_period_fires_later():
     config = with_only(refractory_period_us=25_000)
     values = [40, 40 * math.exp(2.01), 40 * math.exp(2.01), 40 * math.exp(2.01)]
     frames = frames_of(values, [0, 100_500, 140_500, 180_500])
     events = run(V2eSimulator(config), frames)
     # Crossings every 10 ms; what the period kept back is due when an interval starts after it.
     assert events.t == pytest.approx([10_000, 40_000, 70_000, 100_000, 140_500], abs=1)
-
-
-def test_moving_light_is_labelled_signal(kernels):
-    config = with_only(leak_rate_hz=0.1)
-    frames = frames_of([40, 80], [0, 41_667])
-    assert (run(V2eSimulator(config), frames).label == SIGNAL).all()
 
 
 def test_eq4_counts_as_steeply_as_the_model_at_black():

@@ -72,7 +72,7 @@ def test_backends_agree_and_passages_are_sound(gain, drift, sigma, residual, lig
         assert np.isfinite(signal).all()
 
 
-def test_where_nothing_moves_nothing_fires_and_the_residual_stays(kernels):
+def test_where_nothing_moves_nothing_fires_and_the_residual_stays():
     residual = np.linspace(-0.9, 0.9, 12).reshape(SHAPE)
     light = np.full(SHAPE, 50.0)
     sensor = Sensor(constants(gain=1.0), light, residual)
@@ -88,7 +88,7 @@ def test_where_nothing_moves_nothing_fires_and_the_residual_stays(kernels):
     assert np.abs(way).max() <= MOST_DISPLACEMENT
 
 
-def test_events_are_noise_where_the_signal_drove_less_than_half(kernels):
+def test_events_are_noise_where_the_signal_drove_less_than_half():
     # Of 1.5 thresholds per interval the change of light makes 0.4 and 0.6 parts.
     for share, label in ((0.4, NOISE), (0.6, SIGNAL)):
         change = share * 1.5 * 70 / (5.0 - share * 1.5 / 2)
@@ -96,7 +96,7 @@ def test_events_are_noise_where_the_signal_drove_less_than_half(kernels):
         assert sensor.see([[50.0 + change]]).label.tolist() == [label]
 
 
-def test_the_signals_share_is_counted_over_intervals(kernels):
+def test_the_signals_share_is_counted_over_intervals():
     # 0.6 thresholds of signal, then 0.6 of leak: the signal made more than half of the way.
     change = 0.6 * 70 / (5.0 - 0.3)
     sensor = Sensor(constants(gain=5.0, drift=0.0), [[50.0]], [[0.0]])
@@ -105,7 +105,7 @@ def test_the_signals_share_is_counted_over_intervals(kernels):
     assert sensor.see([[50.0 + change]]).label.tolist() == [SIGNAL]
 
 
-def test_a_passage_holds_until_the_light_moves(kernels):
+def test_a_passage_holds_until_the_light_moves():
     sensor = Sensor(constants(gain=5.0, drift=0.4), [[50.0, 50.0]], [[0.0, 0.0]])
     assert len(sensor.see([[50.0, 50.0]]).t) == 0
     assert sensor.voltage.next_crossing_us == pytest.approx([2500.0, 2500.0])
@@ -116,7 +116,7 @@ def test_a_passage_holds_until_the_light_moves(kernels):
     assert (fired.x.tolist(), fired.t.tolist()) == ([0], [7000 + 2500])
 
 
-def test_many_events_of_few_pixels_find_room(kernels):
+def test_many_events_of_few_pixels_find_room():
     sensor = Sensor(constants(drift=5000.0), [[50.0, 50.0]], [[0.0, 0.0]])
     fired = sensor.see([[50.0, 50.0]])
     # 5000 each; the last falls on the end or just before it, as the sum of gaps rounds.

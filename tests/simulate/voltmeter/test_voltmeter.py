@@ -25,10 +25,6 @@ def with_only(*, initial_phase="zero", **constants) -> VoltmeterConfig:
     return VoltmeterConfig(constants=text, initial_phase=initial_phase)
 
 
-def column(*values: float) -> np.ndarray:
-    return np.array(values, np.float64)
-
-
 def normal_cdf(values):
     return np.array([0.5 * math.erfc(-value / math.sqrt(2)) for value in values])
 
@@ -48,7 +44,7 @@ def distance_to(cdf, sample) -> float:
     return float(largest * math.sqrt(len(ordered)))
 
 
-def test_a_random_start_lies_on_the_side_that_the_leak_drives_to(kernels):
+def test_a_random_start_lies_on_the_side_that_the_leak_drives_to():
     config = with_only(k4=-1e-5, initial_phase="random")
     frames = static(90.0, fps=100, seconds=0.1, shape=(20, 20))
     events = run(VoltmeterSimulator(config), frames)
@@ -59,14 +55,14 @@ def test_a_random_start_lies_on_the_side_that_the_leak_drives_to(kernels):
 
 def test_drift_and_diffusion_are_equations_10_and_11():
     constants = Constants(k1=5.0, k2=20.0, k3=1e-4, k4=1e-7, k5=5e-9, k6=1e-5)
-    signal, drift, sigma = drift_and_diffusion(column(90.0), column(110.0), 1000, constants)
+    signal, drift, sigma = drift_and_diffusion(90.0, 110.0, 1000, constants)
     assert signal == pytest.approx(5.0 * 20 / 1000 / 120)
     assert drift == pytest.approx(5.0 * 20 / 1000 / 120 + 1e-7 + 5e-7)
     assert sigma == pytest.approx(1e-4 * 10 / 120 + 1e-5)
 
 
 @pytest.mark.parametrize("sign", [1, -1])
-def test_without_noise_a_change_fires_evenly(kernels, sign):
+def test_without_noise_a_change_fires_evenly(sign):
     values = (80, 160) if sign > 0 else (160, 80)
     events = run(VoltmeterSimulator(QUIET), frames_of(values, [0, 1_000_000]))
     volts = 5.265 * 80 / 140
@@ -75,7 +71,7 @@ def test_without_noise_a_change_fires_evenly(kernels, sign):
     assert (events.label == SIGNAL).all()
 
 
-def test_without_noise_the_residual_is_carried_over(kernels):
+def test_without_noise_the_residual_is_carried_over():
     # Each frame moves by 5.265 * 5 / (L + 22.5); the sum decides, however it is cut.
     levels = [80 + 5 * i for i in range(17)]
     simulator = VoltmeterSimulator(QUIET)
@@ -86,7 +82,7 @@ def test_without_noise_the_residual_is_carried_over(kernels):
 
 
 @pytest.mark.parametrize("fps", [24, 1000])
-def test_leakage_fires_on_events_at_its_rate_at_any_frame_rate(kernels, fps):
+def test_leakage_fires_on_events_at_its_rate_at_any_frame_rate(fps):
     config = with_only(k4=1e-5)
     events = run(VoltmeterSimulator(config), static(90, fps=fps, seconds=1.05))
     assert events.t == pytest.approx([k * 100_000 for k in range(1, 11)], abs=1)
@@ -94,8 +90,7 @@ def test_leakage_fires_on_events_at_its_rate_at_any_frame_rate(kernels, fps):
     assert (events.label == NOISE).all()
 
 
-@pytest.mark.parametrize("fps", [24, 1000])
-@pytest.mark.parametrize("preset", ["davis346", "davis240"])
+@pytest.mark.parametrize(("preset", "fps"), [("davis346", 24), ("davis240", 24), ("davis240", 500)])
 def test_a_static_scene_has_the_rate_of_its_drift_at_any_frame_rate(preset, fps):
     config = VoltmeterSimulator.presets[preset]
     frames = static(250.0, fps=fps, seconds=1.0, shape=(40, 50))
@@ -107,7 +102,7 @@ def test_a_static_scene_has_the_rate_of_its_drift_at_any_frame_rate(preset, fps)
     assert events.t.mean() == pytest.approx(500_000, abs=4e6 / math.sqrt(12 * expected))
 
 
-@pytest.mark.parametrize("frame_us", [400_000, 2000, 100])
+@pytest.mark.parametrize("frame_us", [400_000, 500])
 def test_intervals_with_drift_are_inverse_gaussian_at_any_frame_rate(frame_us):
     # Mean 1 / μ = 1 ms, shape 1 / σ² = 10 ms; OFF first is a matter of exp(−20).
     config = with_only(k4=1e-3, k6=math.sqrt(1e-4))
@@ -125,60 +120,39 @@ def test_intervals_with_drift_are_inverse_gaussian_at_any_frame_rate(frame_us):
     )
 
 
-def test_passage_times_are_inverse_gaussian_at_any_ratio_of_drift_to_noise():
-    random = np.random.default_rng(2)
-    square, chance = random.standard_normal(4000) ** 2, random.uniform(size=4000)
-    for sigma in (0.1, 1.0, 10.0):
-        ones = np.ones(4000)
-        times = first_passage_time(ones, ones, sigma * ones, square, chance)
+def draw_times(distance, speed, sigma, *, seed):
+    random = np.random.default_rng(seed)
+    draws = zip(random.standard_normal(4000) ** 2, random.uniform(size=4000), strict=True)
+    return np.array([first_passage_time(distance, speed, sigma, *draw) for draw in draws])
 
-        def cdf(t, shape=1 / sigma**2):
-            return inverse_gaussian_cdf(t, 1.0, shape)
 
-        assert distance_to(cdf, times) < ABOVE_99_9_PERCENT
+@pytest.mark.parametrize("sigma", [0.1, 1.0, 10.0])
+def test_passage_times_are_inverse_gaussian_at_any_ratio_of_drift_to_noise(sigma):
+    times = draw_times(1.0, 1.0, sigma, seed=2)
+    assert distance_to(lambda t: inverse_gaussian_cdf(t, 1.0, 1 / sigma**2), times) < (
+        ABOVE_99_9_PERCENT
+    )
 
 
 def test_passage_times_without_drift_are_levy():
-    random = np.random.default_rng(3)
-    square, chance = random.standard_normal(4000) ** 2, random.uniform(size=4000)
-    ones = np.ones(4000)
-    times = first_passage_time(2 * ones, 0 * ones, 0.5 * ones, square, chance)
-
-    def cdf(t):
-        return 2 * normal_cdf(-2 / 0.5 / np.sqrt(t))
-
-    assert distance_to(cdf, times) < ABOVE_99_9_PERCENT
+    times = draw_times(2.0, 0.0, 0.5, seed=3)
+    assert distance_to(lambda t: 2 * normal_cdf(-2 / 0.5 / np.sqrt(t)), times) < ABOVE_99_9_PERCENT
 
 
 def test_passage_times_without_noise_are_certain():
-    times = first_passage_time(
-        column(1, 3, 1), column(2, 2, 0), column(0, 0, 0), column(1, 1, 1), column(0.9, 0.9, 0.9)
-    )
-    assert times.tolist() == [0.5, 1.5, math.inf]
+    places = (1.0, 2.0), (3.0, 2.0), (1.0, 0.0)
+    times = [first_passage_time(*place, 0.0, 1.0, 0.9) for place in places]
+    assert times == [0.5, 1.5, math.inf]
 
 
 def test_the_first_polarity_has_its_closed_form():
     # (1 − e^{−sb}) / (1 − e^{−s(a+b)}), s = 2 μ / σ² = 1, a = 0.5, b = 1.5.
     expected = (1 - math.exp(-1.5)) / (1 - math.exp(-2.0))
-    chance = probability_along_drift(column(0.5), column(1.0), column(0.5), column(1.5))
-    assert chance == pytest.approx(expected)
-    without_drift = probability_along_drift(column(0.0), column(1.0), column(0.5), column(1.5))
-    assert without_drift == pytest.approx(1.5 / 2.0)
-    almost = probability_along_drift(column(1e-300), column(1.0), column(0.5), column(1.5))
-    assert almost == pytest.approx(1.5 / 2.0)
-    assert probability_along_drift(column(1.0), column(0.0), column(1.0), column(1.0)) == 1.0
-    assert probability_along_drift(column(0.0), column(0.0), column(1.0), column(1.0)) == 0.5
-
-
-def test_pure_noise_fires_both_polarities_alike(kernels):
-    config = with_only(k6=0.05)
-    simulator = VoltmeterSimulator(config)
-    frames = [Frame(np.full((12, 15), 90.0), t) for t in (0, 100_000)]
-    events = run(simulator, frames)
-    assert len(events) > 1000
-    # The gap between events is heavy-tailed, but each polarity is a fair coin.
-    assert abs(events.p.mean() - 0.5) < 4 * 0.5 / math.sqrt(len(events))
-    assert (events.label == NOISE).all()
+    assert probability_along_drift(0.5, 1.0, 0.5, 1.5) == pytest.approx(expected)
+    assert probability_along_drift(0.0, 1.0, 0.5, 1.5) == pytest.approx(1.5 / 2.0)
+    assert probability_along_drift(1e-300, 1.0, 0.5, 1.5) == pytest.approx(1.5 / 2.0)
+    assert probability_along_drift(1.0, 0.0, 1.0, 1.0) == 1.0
+    assert probability_along_drift(0.0, 0.0, 1.0, 1.0) == 0.5
 
 
 def test_eq4_counts_with_the_gain_and_the_dark_offset():

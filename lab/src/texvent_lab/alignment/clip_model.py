@@ -17,8 +17,8 @@ from texvent.errors import FileFormatError
 from texvent.extending import require
 from texvent.generate.diffusers_models.pipeline_loading import resolve_device
 from texvent.generate.video_models.loading import loading
-from texvent.generate.video_models.model_files import find_saved_model
 from texvent.video import PixelArray
+from texvent_lab.networks.saved_models import find_saved_model
 
 EXTRA = "generate"
 EXAMPLE = "openai/clip-vit-base-patch32"

@@ -38,7 +38,14 @@ provide (docs/reconstruction.md says where to get them).
 class ReconstructOptions(EventRangeOptions):
     """Which events, and where the images go."""
 
-    short_flags: ClassVar[Mapping[str, str]] = {"out": "-o", "quiet": "-q"}
+    short_flags: ClassVar[Mapping[str, str]] = {
+        **EventRangeOptions.short_flags,
+        **{"out": "-o", "quiet": "-q"},
+    }
+    main_options: ClassVar[tuple[str, ...]] = (
+        *("out", "network", "weights", "fps", "events_per_image", "time", "sensor", "device"),
+        "overwrite",
+    )
 
     out: Path = REQUIRED
     """Video (.mp4 or .gif), or a folder of PNG files and their times, which texvent simulate reads

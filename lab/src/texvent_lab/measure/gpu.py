@@ -4,15 +4,13 @@
 
 Whole calls as a user makes them: frames on the device → events on the device, in order, the one
 wait for their number included. A few calls follow each other without another wait, as in a loop
-over batches. RIFE has random weights: its time does not depend on them. Warm-up calls, which
-compile the kernels, are not timed. It ends within four minutes.
+over batches. Warm-up calls, which compile the kernels, are not timed. It ends within four minutes.
 """
 
 from __future__ import annotations
 
 import argparse
 import sys
-import tempfile
 import time
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
@@ -21,21 +19,16 @@ from typing import Any
 
 import numpy as np
 
-from texvent.config import InterpolateConfig
 from texvent.extending import require
-from texvent.interpolate.rife.interpolator import RifeInterpolator
-from texvent.interpolate.rife.weights import write_rife_weights
 from texvent.sensor import SensorSize
 from texvent.simulate import gpu
 from texvent.simulate.esim.simulator import EsimConfig
 from texvent.simulate.gpu.launch import EXTRA
-from texvent.simulate.gpu.pairs import GpuPairs
 from texvent.simulate.texvent.simulator import TexventConfig, TexventSimulator
-from texvent.video import Video
 from texvent_lab.bench.document import describe_environment, markdown_table, write_document
 from texvent_lab.measure.speed.timing import quartiles, rounded
 
-VGA, HD = SensorSize(640, 480), SensorSize(1280, 720)
+HD = SensorSize(1280, 720)
 DARK, BRIGHT = 100, 145
 """Levels ln(175 / 130) = 0.297 apart: one event at δ = 0.2."""
 FRAME_US = 1_000
@@ -54,12 +47,7 @@ class Plan:
     repeats: int = 15
     calls: int = 4
     """Calls of the simulator that are timed together."""
-    rife_sizes: tuple[SensorSize, ...] = (VGA, HD)
-    between: int = 10
-    """Intermediate frames of a pair; 10 is the paper's ablation E7."""
     copy_bytes: int = 2**30
-    rife_width: int | None = None
-    """Channels inside every block of RIFE 4.6; None for the published ones."""
 
 
 def measure(plan: Plan, device: str) -> dict[str, Any]:
@@ -70,7 +58,6 @@ def measure(plan: Plan, device: str) -> dict[str, Any]:
         "environment": describe(device),
         "copy_gb_per_s": copy,
         "simulation": list(measure_simulation(plan, device, copy["median"])),
-        "rife_pairs": list(measure_pairs(plan, device)),
     }
 
 
@@ -158,64 +145,6 @@ class _Clips:
         self._calls += 1
 
 
-def measure_pairs(plan: Plan, device: str) -> Iterator[dict[str, Any]]:
-    """Milliseconds per pair of source frames: RIFE and simulation, all on the device."""
-    torch = require("torch", extra=EXTRA)
-    with tempfile.TemporaryDirectory() as folder:
-        weights = write_random_weights(plan.rife_width, Path(folder) / "rife.safetensors")
-        for size in plan.rife_sizes:
-            generator = torch.Generator(device).manual_seed(0)
-            coarse = torch.rand(2, 1, 9, 16, device=device, generator=generator) * 255
-            pictures = torch.nn.functional.interpolate(coarse, size.shape, mode="bilinear")[:, 0]
-            config = InterpolateConfig(
-                interpolate="rife",
-                interpolator_weights=weights,
-            )
-            rife = RifeInterpolator(config, Video(np.zeros((1, 1, 1), np.uint8), [0]))
-            pairs = GpuPairs(gpu.GpuSimulator(), rife, count=plan.between)
-            yield _measure_pair(plan, pairs, pictures)
-
-
-def _measure_pair(plan: Plan, pairs: GpuPairs, pictures: Any) -> dict[str, Any]:
-    torch = require("torch", extra=EXTRA)
-    device = pictures.device.type
-    calls = iter(range(1, 1_000_000))
-    events: list[int] = []
-
-    def step() -> None:
-        call = next(calls)
-        events.append(len(pairs.step(pictures[call % 2], call * 40_000)))
-
-    step()
-    if device == "cuda":
-        torch.cuda.reset_peak_memory_stats()
-    times = _times(step, plan.repeats, device)
-    peak = torch.cuda.max_memory_allocated() / 2**20 if device == "cuda" else 0
-    height, width = pictures.shape[-2:]
-    return {
-        "size": str(SensorSize(width, height)),
-        "frames_per_pair": plan.between + 1,
-        "events_per_pair": rounded(float(np.median(events[1:]))),
-        "ms_per_pair": quartiles(times, scale=1e3),
-        "ms_per_frame": quartiles(times, scale=1e3 / (plan.between + 1)),
-        "peak_mib": rounded(float(peak)),
-    }
-
-
-def write_random_weights(width: int | None, path: Path) -> Path:
-    """Weights of an untrained RIFE 4.6, whose flows are small."""
-    torch = require("torch", extra=EXTRA)
-    from texvent.interpolate.rife.network import RIFE_4_6, RifeNetwork  # needs torch
-
-    network = RifeNetwork(RIFE_4_6, None if width is None else (width,) * len(RIFE_4_6.widths))
-    generator = torch.Generator().manual_seed(0)
-    with torch.no_grad():
-        for parameter in network.parameters():
-            parameter.normal_(0, 0.02, generator=generator)
-    write_rife_weights(network, path)
-    return path
-
-
 def _times(call: Callable[[], Any], repeats: int, device: str, *, calls: int = 1) -> list[float]:
     """Seconds per call in each repeat after two untimed ones; the device is idle in between."""
     torch = require("torch", extra=EXTRA)
@@ -246,15 +175,10 @@ def as_markdown(document: dict[str, Any]) -> str:
         )
         for row in document["simulation"]
     ]  # fmt: skip
-    pairs = [
-        (row["size"], _spread(row["ms_per_pair"]), f"{row['peak_mib']:,.0f}")
-        for row in document["rife_pairs"]
-    ]
     head = ("model", "pixels", "jumping", "clips", "events", "us per frame", "share of copy")
     lines = [f"{name}: {value}" for name, value in document["environment"].items()]
     lines.append(f"copy: {document['copy_gb_per_s']['median']} GB/s\n")
     lines.append(markdown_table(head, simulation))
-    lines.append(markdown_table(("RIFE and simulation", "ms per pair", "peak, MiB"), pairs))
     return "\n".join(lines)
 
 

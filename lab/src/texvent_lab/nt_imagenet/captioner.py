@@ -14,7 +14,7 @@ from texvent.errors import InputError, one_line
 from texvent.extending import require
 from texvent.generate.diffusers_models.pipeline_loading import resolve_device
 from texvent.generate.video_models.loading import loading
-from texvent.generate.video_models.model_files import find_saved_model
+from texvent_lab.networks.saved_models import find_saved_model
 
 EXTRA = "generate"
 INSTRUCTION = "Caption the image in detail."

@@ -31,7 +31,6 @@ from texvent.video import MICROSECONDS, Frame, check_intensity
 FPS = Fraction(60)
 """Frames per second, unless asked for: what lies between is exact as well."""
 PRESETS = ("saccade", "shake", "pan")
-MOST_FRAMES = 10_000_000
 OF_CAMERA = ("camera_amplitude", "duration")
 """Options that only a camera path has."""
 OF_VIDEOS = (
@@ -73,11 +72,6 @@ def open_photo(
     fps = FPS if config.fps is None else Fraction(config.fps)
     seconds = path.seconds if config.duration is None else config.duration
     intervals = max(1, math.ceil(Fraction(round(seconds * MICROSECONDS), MICROSECONDS) * fps))
-    if intervals >= MOST_FRAMES:
-        raise ConfigError(
-            f"{seconds:g} s at {float(fps):g} fps are {intervals:,} frames; at most "
-            f"{MOST_FRAMES:,} are made: give a lower fps or a shorter duration"
-        )
     return PhotoFrames(
         levels,
         path,

@@ -45,8 +45,6 @@ def main(words: list[str]) -> None:
         scene.frame_set(number)
         for folder, prepare in (("frames", _for_colour), ("motion", _for_data)):
             path = os.path.join(options.out, folder, f"{index + 1:06d}.exr")
-            if options.colour_only and folder == "motion":
-                continue
             if not os.path.exists(path):  # a stopped render goes on where it stopped
                 prepare(scene, options)
                 _render(bpy, scene, path)
@@ -63,7 +61,6 @@ def _read(words: list[str], is_inside: bool) -> Any:
     parser.add_argument("--samples", type=int, help="samples of a pixel's colour")
     parser.add_argument("--width", type=int)
     parser.add_argument("--height", type=int)
-    parser.add_argument("--colour-only", action="store_true", help="no passes: a reference film")
     return parser.parse_args(words)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -126,18 +126,6 @@ def changes(given: Convention, other: Convention, direction: Direction) -> tuple
     return tuple(words)
 
 
-def with_words(text: str, words: Sequence[str]) -> str:
-    """The text of a convention with more words, in place of those of it that they contradict.
-
-    Example:
-        >>> with_words("blender,y-down", ["y-up", "scale=2"])
-        'blender,y-up,scale=2'
-    """
-    fields = {field for word in words for field in _OVERRIDES.get(word, ())}
-    kept = [one for one in text.split(",") if one and not fields & {*_OVERRIDES.get(one, ())}]
-    return ",".join([*kept, *words])
-
-
 def named_convention(text: str | None) -> str | None:
     """The name of the renderer or data set in a convention, if there is one."""
     words = [word.strip().lower() for word in (text or "").split(",")]
@@ -161,14 +149,8 @@ def to_pixels(
     Returns:
         [H, W, 2] float32, px of the frame, x right, y down, to the other frame's place. A coarser
         field is repeated, so that no vector is a mean of two surfaces.
-
-    Raises:
-        ValueError: the frame is no whole multiple of the field.
     """
-    height, width = stored.shape[:2]
-    factor = size[0] // width if width else 0
-    if factor < 1 or (width * factor, height * factor) != tuple(size):
-        raise ValueError(f"{width}x{height} for frames of {size[0]}x{size[1]}")
+    factor = size[0] // stored.shape[1]
     return repeat_pixels(scaled(stored, convention, direction, size, factor), factor)
 
 

@@ -26,7 +26,6 @@ from texvent.capture.motion_vectors.conventions import (
     named_convention,
     parse_convention,
     to_pixels,
-    with_words,
     wrong_size,
 )
 from texvent.capture.motion_vectors.fields import (
@@ -120,13 +119,13 @@ class MotionFrames(FrameSource):
         if verdict.better is not None:
             given = replace(self._convention, direction=field.direction)
             words = changes(given, verdict.better, field.direction)
-            advice = f"as motion_convention={with_words(self._text, words)}; give that"
+            advice = f"as motion_convention={self._with(words)}; give that"
             is_named = field.kind != "vectors" or len(self._vectors) > 1
             if is_named and verdict.better.direction != field.direction:
                 words = tuple(word for word in words if word not in ("forward", "backward"))
                 advice = f"{verdict.better.direction}; exchange the two"
                 if words:
-                    advice += f" and give motion_convention={with_words(self._text, words)}"
+                    advice += f" and give motion_convention={self._with(words)}"
             raise InputError(
                 f"{what} do not fit the frames: warped by them, frames differ by "
                 f"{verdict.error:.1f} grey levels, and by {verdict.better_error:.1f} if the "
@@ -138,6 +137,10 @@ class MotionFrames(FrameSource):
                 f"levels, and by {verdict.still_error:.1f} as they are; check that the vectors "
                 "belong to these frames"
             )
+
+    def _with(self, words: Sequence[str]) -> str:
+        """The convention with more words, which change the earlier ones."""
+        return ",".join([one for one in (self._text, *words) if one])
 
     def _neighbours(self, frames: Sequence[Frame], field: _Field) -> list[Neighbours]:
         """The frames near the start that move most, with what is stored for them."""

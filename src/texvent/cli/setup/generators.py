@@ -85,12 +85,8 @@ def _model_facts(model: VideoModel) -> dict[str, Any]:
     """Row for `--json`; null: not known, or the pipeline's own default."""
     facts = dataclasses.asdict(model)
     del facts["folder"]  # rows have none
-    rate = {
-        "fps": None if model.fps is None else float(model.fps),
-        "is_low_fps": model.is_low_fps,
-        "is_recommended": not model.is_low_fps,
-    }
-    return {**facts, **rate, "here": _is_here(model) == "yes"}
+    facts |= {"fps": None if model.fps is None else float(model.fps)}
+    return {**facts, "is_low_fps": model.is_low_fps, "here": _is_here(model) == "yes"}
 
 
 def _describe_model(model: VideoModel) -> tuple[str, ...]:

@@ -17,7 +17,7 @@ from texvent.batch.prompts import refuse_prompts, tally_prompts
 from texvent.batch.runner import BatchPlan, SampleTask
 from texvent.batch.samples import Sample, are_videos, read_samples
 from texvent.cli.command import resolve_command
-from texvent.cli.dry_run import measure_start
+from texvent.cli.dry_run import estimate_run
 from texvent.cli.notices import say, say_warning, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions
@@ -173,7 +173,7 @@ def _describe(plan: BatchPlan, samples: Sequence[Sample], manifest: Manifest) ->
         else:
             simulation = prepare_prompt(first.subject, settings)
         write_out(f"the first, {first.name}:\n")
-        write_out(measure_start(simulation).describe() + "\n")
+        write_out(estimate_run(simulation) + "\n")
     return 0
 
 

@@ -39,7 +39,7 @@ from texvent.generate.diffusers_models.pipeline_loading import (
 )
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.known_models import VideoModel
-from texvent.generate.video_models.lora import Lora, check_loras, parse_lora
+from texvent.generate.video_models.lora import check_loras, parse_lora
 from texvent.generate.video_models.model_files import (
     find_downloaded,
     find_files,
@@ -154,7 +154,8 @@ class DiffusersGenerator:
         elif self.model.needs_image:
             raise InputError(f"{self.model.name} starts from an image; give image=PATH")
         for lora in self._loras:
-            lora.check_file()
+            if not lora.file.is_file():
+                raise InputError(f"there is no LoRA {lora.file}; check its path")
         self.fps  # noqa: B018  (an unknown rate is refused before anything is loaded)
 
     def _check_before_loading(self) -> None:
@@ -176,20 +177,22 @@ class DiffusersGenerator:
         if self._request is not None:
             return self._request
         self._check_before_loading()
-        model, config = self.model, self.config
+        model, config, loras = self.model, self.config, self._loras
         files = find_files(model, progress.announce)
         device, free = resolve_device()
         request = LoadRequest(
             folder=files.folder,
-            content=" ".join([fingerprint(files.folder), *map(_lora_content, self._loras)]),
+            content=" ".join(
+                [fingerprint(files.folder), *(_sha256(one.file) for one in self._loras)]
+            ),
             class_name=(model.image_pipeline if config.image else None) or model.pipeline,
             placement=place(model, config, device, free),
             decoder_in_float32=model.needs_float32_vae,
-            loras=self._loras,
+            loras=loras,
             scheduler=tuple(model.scheduler.items()),
         )
         pipeline_class = find_pipeline_class(request)
-        check_loras(self._loras, pipeline_class)
+        check_loras(loras, pipeline_class)
         check_options(pipeline_class, config)
         facts = {
             "source": model.source,
@@ -258,7 +261,7 @@ class DiffusersGenerator:
         if config.image is not None:
             facts["image"] = _sha256(config.image)
         if self._loras:
-            facts["lora"] = [[_lora_content(one), one.weight] for one in self._loras]
+            facts["lora"] = [[_sha256(one.file), one.weight] for one in self._loras]
         if model.folder is None:
             facts["source"] = model.source
         else:
@@ -271,15 +274,10 @@ class DiffusersGenerator:
         files = [
             {"file": str(path.absolute()), "sha256": _sha256(path)}
             for path in paths
-            if path is not None and path.is_file()
+            if path is not None
         ]
         return {"options": plain(self.config), **({"files": files} if files else {})}
 
 
 def _sha256(path: Path) -> str:
     return describe_file(path)["sha256"]
-
-
-def _lora_content(lora: Lora) -> str:
-    """Digest of a local file, or the name on the hub: looking for a video fetches nothing."""
-    return lora.source if lora.file is None else _sha256(lora.file)

@@ -75,10 +75,6 @@ class VideoModel:
     """GPU memory with every part on the device, GB, as makers or users report it."""
     offload_gb: float | None = None
     """GPU memory with parts moved to the device when used, GB."""
-    time_s: float | None = None
-    """Time for one video as the publisher states it, s."""
-    time_source: str = ""
-    """GPU, and where the time was read."""
     dtype: str = "bfloat16"
     """Number format on a GPU."""
     needs_float32_vae: bool = False

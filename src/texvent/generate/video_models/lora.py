@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import math
-import re
 import warnings
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
@@ -12,66 +11,42 @@ from pathlib import Path
 from typing import Any
 
 from texvent._require import require
-from texvent.errors import ConfigError, InputError, shown
+from texvent.errors import ConfigError, shown
 from texvent.generate.video_models.loading import loading
-from texvent.generate.video_models.model_files import HUB, REPOSITORY
 from texvent.networks.weight_files import SAFETENSORS
 
 EXTRA = "generate"
-_HUB_NAME = re.compile(rf"{HUB}({REPOSITORY})(?:@([^/:]+))?(?:/([^:]+{re.escape(SAFETENSORS)}))?")
-_WEIGHT = re.compile(r"[-+]?[\d.]+(?:[eE][-+]?\d+)?|[-+]?(?:inf|nan)")
 
 
 @dataclass(frozen=True)
 class Lora:
     """One value of `--lora`."""
 
-    source: str
-    """A file, or `hub:org/name[@revision][/file]`."""
+    file: Path
     weight: float = 1.0
-
-    @property
-    def file(self) -> Path | None:
-        """The local file; None for a repository of the hub."""
-        return None if self.source.startswith(HUB) else Path(self.source).expanduser()
-
-    def check_file(self) -> None:
-        """Refuse a local file that is missing.
-
-        Raises:
-            InputError: there is no such file.
-        """
-        path = self.file
-        if path is not None and not (path.is_file() and path.suffix == SAFETENSORS):
-            raise InputError(
-                f"there is no LoRA {shown(str(path))}; give lora=FILE{SAFETENSORS}[:WEIGHT] or "
-                f"{HUB}organisation/name[/FILE{SAFETENSORS}]"
-            )
 
 
 def parse_lora(text: str) -> Lora:
-    """A LoRA from `SOURCE[:WEIGHT]`.
+    """A LoRA from `FILE[:WEIGHT]`.
 
     Raises:
         ConfigError: it has another form.
 
     Example:
-        >>> parse_lora("fast.safetensors:0.5")
-        Lora(source='fast.safetensors', weight=0.5)
+        >>> parse_lora("fast.safetensors:0.5").weight
+        0.5
     """
-    source, weight = text, 1.0
-    head, _, tail = text.rpartition(":")
-    if head and _WEIGHT.fullmatch(tail):
-        source, weight = head, math.nan
-        with contextlib.suppress(ValueError):
-            weight = float(tail)
-    is_named = bool(_HUB_NAME.fullmatch(source)) or not source.startswith(HUB)
-    if not source or source[0] == ":" or not math.isfinite(weight) or not is_named:
+    file, _, tail = text.rpartition(":")
+    try:
+        weight = float(tail)
+    except ValueError:
+        file, weight = text, 1.0
+    if not file.endswith(SAFETENSORS) or not math.isfinite(weight):
         raise ConfigError(
-            f"lora is {shown(text)}; write FILE{SAFETENSORS} or {HUB}organisation/name[/FILE"
-            f"{SAFETENSORS}], then :WEIGHT if it is not 1, such as fast{SAFETENSORS}:0.8"
+            f"lora is {shown(text)}; write FILE{SAFETENSORS}, then :WEIGHT if it is not 1, such as "
+            f"fast{SAFETENSORS}:0.8"
         )
-    return Lora(source, weight)
+    return Lora(Path(file).expanduser(), weight)
 
 
 def check_loras(loras: Sequence[Lora], pipeline_class: Any) -> None:
@@ -98,11 +73,8 @@ def load_loras(pipe: Any, loras: Sequence[Lora]) -> None:
     for number, one in enumerate(loras):
         name = f"lora{number}"
         weights[name] = one.weight
-        hub = _HUB_NAME.fullmatch(one.source)
-        where, revision, file = hub.groups() if hub else (str(one.file), None, None)
-        options = {} if hub is None else {"revision": revision, "weight_name": file}
-        with loading(Path(one.source), f"a LoRA of {type(pipe).__name__}"), _quiet_peft():
-            pipe.load_lora_weights(where, adapter_name=name, use_safetensors=True, **options)
+        with loading(one.file, f"a LoRA of {type(pipe).__name__}"), _quiet_peft():
+            pipe.load_lora_weights(str(one.file), adapter_name=name, use_safetensors=True)
             # Also refuses a file that fitted no part, which has no adapter now.
             pipe.set_adapters(list(weights), list(weights.values()))
 

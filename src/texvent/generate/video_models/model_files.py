@@ -9,7 +9,6 @@ import contextlib
 import hashlib
 import json
 import logging
-import os
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -84,38 +83,6 @@ def find_downloaded(model: VideoModel) -> Path | None:
     return folder
 
 
-def find_saved_model(model: str | Path, kind: str, *, example: str) -> Path:
-    """Folder of a model that transformers saved, fetched first where the model hub is named.
-
-    Args:
-        model: a folder, or `hub:org/name`.
-        kind: kind of model, for messages: "CLIP model".
-        example: a repository of such a model, org/name.
-
-    Raises:
-        InputError: the folder has no `config.json`.
-        TexventError: the hub has no such model, or cannot be reached.
-        MissingDependencyError: a package is not installed.
-    """
-    if not str(model).startswith(HUB):
-        folder = Path(model).expanduser()
-        if not (folder / CONFIG).is_file():
-            raise InputError(
-                f"there is no {kind} in {folder} (no config.json); give the folder of one saved by "
-                f"transformers, or hub:org/name, such as hub:{example}"
-            )
-        return folder
-    hub = require("huggingface_hub", extra=EXTRA)
-    repo = str(model).removeprefix(HUB)
-    try:
-        return Path(hub.snapshot_download(repo, ignore_patterns=["*.bin", "*.pt", "*.pth"]))
-    except (OSError, ValueError) as error:
-        raise TexventError(
-            f"{repo} is not on this machine and the model hub cannot be reached: "
-            f"{one_line(error)}. Fetch it elsewhere (hf download {repo}) and name its folder"
-        ) from error
-
-
 def describe_terms(model: VideoModel) -> str:
     """Licence and origin, for the user to read before the download."""
     is_known = model.licence != NOT_READ
@@ -163,15 +130,10 @@ def _without_warnings() -> Iterator[None]:
 def _missing_text(model: VideoModel, error: BaseException) -> str:
     while error.__cause__ is not None:
         error = error.__cause__  # the libraries wrap the reason in advice about their own options
-    constants = require("huggingface_hub.constants", extra=EXTRA)
-    offline = " (HF_HUB_OFFLINE is set)" if os.environ.get("HF_HUB_OFFLINE") else ""
-    text = str(error).strip() or type(error).__name__
-    reason = text.splitlines()[0].rstrip(".")
     return (
         f"{INDEX} and the weights of {model.source} are not on this machine and the model hub "
-        f"cannot be reached{offline}: {reason}. Fetch them elsewhere (hf download "
-        f"{model.repo}) and put them into the hub's cache {constants.HF_HUB_CACHE}, "
-        "or into any folder and pass generator=./FOLDER"
+        f"cannot be reached: {one_line(error)}. Fetch them elsewhere (hf download {model.repo}) "
+        "and pass generator=./FOLDER"
     )
 
 

@@ -28,16 +28,13 @@ LAYOUT = 1
 """Goes into every key; raised when the same request would be stored in another way."""
 
 
-def made_folder(kind: str) -> Path:
-    """The cache's folder for one kind of result, made if need be.
-
-    Args:
-        kind: "videos".
+def kept_folder() -> Path:
+    """The cache's folder of videos, made if need be.
 
     Raises:
         OutputError: it cannot be made.
     """
-    folder = cache_folder(kind)
+    folder = cache_folder("videos")
     try:
         folder.mkdir(parents=True, exist_ok=True)
     except OSError as error:
@@ -67,7 +64,7 @@ class VideoCache:
 
     def path(self, key: str, extension: str = EXTENSION) -> Path:
         """File of the video of that key, whether it exists or not."""
-        folder = made_folder("videos") if self._is_kept else _scratch_folder()
+        folder = kept_folder() if self._is_kept else _scratch_folder()
         return folder / f"{key}{extension}"
 
     def has(self, key: str, extension: str = EXTENSION) -> bool:

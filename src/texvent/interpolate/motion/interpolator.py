@@ -27,7 +27,7 @@ from texvent.interpolate.motion.paths_cpu import (
     make_paths,
     reverse_vectors,
 )
-from texvent.pairs.instants import check_between, float_luma, position
+from texvent.pairs.instants import float_luma, position
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.transfer import Transfer
 from texvent.video import FlickeringStream, Frame, FrameStream, Motion, MovingStream
@@ -73,10 +73,8 @@ class MotionInterpolator:
             One frame per time, [H, W] float32 luma, 0..255 scale, drawn while they are read.
 
         Raises:
-            InputError: the frames differ in size, a time is not between theirs, or neither frame
-                has vectors to the other.
+            InputError: neither frame has vectors to the other.
         """
-        check_between(first, second, times_us)
         if self._stream is not None and (self._beats or self._stream.has_moving_light):
             return _rendered(self._stream, times_us)
         # Now, not at the first frame: this may run in the prefetch thread.

@@ -18,8 +18,7 @@ from texvent.interpolate.rife.weights import (
     import_torch,
     read_rife_weights,
 )
-from texvent.pairs.instants import check_between, matching_levels, position
-from texvent.pairs.tensors import rgb_and_luma
+from texvent.pairs.instants import matching_levels, position
 from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream
 
 if TYPE_CHECKING:
@@ -82,72 +81,19 @@ class RifeInterpolator:
             One frame per time, [H, W] float32 luma, 0..255 scale.
 
         Raises:
-            InputError: the frames differ in size, a time is not between theirs, or they do not
-                fit into the device's memory.
+            InputError: the frames do not fit into the device's memory.
             FileFormatError: the weights give numbers that are NaN or infinite.
         """
-        check_between(first, second, times_us)
         lumas = tuple(_luma_tensor(frame, self._device) for frame in (first, second))
-        positions = [position(first, second, t_us) for t_us in times_us]
-        drawn = self._draw(image_tensors(first, second), lumas, positions)
-        for t_us, luma in zip(times_us, drawn, strict=True):
+        images, motion, torch = image_tensors(first, second), None, import_torch()
+        for t_us in times_us:
+            # Not around the yield: the caller must not inherit the mode.
+            with torch.inference_mode(), _explain_memory(self._device):
+                motion = motion or self._prepare(images)
+                luma = self._luma_at(motion, lumas, position(first, second, t_us))
             if not bool(luma.isfinite().all()):
                 raise FileFormatError(f"{self._path}: the network's output is NaN or infinite")
             yield Frame(luma.cpu().numpy(), t_us, is_source=False, transfer=first.transfer)
-
-    def _draw(
-        self, images: Sequence[Tensor], lumas: Sequence[Tensor], positions: Sequence[float]
-    ) -> Iterator[Tensor]:
-        """Luma at every position, [H, W] float32 on the device.
-
-        Args:
-            images: both frames as the network sees them, [1, 3, H, W] each, 0..1.
-            lumas: both frames as they are moved, [1, 1, H, W] each, on the device.
-            positions: τ, 0..1, both excluded.
-        """
-        torch = import_torch()
-        pair = None
-        for at in positions:
-            # Not around the yield: the caller must not inherit the mode.
-            with torch.inference_mode(), _explain_memory(self._device):
-                if pair is None:
-                    pair = self._prepare(images)
-                luma = self._luma_at(pair, lumas, at)
-            yield luma
-
-    def between_tensors(
-        self, first: Tensor, second: Tensor, positions: Sequence[float]
-    ) -> Iterator[Tensor]:
-        """As `between`, for images that may be on the device already; results stay on it.
-
-        Nothing waits for the device, so the output is not checked: the simulator of
-        `texvent.simulate.gpu` refuses NaN and infinite intensities when it counts events.
-
-        Args:
-            first: the earlier image, [H, W] luma or [3, H, W] RGB, 0..255 scale, uint8 or float.
-            second: the later image, alike.
-            positions: τ, 0..1, both excluded.
-
-        Yields:
-            One image per position, [H, W] float32 luma, 0..255 scale.
-
-        Raises:
-            InputError: the images differ in shape, have another one than allowed, or do not fit
-                into the device's memory.
-        """
-        if first.shape != second.shape:
-            raise InputError(
-                f"the images are {list(first.shape)} and {list(second.shape)}; both must have "
-                "one shape"
-            )
-        torch = import_torch()
-        with torch.inference_mode():
-            both = (rgb_and_luma(one, self._device) for one in (first, second))
-            seen, lumas = zip(*both, strict=True)
-            # Scaled down together, so that a bright pair stays in the range the network knows.
-            scale = 1.0 / torch.stack([one.amax() for one in seen]).amax().clamp(min=WHITE)
-            images = [one * scale for one in seen]
-        yield from self._draw(images, lumas, positions)
 
     def _prepare(self, images: Sequence[Tensor]) -> Motion:
         from texvent.interpolate.rife.network import Motion  # needs torch

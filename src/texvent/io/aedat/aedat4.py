@@ -3,38 +3,32 @@
 The container is that of `aedat4_container`; a packet of events is a table EVTS.
 Coordinates are i2: sensors up to 32768 pixels a side. Times are i8 µs. Packets hold 10 ms, as
 DV's do, so that its player can seek. Provenance is in the XML of the header, as
-attribute `texvent`. One stream of events is read; triggers and IMU samples beside it are side
-data, frames are read by `texvent.capture.aedat4_frames`.
+attribute `texvent`. One stream of events is read, and the triggers beside it; frames are read by
+`texvent.capture.aedat4_frames`.
 
     TRIG  list of tables: slot 0 i64 time · 1 i8 type
-    IMUS  list of tables: slot 0 i64 time · 1 f32 temperature · 2..4 acceleration, g ·
-          5..7 rotation, degrees per second
 
 Source: iniVation, AEDAT 4.0 file format; tables in `aedat4_tables`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
 from texvent.io.aedat.aedat4_container import (
     LZ4,
     MAGIC,
-    NONE,
     PACKET_HEAD,
-    ZSTD,
     Container,
-    Packing,
     open_container,
-    packing_of,
+    pack_lz4,
     stored_size,
 )
 from texvent.io.aedat.aedat4_tables import (
@@ -50,14 +44,14 @@ from texvent.io.aedat.aedat4_tables import (
 )
 from texvent.io.block_codec import BlockCodec, FileContents, split_by_time
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
+from texvent.io.columns import Columns
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import metadata_from_json, metadata_to_json
-from texvent.io.protocol import Columns, SideData
 from texvent.io.reading import ReadOptions, choose
 
 PACKET_US = 10_000
 """Time per packet, µs."""
-EVENTS = "EVTS"
+EVENTS, TRIGGERS = "EVTS", "TRIG"
 
 
 class Aedat4Codec(BlockCodec):
@@ -66,7 +60,6 @@ class Aedat4Codec(BlockCodec):
     name: ClassVar[str] = "aedat4"
     has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = (".aedat4",)
-    packing: ClassVar[Packing] = LZ4
     limits: ClassVar[FormatLimits] = FormatLimits("AEDAT4", 1 << 15, 1 << 63)
 
     def recognises(self, path: Path) -> bool:
@@ -95,32 +88,24 @@ class Aedat4Codec(BlockCodec):
         blocks = partial(_read_blocks, container, stream)
         return FileContents(stored_size(path, stream), metadata, blocks)
 
-    def side_data(self, path: Path) -> SideData:
-        """External triggers and IMU samples."""
+    def triggers(self, path: Path) -> Iterator[Columns] | None:
+        """External triggers."""
         container = open_container(path)
-        data: dict[str, Callable[[], Iterator[Columns]]] = {}
-        for name, identifier, read in SIDE_STREAMS:
-            streams = container.streams_of(identifier)
-            if streams:
-                data[name] = partial(_read_side, container, streams, identifier, read)
-        return data
-
-    def check_target(self, target: FileTarget) -> None:
-        """Refuse a compression that is not installed."""
-        packing_of(self.packing.code)
+        streams = container.streams_of(TRIGGERS)
+        return _read_triggers(container, streams) if streams else None
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Write the header; at the end the list of packets, and where it lies into the header."""
-        xml = make_info(target.size, self.packing.name, metadata_to_json(target.metadata))
-        packing, entries = self.packing, list[PacketEntry]()
+        xml = make_info(target.size, LZ4.name, metadata_to_json(target.metadata))
+        entries: list[PacketEntry] = []
         with part.open("wb") as file:
-            file.write(MAGIC + make_header(packing.code, UNKNOWN, xml))
+            file.write(MAGIC + make_header(LZ4.code, UNKNOWN, xml))
 
             def write(columns: Columns) -> None:
                 for packet in split_by_time(columns, PACKET_US):
                     times = packet["t"]
-                    data = packing.pack(make_events(packet))
+                    data = pack_lz4(make_events(packet))
                     file.write(PACKET_HEAD.pack(0, len(data)))
                     entries.append(
                         PacketEntry(
@@ -131,66 +116,21 @@ class Aedat4Codec(BlockCodec):
 
             yield write
             position = file.tell()
-            file.write(packing.pack(make_list(entries, 0)))
+            file.write(pack_lz4(make_list(entries, 0)))
             file.seek(len(MAGIC))
-            file.write(make_header(packing.code, position, xml))
+            file.write(make_header(LZ4.code, position, xml))
 
 
-class Aedat4NoneCodec(Aedat4Codec):
-    """AEDAT4 without compression: quick to write, 16 bytes per event."""
-
-    name: ClassVar[str] = "aedat4-none"
-    has_checksums: ClassVar[bool] = False
-    extensions: ClassVar[tuple[str, ...]] = ()
-    packing: ClassVar[Packing] = NONE
-
-
-class Aedat4ZstdCodec(Aedat4Codec):
-    """AEDAT4 with Zstandard: smaller than LZ4."""
-
-    name: ClassVar[str] = "aedat4-zstd"
-    extensions: ClassVar[tuple[str, ...]] = ()
-    packing: ClassVar[Packing] = ZSTD
-
-
-def _read_triggers(table: Table) -> Columns:
-    rows = [(one.number(0, "<q", 0), one.number(1, "<b", 0)) for one in table.tables(0)]
-    numbers = np.array(rows, np.int64).reshape(-1, 2)
-    return {"t": numbers[:, 0], "type": numbers[:, 1]}
-
-
-def _read_imu(table: Table) -> Columns:
-    samples = list(table.tables(0))
-    columns: dict[str, NDArray[Any]] = {
-        "t": np.array([one.number(0, "<q", 0) for one in samples], np.int64)
-    }
-    for slot, name in enumerate(IMU_COLUMNS, 1):
-        columns[name] = np.array([one.real(slot) for one in samples], np.float64)
-    return columns
-
-
-IMU_COLUMNS = (
-    *("temperature_c", "acceleration_x_g", "acceleration_y_g", "acceleration_z_g"),
-    *("rotation_x_deg_s", "rotation_y_deg_s", "rotation_z_deg_s"),
-)
-SIDE_STREAMS: tuple[tuple[str, str, Callable[[Table], Columns]], ...] = (
-    ("triggers", "TRIG", _read_triggers),
-    ("imu", "IMUS", _read_imu),
-)
-
-
-def _read_side(
-    container: Container,
-    streams: Sequence[StreamInfo],
-    identifier: str,
-    read: Callable[[Table], Columns],
-) -> Iterator[Columns]:
+def _read_triggers(container: Container, streams: Sequence[StreamInfo]) -> Iterator[Columns]:
     for stream in streams:
         for end, packet in container.read_packets(stream):
             try:
-                yield read(Table.root(packet, identifier.encode()))
+                tables = Table.root(packet, TRIGGERS.encode()).tables(0)
+                rows = [(one.number(0, "<q", 0), one.number(1, "<b", 0)) for one in tables]
             except FileFormatError as error:
                 raise FileFormatError(f"{container.path}, before byte {end}: {error}") from error
+            numbers = np.array(rows, np.int64).reshape(-1, 2)
+            yield {"t": numbers[:, 0], "type": numbers[:, 1]}
 
 
 def _read_blocks(container: Container, stream: StreamInfo) -> Iterator[Columns]:

@@ -35,13 +35,12 @@ MAX_PACKET_BYTES = 256 * 2**20
 
 @dataclass(frozen=True)
 class Packing:
-    """One way to compress."""
+    """Compression of packets."""
 
     name: str
     """As the file's XML says it."""
     code: int
     """As the file's header says it."""
-    pack: Callable[[bytes], bytes]
     unpack: Callable[[bytes], bytes]
 
 
@@ -62,19 +61,14 @@ def packing_of(code: int) -> Packing:
     raise FileFormatError(f"its header names compression {code}; AEDAT4 knows 0 to 4")
 
 
-def _pack_lz4(data: bytes) -> bytes:
+def pack_lz4(data: bytes) -> bytes:
+    """A packet as a LZ4 frame with a checksum."""
     packed: bytes = lz4.frame.compress(data, content_checksum=True)
     return packed
 
 
 def _unpack_lz4(data: bytes) -> bytes:
     return _unpack(lz4.frame.LZ4FrameDecompressor(), data, RuntimeError, "LZ4")
-
-
-def _pack_zstd(data: bytes) -> bytes:
-    zstd = _zstd()
-    packed: bytes = zstd.compress(data, options={zstd.CompressionParameter.checksum_flag: 1})
-    return packed
 
 
 def _unpack_zstd(data: bytes) -> bytes:
@@ -111,9 +105,9 @@ def _zstd() -> ModuleType:
         return require("backports.zstd", extra="zstd")
 
 
-NONE = Packing("NONE", 0, bytes, bytes)
-LZ4 = Packing("LZ4", 1, _pack_lz4, _unpack_lz4)
-ZSTD = Packing("ZSTD", 3, _pack_zstd, _unpack_zstd)
+NONE = Packing("NONE", 0, bytes)
+LZ4 = Packing("LZ4", 1, _unpack_lz4)
+ZSTD = Packing("ZSTD", 3, _unpack_zstd)
 
 
 MAGIC = b"#!AER-DAT4.0\r\n"

@@ -70,15 +70,6 @@ class Table:
         position = self.field(slot)
         return default if position is None else _number(form, self.data, position)
 
-    def real(self, slot: int) -> float:
-        """A number of 32 bits, 0 if it is left out."""
-        position = self.field(slot)
-        if position is None:
-            return 0.0
-        if position + 4 > len(self.data):
-            raise FileFormatError("an offset points outside its table")
-        return float(struct.unpack_from("<f", self.data, position)[0])
-
     def text(self, slot: int) -> bytes:
         """A string, empty if it is left out."""
         start, count = self.vector(slot)

@@ -37,6 +37,7 @@ from texvent.io.block_codec import (
     seek_rows,
 )
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
+from texvent.io.columns import Columns
 from texvent.io.input_checks import (
     TIMESTAMP_SCALE_MS,
     ZIP_DAMAGE,
@@ -46,7 +47,6 @@ from texvent.io.input_checks import (
     stated_unit,
 )
 from texvent.io.metadata import metadata_from_json, metadata_to_json
-from texvent.io.protocol import Columns
 from texvent.io.reading import ReadOptions, TimeUnit, choose
 from texvent.io.tables import TABLE_OPTIONS, find_tables
 from texvent.sensor import SensorSize
@@ -78,8 +78,6 @@ class NpzCodec(BlockCodec):
     )
 
     takes: ClassVar[tuple[str, ...]] = TABLE_OPTIONS
-    names: ClassVar[Mapping[str, str]] = {}
-    """Column → name of its array, where that is another."""
 
     def recognises(self, path: Path) -> bool:
         """True if it is a zip archive of arrays."""
@@ -98,10 +96,7 @@ class NpzCodec(BlockCodec):
         yield blocks.append
         parts = blocks or [{name: np.empty(0, COLUMN_TYPES[name]) for name in "xytp"}]
         arrays: dict[str, Any] = {
-            **{
-                self.names.get(name, name): np.concatenate([one[name] for one in parts])
-                for name in parts[0]
-            },
+            **{name: np.concatenate([one[name] for one in parts]) for name in parts[0]},
             # eventcv reads no other integers here.
             "width": np.uint64(target.size.width),
             "height": np.uint64(target.size.height),
@@ -110,15 +105,6 @@ class NpzCodec(BlockCodec):
         }
         with part.open("wb") as file:
             np.savez(file, **arrays)
-
-
-class TimelensCodec(NpzCodec):
-    """NumPy archives with the names that TimeLens reads."""
-
-    name: ClassVar[str] = "timelens"
-    extensions: ClassVar[tuple[str, ...]] = ()
-    limits: ClassVar[FormatLimits] = FormatLimits("TimeLens npz", 1 << 16, 1 << 63)
-    names: ClassVar[Mapping[str, str]] = {"t": "timestamp", "p": "polarity"}
 
 
 def read_arrays(path: Path) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""Events in HDF5: every layout that `texvent.io.tables` finds; universal, DSEC's, v2e's written.
+"""Events in HDF5: every layout that `texvent.io.tables` finds; universal and DSEC's are written.
 
 The universal layout is DSEC's with absolute times, read by most event-camera software:
 
@@ -19,13 +19,11 @@ event needs no special case. A recording that starts more than 19 hours after ze
 is stored relative to its first millisecond in t_offset, as DSEC does, because ms_to_idx would
 not fit otherwise.
 
-DSEC's own layout (`dsec`, `dsec-blosc`) has times in u4 after t_offset, the first event's
-millisecond, so a file spans at most 2^32 µs (71.6 min), and closes ms_to_idx one entry earlier.
-blosc, as DSEC's files have it, is written and read several times faster, with hdf5plugin.
-
-v2e's layout is one data set `events`, u4 [n, 4], rows t (µs), x, y, p. Times stay below 2^32 µs.
-texvent adds the root attributes width, height and texvent; files of v2e itself store no size, and
-after 17 s they have lost the µs, because v2e passes times through float32.
+DSEC's own layout (`dsec`) has times in u4 after t_offset, the first event's millisecond, so a file
+spans at most 2^32 µs (71.6 min), and closes ms_to_idx one entry earlier. Read with hdf5plugin are
+also files packed with blosc, as DSEC's own. v2e's files, one data set `events` u4 [n, 4] of rows
+t (µs), x, y, p, store no size, and after 17 s they have lost the µs, because v2e passes times
+through float32.
 
 Source: Gehrig et al., DSEC: A Stereo Event Camera Dataset for Driving Scenarios, RA-L 2021; Hu, Liu
 and Delbruck, v2e: From Video Frames to Realistic DVS Events, 2021, and its files.
@@ -44,14 +42,14 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent._require import require
 from texvent.errors import FileFormatError, shown
 from texvent.events import COLUMN_TYPES, OPTIONAL_COLUMNS
-from texvent.io.block_codec import FileContents, TimedRows, read_rows, seek_rows
-from texvent.io.block_writer import FileTarget, FormatLimits
+from texvent.io.block_codec import BlockCodec, FileContents, TimedRows, read_rows, seek_rows
+from texvent.io.block_writer import BlockWriter, FileTarget, FormatLimits, WriteBlock
+from texvent.io.columns import Columns
 from texvent.io.hdf5.storage import (
-    Hdf5BlockCodec,
-    Hdf5Sink,
+    DeferredErrorFile,
+    Hdf5Writer,
     append_chunks,
     check_claims,
     check_filters,
@@ -59,7 +57,6 @@ from texvent.io.hdf5.storage import (
 )
 from texvent.io.input_checks import TIMESTAMP_SCALE_MS, begins_with, stated_unit
 from texvent.io.metadata import metadata_from_json, metadata_to_json
-from texvent.io.protocol import Columns
 from texvent.io.reading import ReadOptions, choose
 from texvent.io.tables import TABLE_OPTIONS, EventTable, find_tables
 
@@ -96,19 +93,23 @@ class OffsetLimits(FormatLimits):
         return first_us // 1000 * 1000 if first_us >= self.max_absolute_us else 0
 
 
-class NativeSink(Hdf5Sink):
-    """Appends to the columns, and keeps the index by millisecond."""
+class Hdf5Columns:
+    """The columns of an open file, to which blocks are appended, and their index by millisecond.
 
-    time_type: ClassVar[str] = COLUMN_FORMATS["t"]
-    _next_ms = 0
-    _offset_us = 0
+    Blocks hold whole chunks, except the last.
 
-    def _filters(self) -> Mapping[str, Any]:
-        return GZIP
+    Args:
+        file: h5py's, new and open.
+        target: the file to write.
+        limits: of the format.
+        time_type: NumPy's, of the stored times.
+    """
 
-    def _create_layout(self, target: FileTarget) -> None:
-        file = self._file
-        for name, dtype in {**COLUMN_FORMATS, "t": self.time_type}.items():
+    def __init__(self, file: Any, target: FileTarget, limits: OffsetLimits, time_type: str) -> None:
+        self._file = file
+        self._limits = limits
+        self._written = self._next_ms = self._offset_us = 0
+        for name, dtype in {**COLUMN_FORMATS, "t": time_type}.items():
             self._create_column(f"events/{name}", dtype, CHUNK_EVENTS)
         self._create_column("ms_to_idx", "<u8", INDEX_CHUNK)
         file.attrs["width"], file.attrs["height"] = target.size
@@ -116,19 +117,9 @@ class NativeSink(Hdf5Sink):
         write_metadata(file, target.metadata)
         _write_scalars(file, target.metadata)
 
-    def _create_column(self, name: str, dtype: str, chunk: int) -> None:
-        self._file.create_dataset(
-            name,
-            shape=(0,),
-            maxshape=(None,),
-            dtype=dtype,
-            chunks=(chunk,),
-            **self._filters(),
-        )
-
     def store(self, columns: Columns) -> None:
-        """As `Hdf5Sink.store`."""
-        if self.written == 0:
+        """Write events behind those stored so far."""
+        if self._written == 0:
             self._offset_us = self._limits.origin_us(int(columns["t"][0]))
             for name in OPTIONAL_COLUMNS:
                 if name in columns:
@@ -137,10 +128,18 @@ class NativeSink(Hdf5Sink):
         times = columns["t"] - self._offset_us
         self._index(times)
         for name, values in columns.items():
-            self._extend_column(name, times if name == "t" else values)
+            append_chunks(self._file[f"events/{name}"], times if name == "t" else values)
+        self._written += len(times)
 
-    def _extend_column(self, name: str, values: NDArray[Any]) -> None:
-        append_chunks(self._file[f"events/{name}"], values)
+    def complete(self) -> None:
+        """Write what is known only at the end."""
+        self._extend_index(np.array([self._written], dtype=np.uint64))
+        self._file["t_offset"] = np.int64(self._offset_us)
+        # A single value has no checksum; attributes are in the header, which has one.
+        self._file.attrs["t_offset"] = np.int64(self._offset_us)
+
+    def _create_column(self, name: str, dtype: str, chunk: int) -> None:
+        self._file.create_dataset(name, (0,), dtype, maxshape=(None,), chunks=(chunk,), **GZIP)
 
     def _index(self, times: NDArray[np.int64]) -> None:
         """Extend ms_to_idx up to the last of these times, µs after t_offset."""
@@ -148,49 +147,28 @@ class NativeSink(Hdf5Sink):
         while self._next_ms <= last_ms:
             stop = min(last_ms + 1, self._next_ms + INDEX_BATCH)
             starts_us = np.arange(self._next_ms, stop, dtype=np.int64) * 1000
-            indexes = np.searchsorted(times, starts_us, side="left") + self.written
-            self._extend("ms_to_idx", indexes)
+            self._extend_index(np.searchsorted(times, starts_us, side="left") + self._written)
             self._next_ms = stop
 
-    def complete(self) -> None:
-        """As `Hdf5Sink.complete`."""
-        self._extend("ms_to_idx", np.array([self.written], dtype=np.uint64))
-        self._file["t_offset"] = np.int64(self._offset_us)
-        # A single value has no checksum; attributes are in the header, which has one.
-        self._file.attrs["t_offset"] = np.int64(self._offset_us)
+    def _extend_index(self, values: NDArray[Any]) -> None:
+        dataset = self._file["ms_to_idx"]
+        known = dataset.shape[0]
+        dataset.resize(known + len(values), axis=0)
+        dataset[known:] = values
 
 
-class V2eSink(Hdf5Sink):
-    """Appends rows to v2e's data set."""
-
-    def _create_layout(self, target: FileTarget) -> None:
-        self._file.attrs["width"], self._file.attrs["height"] = target.size
-        write_metadata(self._file, target.metadata)
-        self._file.create_dataset(
-            "events",
-            shape=(0, 4),
-            maxshape=(None, 4),
-            dtype="<u4",
-            chunks=(CHUNK_EVENTS, 4),
-            **GZIP,
-        )
-
-    def store(self, columns: Columns) -> None:
-        """As `Hdf5Sink.store`."""
-        rows = [columns[name].astype(np.uint32) for name in "txyp"]
-        self._extend("events", np.stack(rows, axis=1))
-
-
-class Hdf5Codec(Hdf5BlockCodec):
+class Hdf5Codec(BlockCodec):
     """HDF5 whose data sets have names that are known, written in the universal layout."""
 
     name: ClassVar[str] = "hdf5"
+    extensions: ClassVar[tuple[str, ...]] = (".h5", ".hdf5")
+    writer: ClassVar[type[BlockWriter]] = Hdf5Writer
     has_checksums: ClassVar[bool] = True
     takes: ClassVar[tuple[str, ...]] = TABLE_OPTIONS
-    limits: ClassVar[FormatLimits] = OffsetLimits(
+    limits: ClassVar[OffsetLimits] = OffsetLimits(
         "HDF5", 1 << 16, 1 << 63, MAX_SPAN_US, keeps_labels=True
     )
-    sink: ClassVar[type[Hdf5Sink]] = NativeSink
+    time_type: ClassVar[str] = COLUMN_FORMATS["t"]
 
     def recognises(self, path: Path) -> bool:
         """True if it is HDF5, and not in a layout of its own such as Metavision's."""
@@ -211,6 +189,25 @@ class Hdf5Codec(Hdf5BlockCodec):
             metadata = read_metadata(file, path) or {}
         rows = partial(_open_rows, path, options)
         return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
+
+    @contextmanager
+    def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
+        """Create the empty data sets; what HDF5 holds back is written at the end."""
+        # v110: object headers and chunk indexes then carry checksums.
+        with (
+            DeferredErrorFile(part) as disk,
+            h5py.File(disk, "w", libver=("v110", "v110")) as file,
+        ):
+            stored = Hdf5Columns(file, target, self.limits, self.time_type)
+
+            def write(columns: Columns) -> None:
+                stored.store(columns)
+                disk.raise_failure()
+
+            yield write
+            stored.complete()
+            file.close()
+            disk.raise_failure()
 
 
 def _find_table(file: Any, path: Path, options: ReadOptions) -> tuple[EventTable, dict[str, Any]]:
@@ -346,50 +343,12 @@ def read_metadata(node: Any, path: Path) -> dict[str, Any] | None:
     return None if text is None else metadata_from_json(path, text)
 
 
-class DsecSink(NativeSink):
-    """Writes times in 32 bits."""
-
-    time_type: ClassVar[str] = "<u4"
-
-
-class DsecBloscSink(DsecSink):
-    """Compresses with blosc (Zstandard, level 1)."""
-
-    def _filters(self) -> Mapping[str, Any]:
-        plugin = require("hdf5plugin", extra="blosc")
-        return dict(plugin.Blosc(cname="zstd", clevel=1, shuffle=plugin.Blosc.SHUFFLE))
-
-    def _extend_column(self, name: str, values: NDArray[Any]) -> None:
-        self._extend(f"events/{name}", values)
-
-
 class DsecCodec(Hdf5Codec):
     """DSEC files, compressed with gzip."""
 
     name: ClassVar[str] = "dsec"
-    has_checksums: ClassVar[bool] = True
     extensions: ClassVar[tuple[str, ...]] = ()
-    limits: ClassVar[FormatLimits] = OffsetLimits(
+    limits: ClassVar[OffsetLimits] = OffsetLimits(
         "DSEC HDF5", 1 << 16, 1 << 63, 2**32 - 1, keeps_labels=True, max_absolute_us=0
     )
-    sink: ClassVar[type[Hdf5Sink]] = DsecSink
-
-
-class DsecBloscCodec(DsecCodec):
-    """DSEC files, compressed with blosc as the data set's own."""
-
-    name: ClassVar[str] = "dsec-blosc"
-    has_checksums: ClassVar[bool] = False
-    sink: ClassVar[type[Hdf5Sink]] = DsecBloscSink
-
-    def check_target(self, target: FileTarget) -> None:
-        """Refuse to start without hdf5plugin."""
-        require("hdf5plugin", extra="blosc")
-
-
-class V2eCodec(Hdf5Codec):
-    """HDF5 as v2e writes it."""
-
-    name: ClassVar[str] = "v2e"
-    limits: ClassVar[FormatLimits] = FormatLimits("v2e HDF5", 1 << 16, 1 << 32)
-    sink: ClassVar[type[Hdf5Sink]] = V2eSink
+    time_type: ClassVar[str] = "<u4"

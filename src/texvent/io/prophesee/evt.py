@@ -4,10 +4,10 @@ A RAW file is a text header (`% format EVT3;height=720;width=1280`, …, `% end`
 format it names. Older recordings have only `% evt 3.0` and `% geometry 1280x720`, or no size.
 
 All three split time into a word TIME_HIGH, sent when it changes, and low bits at each event.
-OpenEB takes the first TIME_HIGH as the start and subtracts it from every time; a file of texvent
-therefore begins with TIME_HIGH 0, and times stay exact. Reading does not shift time. Events
-before the first TIME_HIGH have no time and are left out, as OpenEB does; triggers and other
-words are skipped.
+EVT3 alone is written. OpenEB takes the first TIME_HIGH as the start and subtracts it from every
+time; a file of texvent therefore begins with TIME_HIGH 0, and times stay exact. Reading does not
+shift time. Events before the first TIME_HIGH have no time and are left out, as OpenEB does;
+triggers and other words are skipped.
 
 Source: Prophesee, "Data Encoding Formats" of the Metavision documentation.
 """
@@ -15,7 +15,7 @@ Source: Prophesee, "Data Encoding Formats" of the Metavision documentation.
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from functools import partial
 from pathlib import Path
@@ -26,11 +26,17 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
 from texvent.events import COLUMN_TYPES
-from texvent.io.block_codec import BlockCodec, FileContents, read_records, write_records
+from texvent.io.block_codec import (
+    BlockCodec,
+    BlockReader,
+    FileContents,
+    read_records,
+    write_records,
+)
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
+from texvent.io.columns import Columns
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
 from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding, read_triggers
-from texvent.io.protocol import Columns, SideData
 from texvent.io.reading import ReadOptions
 
 Words: TypeAlias = bytes | memoryview | NDArray[Any]
@@ -38,10 +44,8 @@ Words: TypeAlias = bytes | memoryview | NDArray[Any]
 
 
 WordKernels: TypeAlias = Any
-"""Module of the compiled loops of a format: the words `START` before the first event, the
-NumPy type `WORD` of the numbers that its functions take (a word of the file may be two), the first
-`DECODER_STATE` and `ENCODER_STATE`; `count_events`, `decode_words`, `count_words`, `encode_events`.
-"""
+"""Module of the compiled loops of a format: the NumPy type `WORD` of the numbers that its functions
+take (a word of the file may be two), the first `DECODER_STATE`, `count_events`, `decode_words`."""
 
 
 class WordDecoder:
@@ -60,45 +64,21 @@ class WordDecoder:
         return {name: column[:count] for name, column in columns.items()}
 
 
-class WordEncoder:
-    """Turns consecutive blocks of events into words."""
-
-    def __init__(self, kernels: WordKernels) -> None:
-        self._kernels = kernels
-        self._state = np.array(kernels.ENCODER_STATE, dtype=np.int64)
-
-    def start(self) -> bytes:
-        """Words before the first event."""
-        return np.array(self._kernels.START, dtype=self._kernels.WORD).tobytes()
-
-    def encode(self, columns: Columns) -> memoryview:
-        """Words of the events in columns x, y, t, p."""
-        room = self._kernels.count_words(columns["t"], self._state)
-        words = np.empty(room, dtype=self._kernels.WORD)
-        ordered = tuple(columns[name] for name in "xytp")
-        count = self._kernels.encode_events(ordered, self._state, words)
-        return words[:count].data.cast("B")
-
-
 MAX_SIDE = 2048
 """Coordinates have 11 bits."""
 INTEGRATOR = "Prophesee"
 """OpenEB chooses the plug-in that decodes a file by this name."""
 
 
-class EvtCodec(BlockCodec):
-    """Reads and writes RAW files of one event format; the subclasses say which."""
+class EvtReader(BlockReader):
+    """Reads RAW files of one event format; the subclasses say which."""
 
     extensions: ClassVar[tuple[str, ...]] = (".raw",)
     title: ClassVar[str]
     """The format as `% format` names it: `EVT3`."""
-    version: ClassVar[str]
-    """The format as `% evt` names it: `3.0`."""
     word_bytes: ClassVar[int]
-    triggers: ClassVar[TriggerCoding]
+    trigger_coding: ClassVar[TriggerCoding]
     """Places of the fields of a trigger."""
-    options: ClassVar[Mapping[str, str]] = {}
-    """More of the `% format` line; each has a line of its own too, for readers that look there."""
 
     def recognises(self, path: Path) -> bool:
         """True if the header names this format."""
@@ -116,10 +96,6 @@ class EvtCodec(BlockCodec):
         del header
         return WordDecoder(self.kernels())
 
-    def make_encoder(self) -> WordEncoder:
-        """An encoder for one file."""
-        return WordEncoder(self.kernels())
-
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """The header states size and metadata."""
         header = _read_header(path)
@@ -134,31 +110,13 @@ class EvtCodec(BlockCodec):
         size, metadata = header.stored_size(path), header.metadata(path)
         return FileContents(size, metadata, partial(self._read_blocks, path, header))
 
-    def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
-        """Write the header and the words before the first event."""
-        size = target.size
-        facts = {**self.options, "height": str(size.height), "width": str(size.width)}
-        fields = {
-            **self.options,
-            "camera_integrator_name": INTEGRATOR,
-            "evt": self.version,
-            "format": ";".join([self.title, *(f"{key}={value}" for key, value in facts.items())]),
-            "geometry": str(size),
-            "integrator_name": INTEGRATOR,
-            "plugin_integrator_name": INTEGRATOR,
-        }
-        encoder = self.make_encoder()
-        header = make_text_header(fields, target.metadata, end=True)
-        return write_records(part, header + encoder.start(), encoder.encode)
-
-    def side_data(self, path: Path) -> SideData:
+    def triggers(self, path: Path) -> Iterator[Columns]:
         """External triggers."""
-        return {"triggers": partial(self._read_triggers, path)}
-
-    def _read_triggers(self, path: Path) -> Iterator[Columns]:
         header = _read_header(path)
         blocks = read_records(path, header.length, self.word_bytes)
-        return read_triggers((self.in_order(header, words) for words in blocks), self.triggers)
+        return read_triggers(
+            (self.in_order(header, words) for words in blocks), self.trigger_coding
+        )
 
     def in_order(self, header: TextHeader, words: bytes) -> bytes:
         """Words whose lowest byte comes first."""
@@ -184,15 +142,13 @@ def _format_name(header: TextHeader) -> str:
     return named or older.get(version, version)
 
 
-class Evt2Codec(EvtCodec):
+class Evt2Codec(EvtReader):
     """RAW files of EVT2."""
 
     name: ClassVar[str] = "evt2"
     title: ClassVar[str] = "EVT2"
-    version: ClassVar[str] = "2.0"
     word_bytes: ClassVar[int] = 4
-    triggers: ClassVar[TriggerCoding] = EVT2
-    limits: ClassVar[FormatLimits] = FormatLimits("EVT2", MAX_SIDE, 1 << 34)
+    trigger_coding: ClassVar[TriggerCoding] = EVT2
 
     def kernels(self) -> WordKernels:
         """The compiled loops of EVT2."""
@@ -205,16 +161,13 @@ LEGACY = "legacy"
 FIRST_LITTLE_SYSTEM = 0x37
 
 
-class Evt21Codec(EvtCodec):
+class Evt21Codec(EvtReader):
     """RAW files of EVT2.1."""
 
     name: ClassVar[str] = "evt21"
     title: ClassVar[str] = "EVT21"
-    version: ClassVar[str] = "2.1"
     word_bytes: ClassVar[int] = 8
-    triggers: ClassVar[TriggerCoding] = EVT21
-    limits: ClassVar[FormatLimits] = FormatLimits("EVT2.1", MAX_SIDE, 1 << 34)
-    options: ClassVar[Mapping[str, str]] = {"endianness": LEGACY}
+    trigger_coding: ClassVar[TriggerCoding] = EVT21
 
     def kernels(self) -> WordKernels:
         """The compiled loops of EVT2.1."""
@@ -253,14 +206,13 @@ def is_legacy(header: TextHeader) -> bool:
     return known and maker in (None, INTEGRATOR) and 0 < int(system) < FIRST_LITTLE_SYSTEM
 
 
-class Evt3Codec(EvtCodec):
+class Evt3Codec(EvtReader, BlockCodec):
     """RAW files of EVT3."""
 
     name: ClassVar[str] = "evt3"
     title: ClassVar[str] = "EVT3"
-    version: ClassVar[str] = "3.0"
     word_bytes: ClassVar[int] = 2
-    triggers: ClassVar[TriggerCoding] = EVT3
+    trigger_coding: ClassVar[TriggerCoding] = EVT3
     limits: ClassVar[FormatLimits] = FormatLimits("EVT3", MAX_SIDE, 1 << 42)
 
     def kernels(self) -> WordKernels:
@@ -268,3 +220,44 @@ class Evt3Codec(EvtCodec):
         from texvent.io.prophesee import evt3_coding  # brings Numba
 
         return evt3_coding
+
+    def make_encoder(self) -> Evt3Encoder:
+        """An encoder for one file."""
+        return Evt3Encoder()
+
+    def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
+        """Write the header and the words before the first event."""
+        size = target.size
+        fields = {
+            "camera_integrator_name": INTEGRATOR,
+            "evt": "3.0",
+            "format": f"{self.title};height={size.height};width={size.width}",
+            "geometry": str(size),
+            "integrator_name": INTEGRATOR,
+            "plugin_integrator_name": INTEGRATOR,
+        }
+        encoder = self.make_encoder()
+        header = make_text_header(fields, target.metadata, end=True)
+        return write_records(part, header + encoder.start(), encoder.encode)
+
+
+class Evt3Encoder:
+    """Turns consecutive blocks of events into words."""
+
+    def __init__(self) -> None:
+        from texvent.io.prophesee import evt3_coding  # brings Numba
+
+        self._coding = evt3_coding
+        self._state = np.array(evt3_coding.ENCODER_STATE, dtype=np.int64)
+
+    def start(self) -> bytes:
+        """Words before the first event."""
+        return np.array(self._coding.START, dtype=self._coding.WORD).tobytes()
+
+    def encode(self, columns: Columns) -> memoryview:
+        """Words of the events in columns x, y, t, p."""
+        room = self._coding.count_words(columns["t"], self._state)
+        words = np.empty(room, dtype=self._coding.WORD)
+        ordered = tuple(columns[name] for name in "xytp")
+        count = self._coding.encode_events(ordered, self._state, words)
+        return words[:count].data.cast("B")

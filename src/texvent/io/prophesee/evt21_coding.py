@@ -1,17 +1,16 @@
-"""EVT2.1 words ↔ events: words of 64 bits for up to 32 events each.
+"""EVT2.1 words → events: words of 64 bits for up to 32 events each.
 
     bits 63..60   type: 0 OFF, 1 ON, 8 TIME_HIGH; others are skipped
     OFF, ON       59..54 low 6 bits of t (µs) · 53..43 first x, a multiple of 32 · 42..32 y
                   31..0  bit i set: an event at x + i
     TIME_HIGH     59..32 t >> 6
 
-Coordinates below 2048, times below 2^34 µs (4 h 46 min), as EVT2. Consecutive events of one time,
-row and polarity whose x rises share a word; the order of events is kept.
+Coordinates below 2048. The time wraps every 2^34 µs (4 h 46 min), as in EVT2.
 
 The words come in one of two orders of bytes, as the header says: `endianness=little`, plain, or
-`endianness=legacy`, upper half first (each half little-endian), as the IMX636 sends them. texvent
-reads both and writes legacy, which more readers know. Where nothing is stated, cameras of
-Prophesee with a system number below 0x37 count as legacy, the others as little, as in OpenEB.
+`endianness=legacy`, upper half first (each half little-endian), as the IMX636 sends them. Where
+nothing is stated, cameras of Prophesee with a system number below 0x37 count as legacy, the others
+as little, as in OpenEB.
 
 A word of 64 bits is handled as two numbers of 32 bits, upper half first, the way it is written:
 Numba has no type that holds both signed and unsigned 64 bits.
@@ -29,11 +28,8 @@ from numpy.typing import NDArray
 from texvent.runtime.jit import jit
 
 WORD = "<u4"
-START = (0x8000_0000, 0)
-"""TIME_HIGH 0: see `texvent.io.prophesee.evt`."""
 DECODER_STATE = (0, -1)
 """Number of wraps of TIME_HIGH, and its value (−1: none yet)."""
-ENCODER_STATE = (0, 0)
 TIME_HIGH = 8
 HALF_TURN = 1 << 27
 """A fall of TIME_HIGH by more than this is a wrap of its 28 bits."""
@@ -43,11 +39,6 @@ DE_BRUIJN = 0x077C_B531
 LOWEST_BIT = np.zeros(VECTOR, dtype=np.uint8)
 LOWEST_BIT[[(DE_BRUIJN << i & 0xFFFF_FFFF) >> 27 for i in range(VECTOR)]] = np.arange(VECTOR)
 """Upper five bits of that product → i."""
-
-
-def count_words(times: NDArray[np.int64], state: NDArray[np.int64]) -> int:
-    """Room for the halves of the words of these events."""
-    return 4 * len(times)
 
 
 @jit
@@ -93,40 +84,4 @@ def decode_words(
                 turns += 1
             high = fresh
     state[0], state[1] = turns, high
-    return count
-
-
-@jit
-def encode_events(
-    columns: tuple[NDArray[Any], ...], state: NDArray[np.int64], words: NDArray[np.uint32]
-) -> int:
-    """Fill words from columns x, y, t, p; returns the number of their halves."""
-    x, y, t, p = columns
-    high = state[1]
-    count = 0
-    i = 0
-    while i < t.size:
-        time, row, sign = np.int64(t[i]), np.int64(y[i]), np.int64(p[i])
-        if time >> 6 != high:
-            high = time >> 6
-            words[count] = (TIME_HIGH << 28) | high
-            words[count + 1] = 0
-            count += 2
-        base = np.int64(x[i]) & ~(VECTOR - 1)
-        offset = np.int64(x[i]) - base
-        bits = np.int64(0)
-        # Only neighbours in time whose x rises, so that the order of events is kept.
-        while True:
-            bits |= np.int64(1) << offset
-            i += 1
-            if i == t.size or t[i] != time or y[i] != row or p[i] != sign:
-                break
-            following = np.int64(x[i]) - base
-            if following <= offset or following >= VECTOR:
-                break
-            offset = following
-        words[count] = (sign << 28) | ((time & 0x3F) << 22) | (base << 11) | row
-        words[count + 1] = bits
-        count += 2
-    state[1] = high
     return count

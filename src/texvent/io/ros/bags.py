@@ -26,10 +26,10 @@ from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, one_line
 from texvent.io.block_codec import BlockCodec, BlockReader, FileContents
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
+from texvent.io.columns import Columns
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import parse_sidecar, sidecar_text
 from texvent.io.prophesee.evt import Evt3Codec
-from texvent.io.protocol import Columns
 from texvent.io.reading import ReadOptions, choose
 from texvent.io.ros.bag_writer import (
     EXTRA,

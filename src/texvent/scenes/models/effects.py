@@ -24,8 +24,8 @@ class EmitterStyle:
     are quick.
     """
 
-    body: Literal["puff", "drop", "chip"]
-    """Translucent puffs, drops that are stretched along their flight, or tumbling solid chips that
+    body: Literal["puff", "drop", "flake"]
+    """Translucent puffs, drops that are stretched along their flight, or tumbling solid flakes that
     come to rest on the ground."""
     count: int
     life: float = 0.0
@@ -35,8 +35,6 @@ class EmitterStyle:
     of one colour in each life; 0 = one after the other."""
     speed: float = 0.0
     """At birth."""
-    lift: float = 0.0
-    """Part of the speed that is added upwards."""
     spread_rad: tuple[float, float] = (0.0, 0.0)
     """Least and greatest angle to `aim`."""
     aim: Vector = (0.0, 0.0, 1.0)
@@ -44,8 +42,7 @@ class EmitterStyle:
     area: float = 0.0
     """Radius of the spot that particles start from."""
     fills: Vector | None = None
-    """Instead, shares of the body's length, width and height that they start in; where it has a
-    height, chips fly outwards from its middle."""
+    """Instead, shares of the body's length, width and height that they start in."""
     gravity: float = 0.0
     """Share of gravity that acts; below 0 particles rise."""
     wind: float = 0.0
@@ -59,9 +56,9 @@ class EmitterStyle:
     proportions: Vector = (1.0, 1.0, 1.0)
     """Half extents by the radius; the last one is upright, of drops along the flight."""
     turns: float = 1.0
-    """Rate at which chips tumble."""
+    """Rate at which flakes tumble."""
     colours: tuple[Colour, ...] = ()
-    """Of puffs at birth and at the end; of solid bodies those that occur; empty: the object's."""
+    """Of puffs at birth and at the end; of solid bodies those that occur."""
     emission: tuple[float, float] = (0.0, 0.0)
     """Light given off at birth and at the end, as a multiple of the colour."""
     thickness: tuple[float, float] = (1.0, 0.0)
@@ -80,8 +77,6 @@ class EffectWords:
     """Singular or mass nouns that name it, such as "smoke": "smoke rises from a chimney"."""
     verbs: tuple[str, ...] = ()
     """Base forms said of the object it comes from, such as "smoke": "a chimney smokes"."""
-    ends_source: bool = False
-    """Whether it happens once, and the object it comes from is gone afterwards: a burst."""
     size: float = 1.0
     """Its size by that of the object it comes from."""
     alone: Vector = (0.15, 0.0, 0.0)
@@ -94,8 +89,8 @@ class EffectWords:
     emitters: tuple[EmitterStyle, ...] = ()
 
 
-_BODIES: Mapping[str, Literal["puff", "drop", "chip"]] = MappingProxyType(
-    {"chips": "chip", "flakes": "chip", "drops": "drop", "puffs": "puff"}
+_BODIES: Mapping[str, Literal["puff", "drop", "flake"]] = MappingProxyType(
+    {"flakes": "flake", "drops": "drop", "puffs": "puff"}
 )
 """Kind of particles in the table → their bodies."""
 

@@ -17,7 +17,7 @@ from texvent.runtime.jit import jit
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.scenes.raycast.addresses import list_at
 from texvent.scenes.raycast.records import World
-from texvent.scenes.raycast.render import world_at
+from texvent.scenes.raycast.render import world_and_shapes, world_at
 from texvent.scenes.raycast.trace import (
     SKY,
     background_hit,
@@ -27,7 +27,7 @@ from texvent.scenes.raycast.trace import (
     tile_at,
 )
 from texvent.scenes.raycast.vectors import plane_point
-from texvent.scenes.scene import Float32Array, Float64Array, Scene, place_in_image
+from texvent.scenes.scene import Float32Array, Float64Array, Primitives, Scene, place_in_image
 from texvent.sensor import SensorSize
 from texvent.video import Motion
 
@@ -92,13 +92,13 @@ def ground_truth(scene: Scene, t0_s: float, t1_s: float, size: SensorSize) -> Gr
         t1_s: instant that flow leads to, s.
         size: image size, pixels.
     """
-    world = world_at(scene, t0_s, size)
+    world, shapes = world_and_shapes(scene, t0_s, size, shadows=False)
     seen = cast_centres(world, size)
-    instances = _instances(scene, t0_s, seen.number)
+    instances = _instances(shapes, seen.number)
     place = move_to(scene, (t0_s, t1_s), size, seen)
     in_front = place[:, 2] > 0.0
     flow = np.where(in_front[:, None], place[:, :2] - seen.points, np.nan)
-    hidden = _hidden(world_at(scene, t1_s, size), place, size)
+    hidden = _hidden(world_at(scene, t1_s, size, shadows=False), place, size)
     shape = size.shape
     return GroundTruth(
         t0_s,
@@ -125,13 +125,14 @@ def visible_instances(
     Returns:
         [k] depth along the optical axis, m, inf for the sky; and [k] instance ids.
     """
-    depth, number = cast(world_at(scene, time_s, size), np.ascontiguousarray(points, np.float64))
-    return depth, _instances(scene, time_s, number)
+    world, shapes = world_and_shapes(scene, time_s, size, shadows=False)
+    depth, number = cast(world, np.ascontiguousarray(points, np.float64))
+    return depth, _instances(shapes, number)
 
 
-def _instances(scene: Scene, time_s: float, number: NDArray[np.int32]) -> NDArray[np.int32]:
+def _instances(shapes: Primitives, number: NDArray[np.int32]) -> NDArray[np.int32]:
     """Instance ids of shape numbers; 0 for ground, sky and walls."""
-    owner = np.append(scene.primitives(time_s).instance.astype(np.int32), np.int32(0))
+    owner = np.append(shapes.instance.astype(np.int32), np.int32(0))
     return np.asarray(owner[np.where(number >= 0, number, -1)], dtype=np.int32)
 
 
@@ -293,7 +294,7 @@ def frame_motion(
     Returns:
         Vectors to both, exact; NaN where the surface is not in front of the camera then.
     """
-    seen = cast_centres(world_at(scene, time_s, size), size)
+    seen = cast_centres(world_at(scene, time_s, size, shadows=False), size)
 
     def vectors(to_s: float | None) -> NDArray[np.float32] | None:
         if to_s is None:

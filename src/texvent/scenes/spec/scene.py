@@ -49,7 +49,7 @@ Material: TypeAlias = Literal[
     "wood", "brick", "stone", "marble", "concrete", "metal", "brass", "glass", "plastic",
     "ceramic", "cloth", "leather", "rubber", "paper", "rust", "ice",
 ]  # fmt: skip
-Placement: TypeAlias = Literal["left", "right", "centre", "far", "near", "lane", "row"]
+Placement: TypeAlias = Literal["left", "right", "centre", "far", "near", "lane"]
 MoveKind: TypeAlias = Literal[
     "static", "pan", "tilt", "roll", "zoom", "dolly", "truck", "pedestal", "orbit", "follow",
     "handheld", "travel",
@@ -133,8 +133,7 @@ class SceneObject:
     material: Material | None = None
     """Material of the surface."""
     placement: Placement | None = None
-    """Region of the image ("left", "right", "centre", "far", "near"), the road ("lane"), or a "row"
-    of the copies."""
+    """Region of the image ("left", "right", "centre", "far", "near") or the road ("lane")."""
     motions: tuple[Motion, ...] = ()
     """Motions in their order; left out: the usual one where nothing else moves, else rest."""
     relations: tuple[Relation, ...] = ()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
@@ -19,13 +18,12 @@ from texvent.scenes.scene import (
     Ground,
     Primitives,
 )
-from texvent.scenes.staging.actors import Actor, PlacedModel, assemble, join_primitives, seeded
+from texvent.scenes.staging.actors import Actor, assemble, join_primitives, seeded
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.camera_placement import place_camera
 from texvent.scenes.staging.camera.journey import plan_travel
 from texvent.scenes.staging.particles.choose import (
     Staged,
-    gone,
     stage_effects,
 )
 from texvent.scenes.staging.particles.effect import Setting
@@ -33,6 +31,7 @@ from texvent.scenes.staging.placement.object_placement import ObjectPlacer
 from texvent.scenes.staging.surroundings.environment import (
     AnimatedEnvironment,
     build_environment,
+    contrasting,
     find_road,
     lay_across,
     water_line,
@@ -68,6 +67,7 @@ class ComposedScene:
     particles: Staged
     """Weather, smoke, sparks, pieces ..."""
     camera_path: CameraPath
+    place: Place
     animated_environment: AnimatedEnvironment
     lamps: LampPlan
     class_names: dict[int, str]
@@ -82,18 +82,11 @@ class ComposedScene:
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
-        acting = assemble([self._place(actor, time_s) for actor in self.actors])
+        acting = assemble([self.lamps.place(actor, time_s) for actor in self.actors])
         small = [effect.at(time_s) for effect in self.particles.effects]
         shapes = join_primitives([acting, self.still, *small])
         factor = np.float32(self.animated_environment.flicker(time_s))
         return replace(shapes, emission=shapes.emission * factor)
-
-    def _place(self, actor: Actor, time_s: float) -> PlacedModel:
-        """An object in the world, unless it has burst or broken."""
-        placed = self.lamps.place(actor, time_s)
-        if time_s < self.particles.ends_s.get(actor.instance, math.inf):
-            return placed
-        return replace(placed, to_world=gone(placed.to_world))
 
     def camera(self, time_s: float) -> Camera:
         """The camera at that instant."""
@@ -152,31 +145,32 @@ def compose_scene(
         description, nouns, seed=seed, duration_s=duration_s, level_m=levels, travel=travel
     )
     actors = placer.place_all()
+    ground = contrasting(PLACES[place], description, actors)
     camera_path = place_camera(
         description, actors, place, seed=seed, aspect=size.height / size.width,
         duration_s=duration_s, travel=travel,
     )  # fmt: skip
-    view = _describe_view(description, PLACES[place], camera_path, actors, duration_s)
-    if PLACES[place].has_road:
+    view = _describe_view(description, ground, camera_path, actors, duration_s)
+    if ground.has_road:
         actors = lay_across(actors, view.road)
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items = _scatter_all(description, view, actors, nouns, seed)
     names = {one.instance: one.noun.name for one in actors}
     object_of = {one.instance: one.object_index for one in actors}
     animated_environment = build_environment(
-        description, place=PLACES[place], road=view.road, distance_m=camera_path.framing.distance_m,
+        description, place=ground, road=view.road, distance_m=camera_path.framing.distance_m,
         room_m=camera_path.room_m,
     )  # fmt: skip
     lamps = plan_lamps(
-        description, actors, place=PLACES[place],
-        strength=choose_lighting(PLACES[place], description.light).lamps,
+        description, actors, place=ground,
+        strength=choose_lighting(ground, description.light).lamps,
         instant_s=0.5 * duration_s, framing=camera_path.framing, items=items,
     )  # fmt: skip
     setting = Setting(actors, camera_path, place, duration_s, seed)
     particles = stage_effects(description, setting)
     still = assemble([item.place() for item in items])
     return ComposedScene(
-        tuple(actors), still, particles, camera_path, animated_environment, lamps, names,
+        tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
         tuple(dict.fromkeys(missing)), object_of,
     )  # fmt: skip
 

@@ -80,8 +80,7 @@ def list_crossing_keys(
     number = _add_up(changes.steps)
     check_event_number(number)
     keys = take_scratch(KEY_USES[0], number + FEW, np.uint64)
-    with np.errstate(all="ignore"):
-        return keys[: _list_crossings(pixel, changes, fired_us, layout, refractory, keys)]
+    return keys[: _list_crossings(pixel, changes, fired_us, layout, refractory, keys)]
 
 
 @jit(error_model="numpy")

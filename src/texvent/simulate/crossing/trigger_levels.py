@@ -36,7 +36,6 @@ from texvent.simulate.kernels.active_pixels import (
     number_of,
 )
 from texvent.simulate.kernels.elementary_cpu import exponential
-from texvent.simulate.random.draws_cpu import allow_wrap_around
 from texvent.simulate.random.mismatch import Thresholds, thresholds_at
 from texvent.simulate.streaming import IntensityArray
 
@@ -121,8 +120,7 @@ class TriggerLevels:
             take_scratch("before " + kind.char, size, kind.type),
             take_scratch("now " + kind.char, size, kind.type),
         )
-        with allow_wrap_around():
-            count = _find_outside_levels(read_only(now), self._seen, self._low, self._high, found)
+        count = _find_outside_levels(read_only(now), self._seen, self._low, self._high, found)
         return OutsidePixels(*(column[:count] for column in found))
 
     def set(self, pixel: Int64Array, reference: Float64Array, thresholds: Thresholds) -> None:
@@ -133,8 +131,7 @@ class TriggerLevels:
             reference: of all pixels, [H · W] log units.
             thresholds: of the chosen pixels.
         """
-        with np.errstate(all="ignore"):
-            _set_levels(pixel, reference, thresholds, self._curve, self._low, self._high)
+        _set_levels(pixel, reference, thresholds, self._curve, self._low, self._high)
 
     def set_all(self, reference: Float64Array, thresholds: Thresholds) -> None:
         """Set the levels of all pixels.

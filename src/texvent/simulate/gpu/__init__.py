@@ -6,7 +6,7 @@ from typing import Any
 
 from texvent._require import require
 
-__all__ = ["EventBatch", "GpuPairs", "GpuSimulator"]
+__all__ = ["EventBatch", "GpuSimulator"]
 
 
 def __getattr__(name: str) -> Any:
@@ -19,7 +19,6 @@ def __getattr__(name: str) -> Any:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     require("triton", extra="gpu")
     from texvent.simulate.gpu.engine import EventBatch, GpuSimulator
-    from texvent.simulate.gpu.pairs import GpuPairs
 
-    public = {"EventBatch": EventBatch, "GpuPairs": GpuPairs, "GpuSimulator": GpuSimulator}
+    public = {"EventBatch": EventBatch, "GpuSimulator": GpuSimulator}
     return public[name]

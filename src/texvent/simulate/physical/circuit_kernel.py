@@ -83,20 +83,18 @@ def advance_pixels(
         first, last = part.start, part.stop
         noisy = slice(*np.searchsorted(noise.pixel, [first, last]))
         noise_times = (noise.t[noisy] - span_us[0]) * 2 + noise.p[noisy]
-        # With NUMBA_DISABLE_JIT=1 this runs in NumPy, which would warn where extremes overflow.
-        with np.errstate(all="ignore"):
-            keys: Uint64Array = _advance_blocks(
-                (light.before[part], read_only(light.now[part]), table, light.optics),
-                mismatch.part(part),
-                CircuitState(
-                    state.output[part],
-                    state.level[part],
-                    state.since_us[part],
-                    state.quiescent_until_us[first // BLOCK : -(-last // BLOCK)],
-                ),
-                (noise.pixel[noisy] - first, noise_times),
-                EventRules(refractory_us, first, low, span_us[0], span_us[1] - span_us[0]),
-            )
+        keys: Uint64Array = _advance_blocks(
+            (light.before[part], read_only(light.now[part]), table, light.optics),
+            mismatch.part(part),
+            CircuitState(
+                state.output[part],
+                state.level[part],
+                state.since_us[part],
+                state.quiescent_until_us[first // BLOCK : -(-last // BLOCK)],
+            ),
+            (noise.pixel[noisy] - first, noise_times),
+            EventRules(refractory_us, first, low, span_us[0], span_us[1] - span_us[0]),
+        )
         return keys
 
     parts = run_parts(advance, split(light.now.size, count_threads(), unit=PIXELS_PER_THREAD))

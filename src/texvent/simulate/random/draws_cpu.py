@@ -2,12 +2,6 @@
 
 from __future__ import annotations
 
-import functools
-from collections.abc import Callable
-from contextlib import AbstractContextManager, nullcontext
-from typing import Any
-
-import numba
 import numpy as np
 
 from texvent.runtime.jit import jit
@@ -19,13 +13,6 @@ _MULTIPLIER_1 = np.uint64(draws.MULTIPLIER_1)
 _MULTIPLIER_2 = np.uint64(draws.MULTIPLIER_2)
 _UNIT, _HALF_UNIT = draws.UNIT, draws.HALF_UNIT
 _LOW_HALF = np.uint64(0xFFFF_FFFF)
-allow_wrap_around: Callable[[], AbstractContextManager[Any]] = (
-    functools.partial(np.errstate, over="ignore")
-    if vars(numba.config)["DISABLE_JIT"]
-    else nullcontext
-)
-"""Context to call a kernel in that hashes: with NUMBA_DISABLE_JIT=1 it runs in NumPy, which would
-warn of hashes that wrap around."""
 _11, _16, _27, _30, _31, _32 = (np.uint64(bits) for bits in (11, 16, 27, 30, 31, 32))
 
 

@@ -12,7 +12,7 @@ from texvent.runtime.jit import jit
 from texvent.simulate.kernels.elementary_cpu import natural_log
 from texvent.simulate.packets import FrameInterval, UnsortedEvents, check_event_number
 from texvent.simulate.random.draws import Purpose, draw_uniforms
-from texvent.simulate.random.draws_cpu import allow_wrap_around, draw_uniform
+from texvent.simulate.random.draws_cpu import draw_uniform
 
 FIRST_DRAW: int = Purpose.NOISE_TIME.draw()
 
@@ -60,8 +60,7 @@ def draw_arrivals(
     room, source = int(mean + SPREAD * np.sqrt(mean)) + 16, (key, int(stream))
     while True:
         columns = Arrivals(np.empty(room, np.int64), np.empty(room), np.empty(room, np.int64))
-        with allow_wrap_around():
-            found = _draw_arrivals(cumulative_hz, float(duration_s), source, columns)
+        found = _draw_arrivals(cumulative_hz, float(duration_s), source, columns)
         if found <= room:
             pixel, fraction, order = columns
             return Arrivals(pixel[:found], fraction[:found], order[:found])

@@ -37,7 +37,7 @@ from texvent.runtime.read_only import read_only
 from texvent.simulate.kernels.radix_sort import sort_almost_sorted, sort_keys
 from texvent.simulate.packets import FrameInterval, check_event_number
 from texvent.simulate.random.draws import UNIT, Purpose, draw_normals
-from texvent.simulate.random.draws_cpu import allow_wrap_around, draw_uniform, draw_word
+from texvent.simulate.random.draws_cpu import draw_uniform, draw_word
 from texvent.simulate.texvent.config import TexventConfig
 
 BoolArray = NDArray[np.bool_]
@@ -173,10 +173,9 @@ def place_noise(key: np.uint64, mean: float, on_fraction: float, pixels: int) ->
     Deviation: drawn per block of `NOISE_BLOCK` pixels and spread uniformly over its pixels, which
         is the same distribution as a Poisson number per pixel.
     """
-    with allow_wrap_around():
-        return NoisePlaces(
-            *_place_noise(key, poisson_cumulative(mean * NOISE_BLOCK), on_fraction, pixels)
-        )
+    return NoisePlaces(
+        *_place_noise(key, poisson_cumulative(mean * NOISE_BLOCK), on_fraction, pixels)
+    )
 
 
 @jit

@@ -25,7 +25,6 @@ from texvent.simulate.kernels.active_pixels import (
     make_flags,
     number_of,
 )
-from texvent.simulate.random.draws_cpu import allow_wrap_around
 from texvent.simulate.texvent.pixel_memory import (
     FiredPixels,
     FireRule,
@@ -185,8 +184,7 @@ def detect_events(
     if table.flags.writeable:
         # Of a copied simulator; Numba would compile for it again.
         table = memory.table = read_only(table)
-    with allow_wrap_around():
-        found = _fire_integers(arrays, table, levels, rule, fired)
+    found = _fire_integers(arrays, table, levels, rule, fired)
     return fired.first(found)
 
 
@@ -195,8 +193,7 @@ def _find_fired_floats(
 ) -> FiredPixels | None:
     work: _Work = memory.work
     fired, candidates, logs = work
-    with allow_wrap_around():
-        count = _find_candidates(arrays, levels, candidates)
+    count = _find_candidates(arrays, levels, candidates)
     if count < 0:
         if not is_intensity(arrays.frame):
             return None

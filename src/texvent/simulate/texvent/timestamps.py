@@ -19,7 +19,7 @@ from texvent.runtime.jit import jit
 from texvent.simulate.kernels.radix_sort import key_bits, sort_keys, unpack_keys
 from texvent.simulate.packets import FrameInterval, SortedEvents
 from texvent.simulate.random.draws import Purpose
-from texvent.simulate.random.draws_cpu import allow_wrap_around, draw_uniform
+from texvent.simulate.random.draws_cpu import draw_uniform
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.noise import NoisePlaces
 from texvent.simulate.texvent.pixel_memory import FiredPixels
@@ -88,10 +88,9 @@ def timestamp_events(
     """
     low = key_bits(span.duration_us, shape)
     rule, bits = _Rule.of(config, shape[1], low), low + span.duration_us.bit_length()
-    with allow_wrap_around():
-        if len(bands) == 1:
-            return SortedEvents(*_stamp_events(bands[0], noise, rule, span, bits))
-        return SortedEvents(*_stamp_bands(bands, noise, rule, span, bits))
+    if len(bands) == 1:
+        return SortedEvents(*_stamp_events(bands[0], noise, rule, span, bits))
+    return SortedEvents(*_stamp_bands(bands, noise, rule, span, bits))
 
 
 def _stamp_bands(

@@ -83,20 +83,10 @@ def emit_and_reset(
     count_crossings(changes, Thresholds(on, off))
     refractory = RefractoryPeriod(rules.refractory_us, is_level_lost=False)
     keys = list_crossing_keys(pixel, changes, last.fired_us, layout, refractory)
-    moves = _Moves(pixel, changes.threshold, changes.steps)
-    _reset(keys, moves, mismatch.leak, state, last, interval.stop_us)
+    _reset(keys, (pixel, changes), mismatch.leak, state, last, interval.stop_us)
     if len(noise.t):
         keys = merge_keys(keys, _keys_of(noise, layout), layout.low)
     return sort_keyed_events(keys, span_us, rules.shape)
-
-
-class _Moves(NamedTuple):
-    """Moves of the references; [n] each."""
-
-    pixel: NDArray[np.int64]
-    threshold: Float64Array
-    steps: NDArray[np.int64]
-    """Thresholds to move by; OFF below 0."""
 
 
 @jit
@@ -112,14 +102,14 @@ def _take_thresholds(
 @jit
 def _reset(
     keys: Uint64Array,
-    moves: _Moves,
+    moves: tuple[NDArray[np.int64], RampChanges],
     leak: NDArray[np.float32],
     state: V2ePixelState,
     last: LastEvents,
     stop_us: int,
 ) -> None:
     """Move the references of pixels that fired, and label what is noise."""
-    pixel, thresholds, steps = moves
+    pixel, (_, _, thresholds, steps) = moves
     _, reference, _ = state
     _, interval_us = last
     found = 0

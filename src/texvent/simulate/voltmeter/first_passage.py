@@ -118,12 +118,9 @@ def find_first_passages(
             voltage.quiescent_until_us[blocks],
         )
         place = part.start, shape[1], low
-        # With NUMBA_DISABLE_JIT=1 this runs in NumPy, which would warn where the hash wraps around
-        # and where extremes overflow.
-        with np.errstate(all="ignore"):
-            keys: Uint64Array = _find_first_passages(
-                (before[part], now[part]), light.constants, fields, place, interval.key, span
-            )
+        keys: Uint64Array = _find_first_passages(
+            (before[part], now[part]), light.constants, fields, place, interval.key, span
+        )
         return keys
 
     # A pixel of this model takes as long as several of others: small frames are worth sharing.

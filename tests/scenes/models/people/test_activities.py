@@ -9,7 +9,6 @@ from texvent.scenes.models.people import person, posture
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
     ON_GROUND,
-    PAIR_GAPS,
     PERSON_NOUNS,
     TRAVELLING,
 )
@@ -116,14 +115,6 @@ def test_arm_circles_turn_as_the_viewer_sees_them(side, sense, sign):
 def test_feet_do_not_slide_in_place(activity):
     ankles = np.array([joints(activity, t).ankles for t in np.arange(0.0, 3.0, 0.05)])
     assert np.ptp(ankles[:, :, :2], axis=0).max() < 1e-6
-
-
-@pytest.mark.parametrize(("activity", "time_s"), [("shake hands", 0.7)])
-def test_hands_of_two_who_stand_before_each_other_meet(activity, time_s):
-    x, y, z = joints(activity, time_s).hands[1]
-    # The other one's body is turned by half a circle about the middle.
-    other = (PAIR_GAPS[activity] - x, -y, z)
-    assert math.dist((x, y, z), other) < 0.05
 
 
 RED, BLUE = (0.5, 0.0, 0.0), (0.0, 0.0, 0.5)

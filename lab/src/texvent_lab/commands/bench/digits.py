@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
@@ -43,6 +43,10 @@ QUICK: Mapping[str, Any] = {
 @dataclass(frozen=True, kw_only=True)
 class DigitsOptions:
     """Data, simulators and networks."""
+
+    main_options: ClassVar[tuple[str, ...]] = (
+        *("mnist", "nmnist", "quick", "arms", "ways", "work", "jobs", "out", "overwrite"),
+    )
 
     mnist: Path = REQUIRED
     """Folder of MNIST's test images and labels."""

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig, InterpolateConfig
+from texvent.interpolate.count_policy import CountPolicy
 from texvent.interpolate.flow import FlowInterpolator
-from texvent.interpolate.pairing import densify
+from texvent.interpolate.pairing import pair_frames
 from texvent.sensor import SensorSize
 from texvent.video import Frame, Video, frame_time_us
 
@@ -101,7 +102,9 @@ def dense_video(source: Video, count: int) -> Video:
     between = round(step_us * DENSE_FPS / 1e6) - 1
     config = InterpolateConfig(fixed_count=max(0, between), detect_cuts=False)
     interpolator = FlowInterpolator(config, source)
-    dense = densify(source, interpolator, config, balance=30.0, contrast_threshold=0.2)
+    policy = CountPolicy(config, source, interpolator, balance=30.0, contrast_threshold=0.2)
+    pairs = pair_frames(source, interpolator, config, policy)
+    dense = (frame for pair in pairs for frame in pair.frames)
     frames = list(itertools.islice(dense, count))
     pixels = np.stack([np.rint(one.luma).astype(np.uint8) for one in frames])
     return Video(pixels, [one.t_us for one in frames], Fraction(DENSE_FPS))

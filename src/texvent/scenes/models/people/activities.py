@@ -211,8 +211,6 @@ class Activity:
     """Name of the activity whose motion it has; "" = its own."""
     contact_s: float | None = None
     """Of an act with one instant of contact, when that comes if the act is repeated, s."""
-    pair_gap_m: float | None = None
-    """Distance of two adults who do it before each other, m; None = each does it alone."""
 
 
 def _read(name: str) -> Mapping[str, Activity]:
@@ -243,10 +241,6 @@ DONE_SEATED = frozenset(name for name, one in ACTIVITIES.items() if one.is_done_
 """What a person does just as well sitting: torso, head and arms move, the hips do not."""
 SINGLE_ACTS = frozenset(name for name, one in ACTIVITIES.items() if one.contact_s is not None)
 """Acts with one instant of contact."""
-PAIR_GAPS: Mapping[str, float] = MappingProxyType(
-    {name: one.pair_gap_m for name, one in ACTIVITIES.items() if one.pair_gap_m is not None}
-)
-"""Activity → distance of two adults who do it before each other, m."""
 TO_AND_FROM_SEATS = frozenset({"sit down", "stand up"})
 """Activities that begin or end on a seat, or on the ground where there is none."""
 ON_GROUND: Mapping[str, str] = MappingProxyType(

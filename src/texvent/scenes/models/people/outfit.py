@@ -6,7 +6,6 @@ import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cache, partial
-from itertools import pairwise
 from types import MappingProxyType
 from typing import Any
 
@@ -27,7 +26,7 @@ from texvent.scenes.models.materials import (
 )
 from texvent.scenes.models.part_lines import Placed, read_parts
 from texvent.scenes.models.protocol import ModelPart, choose, paint
-from texvent.scenes.models.shapes import ball, rod
+from texvent.scenes.models.shapes import ball
 from texvent.scenes.models.surfaces import FIXED_HUES, PAINT, Painted
 from texvent.scenes.models.tables import frozen, read_table
 from texvent.scenes.scene import Colour
@@ -176,7 +175,7 @@ class Prop:
 
 _BASKETBALL = striped(ORANGE, (0.05, 0.03, 0.02), 2.0)
 _BALL_M = 0.24
-_DRIBBLE_HZ, _JUGGLE_HZ, _ROPE_HZ = 1.6, 1.1, 1.05
+_DRIBBLE_HZ, _JUGGLE_HZ = 1.6, 1.1
 """Bounces of a ball, rounds of a juggler's hand and turns of a rope per second: rates of the
 activities."""
 
@@ -201,23 +200,10 @@ def _juggled(time_s: float) -> list[ModelPart]:
     return parts
 
 
-def _skipping_rope(time_s: float) -> list[ModelPart]:
-    """From hand to hand, backward over the head and forward below the feet at the top of a hop."""
-    turn = 2.0 * math.pi * _ROPE_HZ * time_s
-    c, s = math.cos(turn), math.sin(turn)
-    points = []
-    for step in range(13):
-        along = -1.0 + step / 6.0
-        bulge = 1.02 * (1.0 - along**2)
-        points.append((0.12 + bulge * s, 0.48 * along, 0.98 - bulge * c))
-    return [rod(Material(RED), a, b, 0.014) for a, b in pairwise(points)]
-
-
 _MOVING: Mapping[str, Draw] = MappingProxyType(
     {
         "dribbled ball": _dribbled,
         "juggled balls": _juggled,
-        "skipping rope": _skipping_rope,
     }
 )
 """Shape → how it is drawn, if it moves in its place."""

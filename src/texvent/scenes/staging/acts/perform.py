@@ -3,11 +3,8 @@
 from __future__ import annotations
 
 import itertools
-import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-
-import numpy as np
 
 from texvent.scenes.description import (
     STANDING,
@@ -16,15 +13,14 @@ from texvent.scenes.description import (
     SceneDescription,
     SceneObject,
 )
-from texvent.scenes.models.people.activities import PAIR_GAPS, PERSON_NOUNS
+from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.outfit import list_props
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import trait_value
 from texvent.scenes.spec.scene import Direction
-from texvent.scenes.staging.actors import Actor, seeded, size_of
+from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.acts import holding, striking
-from texvent.scenes.staging.acts.holding import hides_riders, is_person
-from texvent.scenes.staging.trajectories.trajectory import Stationary, ahead
+from texvent.scenes.staging.acts.holding import hides_riders
 
 SINGLE = frozenset({"kick", "throw", "collide"})
 """Acts with one instant of contact."""
@@ -186,8 +182,6 @@ def perform_acts(
     """
     cast = Cast(actors)
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
-    bound = {one for act in acts for one in (act.subject, *act.targets)}
-    _face_each_other(cast, [n for n, one in enumerate(actors) if one.object_index not in bound])
     for kind in _ORDER:
         for relation in (one for one in acts if one.kind == kind):
             _perform(cast, relation, duration_s)
@@ -235,39 +229,3 @@ def _take_off_doubles(cast: Cast, actors: Sequence[Actor]) -> None:
         for number, thing in enumerate(actors):
             if thing.noun.name in nouns and thing.object_index != person.object_index:
                 cast.put(number, None)
-
-
-def _face_each_other(cast: Cast, numbers: Sequence[int]) -> None:
-    """What two people do together they do before each other.
-
-    Args:
-        cast: the actors; those of pairs are replaced.
-        numbers: positions of the actors that no other act moves.
-    """
-    waiting: dict[str, int] = {}
-    for number in numbers:
-        actor = cast.get(number)
-        path = actor.trajectory
-        if not isinstance(path, Stationary) or not is_person(actor):
-            continue
-        apart_m = PAIR_GAPS.get(path.activity)
-        if apart_m is None:
-            continue
-        first = waiting.pop(path.activity, None)
-        if first is None:
-            waiting[path.activity] = number
-        else:
-            _face(cast, (first, number), apart_m)
-
-
-def _face(cast: Cast, pair: tuple[int, int], apart_m: float) -> None:
-    """Left and right of the middle between them, as they are placed; fronts to each other."""
-    places = np.array([cast.get(number).trajectory.at(0.0).position for number in pair])
-    x, y, z = (float(value) for value in places.mean(axis=0))
-    half = 0.25 * apart_m * sum(size_of(cast.get(number).model) for number in pair)
-    is_ordered = places[0][0] <= places[1][0]
-    for number, is_left in zip(pair, (is_ordered, not is_ordered), strict=True):
-        actor, yaw = cast.get(number), 0.0 if is_left else math.pi
-        if isinstance(actor.trajectory, Stationary):
-            path = replace(actor.trajectory, home=ahead((x, y, z), yaw, -half, z), yaw=yaw)
-            cast.put(number, replace(actor, trajectory=path, lead_m=0.0, is_mover=True))

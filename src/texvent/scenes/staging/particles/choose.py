@@ -9,7 +9,6 @@ import numpy as np
 from texvent.scenes.description import Effect, SceneDescription
 from texvent.scenes.models.effects import EFFECTS, LAMPS, EmitterStyle
 from texvent.scenes.models.tables import trait_value
-from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.particles.effect import (
     Setting,
@@ -19,18 +18,13 @@ from texvent.scenes.staging.particles.emitter import Emitter
 
 FALLING = ("rain", "snow")
 """Weather that is an effect."""
-ONCE_AT = 0.4
-"""When what happens once does so, if nothing says when: share of the clip."""
-_FALL_STEPS = 240
 
 
 @dataclass(frozen=True)
 class Staged:
-    """The particle systems of a scene, and which objects end when."""
+    """The particle systems of a scene."""
 
     effects: tuple[Emitter, ...]
-    ends_s: dict[int, float]
-    """Instance of an object → when it is gone, s."""
     kinds: tuple[str, ...] = ()
     """Weather or kind of effect of each particle system."""
 
@@ -50,21 +44,13 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
             said.append(Effect(kind, index))
     effects: list[Emitter] = []
     kinds: list[str] = []
-    ends: dict[int, float] = {}
     for number, effect in enumerate(said):
         copies = [one for one in setting.actors if one.object_index == effect.source]
         for copy, actor in enumerate(copies or [None]):
             rng = seeded(setting.seed, "effect", effect.kind, number, copy)
             effects += _make(effect, actor, setting, rng)
             kinds += [effect.kind] * (len(effects) - len(kinds))
-            if actor is not None and EFFECTS[effect.kind].ends_source:
-                ends[actor.instance] = _start(effect, actor, setting)
-    return Staged(tuple(effects), ends, tuple(kinds))
-
-
-def gone(to_world: Float64Array) -> Float64Array:
-    """[3, 4] the pose of an object that is no more: too small to be seen."""
-    return np.column_stack([1e-6 * to_world[:, :3], to_world[:, 3]])
+    return Staged(tuple(effects), tuple(kinds))
 
 
 def _make(
@@ -73,14 +59,12 @@ def _make(
     """What shows an effect at an object, or by itself."""
     words = EFFECTS[effect.kind]
     source = _source(effect.kind, actor, setting)
-    start_s = _start(effect, actor, setting) if words.ends_source else effect.start_s
     return [
         Emitter.of(
             _fitted(style, effect.kind, actor), source, setting, rng,
-            start_s=start_s, is_once=words.ends_source, volley=volley,
+            start_s=effect.start_s, volley=volley,
         )
         for style in words.emitters
-        if style.colours or actor is not None
         for volley in range(max(style.salvos, 1))
     ]  # fmt: skip
 
@@ -94,20 +78,6 @@ def _fitted(style: EmitterStyle, kind: str, actor: Actor | None) -> EmitterStyle
     if aim is not None and style.body == "drop":
         style = replace(style, aim=tuple(aim))
     return replace(style, light=0.0) if noun in LAMPS else style
-
-
-def _start(effect: Effect, actor: Actor | None, setting: Setting) -> float:
-    """When what happens once does so, s: as stated, when its object meets the ground, or early."""
-    if effect.start_s is not None:
-        return effect.start_s
-    if actor is not None and effect.kind == "break":
-        times = np.linspace(0.0, setting.duration_s, _FALL_STEPS)
-        places = np.array([actor.trajectory.at(float(t)).position for t in times])
-        heights = places[:, 2] - actor.foot_m
-        down = np.flatnonzero((heights[1:] <= 0.01) & (heights[:-1] > 0.01))
-        if len(down):
-            return float(times[down[0] + 1])
-    return ONCE_AT * setting.duration_s
 
 
 def _bulk(actor: Actor) -> float:

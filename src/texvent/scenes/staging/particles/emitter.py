@@ -35,41 +35,32 @@ _FLAME_LIGHT = np.array([1.0, 0.5, 0.16])
 _EDDY, _EDDY_HZ = 1.6, 0.16
 """Size and rate of eddies, in units of an effect."""
 _NEAREST = 0.3
-"""Least distance of a chip to the camera, as a share of that to what it looks at."""
+"""Least distance of a flake to the camera, as a share of that to what it looks at."""
 _LONG_S = 1e4
 """Life of what has no end."""
 
 
 @dataclass(frozen=True)
 class Lives:
-    """Particles that are born one after the other, live, and are born again; or live once."""
+    """Particles that are born one after the other, live, and are born again."""
 
     draws: Float64Array
     """[n, GENERATIONS, 8] in 0..1; the last one is never a new draw: when it is first born."""
     life_s: float
-    once_at_s: float | None = None
-    """When all are born, once; None = they are born at even steps of time."""
 
     @classmethod
     def of(
-        cls, count: int, life_s: float, rng: np.random.Generator, once_at_s: float | None = None,
-        salvo: float | None = None,
-    ) -> Lives:  # fmt: skip
+        cls, count: int, life_s: float, rng: np.random.Generator, salvo: float | None = None
+    ) -> Lives:
         """`count` particles; those of a `salvo` have one place, and that age at time 0."""
         draws = rng.uniform(size=(count, GENERATIONS, 8))
         draws[:, :, 7] = ((np.arange(count) + 0.5) / count)[:, None]
         if salvo is not None:
             draws[:, :, 3:7], draws[:, :, 7] = draws[:1, :, 3:7], salvo
-        return cls(draws, life_s, once_at_s)
+        return cls(draws, life_s)
 
     def at(self, time_s: float) -> tuple[Float64Array, Float64Array]:
-        """Age of each particle, [n] in 0..1 of its life, and its draws in this life, [n, 8].
-
-        Of those that live once, it is below 0 before and above 1 after.
-        """
-        if self.once_at_s is not None:
-            age = (time_s - self.once_at_s) / self.life_s
-            return np.full(len(self.draws), age), self.draws[:, 0]
+        """Age of each particle, [n] in 0..1 of its life, and its draws in this life, [n, 8]."""
         cycles = time_s / self.life_s + self.draws[:, 0, 7]
         number = np.floor(cycles)
         rows = np.arange(len(cycles))
@@ -115,12 +106,11 @@ class Emitter:
         rng: np.random.Generator,
         *,
         start_s: float | None = None,
-        is_once: bool = False,
         volley: int = 0,
     ) -> Emitter:
         """An emitter; `volley` is the number of the salvo that it is, where its style has some.
 
-        It begins at `start_s`, None = long ago; `is_once` lets all particles leave at that instant.
+        It begins at `start_s`, None = long ago.
         """
         life_s = style.life * math.sqrt(source.size_m / GRAVITY) or _LONG_S
         if style.body == "drop" and style.life == 0.0:
@@ -128,15 +118,12 @@ class Emitter:
             height = max(height, 0.02) if math.isfinite(setting.floor_m) else 3.0 * source.size_m
             life_s = 1.1 * math.sqrt(2.0 * height / GRAVITY)
         salvo = volley / style.salvos if style.salvos else None
-        lives = Lives.of(style.count, life_s, rng, start_s if is_once else None, salvo)
-        colours = np.array(style.colours)
-        if not len(colours):
-            colours = _colours_of(source, style.count, rng)
+        lives = Lives.of(style.count, life_s, rng, salvo)
         start = -math.inf if start_s is None else start_s
-        return cls(source, style, lives, colours, setting, start)
+        return cls(source, style, lives, np.array(style.colours), setting, start)
 
     def at(self, time_s: float) -> Primitives:
-        """Its drops or chips at that instant: always as many, in the same order."""
+        """Its drops or flakes at that instant: always as many, in the same order."""
         style = self.style
         if style.body == "puff":
             return many_shapes(np.zeros((0, 3, 4)), Shape.ELLIPSOID, np.zeros((0, 3)))
@@ -159,7 +146,7 @@ class Emitter:
         return many_shapes(tumbling(flown.places, angles, half), Shape.BOX, self.colours[which])
 
     def _clear(self, places: Float64Array, time_s: float) -> Float64Array:
-        """[n, 1] share of its size that each chip is shown with: 0 right before the camera."""
+        """[n, 1] share of its size that each flake is shown with: 0 right before the camera."""
         camera = self.setting.camera
         away = np.linalg.norm(places - camera.at(time_s).position, axis=1)[:, None]
         nearest_m = _NEAREST * camera.framing.distance_m
@@ -207,22 +194,18 @@ class Emitter:
         style, size = self.style, self.source.size_m
         unit_s, unit_m_s = math.sqrt(size / GRAVITY), math.sqrt(size * GRAVITY)
         age, draws = self.lives.at(time_s)
-        is_there = (age >= 0.0) & (age <= 1.0)
-        age = np.clip(age, 0.0, 1.0)
         age_s = age * self.lives.life_s
-        once_at_s = self.lives.once_at_s
-        born_s = time_s - age_s if once_at_s is None else np.full(len(age), once_at_s)
-        is_there &= born_s >= self.start_s
-        turn = self.source.turn(time_s if once_at_s is None else once_at_s)
+        born_s = time_s - age_s
+        is_there = born_s >= self.start_s
+        turn = self.source.turn(time_s)
         offset = self._offsets(draws) @ turn.T
-        velocity = self._headings(draws, offset, turn)
+        velocity = aimed(directions(draws, style.spread_rad), style.aim) @ turn.T
         velocity *= style.speed * unit_m_s * (0.8 + 0.4 * draws[:, 2:3])
-        velocity[:, 2] += style.lift * style.speed * unit_m_s
         pull = GRAVITY * np.array([style.wind, 0.0, -style.gravity])
         drag_s = math.inf if style.drag is None else style.drag * unit_s
         start = self.source.at(born_s) + offset
         flown_s = age_s
-        if style.body == "chip":
+        if style.body == "flake":
             flown_s = np.minimum(age_s, self._landing_s(start[:, 2], velocity[:, 2]))
         way, heading = flight(flown_s, velocity, drag_s, pull)
         places = start + way
@@ -243,19 +226,8 @@ class Emitter:
         spot = np.stack([out * np.cos(around), out * np.sin(around), 0.0 * out], axis=1)
         return self.source.size_m * spot
 
-    def _headings(
-        self, draws: Float64Array, offset: Float64Array, turn: Float64Array
-    ) -> Float64Array:
-        """[n, 3] unit vectors in which particles leave."""
-        style = self.style
-        if style.body == "chip" and style.fills is not None and style.fills[2] > 0.0:
-            return np.asarray(
-                offset / np.maximum(np.linalg.norm(offset, axis=1, keepdims=True), 1e-9)
-            )
-        return aimed(directions(draws, style.spread_rad), style.aim) @ turn.T
-
     def _landing_s(self, above: Float64Array, upward: Float64Array) -> Float64Array:
-        """[n] when chips come to rest on the ground, s after their birth."""
+        """[n] when flakes come to rest on the ground, s after their birth."""
         fall = np.maximum(above - self.setting.floor_m - 0.03 * self.source.size_m, 0.0)
         pull = max(GRAVITY * self.style.gravity, 1e-6)
         return np.asarray((upward + np.sqrt(upward**2 + 2.0 * pull * fall)) / pull)
@@ -271,22 +243,6 @@ def _fade(age: Float64Array) -> Float64Array:
     rise = np.clip(age / 0.12, 0.0, 1.0)
     fall = np.clip((1.0 - age) / 0.5, 0.0, 1.0)
     return np.asarray(rise * rise * (3.0 - 2.0 * rise) * fall * fall * (3.0 - 2.0 * fall))
-
-
-_PARTS = 6
-"""Parts of an object whose colours its pieces have."""
-
-
-def _colours_of(source: Source, count: int, rng: np.random.Generator) -> Float64Array:
-    """[count, 3] colours of an object's largest parts, each as often as it is large."""
-    if source.actor is None:
-        return np.full((1, 3), 0.3)
-    parts = source.actor.place(0.0).parts
-    volume = np.array([abs(np.linalg.det(part.to_body[:, :3])) for part in parts])
-    largest = np.argsort(-volume, kind="stable")[:_PARTS]
-    share = np.cbrt(volume[largest]) ** 2
-    palette = np.array([parts[number].colour for number in largest])
-    return np.asarray(palette[rng.choice(len(largest), size=count, p=share / share.sum())])
 
 
 def flight(

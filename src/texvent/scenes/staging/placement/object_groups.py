@@ -48,8 +48,6 @@ class ObjectGroup:
     half: Float64Array
     """[3] half extents of the room taken over the whole clip, m."""
     centre: Float64Array = field(default_factory=lambda: np.zeros(3))
-    clear_m: float = 0.0
-    """Height of what it jumps over, m."""
     carrier: ObjectGroup | None = None
     orbits: ObjectGroup | None = None
     yaws: list[float] | None = None
@@ -212,17 +210,6 @@ def _spacing(models: list[Model], plan: MotionPlan, noun: Noun) -> tuple[float, 
     return 1.2 * (length if plan.is_path else size) + apart, across
 
 
-def stand_in_row(group: ObjectGroup) -> None:
-    """Side by side across the image; who goes along its depth, one by one."""
-    count, model, plan = len(group.models), group.models[0], group.plan
-    apart = 1.25 * (model.length if plan.is_path else max(model.length, model.width)) + 0.15
-    in_depth = plan.is_path and abs(math.sin(plan.yaw)) > 0.7
-    step = (0.0, apart) if in_depth else (apart, 0.0)
-    places = [number - 0.5 * (count - 1) for number in range(count)]
-    group.offsets = [(step[0] * at, step[1] * at, 0.0) for at in places]
-    group.fit()
-
-
 def list_around(count: int, wide_m: float, deep_m: float) -> list[tuple[float, float, float]]:
     """Offsets and headings of so many around something, the farthest first; two are at its ends."""
     first = 0.0 if count == 2 else 0.5 * math.pi
@@ -234,14 +221,6 @@ def list_around(count: int, wide_m: float, deep_m: float) -> list[tuple[float, f
         x, y = wide_m * math.cos(angle), deep_m * math.sin(angle)
         found.append((x, y, math.atan2(-y, -x)))
     return found
-
-
-def stand_in_ring(group: ObjectGroup, radius_m: float) -> None:
-    """In a ring, turned to its middle."""
-    places = list_around(len(group.models), radius_m, radius_m)
-    group.offsets = [(x, y, 0.0) for x, y, _ in places]
-    group.yaws = [yaw for _, _, yaw in places]
-    group.fit()
 
 
 def part_in_midst(group: ObjectGroup, room_m: float) -> None:

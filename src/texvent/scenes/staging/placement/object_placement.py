@@ -28,7 +28,6 @@ from texvent.scenes.staging.placement.object_groups import (
     part_in_midst,
     rests,
     stagger,
-    stand_in_row,
 )
 from texvent.scenes.staging.placement.relations import (
     INVERSE,
@@ -110,10 +109,7 @@ class ObjectPlacer:
             plan = plan.turned(math.radians(scene_object.heading_deg))
         offsets = stagger(models, plan, noun, rng)
         half = half_extents_over_clip(models, offsets, plan)
-        group = ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
-        if scene_object.side == "row" and len(models) > 1:
-            stand_in_row(group)
-        return group
+        return ObjectGroup(index, scene_object, noun, models, plan, offsets, half)
 
     def _place(self, index: int, waiting: frozenset[int]) -> None:
         """Place an object, after the objects its place depends on."""
@@ -288,7 +284,7 @@ class ObjectPlacer:
         if group.carrier is not None:
             return self._ride_on(group, group.carrier, home)
         plan = group.plan if group.yaws is None else replace(group.plan, yaw=group.yaws[number])
-        return choose_trajectory(plan, model, home, rng, clear_m=group.clear_m)
+        return choose_trajectory(plan, model, home, rng)
 
     def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Trajectory:
         """On what carries it, which moves as a whole."""

@@ -23,7 +23,6 @@ from texvent.scenes.staging.placement.object_groups import (
     GAP_M,
     ObjectGroup,
     list_around,
-    stand_in_ring,
 )
 from texvent.scenes.staging.trajectories.phases import PATH_KINDS
 
@@ -75,7 +74,7 @@ def place_on_targets(
 ) -> Goal:
     """A subject's position with respect to objects that are placed already, by one of `ON_TARGET`.
 
-    What it does may change: it rides, orbits or jumps over the target. `height` is that of its
+    What it does may change: it rides or orbits the target. `height` is that of its
     origin where the relation does not decide it, m; `neighbours` are as for `rest_on`.
     """
     if kind == "at" and targets[0].noun.name not in nouns_with("table"):
@@ -87,14 +86,11 @@ def place_on_targets(
 
 
 def _place_around(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
-    """What moves circles its target; what stays stands in a ring and faces it."""
-    target, own = targets[0], group.models[0]
+    """What moves circles its target; what stays is around it and faces it."""
+    target = targets[0]
     x, y, level = target.centre
     if group.plan.motion.kind not in PATH_KINDS | {"orbit", "spin"}:
-        within = float(max(target.half_at_rest()[:2]))
-        wide = 0.5 * len(group.models) * 1.15 * own.width / math.pi
-        stand_in_ring(group, max(within + 0.6 * own.length + 0.1, wide))
-        return Goal(np.array([x, y, height]), _FIXED)
+        return Goal(place_at(group, target, [group.index] * len(group.models)), _FIXED)
     group.orbits = target
     level += 0.8 * target.top_m if group.noun.habitat == "air" else 0.0
     return Goal(np.array([x, y, max(level, 0.0)]), _FIXED)
@@ -103,8 +99,7 @@ def _place_around(group: ObjectGroup, targets: Sequence[ObjectGroup], height: fl
 def _place_above(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
     target, own = targets[0], group.models[0].height
     if group.plan.motion.kind == "jump":
-        group.clear_m = min(target.top_m, 2.0 * own)
-        return Goal(_on_ground(target, 0.0), _FIXED)
+        return place_by_subject(group, "beside", target, height)  # it jumps over nothing
     clear = target.top_m + 0.7 * own + _CLEAR_M + (0.5 * own if is_centred(group.noun) else 0.0)
     return Goal(target.centre + np.array([0.0, 0.0, max(clear, height)]), _FIXED)
 
@@ -282,15 +277,16 @@ def rest_in(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) 
 
 
 def place_at(group: ObjectGroup, target: ObjectGroup, neighbours: Sequence[int]) -> Float64Array:
-    """As `rest_on`, around a table and turned to it, the camera's side last.
+    """As `rest_on`, around a thing and turned to it, the camera's side last.
 
-    People sit on chairs there unless what they do is done standing.
+    People sit on chairs at a table unless what they do is done standing.
     """
     said = (group.scene_object.motion, *group.scene_object.then)
     kinds = {one.kind for one in said if one is not None and one.kind != "stand"}
     scale = size_of(group.models[0])
     is_person = group.noun.name in PERSON_NOUNS
-    group.on_chairs = is_person and (not kinds or bool(kinds & {"sit", "sit down", *DONE_SEATED}))
+    may_sit = is_person and target.noun.name in nouns_with("table")
+    group.on_chairs = may_sit and (not kinds or bool(kinds & {"sit", "sit down", *DONE_SEATED}))
     reach = (_SEATED_M if group.on_chairs else _STANDING_M) * scale
     wide, deep, _ = target.half_at_rest() + reach
     places = list_around(len(neighbours), float(wide), float(deep))

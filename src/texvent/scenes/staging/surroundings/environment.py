@@ -9,6 +9,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.colours import rgb_of
+from texvent.scenes.defaults import NO_PLACE
 from texvent.scenes.description import SceneDescription, Surroundings
 from texvent.scenes.models.materials import mix
 from texvent.scenes.models.places import Place
@@ -196,6 +197,11 @@ _SNOWED_OVER = (
 )  # fmt: skip
 """Grounds whose grass or paving is white when snow lies on it."""
 _WATER_COLOUR: Colour = (0.05, 0.28, 0.42)
+_DARKER, _LEAST_CONTRAST = 0.1, 1.0
+"""Dark backdrop as a multiple of the usual one; difference in log brightness from the objects that
+keeps the usual one: edges cross a threshold of 0.25 four times."""
+_LUMA = np.array([0.2126, 0.7152, 0.0722])
+"""Of linear RGB, Rec. 709."""
 _UNDERWATER_SIGHT_M = 16.0
 _FOG_SIGHT = 3.0
 """In fog, sight (to 37 %) in camera distances."""
@@ -228,6 +234,24 @@ class AnimatedEnvironment:
             return 1.0
         level = wave_level(self.wave, self.flicker_hz * time_s)
         return 1.0 - DEPTHS[self.wave] * (1.0 - level)
+
+
+def contrasting(place: Place, description: SceneDescription, actors: Sequence[Actor]) -> Place:
+    """The place, dark where it is an open backdrop too near in brightness to an object."""
+    is_open = any(one.startswith(NO_PLACE) for one in description.notes)
+    if not (is_open and place.is_backdrop and actors) or description.surroundings.colour:
+        return place
+    first, second = place.colours
+    dark = (mix(_BLACK, first, _DARKER), mix(_BLACK, second, _DARKER))
+    lumas = [np.array([part.colour for part in one.place(0.0).parts]) @ _LUMA for one in actors]
+
+    def contrast(colours: tuple[Colour, Colour]) -> float:
+        ground = float(np.array(mix(*colours, 0.5)) @ _LUMA)
+        return min(float(np.abs(np.log((one + 0.01) / ground)).mean()) for one in lumas)
+
+    usual = contrast(place.colours)
+    is_lost = usual < min(_LEAST_CONTRAST, contrast(dark))
+    return replace(place, colours=dark) if is_lost else place
 
 
 def build_environment(

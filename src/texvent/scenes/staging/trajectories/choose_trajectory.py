@@ -21,9 +21,7 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.phases import NO_FLOOR_M, PATH_KINDS, activity_of
 from texvent.scenes.staging.trajectories.steered_path import (
-    Piece,
     SteeredPath,
-    flight_s,
 )
 from texvent.scenes.staging.trajectories.trajectory import (
     TO_CAMERA,
@@ -58,8 +56,6 @@ def choose_trajectory(
     model: Model,
     home: Vector,
     rng: np.random.Generator,
-    *,
-    clear_m: float = 0.0,
 ) -> Trajectory:
     """The trajectory of one body.
 
@@ -68,11 +64,8 @@ def choose_trajectory(
         model: its model.
         home: where it is at mid clip, or where it stays, m.
         rng: decides phases.
-        clear_m: height of what it jumps over at its home, m.
     """
     kind, direction = plan.motion.kind, plan.motion.direction
-    if clear_m > 0.0:
-        return _leap(plan, model, home, clear_m)
     if plan.path is not None:
         path: Trajectory = _shift_path(plan.path, model, home)
         if plan.radius_m:
@@ -101,16 +94,6 @@ def _shift_path(path: SteeredPath, model: Model, home: Vector) -> SteeredPath:
 
 def _raised(home: Vector, lift_m: float) -> Vector:
     return (home[0], home[1], home[2] + lift_m)
-
-
-def _leap(plan: MotionPlan, model: Model, home: Vector, clear_m: float) -> SteeredPath:
-    """Along its heading, in the air over its home at mid clip."""
-    height = max(0.35 * model.height, 1.25 * clear_m + 0.1)
-    flight = flight_s(height)
-    speed, lead = 1.2 * model.length / flight, max(0.5 * (plan.duration_s - flight), 1e-3)
-    pieces = (Piece(lead, speed), Piece(flight, speed, hop_m=height), Piece(lead, speed))
-    start = ahead(home, plan.yaw, -speed * (lead + 0.5 * flight), home[2])
-    return SteeredPath(start, plan.yaw, pieces, speed, floor_m=home[2])
 
 
 def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Trajectory:

@@ -1,5 +1,6 @@
-"""Images of EVREAL's folders."""
+"""Frames of recordings: DSEC's images seen from its event camera, and EVREAL's folders."""
 
+import cv2
 import numpy as np
 import pytest
 
@@ -8,6 +9,46 @@ from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError
 from texvent.io.files import load
 from texvent.sensor import SensorSize
+
+from .dsec_sequence import HEIGHT, WIDTH, write_sequence
+
+TURN = np.radians(2.0)
+
+
+def test_frames_come_in_the_pixels_of_the_event_camera(tmp_path):
+    frames = open_frames(write_sequence(tmp_path), CaptureConfig())
+    assert frames.size == SensorSize(WIDTH, HEIGHT)
+    shown = list(frames)
+    assert [frame.t_us for frame in shown] == [1_000_000, 1_050_000, 1_100_000]
+    # Twice the resolution: pixel x of the event camera is column 2x of the image.
+    expected = np.linspace(0, 250, 2 * WIDTH).astype(np.uint8)[::2]
+    assert np.abs(shown[0].pixels[5].astype(int) - expected).max() <= 1
+
+
+def test_a_turned_camera_is_turned_back(tmp_path):
+    rotation = cv2.Rodrigues(np.array([0.0, TURN, 0.0]))[0]
+    turned = open_frames(write_sequence(tmp_path, rotation=rotation), CaptureConfig())
+    row = next(iter(turned)).pixels[HEIGHT // 2].astype(float)
+    # A point ahead of the event camera lies tan(2°) · f = 2.8 columns (of 2 f) to the right.
+    middle = WIDTH // 2
+    expected = np.linspace(0, 250, 2 * WIDTH)[2 * middle] + 250 / 63 * 80 * np.tan(TURN)
+    assert row[middle] == pytest.approx(expected, abs=2)
+
+
+@pytest.mark.parametrize("missing", ["rectify_map.h5", "cam_to_cam.yaml"])
+def test_a_sequence_without_calibration_is_refused(tmp_path, missing):
+    folder = write_sequence(tmp_path)
+    next(folder.rglob(missing)).unlink()
+    with pytest.raises(FileFormatError, match=missing.partition(".")[0]):
+        open_frames(folder, CaptureConfig())
+
+
+def test_a_calibration_that_lacks_an_entry_is_refused(tmp_path):
+    folder = write_sequence(tmp_path)
+    (folder / "calibration" / "cam_to_cam.yaml").write_text("intrinsics: {}\n")
+    with pytest.raises(FileFormatError, match="camRect0"):
+        open_frames(folder, CaptureConfig())
+
 
 IMAGES = np.arange(3 * 4 * 6, dtype=np.uint8).reshape(3, 4, 6)
 

@@ -13,23 +13,23 @@ from hypothesis import strategies as st
 
 from texvent._registry import INTERPOLATORS
 from texvent.config import InterpolateConfig
-from texvent.interpolate.pairing import densify
+from texvent.interpolate.count_policy import CountPolicy
+from texvent.interpolate.pairing import pair_frames
 from texvent.pairs.scene_change import SceneChange
 from texvent.video import Frame, Video
 
 
-def run(video, options=None, *, balance=30.0, threshold=0.2, on_scene_change=None):
+def pairs_of(video, options=None, *, threshold=0.2):
     options = options or InterpolateConfig(interpolate="blend")
     interpolator = INTERPOLATORS.load(options.interpolate)(options, video)
-    dense = densify(
-        video,
-        interpolator,
-        options,
-        balance=balance,
-        contrast_threshold=threshold,
-        on_scene_change=on_scene_change,
-    )
-    return list(dense)
+    policy = CountPolicy(options, video, interpolator, balance=30.0, contrast_threshold=threshold)
+    return pair_frames(video, interpolator, options, policy)
+
+
+def run(video, options=None, *, threshold=0.2):
+    return [
+        frame for pair in pairs_of(video, options, threshold=threshold) for frame in pair.frames
+    ]
 
 
 def field(levels, times_us, shape=(4, 4)):
@@ -74,18 +74,17 @@ def test_a_beat_that_the_frames_miss_is_rendered_between_them():
 
 @pytest.mark.parametrize(
     ("options", "count"),
-    [({"interpolate": "blend"}, 0), ({"fixed_count": 3}, 3), ({}, 23)],
+    [
+        ({"interpolate": "blend"}, 0),
+        ({"fixed_count": 3}, 3),
+        ({"max_intermediate": 5}, 5),
+        ({}, 23),
+    ],
 )
 def test_only_rendered_frames_follow_the_beat(options, count):
     video = Beating(np.full((2, 4, 4), 150.0), [0, 20_000])
     dense = run(video, InterpolateConfig(**{"interpolate": "exact", **options}))
     assert len(dense) - 2 == count
-
-
-def test_each_pair_has_its_own_count():
-    frames = run(field([0, 255, 255, 200], [0, 1000, 2000, 3000]))
-    inner = [sum(a < f.t_us < a + 1000 for f in frames) for a in (0, 1000, 2000)]
-    assert inner == [11, 0, 1]
 
 
 def test_source_frames_pass_untouched():
@@ -112,13 +111,9 @@ def test_times_strictly_increase_whatever_the_intervals(steps, count):
 
 
 def test_a_flash_of_one_frame_and_a_cut_are_three_jumps(flashing):
-    seen = []
-    frames = run(flashing, on_scene_change=lambda *change: seen.append(change))
-    assert seen == [
-        (SceneChange.FLASH, 20_000),
-        (SceneChange.FLASH, 40_000),
-        (SceneChange.CUT, 60_000),
-    ]
+    changes = [pair.change for pair in pairs_of(flashing)]
+    assert changes == [SceneChange.NONE, SceneChange.FLASH, SceneChange.FLASH, SceneChange.CUT]
+    frames = run(flashing)
     assert [frame.t_us for frame in frames] == [
         0, 19_000, 20_000, 39_000, 40_000, 59_000, 60_000,
     ]  # fmt: skip
@@ -135,11 +130,9 @@ def test_the_old_image_is_held_for_half_of_a_short_interval(flashing):
 
 
 def test_jumps_are_smeared_only_if_asked(flashing):
-    seen = []
     options = InterpolateConfig(interpolate="blend", detect_cuts=False)
-    frames = run(flashing, options, on_scene_change=lambda *change: seen.append(change))
-    assert seen == []
-    assert len(frames) > 7
+    assert {pair.change for pair in pairs_of(flashing, options)} == {SceneChange.NONE}
+    assert len(run(flashing, options)) > 7
 
 
 def test_at_most_two_source_frames_are_held():
@@ -156,11 +149,8 @@ def test_at_most_two_source_frames_are_held():
                 yield frame
                 del frame
 
-    options = InterpolateConfig(interpolate="blend")
     base = field([1, 2], [0, 10])
-    video = Stream(base.pixels, base.times_us)
-    blend = INTERPOLATORS.load("blend")(options, video)
-    for frame in densify(video, blend, options, balance=30.0, contrast_threshold=0.2):
-        del frame
+    for pair in pairs_of(Stream(base.pixels, base.times_us)):
+        del pair
         most = max(most, len(alive))
     assert most == 2
