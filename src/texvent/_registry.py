@@ -177,6 +177,7 @@ CODECS = Registry(
         "e2vid": "texvent.io.text_files:E2vidZipCodec",
         "n-imagenet": "texvent.io.arrays.n_imagenet:NImageNetCodec",
         "dsec": "texvent.io.hdf5.native:DsecCodec",
+        "event-utils": "texvent.io.hdf5.event_utils:EventUtilsCodec",
         "parquet": "texvent.io.arrays.parquet:ParquetCodec",
         "rosbag1": "texvent.io.ros.bags:Rosbag1Codec",
         "mcap": "texvent.io.ros.bags:McapCodec",

@@ -60,6 +60,7 @@ ALL_CASES = (
     FormatCase("e2vid", "e.zip", ANY),
     FormatCase("n-imagenet", "e.npz", ANY),
     FormatCase("dsec", "e.h5", ANY),
+    FormatCase("event-utils", "e.h5", SHORT, 2**51),
     FormatCase("parquet", "e.parquet", ANY, extra="pyarrow", is_written=False),
     FormatCase("rosbag1", "e.bag", ANY, 2**32 * 10**6),
     FormatCase("mcap", "e.mcap", SensorSize(2048, 2048), 2**42),

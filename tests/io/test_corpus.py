@@ -32,7 +32,6 @@ OTHER_LAYOUTS = (
     FormatCase("aedat4-none", "e.aedat4", SMALL),
     FormatCase("aedat4-zstd", "e.aedat4", SMALL),
     FormatCase("dsec-blosc", "e.h5", SMALL, extra="hdf5plugin"),
-    FormatCase("event-utils", "e.h5", SMALL),
     FormatCase("v2e", "e.h5", SMALL),
     FormatCase("timelens", "e.npz", SMALL),
 )

@@ -23,7 +23,7 @@ from texvent.errors import ConfigError, FileFormatError, warn
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.block_writer import BlockWriter, FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns
+from texvent.io.columns import Columns, SideData
 from texvent.io.input_checks import (
     existing_file,
     existing_folder,
@@ -107,14 +107,14 @@ class BlockReader(ABC):
         del path
         return None
 
-    def triggers(self, path: Path) -> Iterator[Columns] | None:
-        """External triggers of an existing file, t in µs; None: it has none, as most formats.
+    def side_data(self, path: Path) -> SideData:
+        """Triggers and IMU samples of an existing file; most formats have none.
 
         Raises:
             FileFormatError: the file is damaged.
         """
         del path
-        return None
+        return {}
 
     @abstractmethod
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:

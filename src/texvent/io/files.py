@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -13,7 +13,7 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.block_codec import BlockCodec, BlockReader
 from texvent.io.block_writer import BlockWriter
-from texvent.io.columns import Columns
+from texvent.io.columns import SideData
 from texvent.io.input_checks import refuse_missing, refuse_other_kind
 from texvent.io.reading import read_options
 from texvent.runtime.background_writer import BackgroundWriter
@@ -116,13 +116,13 @@ def is_event_path(path: Path) -> bool:
     return not is_npy or bool(codec.recognises(path))
 
 
-def read_triggers(path: str | Path, format: str | None = None) -> Iterator[Columns] | None:
-    """External triggers beside the events of a file, t in µs; None where it holds none.
+def side_data(path: str | Path, format: str | None = None) -> SideData:
+    """Triggers and IMU samples beside the events of a file.
 
     Raises:
         ConfigError, InputError: as `codec_that_reads`.
     """
-    return codec_that_reads(path, format).triggers(Path(path))
+    return codec_that_reads(path, format).side_data(Path(path))
 
 
 def has_checksums(path: str | Path, format: str | None = None) -> bool:

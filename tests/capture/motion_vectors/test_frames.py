@@ -191,8 +191,8 @@ def test_following_the_vectors_is_the_default_unless_told_otherwise(tmp_path):
     options = {"fps": 25, "stop": 0.12, "simulator": "esim"}
 
     def interpolation(**more):
-        events = texvent.simulate(FILM, **options, **more)
-        return events.metadata["settings"]["interpolate"]["interpolate"]
+        packets = texvent.simulate(FILM, as_packets=True, **options, **more)  # nothing runs
+        return packets.metadata["settings"]["interpolate"]["interpolate"]
 
     assert interpolation() == "flow"
     assert interpolation(motion=FORWARD) == "motion"

@@ -6,7 +6,7 @@ import pytest
 from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator, log_intensity
 from texvent.video import Frame
 
-from ..pixel_frames import curve, frames_of, run
+from ..pixel_frames import frames_of, run
 
 
 def on_log_scale(value: float) -> float:
@@ -42,24 +42,6 @@ def test_a_step_fires_once_per_threshold_and_keeps_the_rest():
     events = run(EsimSimulator(), frames)
     # 0.5 crosses 0.2 and 0.4; of the 0.1 left, 0.11 more crosses the third at 0.1 / 0.11.
     assert events.t == pytest.approx([400, 800, 2909], abs=1)
-
-
-def test_a_sinusoid_fires_at_its_levels():
-    amplitude = 0.51
-    frames = curve(
-        lambda s: on_log_scale(-3 + amplitude * math.sin(math.tau * s)), fps=1000, seconds=1.97
-    )
-    events = run(EsimSimulator(), frames)
-    rising = [math.asin(level / amplitude) / math.tau for level in (-0.2, 0.0, 0.2, 0.4)]
-    # From level 0: up to 0.4, down through 0.2, 0, -0.2, -0.4, and so on.
-    falling = [0.5 - math.asin(level / amplitude) / math.tau for level in (0.2, 0.0, -0.2, -0.4)]
-    expected = [(t, 1) for t in rising[2:]]
-    for period in (0, 1):
-        expected += [(period + t, 0) for t in falling]
-        expected += [(period + 1 + t, 1) for t in rising if period + 1 + t < 1.97]
-    assert events.p.tolist() == [p for _, p in expected]
-    # The samples' straight lines miss the sine by at most dt² A (2π)² / 8 = 2.5e-6.
-    assert events.t == pytest.approx([t * 1e6 for t, _ in expected], abs=4)
 
 
 def test_unequal_thresholds_count_apart():

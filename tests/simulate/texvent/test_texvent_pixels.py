@@ -218,10 +218,3 @@ def test_local_cache_needs_no_state_at_a_source_frame(frames, options, noise, se
     options = {"seed": seed, "noise": noise, **NOISY, **options}
     parts = [simulate(frames[: cut + 1], **options), simulate(frames[cut:], **options)]
     assert EventStream.concat(parts).equals(simulate(frames, **options))
-
-
-@CHECKED
-@given(clips(), switches)
-def test_no_change_gives_no_events(frames, options):
-    still = [Frame(frames[0].pixels, frame.t_us, frame.is_source) for frame in frames]
-    assert len(simulate(still, noise="none", **options)) == 0

@@ -9,7 +9,7 @@ from texvent.events import NOISE, SIGNAL
 from texvent.simulate.v2e.pixels import relative_intensity
 from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
 
-from ..pixel_frames import curve, frames_of, run, static
+from ..pixel_frames import frames_of, run, static
 
 CLEAN = V2eSimulator.presets["peer-common"]
 
@@ -35,16 +35,6 @@ def test_a_ramp_of_the_logarithm_fires_at_each_threshold():
 def test_dark_pixels_fire_in_proportion_to_intensity():
     events = run(V2eSimulator(CLEAN), frames_of([0, 20], [0, 1_000_000]))
     assert events.t == pytest.approx([k * 0.2 / math.log(20) * 1e6 for k in range(1, 15)], abs=1)
-
-
-def test_a_sinusoid_fires_as_often_up_as_down():
-    # The amplitude 0.51 spans the levels -0.4..0.4: after the first rise, 4 OFF and 4 ON a period.
-    frames = curve(lambda s: 80 * math.exp(0.51 * math.sin(math.tau * s)), fps=500, seconds=3.2)
-    events = run(V2eSimulator(CLEAN), frames)
-    rise, fall = [1] * 4, [0] * 4
-    assert events.p.tolist() == [1, 1, *fall, *rise, *fall, *rise, *fall, *rise]
-    first = [math.asin(level / 0.51) / math.tau * 1e6 for level in (0.2, 0.4)]
-    assert events.t[:2] == pytest.approx(first, abs=8)
 
 
 def test_the_photoreceptor_follows_a_step_by_its_bandwidth():

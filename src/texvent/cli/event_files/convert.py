@@ -19,7 +19,8 @@ from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.event_packets import EventPackets
 from texvent.io.atomic import atomic_file, check_outputs
 from texvent.io.columns import Columns
-from texvent.io.files import open_writer, read_triggers
+from texvent.io.files import open_writer, side_data
+from texvent.io.hdf5.event_utils import EventUtilsCodec, save_with_frames
 from texvent.io.pixel_mask import read_pixel_mask
 from texvent.io.split_files import read_intervals, write_split
 from texvent.options.parts import make_part
@@ -31,6 +32,7 @@ from texvent.transform.filters.apply import filter_events
 from texvent.transform.filters.noise_filters import MaskFilter
 from texvent.transform.packets import note_edit
 from texvent.transform.undistort import read_calibration, undistort
+from texvent.view.drawing.event_image import frame_image
 from texvent.view.video.writer import write_images
 
 DESCRIPTION = """Convert an event file, or a part of it, to another format. Memory stays flat.
@@ -43,6 +45,9 @@ DESCRIPTION = """Convert an event file, or a part of it, to another format. Memo
 Edits happen in this order: merge, mask, filter, undistort, crop,
 resize, downsample, rotate, flip, from-zero, time."""
 
+SIDE_FILES = ("triggers", "imu")
+"""Options that write what a recording holds beside its events."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class ConvertOptions(ReadingOptions):
@@ -53,7 +58,8 @@ class ConvertOptions(ReadingOptions):
         **ReadingOptions.short_flags,
         **{"out": "-o", "crop": "--roi", "quiet": "-q"},
     }
-    outputs: ClassVar[tuple[str, ...]] = ("to", "out", "frames", "triggers")
+    outputs: ClassVar[tuple[str, ...]] = ("to", "out", "frames", *SIDE_FILES)
+    input_texts: ClassVar[tuple[str, ...]] = ("video",)
     main_options: ClassVar[tuple[str, ...]] = (
         *("format", "sensor", "merge", "mask", "filter", "crop", "from_zero", "time", "split"),
         "overwrite",
@@ -96,10 +102,14 @@ class ConvertOptions(ReadingOptions):
     split: Path | None = None
     """Write a folder of files: one per interval between the times of a text, or per row of a table
     of label, start and stop."""
+    video: str | None = None
+    """Put the frames of a video, folder or AEDAT4 into the same file: --format event-utils."""
     frames: Path | None = None
     """Write the frames of the input, as a folder of images with timestamps.txt."""
     triggers: Path | None = None
     """Write the external triggers of the input, as CSV."""
+    imu: Path | None = None
+    """Write the IMU samples of the input, as CSV."""
     overwrite: bool = False
     """Replace the file if it exists already."""
     quiet: bool = False
@@ -127,13 +137,12 @@ def run(arguments: Sequence[str]) -> int:
     out = options.target
     # Nothing is written until all options are accepted.
     events = edit(_open_inputs(options), options)
-    triggers = _triggers(options)
+    side = _side_data(options)
     frames = None if options.frames is None else open_frames(options.path, CaptureConfig())
-    outputs = [out] if options.triggers is None else [out, options.triggers]
-    check_outputs(outputs, overwrite=options.overwrite or options.split is not None)
+    check_outputs([out, *side], overwrite=options.overwrite or options.split is not None)
     count = _write(events, out, options)
-    if options.triggers is not None:
-        _write_table(options.triggers, triggers, overwrite=options.overwrite)
+    for path, blocks in side.items():
+        _write_table(path, blocks, overwrite=options.overwrite)
     if frames is not None and options.frames is not None:
         write_images(frames, options.frames, overwrite=options.overwrite)
     if not count:
@@ -144,12 +153,19 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _write(events: EventPackets, out: Path, options: ConvertOptions) -> int:
-    """Write the events as one file, or as a folder of files; returns their number."""
+    """Write the events as one file, with frames, or as a folder of files; returns their number."""
     format, overwrite = options.format, options.overwrite
     if options.split is not None:
         return write_split(
             events, read_intervals(options.split), out, format=format or "npz", overwrite=overwrite
         )
+    if options.video is not None:
+        if format != EventUtilsCodec.name:
+            raise ConfigError(f"video is for --format {EventUtilsCodec.name}; leave it out")
+        frames = open_frames(options.video, CaptureConfig(), size=events.size)
+        images = ((frame.t_us, frame_image(frame)) for frame in frames)
+        save_with_frames(out, events, images, overwrite=overwrite)
+        return sum(map(len, events))
     writer = open_writer(
         out, size=events.size, metadata=events.metadata, format=format, overwrite=overwrite
     )
@@ -161,18 +177,18 @@ def _write(events: EventPackets, out: Path, options: ConvertOptions) -> int:
     return count
 
 
-def _triggers(options: ConvertOptions) -> Iterator[Columns]:
-    """External triggers of the input, where they are asked for.
+def _side_data(options: ConvertOptions) -> dict[Path, Iterator[Columns]]:
+    """Path → columns of what is asked for beside the events.
 
     Raises:
         InputError: the input holds none.
     """
-    if options.triggers is None:
-        return iter(())
-    found = read_triggers(options.path, options.from_format)
-    if found is None:
-        raise InputError(f"{options.path} holds no triggers; leave out --triggers")
-    return found
+    asked = {name: path for name in SIDE_FILES if (path := getattr(options, name)) is not None}
+    held = side_data(options.path, options.from_format) if asked else {}
+    for name in asked:
+        if name not in held:
+            raise InputError(f"{options.path} holds no {name}; leave out --{name}")
+    return {path: held[name]() for name, path in asked.items()}
 
 
 def _write_table(path: Path, blocks: Iterator[Columns], *, overwrite: bool) -> None:

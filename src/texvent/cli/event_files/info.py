@@ -20,7 +20,7 @@ from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig
 from texvent.errors import visible
 from texvent.event_packets import EventPackets
-from texvent.io.files import is_event_path, read_triggers
+from texvent.io.files import is_event_path, side_data
 from texvent.io.reading import SeveralRecordingsError, UnknownLayoutError
 from texvent.scenes.report import REPORT_KEY, PromptReport
 from texvent.video import MICROSECONDS, FrameStream
@@ -89,9 +89,8 @@ def _describe_file(options: InfoOptions) -> dict[str, Any]:
         if not options.json:
             write_out("".join(f"{one}\n" for one in error.holds))
         raise
-    triggers = read_triggers(options.path, options.format)
-    if triggers is not None:
-        facts["triggers"] = sum(len(block["t"]) for block in triggers)
+    for name, read in side_data(options.path, options.format).items():
+        facts[name] = sum(len(block["t"]) for block in read())
     if is_aedat4(options.path):
         facts["frames"] = count_frames(options.path)
     return facts

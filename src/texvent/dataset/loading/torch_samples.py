@@ -143,12 +143,13 @@ class SampleDataset(_Dataset):
         """
         super().__init__()
         self.samples, self.first = samples, first
-        is_stored = isinstance(samples, StoredSamples)
-        self._options = {"epoch": epoch} if is_stored else {}
-        if count is None:
-            count = len(samples) if is_stored else samples.source_count
-        self.count = count
-        check_range("count", count, 0 if is_stored else 1)
+        self._options: dict[str, int] = {}
+        if isinstance(samples, StoredSamples):
+            every, least, self._options = len(samples), 0, {"epoch": epoch}
+        else:
+            every, least = samples.source_count, 1
+        self.count = every if count is None else count
+        check_range("count", self.count, least)
         check_range("first", first, 0)
         check_range("epoch", epoch, 0)
 

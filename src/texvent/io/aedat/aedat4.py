@@ -3,17 +3,19 @@
 The container is that of `aedat4_container`; a packet of events is a table EVTS.
 Coordinates are i2: sensors up to 32768 pixels a side. Times are i8 µs. Packets hold 10 ms, as
 DV's do, so that its player can seek. Provenance is in the XML of the header, as
-attribute `texvent`. One stream of events is read, and the triggers beside it; frames are read by
-`texvent.capture.aedat4_frames`.
+attribute `texvent`. One stream of events is read; triggers and IMU samples beside it are side
+data, frames are read by `texvent.capture.aedat4_frames`.
 
     TRIG  list of tables: slot 0 i64 time · 1 i8 type
+    IMUS  list of tables: slot 0 i64 time · 1 f32 temperature · 2..4 acceleration, g ·
+          5..7 rotation, degrees per second
 
 Source: iniVation, AEDAT 4.0 file format; tables in `aedat4_tables`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from contextlib import contextmanager
 from functools import partial
 from pathlib import Path
@@ -44,14 +46,23 @@ from texvent.io.aedat.aedat4_tables import (
 )
 from texvent.io.block_codec import BlockCodec, FileContents, split_by_time
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns
+from texvent.io.columns import Columns, SideData
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.reading import ReadOptions, choose
 
 PACKET_US = 10_000
 """Time per packet, µs."""
-EVENTS, TRIGGERS = "EVTS", "TRIG"
+EVENTS = "EVTS"
+IMU_COLUMNS = (
+    *("temperature_c", "acceleration_x_g", "acceleration_y_g", "acceleration_z_g"),
+    *("rotation_x_deg_s", "rotation_y_deg_s", "rotation_z_deg_s"),
+)
+SIDE_TABLES = {
+    "triggers": ("TRIG", [("type", "<b")]),
+    "imu": ("IMUS", [(name, "<f") for name in IMU_COLUMNS]),
+}
+"""Identifier of a packet, and its columns after slot 0, the time."""
 
 
 class Aedat4Codec(BlockCodec):
@@ -88,11 +99,14 @@ class Aedat4Codec(BlockCodec):
         blocks = partial(_read_blocks, container, stream)
         return FileContents(stored_size(path, stream), metadata, blocks)
 
-    def triggers(self, path: Path) -> Iterator[Columns] | None:
-        """External triggers."""
+    def side_data(self, path: Path) -> SideData:
+        """External triggers and IMU samples."""
         container = open_container(path)
-        streams = container.streams_of(TRIGGERS)
-        return _read_triggers(container, streams) if streams else None
+        return {
+            name: partial(_read_side_data, container, name)
+            for name, (identifier, _) in SIDE_TABLES.items()
+            if container.streams_of(identifier)
+        }
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
@@ -121,16 +135,20 @@ class Aedat4Codec(BlockCodec):
             file.write(make_header(LZ4.code, position, xml))
 
 
-def _read_triggers(container: Container, streams: Sequence[StreamInfo]) -> Iterator[Columns]:
-    for stream in streams:
+def _read_side_data(container: Container, name: str) -> Iterator[Columns]:
+    identifier, fields = SIDE_TABLES[name]
+    for stream in container.streams_of(identifier):
         for end, packet in container.read_packets(stream):
             try:
-                tables = Table.root(packet, TRIGGERS.encode()).tables(0)
-                rows = [(one.number(0, "<q", 0), one.number(1, "<b", 0)) for one in tables]
+                tables = list(Table.root(packet, identifier.encode()).tables(0))
+                times = [one.number(0, "<q", 0) for one in tables]
+                columns = {
+                    field: np.array([one.number(slot, form, 0) for one in tables], form)
+                    for slot, (field, form) in enumerate(fields, 1)
+                }
             except FileFormatError as error:
                 raise FileFormatError(f"{container.path}, before byte {end}: {error}") from error
-            numbers = np.array(rows, np.int64).reshape(-1, 2)
-            yield {"t": numbers[:, 0], "type": numbers[:, 1]}
+            yield {"t": np.array(times, np.int64), **columns}
 
 
 def _read_blocks(container: Container, stream: StreamInfo) -> Iterator[Columns]:

@@ -24,10 +24,11 @@ AEDAT3.1, packets of events, little-endian; DVS128Gesture's:
 
 The time counter turns after 2^31 µs; `time turns` of the packet counts this, so long recordings are
 whole. The sensor's size follows from the camera named in `#Source 1: DVS128` (or from
-`#Size: WIDTHxHEIGHT`), or is asked for. Special events are triggers; frames, IMU samples and events
-marked invalid are skipped.
+`#Size: WIDTHxHEIGHT`), or is asked for. Special events and IMU samples are side data; frames and
+events marked invalid are skipped.
 
     special  u32: 7..1 type · 0 valid · u32 time
+    IMU      u32: 0 valid · u32 time · f32 acceleration x, y, z, g · f32 rotation, °/s · f32 °C
 
 Sources: iniVation, AEDAT 2.0 and 3.1 file formats; jAER, DVS128.Extractor (flips x and the
 polarity); the readers named above (formats are facts).
@@ -49,7 +50,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError
 from texvent.io.block_codec import BlockReader, FileContents, read_records
-from texvent.io.columns import Columns
+from texvent.io.columns import Columns, SideData
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import MAX_HEADER_BYTES, metadata_from_json
 from texvent.io.reading import ReadOptions
@@ -201,9 +202,9 @@ class Aedat2Codec(BlockReader):
         blocks = partial(_read_addresses, path, header.length, layout)
         return FileContents(layout.size, header.metadata(path), blocks)
 
-    def triggers(self, path: Path) -> Iterator[Columns]:
+    def side_data(self, path: Path) -> SideData:
         """External signals of a DAVIS."""
-        return _read_signals(path)
+        return {"triggers": partial(_read_signals, path)}
 
 
 class Dvs128Codec(Aedat2Codec):
@@ -281,9 +282,15 @@ def _read_addresses(path: Path, start: int, layout: AddressLayout) -> Iterator[C
 
 
 EVENT = np.dtype([("place", "<u4"), ("t", "<u4")])
-SPECIAL_TYPE, POLARITY_TYPE = 0, 1
+SPECIAL_TYPE, POLARITY_TYPE, IMU_TYPE = 0, 1, 3
 FIRST_SIGNAL, LAST_SIGNAL = 2, 4
 """Types of special events that are an external signal: rising, falling edge, pulse."""
+PACKETS = {
+    SPECIAL_TYPE: EVENT,
+    POLARITY_TYPE: EVENT,
+    IMU_TYPE: np.dtype([("place", "<u4"), ("t", "<u4"), ("values", "<f4", 7)]),
+}
+"""Type of a packet → its events; `place` holds the mark of validity."""
 TIME_BITS = 31
 TIME_MASK = (1 << TIME_BITS) - 1
 MAX_EVENTS = 1 << 24
@@ -311,9 +318,13 @@ class Aedat3Codec(BlockReader):
         size, metadata = _stored_size(path, header), header.metadata(path)
         return FileContents(size, metadata, partial(_read_events, path, header.length))
 
-    def triggers(self, path: Path) -> Iterator[Columns]:
-        """External signals."""
-        return _read_special(path, read_aedat_header(path, AEDAT3_MAGIC, AEDAT3_END).length)
+    def side_data(self, path: Path) -> SideData:
+        """External signals and IMU samples."""
+        start = read_aedat_header(path, AEDAT3_MAGIC, AEDAT3_END).length
+        return {
+            "triggers": partial(_read_special, path, start),
+            "imu": partial(_read_imu, path, start),
+        }
 
 
 def _stored_size(path: Path, header: AedatHeader) -> tuple[int, int] | None:
@@ -332,6 +343,7 @@ def _stored_size(path: Path, header: AedatHeader) -> tuple[int, int] | None:
 
 def _read_packets(path: Path, start: int, kind: int) -> Iterator[tuple[NDArray[np.void], int]]:
     """The events of each packet of a type, and how often its clock has turned."""
+    dtype = PACKETS[kind]
     with path.open("rb") as file:
         left = os.fstat(file.fileno()).st_size - start
         file.seek(start)
@@ -342,12 +354,12 @@ def _read_packets(path: Path, start: int, kind: int) -> Iterator[tuple[NDArray[n
             if found != kind:
                 file.seek(event_bytes * count, os.SEEK_CUR)
                 continue
-            if (event_bytes, time_offset) != (EVENT.itemsize, 4) or turns < 0:
+            if (event_bytes, time_offset) != (dtype.itemsize, 4) or turns < 0:
                 raise FileFormatError(
                     f"{path} holds a packet of events of {event_bytes} bytes, not "
-                    f"{EVENT.itemsize}; it is damaged"
+                    f"{dtype.itemsize}; it is damaged"
                 )
-            events = np.frombuffer(file.read(event_bytes * count), dtype=EVENT)
+            events = np.frombuffer(file.read(event_bytes * count), dtype=dtype)
             yield events[(events["place"] & 1) == 1], turns
 
 
@@ -371,6 +383,19 @@ def _read_special(path: Path, start: int) -> Iterator[Columns]:
         kinds = events["place"] >> 1 & 127
         is_signal = (kinds >= FIRST_SIGNAL) & (kinds <= LAST_SIGNAL)
         yield {"t": _times(events[is_signal], turns), "type": kinds[is_signal]}
+
+
+def _read_imu(path: Path, start: int) -> Iterator[Columns]:
+    for samples, turns in _read_packets(path, start, IMU_TYPE):
+        yield {
+            "t": _times(samples, turns),
+            "temperature_c": samples["values"][:, 6],
+            **{f"acceleration_{axis}_g": samples["values"][:, at] for at, axis in enumerate("xyz")},
+            **{
+                f"rotation_{axis}_deg_s": samples["values"][:, 3 + at]
+                for at, axis in enumerate("xyz")
+            },
+        }
 
 
 def _read_head(file: BinaryIO, path: Path, left: int) -> tuple[int, ...]:

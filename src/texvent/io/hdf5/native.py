@@ -36,7 +36,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Protocol
 
 import h5py
 import numpy as np
@@ -91,6 +91,16 @@ class OffsetLimits(FormatLimits):
     def origin_us(self, first_us: int) -> int:
         """`t_offset` of a recording whose first event has this time, µs."""
         return first_us // 1000 * 1000 if first_us >= self.max_absolute_us else 0
+
+
+class StoredColumns(Protocol):
+    """The data sets of an open file, to which events are appended."""
+
+    def store(self, columns: Columns) -> None:
+        """Write events behind those stored so far, whole chunks except the last."""
+
+    def complete(self) -> None:
+        """Write what is known only at the end."""
 
 
 class Hdf5Columns:
@@ -190,6 +200,10 @@ class Hdf5Codec(BlockCodec):
         rows = partial(_open_rows, path, options)
         return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
 
+    def layout(self, file: Any, target: FileTarget) -> StoredColumns:
+        """The empty data sets of a new file, h5py's and open."""
+        return Hdf5Columns(file, target, self.limits, self.time_type)
+
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Create the empty data sets; what HDF5 holds back is written at the end."""
@@ -198,7 +212,7 @@ class Hdf5Codec(BlockCodec):
             DeferredErrorFile(part) as disk,
             h5py.File(disk, "w", libver=("v110", "v110")) as file,
         ):
-            stored = Hdf5Columns(file, target, self.limits, self.time_type)
+            stored = self.layout(file, target)
 
             def write(columns: Columns) -> None:
                 stored.store(columns)

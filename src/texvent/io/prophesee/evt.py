@@ -34,7 +34,7 @@ from texvent.io.block_codec import (
     write_records,
 )
 from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns
+from texvent.io.columns import Columns, SideData
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
 from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding, read_triggers
 from texvent.io.reading import ReadOptions
@@ -110,8 +110,11 @@ class EvtReader(BlockReader):
         size, metadata = header.stored_size(path), header.metadata(path)
         return FileContents(size, metadata, partial(self._read_blocks, path, header))
 
-    def triggers(self, path: Path) -> Iterator[Columns]:
+    def side_data(self, path: Path) -> SideData:
         """External triggers."""
+        return {"triggers": partial(self._read_triggers, path)}
+
+    def _read_triggers(self, path: Path) -> Iterator[Columns]:
         header = _read_header(path)
         blocks = read_records(path, header.length, self.word_bytes)
         return read_triggers(

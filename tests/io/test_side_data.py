@@ -1,4 +1,4 @@
-"""Triggers beside events: by hand, by a slow decoder, from other programs."""
+"""Triggers and IMU samples beside events: by hand, by a slow decoder, from other programs."""
 
 from __future__ import annotations
 
@@ -10,13 +10,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.io.files import read_triggers
-from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding
-from texvent.io.prophesee.triggers import read_triggers as decode_triggers
+from texvent.io.files import codec_that_reads
+from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding, read_triggers
 
 
 def rows(blocks: list[bytes], coding: TriggerCoding) -> list[tuple[int, int, int]]:
-    found = list(decode_triggers(blocks, coding))
+    found = list(read_triggers(blocks, coding))
     columns = [np.concatenate([one[name] for one in found]) for name in ("t", "channel", "value")]
     return list(zip(*(column.tolist() for column in columns), strict=True))
 
@@ -65,33 +64,48 @@ def test_triggers_of_any_words_in_any_blocks_are_those_of_the_slow_decoder(
     assert rows(blocks, EVT3) == slow_evt3(words)
 
 
-def test_triggers_of_dv_processing_are_read(tmp_path: Path) -> None:
+def test_triggers_and_imu_of_dv_processing_are_read(tmp_path: Path) -> None:
     dv = pytest.importorskip("dv_processing", reason="dv-processing is not installed")
     path = tmp_path / "e.aedat4"
     config = dv.io.MonoCameraWriter.Config("DAVIS346_1")
     config.addEventStream((64, 48))
+    config.addImuStream()
     config.addTriggerStream()
     writer = dv.io.MonoCameraWriter(str(path), config)
     store = dv.EventStore()
     store.push_back(100, 3, 5, True)
     writer.writeEvents(store)
+    writer.writeImu(dv.IMU(150, 30.5, 1.5, 0.0, -1.0, 0.0, 2.5, -2.0, 0.0, 0.0, 0.0))
     writer.writeTrigger(dv.Trigger(160, dv.TriggerType.EXTERNAL_SIGNAL_RISING_EDGE))
     del writer
-    (triggers,) = read_triggers(path) or ()
+    side = codec_that_reads(path).side_data(path)
+    (triggers,), (imu,) = side["triggers"](), side["imu"]()
     assert {name: column.tolist() for name, column in triggers.items()} == {"t": [160], "type": [1]}
+    assert {name: column.tolist() for name, column in imu.items()} == {
+        "t": [150],
+        "temperature_c": [30.5],
+        **{"acceleration_x_g": [1.5], "acceleration_y_g": [0.0], "acceleration_z_g": [-1.0]},
+        **{"rotation_x_deg_s": [0.0], "rotation_y_deg_s": [2.5], "rotation_z_deg_s": [-2.0]},
+    }
 
 
-def test_signals_of_older_files_are_read(tmp_path: Path) -> None:
+def test_signals_and_imu_samples_of_older_files_are_read(tmp_path: Path) -> None:
     path = tmp_path / "e.aedat"
     records = [(259 << 22 | 345 << 12, 5), (1 << 10 | 1 << 22, 6), (1 << 31 | 1 << 10, 7)]
     chip = b"#!AER-DAT2.0\r\n# AEChip: davis.Davis346B\r\n"
     path.write_bytes(chip + b"".join(struct.pack(">II", *one) for one in records))
-    assert [one["t"].tolist() for one in read_triggers(path) or ()] == [[6]]
+    side = codec_that_reads(path).side_data(path)
+    assert [one["t"].tolist() for one in side["triggers"]()] == [[6]]
     header = b"#!AER-DAT3.1\r\n#Source 1: DAVIS346\r\n#!END-HEADER\r\n"
     special = struct.pack("<2h6i", 0, 1, 8, 4, 1, 2, 2, 2)
     special += struct.pack("<4I", 2 << 1 | 1, 9, 1 << 1 | 1, 10)
     imu = struct.pack("<2h6i", 3, 1, 36, 4, 0, 1, 1, 1)
     imu += struct.pack("<2I7f", 1, 11, 0.5, 0, -1, 0, 2.5, 0, 30)
     path.write_bytes(header + special + imu)
-    (signals,) = read_triggers(path) or ()
+    side = codec_that_reads(path).side_data(path)
+    (signals,), (samples,) = side["triggers"](), side["imu"]()
     assert (signals["t"].tolist(), signals["type"].tolist()) == ([2**31 + 9], [2])
+    assert samples["t"].tolist() == [11]
+    assert samples["acceleration_x_g"].tolist() == [0.5]
+    assert samples["rotation_y_deg_s"].tolist() == [2.5]
+    assert samples["temperature_c"].tolist() == [30]
