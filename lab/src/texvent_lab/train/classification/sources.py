@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from texvent.batch.identity import digest
@@ -24,7 +25,8 @@ class DataSetSamples:
         """
         self.name = f"split {split} of {source.folder}"
         self._samples = open(source.folder or Path(), variant=source.variant, split=split)
-        self.labels, self.identity = self._samples.labels, self._samples.index.identity
+        self.labels = self._samples.labels
+        self.identity = _identity(self._samples.index.key.tolist())
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -79,7 +81,7 @@ class RecordedSamples:
         if not self._files:
             raise InputError(f"{folder} holds no event files in folders of classes")
         names = [str(path.relative_to(folder)) for _, path in self._files]
-        self.identity = f"{len(names)} ({digest(names)[:12]})"
+        self.identity = _identity(names)
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -110,3 +112,8 @@ class RecordedSamples:
     def title(self, number: int) -> str:
         """See `LabelledSamples`."""
         return str(self._files[number][1])
+
+
+def _identity(names: Sequence[str]) -> str:
+    """Number of samples, and a digest of their names in order."""
+    return f"{len(names)} ({digest(names)[:12]})"
