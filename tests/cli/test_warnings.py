@@ -101,6 +101,7 @@ def others(recording):
         (["simulate", "a.h5", "-o", "b.h5"], "an event file; texvent render, view, convert and"),
         (["simulate", "none/of/it.mp4", "-o", "b.h5"], "no such folder: none (of none/of/it.mp4)"),
         (["simulate", "frames/", "-o", "b.h5"], "no such video or folder: frames"),
+        (["simulate", "a red ball", "-o", "b.h5"], "a prompt is for texvent generate"),
         (["simulate", "/dev/video99", "-o", "b.h5"], "no such camera: /dev/video99; there is"),
         (["convert", "none/a.h5", "b.h5"], "no such folder: none (of none/a.h5)"),
     ],

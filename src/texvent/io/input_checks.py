@@ -69,7 +69,9 @@ def refuse_missing(path: Path, what: str = "file") -> None:
     if missing:
         raise InputError(f"no such folder: {missing[-1]} (of {path}); check its name")
     what = what if path.suffix else f"{what} or folder"
-    raise InputError(f"no such {what}: {path}; check the name and the folder")
+    is_prompt = not path.suffix and " " in path.name
+    hint = "a prompt is for texvent generate" if is_prompt else "check the name and the folder"
+    raise InputError(f"no such {what}: {path}; {hint}")
 
 
 ZIP_DAMAGE = (
