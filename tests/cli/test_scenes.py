@@ -20,7 +20,7 @@ def test_the_list_has_families_other_names_and_assets_first(tmp_path, capsys, mo
 
 def test_a_word_lists_the_nouns_that_have_it_with_their_sizes(capsys) -> None:
     assert main(["scenes", "cube"]) == 0
-    _, *rows = capsys.readouterr().out.splitlines()
+    _, *rows = map(str.rstrip, capsys.readouterr().out.splitlines())
     assert any(row.split()[1] == "cube" and row.endswith("0.8 x 0.8 x 0.8 m") for row in rows)
 
 
