@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from texvent.cli.app import main
 from texvent.errors import MissingDependencyError
 from texvent.events import EventStream
 from texvent.io.files import load, save
@@ -47,6 +48,24 @@ def test_a_committed_file_still_reads(case: FormatCase) -> None:
     events = load(CORPUS / case.name / case.file, format=format, size=size)
     assert events.equals(expected(case))
     assert events.metadata == (expected(case).metadata if case.keeps_metadata else {})
+
+
+@pytest.mark.parametrize("case", ALL_CASES, ids=lambda case: case.name)
+def test_every_command_of_event_files_takes_a_committed_file(
+    case: FormatCase, tmp_path: Path
+) -> None:
+    if case.extra:
+        pytest.importorskip(case.extra, reason=f"{case.name} needs {case.extra}")
+    path = str(CORPUS / case.name / case.file)
+    size = [] if case.keeps_metadata else ["--sensor", str(case.sensor)]
+    commands = [
+        ["info", path, "--format", case.name, *size],
+        ["validate", path, "--format", case.name, *size],
+        ["render", path, "-o", str(tmp_path / "e.png"), "--format", case.name, *size],
+        ["convert", path, str(tmp_path / "e.h5"), "--from-format", case.name, *size],
+    ]
+    assert [main(words) for words in commands] == [0] * 4
+    assert load(tmp_path / "e.h5").equals(expected(case))
 
 
 def make_missing() -> None:

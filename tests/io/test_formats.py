@@ -259,7 +259,7 @@ def test_none_is_no_path():
 @pytest.mark.parametrize(
     ("name", "format"),
     [("e.es", None), ("e.aedat", None), ("e.aedat", "aedat3"), ("e", "evreal"), ("e", "esim"),
-     ("e.hdf5", "prophesee-hdf5")],
+     ("e.hdf5", "prophesee-hdf5"), ("e.raw", "evt2"), ("e.parquet", None)],
 )  # fmt: skip
 def test_formats_that_are_only_read_are_not_written(tmp_path, name, format):
     with pytest.raises(ConfigError, match=r"files are only read; write hdf5 \(\.h5\)"):

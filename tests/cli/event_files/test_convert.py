@@ -57,13 +57,6 @@ def test_a_file_goes_through_every_format_and_comes_back(
     assert capsys.readouterr().out == ""
 
 
-def test_a_format_is_named_where_the_extension_does_not_say(recording: EventStream) -> None:
-    assert run("convert", "in.h5", "out.npz", "--format", "n-imagenet") == 0
-    assert load("out.npz").equals(recording)
-    assert run("convert", "out.npz", "out.h5", "--format", "dsec") == 0
-    assert load("out.h5").equals(recording)
-
-
 def test_region_time_and_size_are_edits_in_this_order(recording: EventStream) -> None:
     words = ["--roi", "100,50,128,100", "--resize", "64x50", "--from-zero", "--time", "0.1,0.5"]
     assert run("convert", "in.h5", "part.npz", *words) == 0
@@ -127,16 +120,6 @@ def test_validate_gives_a_verdict_and_an_exit_code(
     assert "time decreases" in refused(capsys, "validate", "wild.csv", "--sensor", "8x8")
     assert run("validate", "twice.h5", "-q") == 1
     assert capsys.readouterr().out == ""
-
-
-def test_info_knows_every_format(
-    recording: EventStream, capsys: pytest.CaptureFixture[str]
-) -> None:
-    for name, format in (("a.aedat4", "aedat4"), ("b.csv", "csv"), ("c.npz", "n-imagenet")):
-        run("convert", "in.h5", name, "--format", format, "-q")
-        assert run("info", name, "--json") == 0
-        facts = json.loads(capsys.readouterr().out)
-        assert (facts["events"], facts["sensor"], facts["seed"]) == (5000, "346x260", 7)
 
 
 @pytest.mark.parametrize(("name", "has_checksums"), [("out.raw", False), ("in.h5", True)])

@@ -32,7 +32,6 @@ OPTIONS = [
     )
     if not (decay and cache != "global") and not (multi_event and stamp == "eq7")
 ]
-WITHOUT_DRAWS = [one for one in OPTIONS if one["timestamp_rule"] != "random"]
 FORGETFUL = [one for one in OPTIONS if one["cache"] in ("local", "none")]
 switches = st.sampled_from(OPTIONS)
 noises = st.sampled_from(["adaptive", "gaussian", "random", "none"])
@@ -204,13 +203,7 @@ def test_splitting_the_stream_changes_nothing_when_state_is_carried(
 
 
 @CHECKED
-@given(
-    clips(min_frames=3),
-    st.sampled_from(FORGETFUL),
-    noises,
-    seeds,
-    st.data(),
-)
+@given(clips(min_frames=3), st.sampled_from(FORGETFUL), noises, seeds, st.data())
 def test_local_cache_needs_no_state_at_a_source_frame(frames, options, noise, seed, data):
     """So a clip can be cut at source frames and simulated in parallel, noise included."""
     cut = data.draw(st.integers(1, len(frames) - 1))
