@@ -65,7 +65,7 @@ def test_a_result_is_written_and_becomes_a_page(tmp_path, monkeypatch, capsys):
     chosen = ["--scenes", "static", "--simulators", "esim", "--interpolations", "none"]
     assert main(["bench", "fidelity", *chosen, "-o", "r.json", "--jobs", "1", "-q"]) == 0
     shown = capsys.readouterr()
-    assert "### static, noisy pixels" in shown.out
+    assert "## static, noisy pixels" in shown.out
     assert not shown.err
     document = json.loads((tmp_path / "r.json").read_text())
     # Nothing moves, so a model without noise has no event to place.

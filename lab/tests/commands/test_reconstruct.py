@@ -90,7 +90,7 @@ def test_the_benchmark_prints_its_tables_and_keeps_every_value(
         capsys, "bench", "reconstruction", recording, *words, *files, *network(weights)
     )
     assert code == 0
-    assert "### bar, firenet (12 images)" in said.out
+    assert "## bar, firenet (12 images)" in said.out
     assert "| esim, blend |" in said.out
     document = json.loads(out.read_text())
     assert [row["source"] for row in document["rows"]] == ["recorded", "esim, blend"]
@@ -103,4 +103,4 @@ def test_events_and_frames_of_a_recording_may_lie_apart(recording, weights, caps
         capsys, "bench", "reconstruction", recording / "events.txt", *words, *network(weights)
     )
     assert code == 0
-    assert "### events, firenet (4 images)" in said.out
+    assert "## events, firenet (4 images)" in said.out

@@ -196,6 +196,6 @@ def test_kinds_of_pixels_of_one_scene_count_as_one_window_over_scenes():
     overall = report.overall_comparison()
     assert overall.windows == 6
     assert overall.behind_best["other"].difference.mean == pytest.approx(0.1 / 0.7)
-    overview = fidelity_tables(report).partition("###")[0]
+    overview = fidelity_tables(report).partition("##")[0]
     assert "| 0.143 [0.143, 0.143] |" in overview
     assert "over 6 scenes" in overview

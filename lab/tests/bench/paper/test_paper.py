@@ -117,7 +117,7 @@ def test_thresholds_are_fitted_unless_the_user_wants_the_papers_way(capsys, tmp_
     words += ["--configs", str(tmp_path), "-q", "-o", str(tmp_path / "out.json"), "--jobs", "1"]
     assert main(words) == 0
     printed = capsys.readouterr().out
-    assert "### Table 5" in printed
+    assert "## Table 5" in printed
     assert "Table 4" not in printed
     document = json.loads((tmp_path / "out.json").read_text())
     assert document["is_rate_matched"] is True

@@ -128,7 +128,7 @@ def test_tables_and_document_state_every_figure():
     recordings = [moving_bar("one"), moving_bar("two")]
     report = run_reconstruction(recordings, scorer())
     text = reconstruction_tables(report)
-    for part in ("### one, stand-in (4 images)", "### all recordings", "| esim, blend | ×"):
+    for part in ("## one, stand-in (4 images)", "## all recordings", "| esim, blend | ×"):
         assert part in text
     assert "not measured: lpips: LPIPS's weights are not here" in text
     document = json.loads(json.dumps(reconstruction_document(report), allow_nan=False))

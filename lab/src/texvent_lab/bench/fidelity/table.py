@@ -88,7 +88,7 @@ def _overview(report: FidelityReport) -> str:
 def _scene_heading(reference: Reference) -> str:
     mean = sum(reference.events) / len(reference.events)
     kind = "true" if reference.target in TARGETS else "recorded"
-    return f"### {reference.title} ({mean:,.0f} {kind} events)\n"
+    return f"## {reference.title} ({mean:,.0f} {kind} events)\n"
 
 
 def _scene_table(report: FidelityReport, reference: Reference, baseline: str) -> str:

@@ -137,4 +137,4 @@ def compare_with_paper(table: PaperTable, ours: Measured) -> str:
     remarks = [f"- {note}" for note in ours.notes]
     remarks += [f"- Not measured: {need}" for need in ours.needs]
     lines = "\n".join(["", *remarks])
-    return f"### Table {table.number}: {table.title}\n\n{shown}{lines}\n"
+    return f"## Table {table.number}: {table.title}\n\n{shown}{lines}\n"

@@ -30,10 +30,10 @@ def reconstruction_tables(report: ReconstructionReport) -> str:
     recordings = list(dict.fromkeys(row.recording for row in report.rows))
     for recording in recordings:
         rows = [row for row in report.rows if row.recording == recording]
-        parts.append(f"### {recording}, {report.network} ({len(rows[0].scores.t_us)} images)\n")
+        parts.append(f"## {recording}, {report.network} ({len(rows[0].scores.t_us)} images)\n")
         parts.append(_table(rows))
     if len(recordings) > 1:
-        parts.append(f"### {ALL}, {report.network} (each image counts the same)\n")
+        parts.append(f"## {ALL}, {report.network} (each image counts the same)\n")
         parts.append(_table([_pooled(report.rows_of(source)) for source in report.sources()]))
     if len(report.sources()) > 2:
         parts.append(MARK_NOTE)

@@ -24,7 +24,7 @@ def as_markdown(document: Document) -> str:
         (text, _spread(startup[name]) if isinstance(startup[name], dict) else f"{startup[name]:g}")
         for name, text in STARTUP.items()
     ]
-    return "\n".join([*parts, f"### Start-up, s\n\n{markdown_table(('command', 's'), rows)}"])
+    return "\n".join([*parts, f"## Start-up, s\n\n{markdown_table(('command', 's'), rows)}"])
 
 
 def _spread(quartiles: Document) -> str:
@@ -53,7 +53,7 @@ def _kernels(document: Document) -> str:
         for row in document["kernels"]
     ]  # fmt: skip
     head = ("model", "size", "jumping", "way", "events", "ms per frame", "Mpixel/s", "Mevents/s")
-    return f"### Kernels\n\n{markdown_table(head, rows)}"
+    return f"## Kernels\n\n{markdown_table(head, rows)}"
 
 
 def _runs(document: Document) -> str:
@@ -65,7 +65,7 @@ def _runs(document: Document) -> str:
         for row in document["runs"]
     ]  # fmt: skip
     head = ("clip", "size", "interpolate", "events", "ms")
-    return f"### Runs, per pair of source frames\n\n{markdown_table(head, rows)}"
+    return f"## Runs, per pair of source frames\n\n{markdown_table(head, rows)}"
 
 
 def _peers(document: Document) -> str:
@@ -81,7 +81,7 @@ def _peers(document: Document) -> str:
             else:
                 rows.append(("", "", name, "", "", peer["problem"], ""))
     head = ("clip", "size", "program", "threshold", "events per pair", "ms per pair", "over ours")
-    return f"### Peers, one core\n\n{markdown_table(head, rows)}"
+    return f"## Peers, one core\n\n{markdown_table(head, rows)}"
 
 
 def _program(row: Document) -> tuple[str, str, str]:
