@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import ConfigError, InputError, OutputError
 from texvent.events import EventStream
-from texvent.io.atomic import atomic_folder
+from texvent.io.atomic import AtomicOutput, atomic_folder
 from texvent.options.values import plain
 from texvent.truth.boxes import open_boxes
 from texvent.truth.event_ids import (
@@ -48,7 +48,6 @@ from texvent.truth.source import (
     TruthSource,
 )
 from texvent.video import Frame, FrameStream
-from texvent.view.atomic_output import AtomicOutput
 
 _FOLDERS = {
     "flow": ("flow/forward", "flow/forward_npz"),

@@ -11,10 +11,9 @@ from typing import Any
 from texvent._registry import suggest
 from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
-from texvent.io.atomic import atomic_file, check_output
+from texvent.io.atomic import AtomicOutput, atomic_file, check_output
 from texvent.sensor import SensorSize
 from texvent.video import Frame
-from texvent.view.atomic_output import AtomicOutput
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
 from texvent.view.drawing.panels import title_of
 from texvent.view.page.writer import PageWriter

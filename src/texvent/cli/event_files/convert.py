@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any, ClassVar, cast
 
 from texvent._registry import FILTERS
-from texvent.capture.open import open_frames
 from texvent.cli.event_files.event_file_options import ReadingOptions, keep_time_range
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
@@ -20,20 +19,18 @@ from texvent.event_packets import EventPackets
 from texvent.io.atomic import atomic_file, check_outputs
 from texvent.io.columns import Columns
 from texvent.io.files import open_writer, side_data
-from texvent.io.hdf5.event_utils import EventUtilsCodec, save_with_frames
 from texvent.io.pixel_mask import read_pixel_mask
 from texvent.io.split_files import read_intervals, write_split
 from texvent.options.parts import make_part
 from texvent.runtime.file_names import usable_path
-from texvent.sensor import parse_sensor
+from texvent.sensor import SensorSize, parse_sensor
 from texvent.transform.downsample import downsample
 from texvent.transform.edits import Axes, Region, crop, flip, merge, resize, rotate, start_at_zero
 from texvent.transform.filters.apply import filter_events
 from texvent.transform.filters.noise_filters import MaskFilter
 from texvent.transform.packets import note_edit
 from texvent.transform.undistort import read_calibration, undistort
-from texvent.view.drawing.event_image import frame_image
-from texvent.view.video.writer import write_images
+from texvent.video import FrameStream
 
 DESCRIPTION = """Convert an event file, or a part of it, to another format. Memory stays flat.
 
@@ -45,6 +42,8 @@ DESCRIPTION = """Convert an event file, or a part of it, to another format. Memo
 Edits happen in this order: merge, mask, filter, undistort, crop,
 resize, downsample, rotate, flip, from-zero, time."""
 
+WITH_FRAMES = "event-utils"
+"""Format of events and frames in one file."""
 SIDE_FILES = ("triggers", "imu")
 """Options that write what a recording holds beside its events."""
 
@@ -138,12 +137,14 @@ def run(arguments: Sequence[str]) -> int:
     # Nothing is written until all options are accepted.
     events = edit(_open_inputs(options), options)
     side = _side_data(options)
-    frames = None if options.frames is None else open_frames(options.path, CaptureConfig())
+    frames = None if options.frames is None else _open_frames(options.path)
     check_outputs([out, *side], overwrite=options.overwrite or options.split is not None)
     count = _write(events, out, options)
     for path, blocks in side.items():
         _write_table(path, blocks, overwrite=options.overwrite)
     if frames is not None and options.frames is not None:
+        from texvent.view.video.writer import write_images
+
         write_images(frames, options.frames, overwrite=options.overwrite)
     if not count:
         warn(f"{out} holds no event: there is none in the input, or in the part asked for")
@@ -160,9 +161,12 @@ def _write(events: EventPackets, out: Path, options: ConvertOptions) -> int:
             events, read_intervals(options.split), out, format=format or "npz", overwrite=overwrite
         )
     if options.video is not None:
-        if format != EventUtilsCodec.name:
-            raise ConfigError(f"video is for --format {EventUtilsCodec.name}; leave it out")
-        frames = open_frames(options.video, CaptureConfig(), size=events.size)
+        if format != WITH_FRAMES:
+            raise ConfigError(f"video is for --format {WITH_FRAMES}; leave it out")
+        from texvent.io.hdf5.event_utils import save_with_frames
+        from texvent.view.drawing.event_image import frame_image
+
+        frames = _open_frames(options.video, size=events.size)
         images = ((frame.t_us, frame_image(frame)) for frame in frames)
         save_with_frames(out, events, images, overwrite=overwrite)
         return sum(map(len, events))
@@ -175,6 +179,13 @@ def _write(events: EventPackets, out: Path, options: ConvertOptions) -> int:
             writer.append(packet)
             count += len(packet)
     return count
+
+
+def _open_frames(source: Path | str, size: SensorSize | None = None) -> FrameStream:
+    """Frames of a source; imported here, as reading images costs more start-up than events."""
+    from texvent.capture.open import open_frames
+
+    return open_frames(source, CaptureConfig(), size=size)
 
 
 def _side_data(options: ConvertOptions) -> dict[Path, Iterator[Columns]]:

@@ -1,4 +1,4 @@
-"""Options of commands on event files: the file, `--time START,STOP` of it, the video beside it."""
+"""Options of commands on event files: the file, `--time START,STOP` of it."""
 
 from __future__ import annotations
 
@@ -7,24 +7,18 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.capture.open import open_frames
 from texvent.cli.option_types import REQUIRED
-from texvent.config import CaptureConfig
-from texvent.errors import ConfigError, InputError, shown
+from texvent.errors import ConfigError, shown
 from texvent.event_packets import EventPackets
 from texvent.io.files import open_events
 from texvent.io.input_checks import refuse_missing
 from texvent.io.reading import TimeUnit
 from texvent.options.values import parse_fraction
-from texvent.run.regeneration import render_again
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import parse_sensor
 from texvent.time_range import END_OF_TIME_US
 from texvent.transform.edits import keep_time
-from texvent.video import MICROSECONDS, FrameStream
-
-AUTOMATIC = "auto"
-NO_VIDEO = "none"
+from texvent.video import MICROSECONDS
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,43 +83,6 @@ class EventRangeOptions(EventFileOptions):
     def open(self) -> EventPackets:
         """Open the part of the file; errors as for the whole."""
         return keep_time_range(super().open(), self.time)
-
-
-@dataclass(frozen=True, kw_only=True)
-class ShownEventsOptions(EventRangeOptions):
-    """Which events are drawn, and the video beside them."""
-
-    input_texts: ClassVar[tuple[str, ...]] = ("video",)
-    short_flags: ClassVar[Mapping[str, str]] = {
-        **ReadingOptions.short_flags,
-        **{"out": "-o", "quiet": "-q"},
-    }
-
-    video: str = AUTOMATIC
-    """Source video to show: a file, an image folder, none or auto. Auto renders the scene again if
-    the embedded generator made the file."""
-    overwrite: bool = False
-    """Replace the file if it exists already."""
-    quiet: bool = False
-    """Do not print the name of the file written."""
-
-    def frames(self, events: EventPackets) -> FrameStream | None:
-        """The frames to show beside the events, fitted to their sensor; None for none.
-
-        Raises:
-            InputError: there is no such video, or it cannot be read.
-        """
-        if self.video == NO_VIDEO:
-            return None
-        if self.video == AUTOMATIC:
-            rendered = render_again(events.metadata)
-            return rendered if rendered is not None and rendered.size == events.size else None
-        if not Path(self.video).exists():
-            raise InputError(
-                f"no such video: {self.video}; give a file, a folder of images, {AUTOMATIC} or "
-                f"{NO_VIDEO}"
-            )
-        return open_frames(self.video, CaptureConfig(), size=events.size)
 
 
 def keep_time_range(events: EventPackets, text: str | None) -> EventPackets:

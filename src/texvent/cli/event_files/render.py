@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import ClassVar
 
-from texvent.cli.event_files.event_file_options import ShownEventsOptions
+from texvent.cli.event_files.shown_events import ShownEventsOptions
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs

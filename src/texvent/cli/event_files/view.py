@@ -9,7 +9,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from texvent.cli.event_files.event_file_options import ShownEventsOptions
+from texvent.cli.event_files.shown_events import ShownEventsOptions
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
