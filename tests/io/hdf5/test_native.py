@@ -108,22 +108,6 @@ def test_text_that_hdf5_cannot_hold_is_kept_in_the_json(tmp_path: Path) -> None:
     assert load(path).metadata == metadata
 
 
-def test_a_dsec_file_is_read_with_its_offset(tmp_path: Path) -> None:
-    path = tmp_path / "dsec.h5"
-    with h5py.File(path, "w") as file:
-        file["events/x"] = np.array([1, 2], dtype="u2")
-        file["events/y"] = np.array([3, 4], dtype="u2")
-        file["events/t"] = np.array([0, 2**32 - 1], dtype="u4")
-        file["events/p"] = np.array([0, 1], dtype="u1")
-        file["ms_to_idx"] = np.array([0, 1], dtype="u8")
-        file["t_offset"] = np.int64(51_000_000_000)
-    with pytest.raises(InputError, match="does not store the sensor size; give it"):
-        load(path)
-    back = load(path, size=(640, 480))
-    assert back.t.tolist() == [51_000_000_000, 51_000_000_000 + 2**32 - 1]
-    assert back.size == (640, 480)
-
-
 def test_signed_polarity_is_converted_and_other_values_are_refused(tmp_path: Path) -> None:
     path = tmp_path / "signed.h5"
     for polarity in ([-1, 1], [-1, 0], [0, 2]):
