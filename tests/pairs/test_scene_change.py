@@ -37,12 +37,6 @@ def test_another_image_is_a_cut(scene, moving_texture):
     assert change(scene(0), scene(0)[::-1]) is SceneChange.CUT
 
 
-@pytest.mark.parametrize("pixels", [1, 18, 80])
-def test_a_pan_is_no_jump(moving_texture, pixels):
-    first, second = (moving_texture(x, width=WIDTH, height=HEIGHT) for x in (0, pixels))
-    assert change(first, second) is SceneChange.NONE
-
-
 def test_zoom_is_no_jump(moving_texture):
     y, x = np.mgrid[:HEIGHT, :WIDTH].astype(np.float64)
     first = moving_texture(0, width=WIDTH, height=HEIGHT)
@@ -94,8 +88,8 @@ def test_frames_too_small_to_judge_do_not_jump():
     assert change(np.zeros((16, 400)), np.full((16, 400), 255.0)) is SceneChange.FLASH
 
 
-@pytest.mark.parametrize(("right", "down"), [(60, 0), (-50, 30), (0, 60)])
-def test_a_whip_pan_in_any_direction_is_no_jump(moving_texture, right, down):
+@pytest.mark.parametrize(("right", "down"), [(1, 0), (18, 0), (80, 0), (-50, 30), (0, 60)])
+def test_a_pan_in_any_direction_is_no_jump(moving_texture, right, down):
     first = moving_texture(0, 0, width=WIDTH, height=HEIGHT)
     second = moving_texture(right, down, width=WIDTH, height=HEIGHT)
     assert change(first, second) is SceneChange.NONE

@@ -3,6 +3,7 @@ from __future__ import annotations
 import errno
 import json
 import os
+import sys
 from collections.abc import Callable
 from pathlib import Path
 
@@ -17,7 +18,7 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io import block_writer
 from texvent.io.files import load, open_events, save
-from texvent.io.hdf5 import native, storage
+from texvent.io.hdf5 import native
 from texvent.sensor import SensorSize
 
 from ..format_cases import random_events
@@ -200,13 +201,9 @@ def test_a_foreign_filter_names_the_package_to_install(
 ) -> None:
     path = save(tmp_path / "events.h5", at_times(1, 2))
     monkeypatch.setattr(h5py.h5z, "filter_avail", lambda code: False)
-    monkeypatch.setattr(storage, "require", _no_package)
+    monkeypatch.setitem(sys.modules, "hdf5plugin", None)
     with pytest.raises(MissingDependencyError, match="pip install hdf5plugin"):
         load(path)
-
-
-def _no_package(module: str) -> None:
-    raise MissingDependencyError(module)
 
 
 def test_a_disk_that_fills_up_while_writing_leaves_nothing(
