@@ -58,13 +58,6 @@ def test_region_time_and_size_are_edits_in_this_order(recording: EventStream) ->
     assert part.metadata["edits"][0]["crop"] == "100,50,128,100"
 
 
-def test_several_files_become_one(recording: EventStream) -> None:
-    shutil.copy("in.h5", "copy.h5")
-    recording.save("other.npz")
-    assert run("convert", "in.h5", "three.h5", "--merge", "copy.h5", "other.npz") == 0
-    assert len(load("three.h5")) == 3 * len(recording)
-
-
 def test_a_file_is_not_merged_with_itself(
     recording: EventStream, capsys: pytest.CaptureFixture[str]
 ) -> None:
