@@ -12,13 +12,9 @@ from texvent.pipeline import video_to_events
 from texvent.settings.resolution import resolve
 from texvent.video import Video
 
+pytestmark = pytest.mark.usefixtures("folder")
 FRAMES = np.random.default_rng(1).integers(0, 256, (7, 12, 16), dtype=np.uint8)
 OPTIONS = {"interpolate": "none", "noise": "none", "seed": 1}
-
-
-@pytest.fixture(autouse=True)
-def _folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
 
 
 def test_the_first_pairs_are_counted():
@@ -35,7 +31,8 @@ def test_a_dry_run_says_what_is_shown_of_the_prompt(capsys):
     said = capsys.readouterr()
     assert "scene    1 ball, red, bounces" in said.err
     assert "about" in said.out
-    assert not list(Path().glob("*.h5"))
+    assert "memory" in said.out
+    assert not list(Path().iterdir())
 
 
 def test_a_dry_run_refuses_no_existing_file_as_it_replaces_none(capsys):

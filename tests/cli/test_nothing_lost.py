@@ -11,9 +11,9 @@ from subprocess import PIPE
 
 import numpy as np
 import pytest
+from tests.cli.running import run
 
 import texvent
-from texvent.cli.app import main
 
 COMMAND = [sys.executable, "-m", "texvent.cli.app"]
 SMALL = ("--sensor", "64x48", "--interpolate", "none", "--noise", "none")
@@ -25,10 +25,6 @@ def clip(folder):
     prompt = ("a red car drives left", "--duration", "0.3", "--sensor", "64x48", "--samples", "1")
     assert run("generate", *prompt, "--video-only", "-o", "clip.avi") == 0
     return Path("clip.avi")
-
-
-def run(*words: object) -> int:
-    return main([str(word) for word in words])
 
 
 def contents(folder: Path) -> dict[str, bytes]:
@@ -76,12 +72,6 @@ def test_an_output_that_is_an_input_is_named_even_in_a_dry_run(folder, clip, cap
         words = ("simulate", "clip.events.mp4", "-o", "clip.h5", "--overwrite", *more)
         assert run(*words, *SMALL) == 3
         assert "it is the input clip.events.mp4, which is never replaced" in capsys.readouterr().err
-
-
-def test_outputs_do_not_lie_among_input_images(folder, clip, capsys):
-    Path("frames").mkdir()
-    assert run("simulate", "frames", "-o", "frames/out.h5", "--fps", 30) == 3
-    assert "would lie among the files of the input frames" in capsys.readouterr().err
 
 
 def test_a_prompt_and_names_of_parts_are_no_paths(folder, capsys):

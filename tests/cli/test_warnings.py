@@ -5,32 +5,12 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from tests.cli.running import refused, run
 
 import texvent
-from texvent.cli.app import main
 
+pytestmark = pytest.mark.usefixtures("folder")
 SMALL = ["--sensor", "48x36", "--previews", "none"]
-
-
-@pytest.fixture(autouse=True)
-def folder(tmp_path, monkeypatch):
-    monkeypatch.chdir(tmp_path)
-    return tmp_path
-
-
-def run(*words):
-    return main([str(word) for word in words])
-
-
-def error_of(capsys, *words):
-    """The one line of a command that must be refused, without its "error: "."""
-    capsys.readouterr()
-    assert run(*words) == 2
-    lines = capsys.readouterr().err.splitlines()
-    assert len(lines) == 1, lines
-    assert lines[0].startswith("error: ")
-    assert len(lines[0]) < 300
-    return lines[0].removeprefix("error: ")
 
 
 def warnings_of(capsys, *words):
@@ -49,7 +29,7 @@ def still_video(path):
 
 
 def test_a_prompt_of_which_nothing_is_understood_is_refused(capsys):
-    said = error_of(capsys, "generate", "qwerty zxcv", "-o", "a.h5", *SMALL)
+    said = refused(capsys, "generate", "qwerty zxcv", "-o", "a.h5", *SMALL)
     assert "nothing in the prompt was understood: qwerty, zxcv" in said
     assert not Path("a.h5").exists()
 
@@ -75,9 +55,9 @@ def test_a_time_outside_of_the_recording_is_refused(capsys, recording, source, c
     if source == "a.csv":
         texvent.load("a.h5").save(source)
     sensor = ("--sensor", "8x6")
-    said = error_of(capsys, command, source, *out, *sensor, "--time", "5,6")
+    said = refused(capsys, command, source, *out, *sensor, "--time", "5,6")
     assert said == "no event from 5 to 6 s: the recording runs from 0 to 0.4 s"
-    assert "is empty" in error_of(capsys, command, source, *out, *sensor, "--time", "0.3,0.1")
+    assert "is empty" in refused(capsys, command, source, *out, *sensor, "--time", "0.3,0.1")
     assert not Path(out[-1]).exists()
 
 
@@ -109,7 +89,7 @@ def others(recording):
 def test_a_file_of_another_kind_is_named_with_the_command_that_takes_it(
     capsys, others, words, said
 ):
-    assert said in error_of(capsys, *words)
+    assert said in refused(capsys, *words)
 
 
 def test_a_preview_is_not_taken_for_a_source_without_a_word(capsys, recording):

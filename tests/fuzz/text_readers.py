@@ -44,13 +44,8 @@ TEXTS: dict[str, tuple[str, Any]] = {
     "filter": ("background-activity:window_us=5000,support=2", partial(make_part, FILTERS)),
     "time": ("0.5,2", parse_time_range),
     "prompt": ("a red car drives left past two trees at dusk", lambda text: _stage(text)),
-    **{
-        option: (value, lambda text, option=option: resolve("simulate", {option: text}))
-        for option, value in (
-            ("preset", "paper"),
-            ("fps", "30000/1001"),
-        )
-    },
+    "preset": ("paper", lambda text: resolve("simulate", {"preset": text})),
+    "fps": ("30000/1001", lambda text: resolve("simulate", {"fps": text})),
 }
 
 

@@ -20,6 +20,8 @@ from texvent.generate.opensora import (
     run_program,
 )
 
+from .watcher import Watcher
+
 PROMPT = 'a red car, "fast", drives left'
 TORCHRUN = """
     #!{python}
@@ -88,24 +90,14 @@ def build(seed=0, **options):
     return OpenSoraGenerator(OpenSoraConfig(**{"frames": 9, **options}), seed=seed)
 
 
-class Told:
-    def __init__(self):
-        self.lines = []
-
-    def announce(self, line):
-        self.lines.append(line)
-
-    def advance(self, stage, done, total):
-        raise AssertionError("Open-Sora does not tell its steps")
-
-
 def test_a_prompt_becomes_the_frames_of_its_mp4_and_is_kept(root):
-    told = Told()
+    told = Watcher()
     video = build().generate(PROMPT, progress=told)
     assert (video.fps, video.size, video.frame_count) == (24, (96, 64), 9)
     assert len(list(video)) == 9
     assert video.metadata["prompt"] == PROMPT
     assert video.metadata["check"]["problems"] == []
+    assert told.steps == []
     assert told.lines == ["running Open-Sora (256px, 50 steps)"]
     (root / ".venv/bin/torchrun").unlink()
     again = build().generate(PROMPT, progress=told)

@@ -12,14 +12,8 @@ import diffusers
 import transformers
 from diffusers.pipelines.ltx2 import LTX2TextConnectors, LTX2Vocoder
 
-from .tiny_pipelines import qwen, wan_vae
+from .tiny_pipelines import SMALL, qwen, wan_vae
 
-SMALL_TEXT = {
-    "hidden_size": 16,
-    "intermediate_size": 16,
-    "num_hidden_layers": 2,
-    "num_attention_heads": 2,
-}
 CONNECTOR = {
     "num_attention_heads": 2,
     "attention_head_dim": 8,
@@ -58,8 +52,8 @@ def flow_unipc():
 
 def ltx2():
     tokenizer = gemma_tokenizer()
-    text = SMALL_TEXT | {"head_dim": 8, "num_key_value_heads": 2, "vocab_size": len(tokenizer)}
-    vision = SMALL_TEXT | {"image_size": 14, "patch_size": 14}
+    text = SMALL | {"head_dim": 8, "num_key_value_heads": 2, "vocab_size": len(tokenizer)}
+    vision = SMALL | {"image_size": 14, "patch_size": 14}
     gemma = transformers.Gemma3Config(
         text_config=text, vision_config=vision, mm_tokens_per_image=1, image_token_index=5
     )

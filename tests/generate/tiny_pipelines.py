@@ -15,6 +15,12 @@ import transformers
 from tokenizers.pre_tokenizers import ByteLevel
 
 TEXT = {"d_model": 32, "d_kv": 8, "d_ff": 37, "num_layers": 2, "num_heads": 4}
+SMALL = {
+    "hidden_size": 16,
+    "intermediate_size": 16,
+    "num_hidden_layers": 2,
+    "num_attention_heads": 2,
+}
 
 
 @contextlib.contextmanager
@@ -61,41 +67,33 @@ def wan_vae():
     return diffusers.AutoencoderKLWan(base_dim=3, z_dim=16, dim_mult=[1, 1, 1, 1], num_res_blocks=1)
 
 
-def wan_transformer():
-    return diffusers.WanTransformer3DModel(
-        num_attention_heads=2,
-        attention_head_dim=12,
-        num_layers=2,
-        text_dim=32,
-        freq_dim=16,
-        ffn_dim=32,
-        patch_size=(1, 2, 2),
-    )
-
-
 def wan(folder):
     return diffusers.WanPipeline(
         **t5(folder, transformers.UMT5EncoderModel, transformers.UMT5Config),
         vae=wan_vae(),
         scheduler=diffusers.FlowMatchEulerDiscreteScheduler(shift=7.0),
-        transformer=wan_transformer(),
-    )
-
-
-def cogvideox_vae():
-    return diffusers.AutoencoderKLCogVideoX(
-        block_out_channels=(8, 8, 8, 8),
-        latent_channels=4,
-        layers_per_block=1,
-        norm_num_groups=2,
-        temporal_compression_ratio=4,
+        transformer=diffusers.WanTransformer3DModel(
+            num_attention_heads=2,
+            attention_head_dim=12,
+            num_layers=2,
+            text_dim=32,
+            freq_dim=16,
+            ffn_dim=32,
+            patch_size=(1, 2, 2),
+        ),
     )
 
 
 def cogvideox(folder):
     return diffusers.CogVideoXPipeline(
         **t5(folder),
-        vae=cogvideox_vae(),
+        vae=diffusers.AutoencoderKLCogVideoX(
+            block_out_channels=(8, 8, 8, 8),
+            latent_channels=4,
+            layers_per_block=1,
+            norm_num_groups=2,
+            temporal_compression_ratio=4,
+        ),
         scheduler=diffusers.CogVideoXDDIMScheduler(),
         transformer=diffusers.CogVideoXTransformer3DModel(
             num_attention_heads=8,
@@ -180,10 +178,7 @@ def qwen():
     )
     config = transformers.Qwen2_5_VLConfig(
         text_config={
-            "hidden_size": 16,
-            "intermediate_size": 16,
-            "num_hidden_layers": 2,
-            "num_attention_heads": 2,
+            **SMALL,
             "num_key_value_heads": 2,
             "vocab_size": len(letters),
             "rope_scaling": {"type": "mrope", "mrope_section": [1, 1, 2], "rope_type": "default"},
@@ -223,24 +218,21 @@ def cosmos25(folder):
     )
 
 
-def ltx_vae(**facts):
-    return diffusers.AutoencoderKLLTXVideo(
-        latent_channels=8,
-        block_out_channels=(8, 8, 8, 8),
-        decoder_block_out_channels=(8, 8, 8, 8),
-        layers_per_block=(1, 1, 1, 1, 1),
-        decoder_layers_per_block=(1, 1, 1, 1, 1),
-        **facts,
-    )
-
-
 def ltx(folder):
-    shapes = {"patch_size": 1, "patch_size_t": 1, "decoder_causal": False}
-    shapes |= {"spatio_temporal_scaling": (True, True, False, False)}
-    shapes |= {"decoder_spatio_temporal_scaling": (True, True, False, False)}
     return diffusers.LTXPipeline(
         **t5(folder),
-        vae=ltx_vae(**shapes),
+        vae=diffusers.AutoencoderKLLTXVideo(
+            latent_channels=8,
+            block_out_channels=(8, 8, 8, 8),
+            decoder_block_out_channels=(8, 8, 8, 8),
+            layers_per_block=(1, 1, 1, 1, 1),
+            decoder_layers_per_block=(1, 1, 1, 1, 1),
+            spatio_temporal_scaling=(True, True, False, False),
+            decoder_spatio_temporal_scaling=(True, True, False, False),
+            patch_size=1,
+            patch_size_t=1,
+            decoder_causal=False,
+        ),
         scheduler=diffusers.FlowMatchEulerDiscreteScheduler(),
         transformer=diffusers.LTXVideoTransformer3DModel(
             in_channels=8,
@@ -275,22 +267,16 @@ def save(name: str, folder: Path) -> Path:
 def save_clip(folder: Path) -> Path:
     """Save a tiny random CLIP model with its tokenizer and return the folder."""
     tokenizer = t5(folder)["tokenizer"]
-    small = {
-        "hidden_size": 16,
-        "intermediate_size": 16,
-        "num_hidden_layers": 2,
-        "num_attention_heads": 2,
-    }
     config = transformers.CLIPConfig(
         text_config={
-            **small,
+            **SMALL,
             "vocab_size": len(tokenizer),
             "max_position_embeddings": 40,
             "eos_token_id": tokenizer.eos_token_id,
             "bos_token_id": None,
             "pad_token_id": tokenizer.pad_token_id,
         },
-        vision_config={**small, "image_size": 32, "patch_size": 8},
+        vision_config={**SMALL, "image_size": 32, "patch_size": 8},
         projection_dim=16,
     )
     with random_weights():
@@ -303,13 +289,7 @@ def save_llava(folder: Path, *, chat_template: str | None = None) -> Path:
     """Save a tiny random LLaVA model with its processor and return the folder."""
     tokenizer = t5(folder)["tokenizer"]
     tokenizer.add_special_tokens({"additional_special_tokens": ["<image>"]})
-    small = {
-        "hidden_size": 16,
-        "intermediate_size": 16,
-        "num_hidden_layers": 2,
-        "num_attention_heads": 2,
-        "initializer_range": 0.5,  # large enough for the image to change the words
-    }
+    small = {**SMALL, "initializer_range": 0.5}  # enough for the image to change the words
     config = transformers.LlavaConfig(
         text_config=transformers.LlamaConfig(
             **small,

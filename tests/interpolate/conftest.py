@@ -1,15 +1,13 @@
-"""Frames, streams and options that the tests of all interpolators share."""
+"""Frames and streams that the tests of all interpolators share."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
 import pytest
 
-from texvent.config import InterpolateConfig
 from texvent.video import Frame, Video
 
 
@@ -38,9 +36,3 @@ def pair() -> Callable[..., tuple[Frame, Frame]]:
 def stream() -> Video:
     """Frames that no interpolator looks at: constructors want a stream."""
     return Video(np.zeros((2, 4, 4), np.uint8), [0, 1000])
-
-
-@pytest.fixture
-def config() -> Callable[..., InterpolateConfig]:
-    """`config(**options)`: the default options with some replaced."""
-    return lambda **options: replace(InterpolateConfig(), **options)

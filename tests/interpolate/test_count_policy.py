@@ -88,16 +88,6 @@ def test_flow_for_the_count_and_for_the_frames_is_computed_once(moving_texture, 
     assert min(len(pair.times_us) for pair in pairs[1:]) >= 4
 
 
-def test_a_pairs_flow_is_remembered_but_not_its_frames(moving_texture):
-    flow = PairFlow()
-    first, second = Frame(moving_texture(0), 0), Frame(moving_texture(3), 1000)
-    forward, backward = flow.both_ways(first, second)
-    assert flow.both_ways(first, second)[0] is forward
-    assert np.median(forward[..., 0]) == pytest.approx(3, abs=0.2)
-    assert np.median(backward[..., 0]) == pytest.approx(-3, abs=0.2)
-    assert flow.both_ways(second, first)[0] is not forward
-
-
 def test_motion_is_that_of_the_fastest_thousandth(moving_texture):
     still = PairFlow().motion_px(Frame(moving_texture(0), 0), Frame(moving_texture(0), 1))
     assert still == 0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from texvent.config import InterpolateConfig
 from texvent.interpolate.flow import FlowInterpolator
 from texvent.interpolate.simple import BlendInterpolator
 from texvent.pairs import motion_interpolation
@@ -12,13 +13,13 @@ from texvent.video import Frame
 
 
 @pytest.fixture
-def flow(config, stream):
-    return FlowInterpolator(config(), stream)
+def flow(stream):
+    return FlowInterpolator(InterpolateConfig(), stream)
 
 
 @pytest.fixture
-def blend(config, stream):
-    return BlendInterpolator(config(interpolate="blend"), stream)
+def blend(stream):
+    return BlendInterpolator(InterpolateConfig(interpolate="blend"), stream)
 
 
 def middle(interpolator, first, second):

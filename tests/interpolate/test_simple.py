@@ -7,21 +7,23 @@ from fractions import Fraction
 import numpy as np
 import pytest
 
+from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
 from texvent.interpolate.simple import BlendInterpolator, ExactInterpolator
 from texvent.video import Frame, Video
 
 
-def test_blend_mixes_by_the_share_of_time_that_passed(pair, config, stream):
+def test_blend_mixes_by_the_share_of_time_that_passed(pair, stream):
     first, second = pair(np.full((2, 2), 100, np.uint8), np.full((2, 2), 200, np.uint8))
-    frames = list(BlendInterpolator(config(), stream).between(first, second, [100, 500, 990]))
+    blend = BlendInterpolator(InterpolateConfig(), stream)
+    frames = list(blend.between(first, second, [100, 500, 990]))
     assert [frame.t_us for frame in frames] == [100, 500, 990]
     assert [float(frame.pixels[0, 0]) for frame in frames] == [110.0, 150.0, 199.0]
     assert all(frame.pixels.dtype == np.float32 and not frame.is_source for frame in frames)
 
 
-def test_blend_works_on_luma_of_colour_and_16_bit_frames(pair, config, stream):
-    blend = BlendInterpolator(config(), stream)
+def test_blend_works_on_luma_of_colour_and_16_bit_frames(pair, stream):
+    blend = BlendInterpolator(InterpolateConfig(), stream)
     red, green = np.zeros((2, 2, 3), np.uint8), np.zeros((2, 2, 3), np.uint8)
     red[..., 0], green[..., 1] = 255, 255
     (frame,) = blend.between(*pair(red, green), [500])
@@ -43,8 +45,8 @@ def renderable() -> Brightening:
     return Brightening(np.stack([np.zeros((4, 4, 3)), np.full((4, 4, 3), 10.0)]), [0, 1000])
 
 
-def test_exact_frames_are_what_the_scene_shows_then(renderable, config):
-    exact = ExactInterpolator(config(interpolate="exact"), renderable)
+def test_exact_frames_are_what_the_scene_shows_then(renderable):
+    exact = ExactInterpolator(InterpolateConfig(interpolate="exact"), renderable)
     frames = list(exact.between(renderable[0], renderable[1], [250, 999]))
     assert [frame.t_us for frame in frames] == [250, 999]
     for frame, level in zip(frames, (2.5, 9.99), strict=True):
@@ -54,6 +56,6 @@ def test_exact_frames_are_what_the_scene_shows_then(renderable, config):
         assert not frame.is_source
 
 
-def test_exact_fails_on_a_recorded_video_and_names_the_choices(stream, config):
+def test_exact_fails_on_a_recorded_video_and_names_the_choices(stream):
     with pytest.raises(ConfigError, match="use flow, blend or none"):
-        ExactInterpolator(config(interpolate="exact"), stream)
+        ExactInterpolator(InterpolateConfig(interpolate="exact"), stream)

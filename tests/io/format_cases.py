@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
@@ -101,6 +102,20 @@ def corners(size: SensorSize) -> EventStream:
     return EventStream.from_columns(
         [0, right, 0, right], [0, 0, bottom, bottom], [0, 1, 2, 3], [1, 0, 0, 1], size=size
     )
+
+
+def recording(size: SensorSize) -> EventStream:
+    """Ten packets of 10 ms, a silence that wraps small counters, and a few late events."""
+    burst = random_events(20_000, size, span_us=100_000)
+    late = random_events(500, size, span_us=5_000, start_us=3_000_000)
+    return EventStream.concat([burst, late])
+
+
+def assert_same(events: EventStream, x: Any, y: Any, t: Any, p: Any) -> None:
+    """Another reader's columns are those of the events."""
+    for name, theirs in zip("xytp", (x, y, t, p), strict=True):
+        mine = getattr(events, name).astype(np.int64)
+        np.testing.assert_array_equal(np.asarray(theirs).astype(np.int64), mine, err_msg=name)
 
 
 STREAMS: dict[str, Callable[[FormatCase], EventStream]] = {

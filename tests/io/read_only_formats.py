@@ -35,8 +35,8 @@ def write_evreal(folder: Path, events: EventStream) -> Path:
     return folder
 
 
-def write_ecf(path: Path, events: EventStream, kind: str = "packed") -> Path:
-    """Metavision's HDF5; every chunk is an ECF body of a kind."""
+def write_ecf(path: Path, events: EventStream) -> Path:
+    """Metavision's HDF5; every chunk is a packed ECF body."""
     properties = h5py.h5p.create(h5py.h5p.DATASET_CREATE)
     # Optional, as in Metavision: HDF5 then does not ask for the filter itself.
     properties.set_filter(ECF_FILTER, h5py.h5z.FLAG_OPTIONAL)
@@ -53,7 +53,7 @@ def write_ecf(path: Path, events: EventStream, kind: str = "packed") -> Path:
             dcpl=properties,
         )
         for start in range(0, len(rows), CHUNK_EVENTS):
-            chunk = make_chunk(rows[start : start + CHUNK_EVENTS], kind)
+            chunk = make_chunk(rows[start : start + CHUNK_EVENTS], "packed")
             dataset.id.write_direct_chunk((start,), chunk)
         file.attrs.create("geometry", str(events.size), dtype=h5py.string_dtype("ascii"))
     return path

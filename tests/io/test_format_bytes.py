@@ -203,13 +203,6 @@ def test_aedat4_of_a_recorder_that_crashed_is_read(tmp_path: Path) -> None:
     assert load(path).equals(events)
 
 
-def test_a_packet_list_beyond_the_file_says_that_it_was_cut_off(tmp_path: Path) -> None:
-    path = save(tmp_path / "e.aedat4", one(1, 1, 1, 1, DVS))
-    path.write_bytes(path.read_bytes()[:-400])
-    with pytest.raises(FileFormatError, match="the file was cut off"):
-        load(path)
-
-
 def test_a_folder_of_esim_itself_needs_the_size(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="not one of event files that texvent knows"):
         open_events(tmp_path)

@@ -14,11 +14,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from texvent.events import EventStream
 from texvent.io.files import load, save
 from texvent.sensor import SensorSize
 
-from .format_cases import random_events
+from .format_cases import assert_same, recording
 from .test_corpus import CORPUS
 
 pytestmark = pytest.mark.gpl
@@ -27,21 +26,6 @@ DAVIS = SensorSize(346, 260)
 DVS = SensorSize(128, 128)
 ATIS = SensorSize(240, 180)
 HD = SensorSize(1280, 720)
-
-
-def recording(size: SensorSize) -> EventStream:
-    """A burst, a silence that wraps small counters, and a few late events."""
-    burst = random_events(5_000, size, span_us=100_000)
-    late = random_events(500, size, span_us=5_000, start_us=3_000_000)
-    return EventStream.concat([burst, late])
-
-
-def assert_same(events: EventStream, x: Any, y: Any, t: Any, p: Any) -> None:
-    mine = events.columns()
-    for name, theirs in zip("xytp", (x, y, t, p), strict=True):
-        np.testing.assert_array_equal(
-            np.asarray(theirs).astype(np.int64), mine[name].astype(np.int64), err_msg=name
-        )
 
 
 def joined(packets: Iterable[Any]) -> Any:
@@ -54,31 +38,6 @@ def test_tonic_reads_aedat2_of_a_davis346() -> None:
     events = load(path)
     _, _, theirs = tonic.read_davis_346(str(path))
     assert_same(events, theirs["x"], theirs["y"], theirs["t"], theirs["p"])
-
-
-def test_tonic_finds_the_records_of_aedat2_of_a_dvs128() -> None:
-    tonic = importlib.import_module("tonic.io")
-    path = CORPUS / "aedat2-dvs128" / "e.aedat"
-    events = load(path, format="aedat2-dvs128")
-    version, start, _ = tonic.read_aedat_header_from_file(str(path))
-    records = tonic.get_aer_events_from_file(str(path), version, start)
-    # tonic's own `read_dvs_128` fails on any file (1.7.0); these are the bits it would take.
-    bits = records["address"]
-    assert version == 2.0
-    assert_same(events, bits >> 8 & 127, bits >> 1 & 127, records["timeStamp"], bits & 1)
-
-
-def test_tonic_finds_the_records_of_aedat3() -> None:
-    tonic = importlib.import_module("tonic.io")
-    path = CORPUS / "aedat3" / "e.aedat"
-    events = load(path, format="aedat3")
-    version, start, _ = tonic.read_aedat_header_from_file(str(path))
-    records = tonic.get_aer_events_from_file(str(path), version, start)
-    # The bits of libcaer's polarity events, which tonic leaves to its caller.
-    bits = records["address"]
-    assert version == 3.1
-    x, y = bits >> 17 & 0x7FFF, bits >> 2 & 0x7FFF
-    assert_same(events, x, y, records["timeStamp"], bits >> 1 & 1)
 
 
 def test_tonic_reads_atis(tmp_path: Path) -> None:

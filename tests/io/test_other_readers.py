@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import zipfile
 from pathlib import Path
-from typing import Any
 
 import h5py
 import numpy as np
@@ -18,26 +17,14 @@ from texvent.events import EventStream
 from texvent.io.files import save
 from texvent.sensor import SensorSize
 
-from .format_cases import random_events
+from .format_cases import assert_same, random_events, recording
 
 SIZE = SensorSize(346, 260)
 
 
 @pytest.fixture(scope="module")
 def events() -> EventStream:
-    """Ten packets of 10 ms and a silence."""
-    burst = random_events(20_000, SIZE, span_us=100_000)
-    late = random_events(500, SIZE, span_us=5_000, start_us=3_000_000)
-    return EventStream.concat([burst, late])
-
-
-def columns_equal(events: EventStream, x: Any, y: Any, t: Any, p: Any) -> bool:
-    theirs = {"x": x, "y": y, "t": t, "p": p}
-    mine = events.columns()
-    return all(
-        np.array_equal(mine[name].astype(np.int64), np.asarray(theirs[name]).astype(np.int64))
-        for name in "xytp"
-    )
+    return recording(SIZE)
 
 
 def test_aedat_reads_aedat4(tmp_path: Path, events: EventStream) -> None:
@@ -46,7 +33,7 @@ def test_aedat_reads_aedat4(tmp_path: Path, events: EventStream) -> None:
     decoder = aedat.Decoder(str(path))
     assert decoder.id_to_stream() == {0: {"type": "events", "width": 346, "height": 260}}
     theirs = np.concatenate([packet["events"] for packet in decoder])
-    assert columns_equal(events, theirs["x"], theirs["y"], theirs["t"], theirs["on"])
+    assert_same(events, theirs["x"], theirs["y"], theirs["t"], theirs["on"])
 
 
 def test_dv_processing_reads_aedat4_and_seeks_in_it(tmp_path: Path, events: EventStream) -> None:
@@ -59,7 +46,7 @@ def test_dv_processing_reads_aedat4_and_seeks_in_it(tmp_path: Path, events: Even
     while (batch := recording.getNextEventBatch()) is not None:
         parts.append(batch.numpy())
     theirs = np.concatenate(parts)
-    assert columns_equal(events, theirs["x"], theirs["y"], theirs["timestamp"], theirs["polarity"])
+    assert_same(events, theirs["x"], theirs["y"], theirs["timestamp"], theirs["polarity"])
     window = recording.getEventsTimeRange(35_000, 62_000)
     assert window.size() == len(events.between(35_000, 62_000))
 
@@ -92,7 +79,7 @@ def test_rosbags_reads_every_field_of_a_bag(tmp_path: Path, events: EventStream)
                 (one.x, one.y, one.ts.sec * 10**6 + one.ts.nanosec // 1000, one.polarity)
                 for one in message.events
             ]
-    assert columns_equal(few, *zip(*found, strict=True))
+    assert_same(few, *zip(*found, strict=True))
 
 
 @pytest.mark.parametrize(("file", "module"), [("e.bag", "rosbag1"), ("e.mcap", "rosbag2")])
@@ -146,7 +133,7 @@ def test_plain_h5py_slices_dsec_as_its_own_loader_does(tmp_path: Path) -> None:
         for ms in (0, 1, 40, 79):
             assert index[ms] == np.searchsorted(t, ms * 1000, side="left")
         x, y, p = (file[f"events/{name}"][:] for name in "xyp")
-        assert columns_equal(events, x, y, t + offset, p)
+        assert_same(events, x, y, t + offset, p)
 
 
 def test_plain_numpy_reads_n_imagenet_as_its_loader_does(
@@ -156,7 +143,7 @@ def test_plain_numpy_reads_n_imagenet_as_its_loader_does(
     with np.load(path) as archive:
         data = archive["event_data"]
     rows = np.vstack([data["x"], data["y"], data["t"], data["p"].astype(np.uint8)]).T
-    assert columns_equal(events, *rows.T)
+    assert_same(events, *rows.T)
 
 
 def test_plain_zipfile_reads_e2vid(tmp_path: Path, events: EventStream) -> None:
@@ -166,4 +153,4 @@ def test_plain_zipfile_reads_e2vid(tmp_path: Path, events: EventStream) -> None:
         first, *rows = archive.read("events.txt").decode().splitlines()
     assert first == "346 260"
     t, x, y, p = np.array([row.split() for row in rows], dtype=np.float64).T
-    assert columns_equal(events, x, y, np.rint(t * 1e6), p)
+    assert_same(events, x, y, np.rint(t * 1e6), p)

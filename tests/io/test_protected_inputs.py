@@ -1,8 +1,7 @@
-"""No output replaces an input, however it is spelled."""
+"""No output replaces an input; `tests/cli/test_nothing_lost.py` spells it in other ways."""
 
 from __future__ import annotations
 
-import os
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -19,21 +18,6 @@ def clip(tmp_path: Path) -> Iterator[Path]:
     with protected_inputs():
         protect_inputs([clip, tmp_path / "missing", "not a file\0"])
         yield clip
-
-
-def spellings(clip: Path) -> dict[str, Path]:
-    hard, soft = clip.with_name("hard.mp4"), clip.with_name("soft.mp4")
-    os.link(clip, hard)
-    soft.symlink_to(clip)
-    dotted = clip.parent / "." / ".." / clip.parent.name / clip.name
-    return {"same": clip, "hard link": hard, "symbolic link": soft, "dots": dotted}
-
-
-@pytest.mark.parametrize("spelling", ["same", "hard link", "symbolic link", "dots"])
-def test_an_input_is_never_an_output(clip: Path, spelling: str) -> None:
-    output = spellings(clip)[spelling]
-    with pytest.raises(OutputError, match=r"it is the input .*clip\.mp4, which is never replaced"):
-        check_output(output, overwrite=True)
 
 
 def test_nothing_is_put_among_the_files_of_an_input_folder(tmp_path: Path) -> None:

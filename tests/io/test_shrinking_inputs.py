@@ -32,16 +32,6 @@ def test_an_array_of_frames(tmp_path: Path) -> None:
         list(frames)
 
 
-def test_the_images_of_an_evreal_folder(tmp_path: Path) -> None:
-    np.save(tmp_path / "images.npy", np.zeros((20, 64, 64), np.uint8))
-    np.save(tmp_path / "images_ts.npy", np.arange(20) / 25)
-    frames = iter(open_frames(tmp_path, CaptureConfig()))
-    next(frames)
-    os.truncate(tmp_path / "images.npy", 64 * 64 * 4)
-    with pytest.raises(FileFormatError, match=SHORTER):
-        list(frames)
-
-
 def test_the_events_of_an_evreal_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(folders, "PACKET_EVENTS", 1000)
     path = write_evreal(tmp_path / "e", random_events(20_000, CASE_OF["evreal"].sensor))

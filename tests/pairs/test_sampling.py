@@ -1,15 +1,16 @@
-"""Samples between pixels: hand-computed cases, and what holds for every image."""
+"""Samples between pixels: hand-computed cases, and what holds for every image.
+
+`test_paths` holds the compiled warp to the same samples.
+"""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from tests.pairs import reference
-
-from texvent.pairs import warp_cpu
 
 LEVELS = st.integers(0, 255)
 SIXTEENTHS = st.integers(-48, 48)
@@ -67,14 +68,3 @@ def test_ramps_are_given_exactly(along, down, x, y):
     column = np.clip(column + np.float32(x / 16), 0, 6)
     row = np.clip(row + np.float32(y / 16), 0, 4)
     np.testing.assert_array_equal(sample(image, x / 16, y / 16), 128 + along * column + down * row)
-
-
-@settings(max_examples=20)
-@given(image=images(), x=SIXTEENTHS, y=SIXTEENTHS, seed=st.integers(0, 9))
-def test_the_compiled_warp_takes_the_same_samples(image, x, y, seed):
-    rng = np.random.default_rng(seed)
-    forward = np.float32([x, y]) / 8 + rng.normal(0, 0.1, (*image.shape, 2)).astype(np.float32)
-    pair = image, rng.permutation(image), forward, -forward
-    np.testing.assert_array_equal(
-        warp_cpu.warp_between(*pair, 0.3), reference.warp_between(*pair, 0.3)
-    )

@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
-from texvent.pairs.shift_correlation import correlate_shifts, shift_agreement
 from texvent.video import Frame
 
 WIDTH, HEIGHT = 192, 144
@@ -36,12 +35,6 @@ def test_another_image_is_a_cut(scene, moving_texture):
     )
     assert change(scene(0), scene(0)[:, ::-1]) is SceneChange.CUT
     assert change(scene(0), scene(0)[::-1]) is SceneChange.CUT
-
-
-@pytest.mark.parametrize("pixels", [1, 18, 80])
-def test_a_pan_is_no_jump(moving_texture, pixels):
-    first, second = (moving_texture(x, width=WIDTH, height=HEIGHT) for x in (0, pixels))
-    assert change(first, second) is SceneChange.NONE
 
 
 def test_zoom_is_no_jump(moving_texture):
@@ -95,8 +88,8 @@ def test_frames_too_small_to_judge_do_not_jump():
     assert change(np.zeros((16, 400)), np.full((16, 400), 255.0)) is SceneChange.FLASH
 
 
-@pytest.mark.parametrize(("right", "down"), [(60, 0), (-50, 30), (0, 60)])
-def test_a_whip_pan_in_any_direction_is_no_jump(moving_texture, right, down):
+@pytest.mark.parametrize(("right", "down"), [(1, 0), (18, 0), (80, 0), (-50, 30), (0, 60)])
+def test_a_pan_in_any_direction_is_no_jump(moving_texture, right, down):
     first = moving_texture(0, 0, width=WIDTH, height=HEIGHT)
     second = moving_texture(right, down, width=WIDTH, height=HEIGHT)
     assert change(first, second) is SceneChange.NONE
@@ -108,22 +101,3 @@ def test_two_skies_that_share_only_a_gradient_do_not_agree(scene):
     blocks = [np.kron(rng.uniform(-40, 40, (18, 24)), np.ones((8, 8))) for _ in range(2)]
     first, second = (np.clip(sky + one, 0, 255) for one in blocks)
     assert change(first, second) is SceneChange.CUT
-
-
-def test_agreement_is_one_for_a_shifted_image_and_low_for_another():
-    rng = np.random.default_rng(5)
-    large, other = rng.normal(size=(2, 48, 96))
-    assert shift_agreement(large[:, :64], large[:, 20:84]) > 0.9
-    assert shift_agreement(large[:, :64], other[:, :64]) < 0.4
-    assert shift_agreement(np.ones((48, 64)), np.ones((48, 64))) == pytest.approx(0.0, abs=1e-6)
-
-
-def test_shifts_are_counted_from_the_middle():
-    rng = np.random.default_rng(6)
-    large = rng.normal(size=(48, 96))
-    # The second view shows everything 9 columns further left and 3 rows further down.
-    agreement = correlate_shifts(large[5:35, 10:60], large[2:32, 19:69], 1e-4)
-    row, column = np.unravel_index(agreement.argmax(), agreement.shape)
-    assert (row - agreement.shape[0] // 2, column - agreement.shape[1] // 2) == (3, -9)
-    one, other = large[5:32, 19:60], large[5:32, 19:60]
-    assert agreement.max() == pytest.approx(np.corrcoef(one.ravel(), other.ravel())[0, 1])

@@ -55,19 +55,6 @@ def test_what_enters_the_image_is_taken_from_the_frame_that_shows_it(warp):
     assert got[0, 19] == pytest.approx(0.0)
 
 
-@pytest.mark.parametrize("shape", [(1, 1), (17, 23)])
-@pytest.mark.parametrize("position", [0.01, 0.9])
-def test_compiled_kernel_equals_the_definition(shape, position):
-    rng = np.random.default_rng(5)
-    first, second = (rng.uniform(0, 255, shape).astype(np.float32) for _ in range(2))
-    forward = rng.normal(0, 4, (*shape, 2)).astype(np.float32)
-    backward = (-forward + rng.normal(0, 1, (*shape, 2))).astype(np.float32)
-    arguments = (first, second, forward, backward, position)
-    np.testing.assert_array_equal(
-        warp_cpu.warp_between(*arguments), reference.warp_between(*arguments)
-    )
-
-
 def test_compiled_kernel_is_the_same_with_one_and_two_threads():
     rng = np.random.default_rng(6)
     first, second = (rng.uniform(0, 255, (50, 60)).astype(np.float32) for _ in range(2))

@@ -1,6 +1,6 @@
 """The package template: what colcon, ros2 launch and ros2 run will look for is there."""
 
-import importlib.util
+import runpy
 import sys
 from pathlib import Path
 from types import ModuleType
@@ -11,13 +11,6 @@ import pytest
 ROOT = Path(__file__).parents[2] / "ros" / "texvent_ros"
 
 
-def load(path: Path) -> ModuleType:
-    spec = importlib.util.spec_from_file_location(path.name.split(".")[0], path)
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    return module
-
-
 @pytest.fixture
 def setup_arguments(monkeypatch) -> dict:
     """What setup.py gives to setuptools."""
@@ -26,7 +19,7 @@ def setup_arguments(monkeypatch) -> dict:
     setuptools.setup = lambda **arguments: given.update(arguments)
     monkeypatch.setitem(sys.modules, "setuptools", setuptools)
     monkeypatch.chdir(ROOT)
-    load(ROOT / "setup.py")
+    runpy.run_path("setup.py")
     return given
 
 
@@ -53,4 +46,3 @@ def test_the_index_of_ament_finds_the_package(setup_arguments):
 def test_the_entry_point_is_the_node(setup_arguments):
     (script,) = setup_arguments["entry_points"]["console_scripts"]
     assert script == "event_camera = texvent_ros.node:main"
-    assert "def main(" in (ROOT / "texvent_ros" / "node.py").read_text()

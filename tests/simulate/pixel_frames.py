@@ -16,13 +16,11 @@ def frames_of(values: Iterable[float], times_us: Iterable[int]) -> list[Frame]:
     ]
 
 
-def curve(
-    intensity: Callable[[float], float], *, fps: float, seconds: float, start_us: int = 0
-) -> list[Frame]:
+def curve(intensity: Callable[[float], float], *, fps: float, seconds: float) -> list[Frame]:
     """One-pixel frames that sample `intensity(seconds)`."""
     count = round(seconds * fps)
     times = [round(i * 1e6 / fps) for i in range(count + 1)]
-    return frames_of([intensity(t * 1e-6) for t in times], [start_us + t for t in times])
+    return frames_of([intensity(t * 1e-6) for t in times], times)
 
 
 def static(value: float, *, fps: float, seconds: float, shape=(1, 1)) -> list[Frame]:

@@ -8,25 +8,18 @@ import numpy as np
 import pytest
 from tests.simulate.references import in_both_forms
 
+from texvent._registry import SIMULATORS
 from texvent.errors import InputError
 from texvent.simulate.esim.simulator import EsimSimulator
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.senpi.simulator import SenpiSimulator
-from texvent.simulate.texvent.simulator import TexventSimulator
 from texvent.simulate.v2e.simulator import V2eSimulator
-from texvent.simulate.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
+from texvent.simulate.voltmeter.simulator import VoltmeterConfig
 from texvent.video import Frame
 
 from .pixel_frames import moving_texture, run
 
-MODELS = {
-    "texvent": TexventSimulator,
-    "physical": PhysicalSimulator,
-    "esim": EsimSimulator,
-    "v2e": V2eSimulator,
-    "senpi": SenpiSimulator,
-    "voltmeter": VoltmeterSimulator,
-}
+MODELS = {name: SIMULATORS.load(name) for name in SIMULATORS.builtin if name != "v2ce"}
 EVERY_PRESET = [(name, preset) for name, model in MODELS.items() for preset in model.presets]
 TWO_PRESETS = [
     (name, preset)

@@ -21,16 +21,15 @@ SHAPE = (61, 83)
 """Several blocks of pixels, the last one cut short."""
 
 
-def patches(dtypes, *, times_us=None, seed=0) -> list[Frame]:
+def patches(dtypes, *, seed=0) -> list[Frame]:
     """A still picture, in a corner of which something moves; parts of frames rest for long."""
     random = np.random.default_rng(seed)
     still = random.integers(0, 256, SHAPE)
-    times_us = times_us or [5000 * i for i in range(len(dtypes))]
     frames = []
-    for dtype, t in zip(dtypes, times_us, strict=True):
+    for i, dtype in enumerate(dtypes):
         pixels = still.copy()
         pixels[:12, :20] = random.integers(0, 256, (12, 20))
-        frames.append(Frame(pixels.astype(dtype), t))
+        frames.append(Frame(pixels.astype(dtype), 5000 * i))
     return frames
 
 

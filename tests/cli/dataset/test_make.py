@@ -11,6 +11,7 @@ import time
 from pathlib import Path
 
 import pytest
+from tests.cli.running import refused
 
 from texvent.cli.app import main
 
@@ -156,11 +157,7 @@ def test_making_again_changes_nothing_and_going_on_needs_the_folder_alone(folder
     ],
 )
 def test_what_cannot_be_is_refused_in_one_line(folder, capsys, words, message):
-    assert run("make", *words) in (2, 3)
-    said = capsys.readouterr().err
-    assert message in said
-    assert len(said.splitlines()) == 1
-    assert len(said) < 300
+    assert message in refused(capsys, "dataset", "make", *words, codes=(2, 3))
 
 
 def test_a_killed_data_set_goes_on_without_loss(folder, whole, spawn):

@@ -1,22 +1,17 @@
 from __future__ import annotations
 
-import re
 import webbrowser
 from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.cli.running import refused, run
 
-from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
 CLIP = Path(__file__).parents[2] / "clips" / "bigbuckbunny_excerpt.mp4"
 SCENE = ["--duration", "0.2", "--fps", "10", "--sensor", "48x36", "--samples", "1"]
-
-
-def run(*words: object) -> int:
-    return main([str(word) for word in words])
 
 
 @pytest.fixture
@@ -88,8 +83,5 @@ def test_render_draws_boxes_and_flow_of_a_generated_recording(generated) -> None
     ],
 )
 def test_mistakes_are_one_line_and_leave_nothing(recording, capsys, words, message) -> None:
-    assert run(*words) == 2
-    said = capsys.readouterr().err
-    assert re.fullmatch(r"error: .*\n", said), said
-    assert message in said
+    assert message in refused(capsys, *words)
     assert [path.name for path in recording.parent.iterdir()] == ["in.h5"]

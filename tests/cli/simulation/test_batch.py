@@ -12,18 +12,14 @@ from pathlib import Path
 import cv2
 import numpy as np
 import pytest
+from tests.cli.running import run
 
 import texvent
-from texvent.cli.app import main
 
 QUICK = (
     *("--sensor", "48x36", "--duration", "0.1", "--samples", "1"),
     *("--previews", "none", "--interpolate", "none", "--noise", "none"),
 )
-
-
-def run(*words: object) -> int:
-    return main([str(word) for word in words])
 
 
 def recordings(folder: Path) -> dict[str, bytes]:

@@ -6,9 +6,9 @@ from fractions import Fraction
 import h5py
 import numpy as np
 import pytest
+from tests.cli.running import refused, run
 
 import texvent
-from texvent.cli.app import main
 from texvent.errors import FileFormatError
 from texvent.generate.video_models.known_models import MODELS
 from texvent.generate.videos.stored_video import reopen
@@ -24,10 +24,6 @@ def folder(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path / "cache"))
     return tmp_path
-
-
-def run(*words: object) -> int:
-    return main([str(word) for word in words])
 
 
 def test_a_video_written_once_gives_events_again_and_again(folder, capsys):
@@ -68,11 +64,7 @@ def test_the_written_video_is_what_was_rendered_to_16_bits(folder):
 def test_mistakes_are_one_line_before_any_work(folder, capsys, words, code, why):
     (folder / "taken.avi").write_bytes(b"mine")
     (folder / "taken.h5").write_bytes(b"mine")
-    assert run("generate", PROMPT, *words) == code
-    said = capsys.readouterr().err
-    assert said.startswith("error: ")
-    assert why in said
-    assert said.count("\n") == 1
+    assert why in refused(capsys, "generate", PROMPT, *words, codes=(code,))
     assert (folder / "taken.avi").read_bytes() == b"mine"
 
 

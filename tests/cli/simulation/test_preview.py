@@ -8,10 +8,7 @@ import numpy as np
 from texvent.cli.app import main
 
 
-def test_a_preview_shows_the_scene_and_says_what_is_shown_and_nothing_more(
-    tmp_path, monkeypatch, capsys
-):
-    monkeypatch.chdir(tmp_path)
+def test_a_preview_shows_the_scene_and_says_what_is_shown_and_nothing_more(folder, capsys):
     words = ["generate", "a wug and a red ball bounce", "--sensor", "64x48", "--duration", "0.5"]
     assert main([*words, "--preview", "scene.png"]) == 0
     said = capsys.readouterr()

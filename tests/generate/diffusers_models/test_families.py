@@ -22,17 +22,7 @@ from texvent.errors import InputError  # noqa: E402
 from .. import tiny_pipelines  # noqa: E402
 from ..tiny_families import FAMILIES  # noqa: E402
 from ..tiny_models import PROMPT, build, pixels  # noqa: E402
-
-
-class Steps:
-    def __init__(self):
-        self.seen = []
-
-    def announce(self, line):
-        pass
-
-    def advance(self, stage, done, total):
-        self.seen.append((stage, done, total))
+from ..watcher import Watcher  # noqa: E402
 
 
 @pytest.fixture(scope="module")
@@ -68,9 +58,9 @@ def make(saved, start_image):
     def run(name, seed=3, **options):
         family = FAMILIES[name]
         image = {"image": start_image} if family.takes_image else {}
-        steps = Steps()
+        watcher = Watcher()
         generator = build(saved(name), seed=seed, **{**family.options, **image, **options})
-        return generator.generate(PROMPT, progress=steps), steps.seen
+        return generator.generate(PROMPT, progress=watcher), watcher.steps
 
     return run
 

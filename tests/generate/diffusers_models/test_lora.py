@@ -22,18 +22,12 @@ from texvent.errors import (  # noqa: E402
 from texvent.generate.video_models.lora import Lora, parse_lora  # noqa: E402
 
 from ..tiny_models import PROMPT, build, pixels  # noqa: E402
+from ..watcher import Watcher  # noqa: E402
 
 RANK = 2
 MATRICES = [f"attn{n}.to_{one}" for n in (1, 2) for one in ("q", "k", "v", "out.0")]
 MATRICES += ["ffn.net.0.proj", "ffn.net.2"]
 LAYERS = [f"blocks.{b}.{name}" for b in (0, 1) for name in MATRICES]
-
-
-class Quiet:
-    """Fails when a model is loaded."""
-
-    def announce(self, line):
-        raise AssertionError(line)
 
 
 def factors(weights, seed=1):
@@ -118,11 +112,13 @@ def test_a_file_that_fits_nothing_is_an_error(models, tmp_path):
 
 def test_pipelines_without_lora_and_a_missing_package_say_so(models, tmp_path, monkeypatch):
     path = save_adapter(tmp_path / "a", factors(weights_of(models("wan"))))
+    watcher = Watcher()
     with pytest.raises(ConfigError, match="CosmosTextToWorldPipeline takes none"):
-        build(models("cosmos"), lora=(str(path),)).generate(PROMPT, progress=Quiet())
+        build(models("cosmos"), lora=(str(path),)).generate(PROMPT, progress=watcher)
     monkeypatch.setitem(sys.modules, "peft", None)
     with pytest.raises(MissingDependencyError, match=r"texvent\[generate\]"):
-        build(models("wan"), lora=(str(path),)).generate(PROMPT, progress=Quiet())
+        build(models("wan"), lora=(str(path),)).generate(PROMPT, progress=watcher)
+    assert watcher.lines == [], "refused before anything was loaded"
 
 
 @pytest.mark.parametrize(

@@ -10,6 +10,8 @@ from texvent.generate.video_config import GeneratedVideoConfig
 from texvent.generate.videos.retries import generate_checked, nth_seed
 from texvent.generate.videos.stored_video import write_video
 
+from ..watcher import Watcher
+
 
 @pytest.fixture
 def clip():
@@ -17,14 +19,6 @@ def clip():
     rng = np.random.default_rng(3)
     ground = np.kron(rng.uniform(20, 235, (12, 20)), np.ones((8, 8)))
     return np.stack([ground[:, 2 * i : 2 * i + 128] for i in range(8)]).astype(np.float32)
-
-
-class Told:
-    def __init__(self):
-        self.lines = []
-
-    def announce(self, line):
-        self.lines.append(line)
 
 
 @pytest.fixture
@@ -50,7 +44,7 @@ def make(tmp_path, clip):
 
 
 def test_retrying_takes_the_first_seed_that_passes(make):
-    told = Told()
+    told = Watcher()
     config = GeneratedVideoConfig(on_failure="retry")
     video = generate_checked(make, config, seed=0, progress=told)
     assert make.asked == [0, nth_seed(0, 1), nth_seed(0, 2)]
@@ -60,7 +54,7 @@ def test_retrying_takes_the_first_seed_that_passes(make):
 
 
 def test_rejecting_warning_and_ignoring(make):
-    told = Told()
+    told = Watcher()
     with pytest.raises(TexventError, match=r"failed the check .*frozen, no motion"):
         generate_checked(make, GeneratedVideoConfig(on_failure="reject"), seed=0, progress=told)
     warned = generate_checked(make, GeneratedVideoConfig(on_failure="warn"), seed=0, progress=told)

@@ -9,13 +9,6 @@ import pytest
 from texvent.interpolate.dis_flow.estimator import DisFlow, stretch
 
 
-def test_flow_is_the_translation_in_both_directions(moving_texture):
-    forward, backward = DisFlow().both_ways(moving_texture(0), moving_texture(3.0, -2.0))
-    inner = np.s_[20:-20, 20:-20]
-    assert np.median(np.abs(forward[inner] - (3.0, -2.0))) < 0.15
-    assert np.median(np.abs(backward[inner] - (-3.0, 2.0))) < 0.15
-
-
 def test_flow_is_the_same_with_one_and_two_threads(moving_texture, monkeypatch):
     first, second = (moving_texture(dx, width=320, height=240) for dx in (0, 5))
     flows = []

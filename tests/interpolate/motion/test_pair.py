@@ -22,7 +22,7 @@ from tests.interpolate.motion.scenes import (
 )
 
 from texvent.interpolate.motion.draw_cpu import FOLLOWED, MIXED
-from texvent.interpolate.motion.interpolator import MotionPair, moving_part
+from texvent.interpolate.motion.interpolator import MotionPair
 from texvent.video import Frame, Motion
 
 FLAT = np.full((HEIGHT, WIDTH), BACKGROUND_M, np.float32)
@@ -176,15 +176,6 @@ def test_where_no_path_leads_both_frames_are_mixed_and_nothing_is_known():
     image, kind = MotionPair.of(*frames).draw(0.5)
     assert image[5, 6] == pytest.approx((first.luma[5, 6] + second.luma[5, 6]) / 2, abs=0.01)
     assert kind[5, 6] == MIXED
-
-
-def test_only_what_moves_is_looked_at():
-    forward = field(0, 0).copy()
-    forward[5, 6] = (4.0, -3.0)
-    rows, columns = moving_part(forward, field(0, 0))
-    assert (rows.start, rows.stop, columns.start, columns.stop) == (0, 9, 3, 14)
-    rows, columns = moving_part(field(0, 0), field(0, 0))
-    assert rows.stop - rows.start == 0
 
 
 @settings(max_examples=25)

@@ -26,10 +26,8 @@ def random_tensors(torch, layout, seed=0, width=8):
     return tensors
 
 
-def save_published(torch, layout, path, *, prefix="module.", **more):
-    """A state dict as training leaves it: a prefix before every name, other networks beside."""
+def save_published(torch, layout, path):
+    """A state dict as training leaves it: a prefix before every name."""
     arrays = random_tensors(torch, layout)
-    state = {prefix + name: torch.from_numpy(one) for name, one in arrays.items()}
-    state.update({prefix + name: one for name, one in more.items()})
-    torch.save(state, path)
+    torch.save({f"module.{name}": torch.from_numpy(one) for name, one in arrays.items()}, path)
     return path

@@ -55,9 +55,3 @@ def test_other_values_that_would_fill_the_memory_are_refused(tmp_path: Path, nam
         file.create_dataset(name, (FOR_EVER,), "u1", chunks=(1 << 16,))
     with pytest.raises(FileFormatError, match=r"t_offset must be one|stores at most 0"):
         load(path, size=SIZE)
-
-
-@pytest.mark.parametrize("options", [{}, {"chunks": (3,)}, {"chunks": (3,), "compression": 1}])
-def test_sound_columns_of_every_layout_are_read(tmp_path: Path, options: dict[str, Any]) -> None:
-    path = write_columns(tmp_path / "e.h5", data=np.array([0, 0, 1, 1]), **options)
-    assert load(path, size=SIZE).t.tolist() == [0, 0, 1, 1]

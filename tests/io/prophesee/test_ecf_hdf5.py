@@ -46,13 +46,6 @@ def test_the_content_decides_which_hdf5_reader_opens_it(tmp_path: Path) -> None:
         load(ours, format="prophesee-hdf5")
 
 
-@pytest.mark.parametrize("kind", ["packed", "pairs", "masked"])
-def test_chunks_of_every_legal_body_are_read(tmp_path: Path, kind: str) -> None:
-    events = row_bursts(3000)
-    assert len(events) > CHUNK_EVENTS
-    assert load(write_ecf(tmp_path / "e.hdf5", events, kind)).equals(events)
-
-
 def test_a_chunk_the_filter_was_not_applied_to_is_read(tmp_path: Path) -> None:
     events = row_bursts(50)
     path = write_ecf(tmp_path / "e.hdf5", EventStream.empty(SIZE))

@@ -55,12 +55,6 @@ def test_headers_of_other_generations_are_understood(
     assert events.metadata["header"]["evt"] == "3.0"
 
 
-def test_a_size_that_is_not_stored_is_asked_for(tmp_path: Path) -> None:
-    path = write_words(tmp_path, "evt3", [0x8001], header="% evt 3.0\n")
-    with pytest.raises(InputError, match="does not store the sensor size; give it"):
-        load(path)
-
-
 def test_data_that_begins_like_a_header_line_is_data_once_the_header_has_ended(
     tmp_path: Path,
 ) -> None:

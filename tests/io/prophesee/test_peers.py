@@ -9,14 +9,13 @@ registry that may be depended on knows EVT2.1 or ECF: `tests/io/prophesee/test_e
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
 
 from texvent.events import EventStream
 from texvent.io.files import load, save
 
+from ..format_cases import assert_same
 from .prophesee_files import EXTENSIONS, LATE_STREAMS, STREAMS, row_bursts
 
 streams = pytest.mark.parametrize("name", [*STREAMS, *LATE_STREAMS])
@@ -27,18 +26,12 @@ def make(name: str) -> EventStream:
     return {**STREAMS, **LATE_STREAMS}[name]()
 
 
-def assert_columns(events: EventStream, columns: dict[str, Any]) -> None:
-    for name in "xytp":
-        theirs = np.asarray(columns[name]).astype(np.int64)
-        np.testing.assert_array_equal(theirs, getattr(events, name).astype(np.int64))
-
-
 @streams
 def test_evt3_reads_every_event_of_our_evt3(tmp_path: Path, name: str) -> None:
     evt3 = pytest.importorskip("evt3", reason=f"evt3 {REASON}")
     events = make(name)
     back = evt3.decode_file(str(save(tmp_path / "e.raw", events)))
-    assert_columns(events, {"x": back.x, "y": back.y, "t": back.t, "p": back.p})
+    assert_same(events, back.x, back.y, back.t, back.p)
     assert back.sensor_size == tuple(events.size)
 
 
@@ -51,9 +44,8 @@ def test_eventcv_reads_every_event_we_write(tmp_path: Path, name: str, format: s
     events = make(name)
     path = save(tmp_path / f"e{EXTENSIONS[format]}", events, format=format)
     back = eventcv.load(str(path))
-    table = back.numpy()
     assert back.columns == ("x", "y", "t", "p")
-    assert_columns(events, {column: table[:, index] for index, column in enumerate("xytp")})
+    assert_same(events, *back.numpy().T)
     assert back.sensor_size == tuple(events.size)
 
 
@@ -62,8 +54,7 @@ def test_eventcv_reads_our_archives_and_universal_hdf5_too(tmp_path: Path, exten
     eventcv = pytest.importorskip("eventcv", reason=f"eventcv {REASON}")
     events = row_bursts(50)
     back = eventcv.load(str(save(tmp_path / f"e{extension}", events)))
-    table = back.numpy()
-    assert_columns(events, {column: table[:, index] for index, column in enumerate("xytp")})
+    assert_same(events, *back.numpy().T)
     assert back.sensor_size == tuple(events.size)
 
 

@@ -31,26 +31,6 @@ def test_byte_levels_fire_where_the_float64_comparison_does(balance, threshold):
     assert np.array_equal(fires, np.abs(change) >= threshold)
 
 
-def test_spans_follow_each_other_over_calls_and_clips_lie_one_after_the_other():
-    clock = Clock(2)
-    first = clock.read(1, [5], None)
-    assert first.start_us.shape == (2, 0)
-    clock.advance()
-    span = clock.read(2, [[7, 9], [6, 10]], [False, True])
-    assert span.is_new
-    assert span.start_us.tolist() == [[5, 7], [5, 6]]
-    assert span.duration_us.tolist() == [[2, 2], [1, 4]]
-    assert span.from_source.tolist() == [[True, False], [True, False]]
-    assert span.axis_us == 9
-    on_axis = span.origins_us[:, None] + span.start_us
-    assert on_axis.tolist() == [[0, 2], [4, 5]]
-    clock.advance()
-    later = clock.read(1, [11], None)
-    assert not later.is_new
-    assert later.start_us.tolist() == [[9], [10]]
-    assert later.from_source.all()
-
-
 def test_a_time_that_does_not_increase_is_named_with_its_clip():
     clock = Clock(2)
     clock.read(1, [5], None)

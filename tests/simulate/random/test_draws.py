@@ -80,11 +80,6 @@ def test_a_draw_does_not_depend_on_what_else_is_drawn():
     assert np.array_equal(draw_words(frame_key(7, 3), ROWS[50:], COLUMNS[50:], 2), whole[50:])
 
 
-def test_uniforms_stay_below_one():
-    assert draw_uniforms(frame_key(0, 0), ROWS, COLUMNS, 0).max() < 1.0
-    assert float((np.uint64(2**64 - 1) >> np.uint64(11)).astype(np.float64) * 2.0**-53) < 1.0
-
-
 def test_normals_have_the_normal_moments_and_tails():
     sample = draw_normals(frame_key(3, 5), ROWS, COLUMNS, 0)
     error = 1 / np.sqrt(sample.size)

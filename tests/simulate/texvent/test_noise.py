@@ -16,7 +16,6 @@ from texvent.simulate.texvent.noise import (
     NoisePlaces,
     draw_noise,
     draw_voltage_noise,
-    is_background,
     poisson_cumulative,
     voltage_noise_sd,
 )
@@ -111,18 +110,6 @@ def test_noise_is_uniform_in_time_and_half_on():
     expected = len(events) / 20
     assert float(((counts - expected) ** 2 / expected).sum()) < 19 + 5 * np.sqrt(2 * 19)
     assert events.p.mean() == pytest.approx(0.5, abs=4 * 0.5 / np.sqrt(len(events)))
-
-
-def test_mask_is_dark_and_at_rest():
-    config, span = TexventConfig(noise_rate_hz=1e4), FrameInterval(0, 1000, frame_key(0, 0))
-    luma = np.array([39, 40, 41, 0], np.uint8)
-    assert set(draw_noise(config, span, 4, luma.__getitem__).pixel.tolist()) == {0, 3}
-    assert is_background(np.array([0, 3, 3, 4]), np.array([3])).tolist() == [
-        True,
-        False,
-        False,
-        True,
-    ]
 
 
 def test_gaussian_noise_is_labelled_where_only_the_noise_fired():

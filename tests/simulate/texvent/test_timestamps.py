@@ -47,11 +47,6 @@ def test_linear_crossing_starts_at_the_previous_brightness():
     assert times("linear", [-0.5], before=-0.1) == pytest.approx([2500], abs=1)
 
 
-def test_linear_crossing_lists_all_thresholds():
-    found = times("linear", [0.7], multi_event=True)
-    assert found == pytest.approx([2857, 5714, 8571], abs=1)
-
-
 @pytest.mark.parametrize(("change", "before"), [(0.5, 0.3), (0.5, 0.5), (-0.5, -0.9), (0.2, 0.2)])
 def test_linear_crossing_left_over_from_before_is_at_the_start(change, before):
     assert times("linear", [change], before=before) == [0]
@@ -59,10 +54,6 @@ def test_linear_crossing_left_over_from_before_is_at_the_start(change, before):
 
 def test_linear_crossing_that_rounding_puts_after_the_end_is_at_the_end():
     assert times("linear", [np.nextafter(0.2, 0)]) == [9999]
-
-
-def test_all_events_may_be_at_the_end():
-    assert times("end", [0.8, 0.25]) == [9999, 9999]
 
 
 def test_random_times_are_uniform_and_differ_between_events_of_a_pixel():
