@@ -125,15 +125,6 @@ def side_data(path: str | Path, format: str | None = None) -> SideData:
     return codec_that_reads(path, format).side_data(Path(path))
 
 
-def has_checksums(path: str | Path, format: str | None = None) -> bool:
-    """Whether the format of a file notices events that were changed by damage.
-
-    Raises:
-        ConfigError, InputError: as `codec_that_reads`.
-    """
-    return codec_that_reads(path, format).has_checksums
-
-
 def find_folder_codec(path: Path) -> BlockReader | None:
     """The codec of formats made of several files that recognises those in a folder, or None."""
     codecs: list[BlockReader] = [codec() for codec in CODECS.load_all()]

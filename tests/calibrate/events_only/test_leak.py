@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent.calibrate.events_only.leak import leak_rate
+from texvent.calibrate.events_only.rest import leak_rate
 
 
 @given(noise=st.floats(0.01, 20), leak=st.floats(0.05, 20))

@@ -1,6 +1,6 @@
 import numpy as np
 
-from texvent.calibrate.events_only.stationary_blocks import find_rest, mains_flicker
+from texvent.calibrate.events_only.rest import find_rest, mains_flicker
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 

@@ -21,14 +21,13 @@ from texvent.calibrate.estimates import (
     UnidentifiedOption,
     with_estimates,
 )
-from texvent.calibrate.events_only.leak import leak_rate
 from texvent.calibrate.events_only.pixel_trains import (
     BoolArray,
     Float64Array,
     PixelTrains,
     find_dead_time,
 )
-from texvent.calibrate.events_only.stationary_blocks import find_rest, mains_flicker
+from texvent.calibrate.events_only.rest import find_rest, leak_rate, mains_flicker
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig

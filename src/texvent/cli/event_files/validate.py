@@ -12,7 +12,7 @@ from texvent.cli.event_files.event_file_options import EventFileOptions, Reading
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.errors import warn
-from texvent.io.files import has_checksums
+from texvent.io.files import codec_that_reads
 from texvent.metrics.soundness import SoundnessCheck
 
 SUSPICIOUS = 1
@@ -72,7 +72,7 @@ def validate(options: ValidateOptions) -> dict[str, Any]:
     hot = facts.pop("hot_pixels")
     shares = {name: facts[name] for name in ("clumped_share", "on_share")}
     rounded = {name: None if math.isnan(one) else round(one, 4) for name, one in shares.items()}
-    is_checked = has_checksums(options.path, options.format)
+    is_checked = codec_that_reads(options.path, options.format).has_checksums
     return {
         "verdict": verdict,
         "complaints": complaints,
