@@ -1,11 +1,10 @@
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.transform.recordings import packets
 
 from texvent.events import EventStream
 from texvent.metrics.soundness import Soundness, SoundnessCheck, list_hot_pixels
@@ -54,9 +53,7 @@ def test_how_packets_are_cut_changes_nothing(cuts: list[int]) -> None:
     t = np.sort(rng.integers(0, 20, 300))
     p = rng.integers(0, 2, 300)
     events = EventStream(rng.integers(0, 3, 300), rng.integers(0, 3, 300), t, p, SIZE)
-    bounds = [0, *sorted(cuts), 300]
-    parts = [events[a:b] for a, b in itertools.pairwise(bounds)]
-    assert check(*parts) == check(events)
+    assert check(*packets(events, cuts)) == check(events)
 
 
 def test_a_hot_pixel_is_found_and_an_edge_is_not() -> None:
