@@ -9,6 +9,7 @@ from texvent.calibrate.recording import Recording
 from texvent.config import InterpolateConfig
 from texvent.events import EventStream
 from texvent.simulate.physical.cameras import PRESETS
+from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Video
 
@@ -34,9 +35,13 @@ def moving_blobs(count: int = 90, shape=(24, 32), fps: int = 60) -> Video:
     return Video(np.stack(frames), [round(i * 1e6 / fps) for i in range(count)])
 
 
-@pytest.fixture(scope="session")
-def recording() -> Recording:
-    frames = moving_blobs()
-    sensor = PhysicalSimulator(TRUTH, seed=77)
+def record(frames: Video, config: PhysicalConfig, seed: int = 77) -> Recording:
+    """Frames with the events that a sensor makes of them."""
+    sensor = PhysicalSimulator(config, seed=seed)
     events = EventStream.concat([sensor.step(frame) for frame in frames])
     return Recording(frames, events, InterpolateConfig(interpolate="none"))
+
+
+@pytest.fixture(scope="session")
+def recording() -> Recording:
+    return record(moving_blobs(), TRUTH)

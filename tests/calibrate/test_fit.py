@@ -4,15 +4,11 @@ import pytest
 
 from texvent.calibrate.estimates import write_preset
 from texvent.calibrate.fit import describe_fit, fit_sensor
-from texvent.calibrate.recording import Recording
-from texvent.config import InterpolateConfig
-from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.simulate.physical.cameras import PRESETS
-from texvent.simulate.physical.simulator import PhysicalSimulator
 
-from .conftest import TRUTH, moving_blobs
+from .conftest import TRUTH, moving_blobs, record
 
 START = dataclasses.replace(TRUTH, contrast_threshold=0.2, on_off_ratio=1.0, balance=10.0)
 
@@ -50,11 +46,7 @@ def test_every_fitted_option_has_an_interval_that_holds_it(fit):
 
 
 def test_a_third_of_a_second_is_fitted_and_says_what_it_does_not_tell():
-    frames = moving_blobs(19)
-    sensor = PhysicalSimulator(TRUTH, seed=77)
-    events = EventStream.concat([sensor.step(frame) for frame in frames])
-    short = Recording(frames, events, InterpolateConfig(interpolate="none"))
-    fit = fit_sensor(short, start=START)
+    fit = fit_sensor(record(moving_blobs(19), TRUTH), start=START)
     # Balance and threshold can stand in for each other in so little time: the interval says so.
     threshold = next(one for one in fit.found if one.name == "contrast_threshold")
     assert threshold.low < TRUTH.contrast_threshold < threshold.high < 3 * threshold.low

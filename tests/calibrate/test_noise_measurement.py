@@ -10,23 +10,21 @@ from texvent.calibrate.noise import (
     measure_noise,
 )
 from texvent.calibrate.recording import Recording, TimeSpan
-from texvent.config import InterpolateConfig
 from texvent.events import EventStream
-from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.video import Video
 
-from .conftest import TRUTH
+from .conftest import TRUTH, record
 
 SPAN = TimeSpan(0, 2_000_000)
 
 
-def still_recording(**options) -> Recording:
-    """Dark, middle and bright stripes that stay as they are, for two seconds."""
-    image = np.repeat([1.0, 25.0, 120.0], 20)[None, :].repeat(40, axis=0).astype(np.float32)
-    frames = Video(np.stack([image] * 41), [i * 50_000 for i in range(41)])
-    sensor = PhysicalSimulator(dataclasses.replace(TRUTH, **options), seed=5)
-    events = EventStream.concat([sensor.step(frame) for frame in frames])
-    return Recording(frames, events, InterpolateConfig(interpolate="none"))
+STRIPES = np.repeat([1.0, 25.0, 120.0], 20)[None, :].repeat(40, axis=0)
+
+
+def still_recording(image=STRIPES, **options) -> Recording:
+    """An image, by default dark, middle and bright stripes, that stays for two seconds."""
+    frames = Video(np.stack([image.astype(np.float32)] * 41), [i * 50_000 for i in range(41)])
+    return record(frames, dataclasses.replace(TRUTH, **options), seed=5)
 
 
 def test_the_noise_of_a_still_recording_is_found_again():
@@ -77,13 +75,9 @@ def test_on_events_without_off_events_are_leak():
 
 def test_a_textured_scene_at_rest_is_measured_pixel_by_pixel():
     random = np.random.default_rng(1)
-    image = random.choice([3.0, 60.0], size=(40, 60)).astype(np.float32)
-    frames = Video(np.stack([image] * 41), [i * 50_000 for i in range(41)])
+    image = random.choice([3.0, 60.0], size=(40, 60))
     curve = {"noise_scale": 1.0, "noise_curve": "3:4 60:0.5", "noise_on_fraction": 0.5}
-    sensor = PhysicalSimulator(dataclasses.replace(TRUTH, **curve), seed=5)
-    events = EventStream.concat([sensor.step(frame) for frame in frames])
-    recording = Recording(frames, events, InterpolateConfig(interpolate="none"))
-    noise = measure_noise(recording, SPAN, gamma=1.0)
+    noise = measure_noise(still_recording(image, **curve), SPAN, gamma=1.0)
     assert noise.curve.levels.tolist() == [3.5, 57.5]
     assert noise.curve.rates_hz == pytest.approx([4, 0.5], rel=0.2)
 

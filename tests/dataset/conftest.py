@@ -6,11 +6,15 @@ import shutil
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from tests.dataset.generation.small_sets import make
 
 from texvent.dataset.generation.recipe import Recipe
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.reading.stored_events import read_events
 from texvent.dataset.specification.reading import specification_from
+from texvent.events import EventStream
 
 CARS: dict[str, Any] = {
     "name": "cars",
@@ -40,6 +44,22 @@ def make_set(folder: Path, **changes: Any) -> Path:
     recipe = Recipe.of(specification_from({**CARS, **changes}, folder=Path()))
     assert not make(recipe, folder).failures
     return folder
+
+
+def samples_of(folder: Path, variant: str = "paper") -> dict[str, tuple[str, str, EventStream]]:
+    """Key → split, class, events."""
+    return {
+        sample.key: (shard.record.split, sample.label or "", read_events(shard.path, sample))
+        for shard in StoredDataset.open(folder).shards(variant)
+        for sample in shard.samples
+    }
+
+
+def assert_same(columns: Any, events: EventStream) -> None:
+    """Columns of numbers of any kind, by their names, are those of the events."""
+    for name in "xytp":
+        found = np.asarray(columns[name]).astype(np.int64)
+        np.testing.assert_array_equal(found, getattr(events, name))
 
 
 @pytest.fixture(scope="session")

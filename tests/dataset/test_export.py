@@ -4,33 +4,16 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 import pytest
-from tests.dataset.conftest import make_set
+from tests.dataset.conftest import assert_same, make_set, samples_of
 
 import texvent
 from texvent.cli.app import main
 from texvent.dataset.export import LAYOUTS, export, folder_name
 from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.reading.stored_events import read_events
 from texvent.errors import ConfigError, InputError, OutputError
-from texvent.events import EventStream
-
-
-def samples_of(folder: Path, variant: str = "paper") -> dict[str, tuple[str, str, EventStream]]:
-    """Key → split, class, events."""
-    return {
-        sample.key: (shard.record.split, sample.label or "", read_events(shard.path, sample))
-        for shard in StoredDataset.open(folder).shards(variant)
-        for sample in shard.samples
-    }
-
-
-def assert_same(columns: Any, events: EventStream) -> None:
-    for name in "xytp":
-        np.testing.assert_array_equal(columns[name].astype(np.int64), getattr(events, name))
 
 
 def test_n_imagenet_as_its_loader_opens_it(cars: Path, tmp_path: Path) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import html
-from html.parser import HTMLParser
+import re
 from pathlib import Path
 
 import pytest
@@ -15,19 +15,6 @@ from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import InputError
 
 
-class Tags(HTMLParser):
-    """Names of the elements of a page."""
-
-    def __init__(self, page: str) -> None:
-        super().__init__()
-        self.names: list[str] = []
-        self.feed(page)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        del attrs
-        self.names.append(tag)
-
-
 def test_the_page_shows_every_sample_with_its_caption(
     cars: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
@@ -35,7 +22,7 @@ def test_the_page_shows_every_sample_with_its_caption(
     assert main(["dataset", "sample", str(cars), "-o", str(out), "-n", "100"]) == 0
     assert "9 samples of cars" in capsys.readouterr().out
     page = out.read_text("utf-8")
-    tags = Tags(page).names
+    tags = re.findall(r"<([a-z]\w*)", page)
     assert tags.count("img") == tags.count("pre") == 9
     assert not {"script", "i", "link", "iframe"} & set(tags)
     for prompt in CARS["sources"][0]["prompts"]:

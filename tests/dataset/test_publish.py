@@ -7,18 +7,15 @@ import re
 import subprocess
 import sys
 from pathlib import Path
-from typing import Any
 
-import numpy as np
 import pytest
 import yaml
+from tests.dataset.conftest import assert_same, samples_of
 
 from texvent.cli.app import main
 from texvent.dataset.publish import hub_name, publish
 from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.reading.stored_events import read_events
 from texvent.errors import InputError, OutputError, TexventWarning
-from texvent.events import EventStream
 
 pytestmark = [
     pytest.mark.filterwarnings("ignore::DeprecationWarning"),
@@ -79,27 +76,14 @@ def test_publishing_again_gives_the_same_bytes(copied: Path) -> None:
     assert main(["dataset", "verify", str(copied)]) == 0
 
 
-def samples_of(folder: Path, variant: str) -> dict[str, EventStream]:
-    return {
-        sample.key: read_events(shard.path, sample)
-        for shard in StoredDataset.open(folder).shards(variant)
-        for sample in shard.samples
-    }
-
-
-def assert_same(columns: dict[str, Any], events: EventStream) -> None:
-    for name in "xytp":
-        np.testing.assert_array_equal(np.asarray(columns[name]), getattr(events, name))
-
-
 @pytest.mark.dataset
 def test_webdataset_reads_the_shards(published: Path) -> None:
     webdataset = pytest.importorskip("webdataset")
-    expected, seen = samples_of(published, "paper"), 0
+    expected, seen = samples_of(published), 0
     for shard in StoredDataset.open(published).shards("paper"):
         for sample in webdataset.WebDataset(str(shard.path), shardshuffle=False).decode():
             columns = {name: sample[f"{name}.npy"] for name in "xytp"}
-            assert_same(columns, expected[sample["__key__"]])
+            assert_same(columns, expected[sample["__key__"]][2])
             assert sample["txt"] == sample["json"]["prompt"]
             assert isinstance(sample["cls"], int)
             assert sample["png"].startswith(b"\x89PNG")
@@ -111,7 +95,7 @@ def test_webdataset_reads_the_shards(published: Path) -> None:
 def test_hugging_face_datasets_reads_the_folder(published: Path, tmp_path: Path) -> None:
     pytest.importorskip("PIL")
     datasets = pytest.importorskip("datasets")
-    expected, seen = samples_of(published, "paper"), 0
+    expected, seen = samples_of(published), 0
     for split in ("train", "test"):
         table = datasets.load_dataset(
             str(published), "paper", split=split, cache_dir=str(tmp_path / "cache")
@@ -120,7 +104,7 @@ def test_hugging_face_datasets_reads_the_folder(published: Path, tmp_path: Path)
         assert table.features["x.npy"].feature.dtype == "uint16"
         for sample in table:
             columns = {name: sample[f"{name}.npy"] for name in "xytp"}
-            assert_same(columns, expected[sample["__key__"].split("/")[-1]])
+            assert_same(columns, expected[sample["__key__"].split("/")[-1]][2])
             assert sample["json"]["prompt"] == sample["txt"]
             assert sample["png"].size == (32, 24)
             seen += 1

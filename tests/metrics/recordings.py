@@ -1,7 +1,7 @@
 """Small event streams for the tests of metrics."""
 
-import numpy as np
 from hypothesis import strategies as st
+from tests.represent import definitions
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -16,14 +16,7 @@ def one_event(x=0, y=0, t=1000, p=1, *, count=1):
 
 
 def random_events(seed, count=400, size=SMALL, duration_us=200_000):
-    rng = np.random.default_rng(seed)
-    return EventStream(
-        rng.integers(0, size.width, count),
-        rng.integers(0, size.height, count),
-        np.sort(rng.integers(0, duration_us, count)),
-        rng.integers(0, 2, count),
-        size,
-    )
+    return definitions.random_events(seed, count, size, duration_us)
 
 
 def one_beat(events, period_us=41_667):

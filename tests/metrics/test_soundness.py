@@ -1,11 +1,10 @@
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.transform.recordings import packets
 
 from texvent.events import EventStream
 from texvent.metrics.soundness import Soundness, SoundnessCheck, list_hot_pixels
@@ -14,13 +13,13 @@ from texvent.sensor import SensorSize
 SIZE = SensorSize(40, 30)
 
 
-def spread(count: int, *, step_us: int = 7, seed: int = 0) -> EventStream:
+def spread(count: int) -> EventStream:
     """Events at different times, everywhere."""
-    rng = np.random.default_rng(seed)
+    rng = np.random.default_rng(0)
     return EventStream(
         rng.integers(0, 40, count),
         rng.integers(0, 30, count),
-        np.arange(count) * step_us,
+        np.arange(count) * 7,
         rng.integers(0, 2, count),
         SIZE,
     )
@@ -54,9 +53,7 @@ def test_how_packets_are_cut_changes_nothing(cuts: list[int]) -> None:
     t = np.sort(rng.integers(0, 20, 300))
     p = rng.integers(0, 2, 300)
     events = EventStream(rng.integers(0, 3, 300), rng.integers(0, 3, 300), t, p, SIZE)
-    bounds = [0, *sorted(cuts), 300]
-    parts = [events[a:b] for a, b in itertools.pairwise(bounds)]
-    assert check(*parts) == check(events)
+    assert check(*packets(events, cuts)) == check(events)
 
 
 def test_a_hot_pixel_is_found_and_an_edge_is_not() -> None:
@@ -81,14 +78,9 @@ def test_what_many_cameras_do_is_a_note_and_not_a_complaint() -> None:
 
 
 def test_times_of_frames_are_clumped() -> None:
-    count = 20_000
-    rng = np.random.default_rng(2)
-    frames = np.sort(rng.integers(0, 30, count)) * 33_333
-    events = EventStream(
-        rng.integers(0, 40, count), rng.integers(0, 30, count), frames, rng.integers(0, 2, count),
-        SIZE,
-    )  # fmt: skip
-    report = check(events)
+    events = spread(20_000)
+    frames = np.sort(np.random.default_rng(2).integers(0, 30, 20_000)) * 33_333
+    report = check(EventStream(events.x, events.y, frames, events.p, SIZE))
     assert report.clumped_share == pytest.approx(1.0)
     assert any("crowded timestamps" in text for text in report.complaints())
 

@@ -5,7 +5,6 @@ from hypothesis import strategies as st
 
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.represent.event_frame import count_events
 from texvent.represent.histogram import histogram_2d, histogram_3d, stacked_histogram
 from texvent.sensor import SensorSize
 
@@ -44,10 +43,6 @@ def test_histograms_equal_their_definition(events, bins, offset_us, duration_us,
     np.testing.assert_array_equal(found, expected)
     inside = events.cut(start_us, stop_us)
     np.testing.assert_array_equal(histogram_2d(inside, shape=shape), expected.sum(axis=1))
-
-
-def test_one_cell_per_pixel_is_the_count_of_an_event_frame():
-    np.testing.assert_array_equal(histogram_2d(EVENTS), count_events(EVENTS))
 
 
 def test_wrong_shapes_bins_and_windows_are_refused():

@@ -1,41 +1,48 @@
+"""Slices of streams and of packets: by hand, without a lost event, however packets are cut."""
+
+import itertools
+from fractions import Fraction
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.transform.recordings import CUTS, packets
 
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent.represent.slices import slices
+from texvent.represent.slices import slice_between, slice_by_count, slice_regularly, slices
 
 from .definitions import SMALL, streams
 
 
 def stream(*times):
-    return EventStream([0] * len(times), [0] * len(times), times, [1] * len(times), SMALL)
+    zeros = [0] * len(times)
+    return EventStream.from_columns(zeros, zeros, times, zeros, size=SMALL)
 
 
-def times(parts):
+def times_of(parts):
     return [part.t.tolist() for part in parts]
 
 
 def test_slices_of_time_are_half_open_and_may_be_empty():
-    assert times(slices(stream(0, 9, 10, 35), duration_us=10)) == [[0, 9], [10], [], [35]]
+    assert times_of(slices(stream(0, 9, 10, 35), duration_us=10)) == [[0, 9], [10], [], [35]]
 
 
 def test_slices_of_time_overlap_and_start_where_they_are_told():
     parts = slices(stream(10, 14, 18), duration_us=8, overlap=4, start_us=8)
-    assert times(parts) == [[10, 14], [14, 18]]
-    assert times(slices(stream(5, 15), duration_us=10, start_us=0)) == [[5], [15]]
+    assert times_of(parts) == [[10, 14], [14, 18]]
+    assert times_of(slices(stream(5, 15), duration_us=10, start_us=0)) == [[5], [15]]
 
 
 def test_a_partial_slice_can_be_left_out():
-    assert times(slices(stream(0, 9, 12), duration_us=10, keep_partial=False)) == [[0, 9]]
-    assert times(slices(stream(0, 9), duration_us=10, keep_partial=False)) == [[0, 9]]
-    assert times(slices(stream(1, 2, 3), count=2, keep_partial=False)) == [[1, 2]]
-    assert times(slices(stream(1, 2, 3), count=2)) == [[1, 2], [3]]
+    assert times_of(slices(stream(0, 9, 12), duration_us=10, keep_partial=False)) == [[0, 9]]
+    assert times_of(slices(stream(0, 9), duration_us=10, keep_partial=False)) == [[0, 9]]
+    assert times_of(slices(stream(1, 2, 3), count=2, keep_partial=False)) == [[1, 2]]
+    assert times_of(slices(stream(1, 2, 3), count=2)) == [[1, 2], [3]]
 
 
 def test_slices_of_a_number_of_events_overlap():
-    assert times(slices(stream(1, 2, 3, 4), count=3, overlap=2)) == [[1, 2, 3], [2, 3, 4]]
+    assert times_of(slices(stream(1, 2, 3, 4), count=3, overlap=2)) == [[1, 2, 3], [2, 3, 4]]
 
 
 @given(streams(least=1), st.integers(1, 6))
@@ -60,3 +67,54 @@ def test_slices_without_overlap_put_together_are_the_stream(events, count):
 def test_wrong_options_are_refused_at_once(options, message):
     with pytest.raises(ConfigError, match=message):
         slices(stream(1, 2), **options)
+
+
+TIMES = st.lists(st.integers(0, 200), max_size=40).map(sorted)
+
+
+@given(TIMES, CUTS, st.lists(st.integers(0, 250), min_size=2, max_size=8, unique=True).map(sorted))
+def test_slices_hold_the_events_between_neighbouring_instants(times, cuts, instants):
+    slices = list(slice_between(packets(stream(*times), cuts), instants, size=SMALL))
+    assert [t_us for t_us, _ in slices] == instants[1:]
+    for before, (t_us, events) in zip(instants, slices, strict=False):
+        assert events.t.tolist() == [t for t in times if before <= t < t_us]
+
+
+@given(TIMES, CUTS, st.fractions(1, 60, max_denominator=7))
+def test_regular_slices_lose_no_event_and_do_not_drift(times, cuts, step_us):
+    slices = list(slice_regularly(packets(stream(*times), cuts), step_us=step_us))
+    assert [t for _, events in slices for t in events.t.tolist()] == times
+    if times:
+        ends = [times[0] + round(number * step_us) for number in range(1, len(slices) + 1)]
+        assert [t_us for t_us, _ in slices] == ends
+        assert ends[-1] > times[-1] >= (ends[-2] if len(ends) > 1 else times[0])
+
+
+@given(TIMES, CUTS, st.integers(1, 12))
+def test_counted_slices_are_full_and_end_ever_later(times, cuts, count):
+    slices = list(slice_by_count(packets(stream(*times), cuts), count=count, size=SMALL))
+    assert [t for _, events in slices for t in events.t.tolist()] == times
+    assert all(len(events) == count for _, events in slices[:-1])
+    ends = [t_us for t_us, _ in slices]
+    assert all(a < b for a, b in itertools.pairwise(ends))
+    assert all(t_us >= int(events.t[-1]) for t_us, events in slices)
+
+
+def test_events_are_read_no_further_than_needed():
+    read = []
+
+    def endless():
+        for start in range(0, 100, 10):
+            read.append(start)
+            yield stream(start, start + 5)
+
+    slices = slice_between(endless(), [0, 20, 40], size=SMALL)
+    assert next(slices)[1].t.tolist() == [0, 5, 10, 15]
+    assert read == [0, 10, 20]
+
+
+def test_empty_slices_are_refused():
+    with pytest.raises(ConfigError, match="at least 1"):
+        list(slice_regularly([], step_us=Fraction(1, 2)))
+    with pytest.raises(ConfigError, match="at least 1"):
+        list(slice_by_count([], count=0, size=SMALL))

@@ -94,20 +94,6 @@ def test_rectified_grids_equal_their_definition(events, data):
     np.testing.assert_allclose(grid, expected, rtol=1e-6, atol=1e-12)
 
 
-@given(streams(least=1))
-def test_zhu_keeps_the_sum_of_polarities(events):
-    assert voxel_zhu(events, bins=5).sum() == pytest.approx(int(events.polarity.sum()), abs=1e-5)
-
-
-@pytest.mark.parametrize("voxel", [voxel_zhu, voxel_e2vid])
-def test_events_of_one_time_fall_in_the_first_bin(voxel):
-    events = EventStream([0, 3], [0, 2], [9, 9], [1, 0], SMALL)
-    grid = voxel(events, bins=4)
-    assert grid[0, 0, 0] == 1
-    assert grid[0, 2, 3] == -1
-    assert np.count_nonzero(grid) == 2
-
-
 def test_a_sum_that_could_overflow_is_refused():
     events = EventStream([0, 0], [0, 0], [0, 2**62], [1, 1], SMALL)
     with pytest.raises(InputError, match="too much for one voxel grid"):

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from collections.abc import Iterable
 
 from hypothesis import strategies as st
 
@@ -34,14 +35,16 @@ def streams(draw: st.DrawFn) -> EventStream:
 CUTS = st.lists(st.integers(0, 40), max_size=5)
 
 
-def packets(events: EventStream, cuts: list[int]) -> EventPackets:
+def packets(events: EventStream, cuts: Iterable[int] = ()) -> EventPackets:
     """The same events in packets."""
     bounds = [0, *sorted(min(cut, len(events)) for cut in cuts), len(events)]
     parts = [events[a:b] for a, b in itertools.pairwise(bounds)]
     return EventPackets(parts, events.size, events.metadata)
 
 
-def rows_of(events: EventStream) -> Rows:
+def rows_of(events: EventStream | EventPackets) -> Rows:
     """(x, y, t, p) of every event."""
+    if isinstance(events, EventPackets):
+        events = events.collect()
     columns = (events.x, events.y, events.t, events.p)
     return list(zip(*(column.tolist() for column in columns), strict=True))

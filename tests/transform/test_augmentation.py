@@ -91,12 +91,6 @@ def test_steps_happen_with_the_probability_that_is_asked_for() -> None:
     assert all(Augment([FlipX(probability=1)])(events, n).x[0] == 7 for n in range(20))
 
 
-def test_steps_of_one_sample_draw_independently() -> None:
-    augment, events = Augment(["flip-x", "flip-y"], seed=1), stream([(0, 0, 1, 1)])
-    found = {rows_of(augment(events, number))[0][:2] for number in range(60)}
-    assert found == {(0, 0), (7, 0), (0, 5), (7, 5)}
-
-
 def test_dropping_by_hand() -> None:
     events = stream([(x, y, 10 * x, 1) for x in range(8) for y in range(6)])
     half = DropEvents(most=1.0).apply(events, Chance(0.5, *np.tile([0.4, 0.6], 24)))

@@ -57,12 +57,6 @@ def test_background_activity_by_hand() -> None:
     assert len(events.filter("background-activity", window_us=0)) == 1
 
 
-def test_the_corners_of_the_sensor_have_neighbours_on_one_side_only() -> None:
-    events = stream([(7, 5, 1, 1), (0, 0, 2, 1), (6, 5, 3, 1), (0, 1, 4, 1), (7, 0, 5, 1)])
-    kept = events.filter("background-activity", window_us=5)
-    assert rows_of(kept) == [(6, 5, 3, 1), (0, 1, 4, 1)]
-
-
 def test_a_refractory_period_runs_from_the_last_event_that_was_kept() -> None:
     events = stream([(1, 1, t, p) for t, p in ((0, 1), (9, 0), (10, 1), (15, 1), (20, 0))])
     assert events.filter("refractory", period_us=10).t.tolist() == [0, 10, 20]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 
@@ -15,33 +15,26 @@ from texvent.video import Frame, frame_time_us
 
 SIZE = SensorSize(32, 24)
 FPS = Fraction(30_000, 1001)
-METADATA = {"prompt": "a bar moves right", "seed": 0, "simulator": "texvent", "preset": "paper"}
-
-
-def make_steps(
-    frames: int, *, size: SensorSize = SIZE, between: int = 2, start_us: int = 5_000
-) -> Iterator[tuple[Frame, EventStream]]:
-    """Dense frames with their packets: `between` intermediate frames per pair."""
-    before_us = start_us
-    for index in range(frames * (between + 1) - between):
-        t_us = frame_time_us(index, FPS * (between + 1), start_us)
-        column = index % size.width
-        pixels = np.full((*size.shape, 3), 40, dtype=np.float32)
-        pixels[:, column] = (250.4, 180, 20)
-        packet = EventStream.empty(size)
-        if index:
-            rows = np.arange(size.height)
-            x = np.concatenate([np.full(size.height, column), np.full(size.height, column - 1)])
-            p = np.repeat([1, 0], size.height)
-            t = np.linspace(before_us, t_us - 1, 2 * size.height).astype(np.int64)
-            packet = EventStream(x % size.width, np.tile(rows, 2), t, p, size)
-        yield Frame(pixels, t_us, is_source=index % (between + 1) == 0), packet
-        before_us = t_us
+BETWEEN, START_US = 2, 5_000
+"""Intermediate frames of a pair, and the time of the first frame."""
 
 
 @pytest.fixture
 def steps() -> list[tuple[Frame, EventStream]]:
-    return list(make_steps(6))
+    """Dense frames, six of them of the source, with their packets."""
+    made, rows = [], np.arange(SIZE.height)
+    for index in range(6 * (BETWEEN + 1) - BETWEEN):
+        t_us = frame_time_us(index, FPS * (BETWEEN + 1), START_US)
+        pixels = np.full((*SIZE.shape, 3), 40, dtype=np.float32)
+        pixels[:, index] = (250.4, 180, 20)
+        packet = EventStream.empty(SIZE)
+        if index:
+            x = np.repeat([index, index - 1], SIZE.height)
+            p = np.repeat([1, 0], SIZE.height)
+            t = np.linspace(made[-1][0].t_us, t_us - 1, 2 * SIZE.height).astype(np.int64)
+            packet = EventStream(x, np.tile(rows, 2), t, p, SIZE)
+        made.append((Frame(pixels, t_us, is_source=index % (BETWEEN + 1) == 0), packet))
+    return made
 
 
 @pytest.fixture

@@ -8,7 +8,6 @@ import re
 import tracemalloc
 from collections.abc import Iterator
 from fractions import Fraction
-from html.parser import HTMLParser
 from typing import Any
 
 import cv2
@@ -58,25 +57,14 @@ def image_of(page: str) -> np.ndarray:
     return cv2.imdecode(np.frombuffer(data, np.uint8), cv2.IMREAD_COLOR)[..., ::-1]
 
 
-class Tags(HTMLParser):
-    """Names of the tags of a page, and addresses in it."""
-
-    def __init__(self, page: str) -> None:
-        super().__init__()
-        self.names: list[str] = []
-        self.addresses: list[str] = []
-        self.feed(page)
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        self.names.append(tag)
-        self.addresses += [value or "" for name, value in attrs if name in ("src", "href")]
+def tags_of(page: str) -> list[str]:
+    return re.findall(r"<([a-z]\w*)", page)
 
 
 def test_events_show_still_rate_and_facts_without_the_network():
     page = html_of(some_events())
-    tags = Tags(page)
-    assert [tags.names.count(one) for one in ("img", "svg", "script")] == [1, 1, 0]
-    assert all(one.startswith("data:") for one in tags.addresses)
+    assert [tags_of(page).count(one) for one in ("img", "svg", "script")] == [1, 1, 0]
+    assert all(one.startswith("data:") for one in re.findall(r'(?:src|href)="([^"]*)', page))
     assert "://" not in page
     facts = "a red car,20,000 events,64 × 48 pixels,1.000 s,20 k events/s,25.0%,esim,41,9.9"
     for fact in re.split(r",(?!000)", facts):
@@ -111,7 +99,7 @@ def test_html_of_prompts_and_names_is_escaped(key):
     video = Video(np.zeros((2, 4, 4), np.uint8), [0, 1], metadata=metadata)
     packets = EventPackets([some_events()], SIZE, metadata)
     for shown in (some_events().with_metadata(metadata), packets, video):
-        assert "script" not in Tags(html_of(shown)).names
+        assert "script" not in tags_of(html_of(shown))
 
 
 def test_a_terminal_and_those_who_want_text_get_text_alone():

@@ -69,6 +69,24 @@ def recordings(events: list[EventStream], texts: list[str]) -> list[Recording]:
     ]
 
 
+def test_vectors_are_those_of_the_whole_model(clip: Path) -> None:
+    texts = ["a red cat walks", "dogs " * 40]
+    rng = np.random.default_rng(3)
+    images = [rng.integers(0, 256, (32, 32, 3), dtype=np.uint8) for _ in range(3)]
+    model = ClipModel(clip)
+    whole = transformers.CLIPModel.from_pretrained(clip).eval()
+    tokenizer = transformers.AutoTokenizer.from_pretrained(clip)
+    words = tokenizer(texts, truncation=True, max_length=40, padding=True, return_tensors="pt")
+    processor = transformers.CLIPImageProcessorPil(
+        size={"height": 32, "width": 32}, do_center_crop=False
+    )
+    pixels = processor(images=images, return_tensors="pt")["pixel_values"]
+    with torch.no_grad():
+        outputs = whole(**words, pixel_values=pixels)
+    np.testing.assert_allclose(model.embed_images(images), outputs.image_embeds, atol=1e-4)
+    np.testing.assert_allclose(model.embed_texts(texts), outputs.text_embeds, atol=1e-5)
+
+
 def test_the_score_is_that_of_the_similarities_of_transformers(clip: Path, data: Path) -> None:
     samples = list_samples(data / "events")["texvent"]
     draw = DrawnEvents(images=2, events_per_image=15)

@@ -1,6 +1,5 @@
 """A small recording of frames and events that several tests of the benchmark share."""
 
-import cv2
 import numpy as np
 import pytest
 
@@ -9,6 +8,9 @@ from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.video import Video
 from texvent_lab.bench.oracle.scenes import ValueNoise
+from texvent_lab.bench.real.recording import FrameRecording
+
+from .reconstruction.synthetic_network import write_recording
 
 SIZE = SensorSize(64, 48)
 FRAMES, STEP_US = 28, 40_000
@@ -22,20 +24,13 @@ def pan(t_us):
 @pytest.fixture(scope="session")
 def pan_folder(tmp_path_factory):
     """A recording in the layout of the Event-Camera Dataset: a pan, seen 500 times a second."""
-    folder = tmp_path_factory.mktemp("pan")
-    (folder / "images").mkdir()
     fine = np.arange(0, FRAMES * STEP_US, 2_000)
     dense = Video(np.stack([pan(t_us) for t_us in fine]).astype(np.float32), fine.tolist())
     options = {"simulator": "esim", "interpolate": "none", "contrast_threshold": 0.25}
-    events = video_to_events(dense, resolve("simulate", options)).packets.collect()
-    rows = zip(events.t, events.x, events.y, events.p, strict=True)
-    lines = (f"{t / 1e6:.6f} {x} {y} {p}" for t, x, y, p in rows)
-    (folder / "events.txt").write_text("\n".join(lines) + "\n")
-    listing = []
-    for number in range(FRAMES):
-        name = f"images/frame_{number:08d}.png"
-        cv2.imwrite(str(folder / name), np.rint(pan(number * STEP_US)).astype(np.uint8))
-        # Stamped 5 ms early, as a camera that names the start of its exposure.
-        listing.append(f"{number * STEP_US / 1e6 - 0.005:.6f} {name}")
-    (folder / "images.txt").write_text("\n".join(listing[1:]) + "\n")
-    return folder
+    events = video_to_events(dense, resolve("simulate", options)).packets
+    times_us = range(STEP_US, FRAMES * STEP_US, STEP_US)
+    # Stamped 5 ms early, as a camera that names the start of its exposure.
+    frames = Video(np.stack([pan(t_us) for t_us in times_us]), [t_us - 5_000 for t_us in times_us])
+    return write_recording(
+        tmp_path_factory.mktemp("pan"), FrameRecording(name="pan", frames=frames, events=events)
+    )

@@ -13,7 +13,7 @@ from texvent.cli.app import main
 from texvent_lab.alignment.recordings import ids_of_clips, list_samples
 from texvent_lab.nt_imagenet.files import read_captioned
 
-from .tiny_data import WNIDS, contents, stream_id, write_imagenet, write_n_imagenet
+from .tiny_data import WNIDS, stream_id, write_imagenet, write_n_imagenet
 
 CAPTIONS = {
     1: "a red car drives left",
@@ -85,9 +85,9 @@ def test_the_same_command_twice_gives_the_same_files_and_keeps_the_specification
 ) -> None:
     out = tmp_path / "nt"
     nt(data, out)
-    before = contents(out)
+    before = {path: path.read_bytes() for path in out.iterdir()}
     nt(data, out)
-    assert contents(out) == before
+    assert {path: path.read_bytes() for path in out.iterdir()} == before
     (out / "specification.toml").write_text("mine")
     nt(data, out)
     assert (out / "specification.toml").read_text() == "mine"

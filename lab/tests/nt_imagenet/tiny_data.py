@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import hashlib
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -17,11 +16,11 @@ def stream_id(number: int) -> str:
     return f"ILSVRC2012_val_{number:08d}"
 
 
-def write_stream(path: Path, count: int, seed: int, *, duration_us: int = 50_000) -> None:
+def write_stream(path: Path, count: int, seed: int) -> None:
     rng = np.random.default_rng(seed)
     events = np.zeros(count, EVENT)
     events["x"], events["y"] = rng.integers(0, 640, count), rng.integers(0, 480, count)
-    events["t"] = np.sort(rng.integers(0, duration_us, count))
+    events["t"] = np.sort(rng.integers(0, 50_000, count))
     events["p"] = rng.integers(0, 2, count)
     path.parent.mkdir(parents=True, exist_ok=True)
     np.savez_compressed(path, event_data=events)
@@ -45,12 +44,3 @@ def write_imagenet(folder: Path, wnids: Mapping[int, str], *, by_class: bool = T
         noise = np.random.default_rng(number).integers(0, 255, (24, 32, 3), dtype=np.uint8)
         (place / f"{stream_id(number)}.JPEG").write_bytes(cv2.imencode(".jpg", noise)[1].tobytes())
     return folder
-
-
-def contents(folder: Path) -> dict[str, str]:
-    """Digest of every file."""
-    return {
-        str(path.relative_to(folder)): hashlib.sha256(path.read_bytes()).hexdigest()
-        for path in sorted(folder.rglob("*"))
-        if path.is_file()
-    }

@@ -56,10 +56,14 @@ def random_tensors(shapes, seed=0):
     return tensors
 
 
-def save_published(torch, name, path, *, shapes=None, settings=None, **more):
+def random_state(torch, name):
+    """Name → tensor of a narrow network, as its file holds them."""
+    return {key: torch.from_numpy(one) for key, one in random_tensors(small_shapes(name)).items()}
+
+
+def save_published(torch, name, path, *, settings=None, **more):
     """A training checkpoint as each program leaves it: the weights among much else."""
-    arrays = random_tensors(shapes or small_shapes(name))
-    state = {key: torch.from_numpy(one) for key, one in arrays.items()}
+    state = random_state(torch, name)
     content = {"arch": name, "epoch": 3, "state_dict": state, "optimizer": {"lr": 1e-4}, **more}
     if name == "e2vid":
         content["model"] = settings or {}

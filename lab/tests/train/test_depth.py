@@ -71,15 +71,6 @@ def test_scale_invariant_loss_by_hand() -> None:
         assert float(found) == pytest.approx(expected)
 
 
-@given(CODES, CODES, st.floats(-1, 1))
-def test_a_factor_of_depth_costs_nothing(
-    predicted: NDArray[np.float64], target: NDArray[np.float64], shift: float
-) -> None:
-    one, other = torch.from_numpy(predicted), torch.from_numpy(target)
-    for loss in (lambda p, t: scale_invariant_loss(p, t, shift_weight=1.0), gradient_loss):
-        assert float(loss(one + shift, other)) == pytest.approx(float(loss(one, other)), abs=1e-9)
-
-
 @given(CODES, CODES, arrays(np.bool_, (2, 1, 8, 16)))
 def test_gradient_loss_is_that_of_the_slow_reference(
     predicted: NDArray[np.float64], target: NDArray[np.float64], unknown: NDArray[np.bool_]

@@ -11,7 +11,7 @@ from texvent.cli.app import main
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from .written_samples import write_bars  # noqa: E402
+from .written_samples import write_bars_training  # noqa: E402
 
 pytestmark = pytest.mark.torch
 
@@ -19,11 +19,8 @@ pytestmark = pytest.mark.torch
 @pytest.fixture
 def trained(tmp_path: Path) -> Path:
     """A folder with a training file and what it trained."""
-    write_bars(tmp_path / "bars")
-    (tmp_path / "bars.toml").write_text(
-        'data = {folder = "bars"}\n[schedule]\nepochs = 2\nbatch_size = 5\nlearning_rate = 0.01\n'
-    )
-    words = [str(tmp_path / "bars.toml"), "-o", str(tmp_path / "run"), "--device", "cpu", "-q"]
+    path = write_bars_training(tmp_path, epochs=2)
+    words = [str(path), "-o", str(tmp_path / "run"), "--device", "cpu", "-q"]
     assert main(["train", "classification", *words]) == 0
     return tmp_path
 

@@ -21,7 +21,7 @@ from texvent_lab.train.loop import descend  # noqa: E402
 from texvent_lab.train.run import train_from_file  # noqa: E402
 from texvent_lab.train.schedule import Hardware, Schedule  # noqa: E402
 
-from .written_samples import LABELS, bar, write_bars  # noqa: E402
+from .written_samples import LABELS, bar, write_bars_training  # noqa: E402
 
 pytestmark = pytest.mark.torch
 CPU = Hardware(device="cpu")
@@ -29,12 +29,7 @@ CPU = Hardware(device="cpu")
 
 @pytest.fixture
 def specification(tmp_path: Path) -> Path:
-    write_bars(tmp_path / "bars")
-    path = tmp_path / "bars.toml"
-    path.write_text(
-        'data = {folder = "bars"}\n[schedule]\nepochs = 4\nbatch_size = 5\nlearning_rate = 0.01\n'
-    )
-    return path
+    return write_bars_training(tmp_path, epochs=4)
 
 
 def weights(folder: Path) -> dict[str, torch.Tensor]:

@@ -14,21 +14,14 @@ from texvent.errors import ConfigError, InputError
 from texvent_lab.train.sequences import SequenceData, WindowedClips
 from texvent_lab.train.simulated_clips import SimulatedClips
 
-from .windowed_specification import TEXT, write_specification
+from .windowed_specification import SLICE_US, TEXT, write_sequence_data, write_specification
 
 TARGETS = ("frame", "flow", "depth")
-SLICE_US = 20_000
 
 
 @pytest.fixture
 def data(tmp_path: Path) -> SequenceData:
-    return SequenceData(
-        specification=write_specification(tmp_path),
-        variant="paper",
-        slice_us=SLICE_US,
-        length=3,
-        cache=tmp_path / "cache",
-    )
+    return write_sequence_data(tmp_path, length=3)
 
 
 def stored(data: SequenceData) -> set[str]:

@@ -14,22 +14,16 @@ pytest.importorskip("torch", reason="make test-torch runs the tests that need to
 
 from texvent.represent.voxel_grid import voxel_e2vid
 from texvent_lab.train.sequences import SequenceData
-from texvent_lab.train.truth import TruthExamples, crop_randomly, flip
+from texvent_lab.train.truth import TruthExamples, crop_randomly
 
-from .windowed_specification import write_specification
+from .windowed_specification import write_sequence_data
 
 pytestmark = pytest.mark.torch
 
 
 @pytest.fixture
 def data(tmp_path: Path) -> SequenceData:
-    return SequenceData(
-        specification=write_specification(tmp_path),
-        variant="paper",
-        slice_us=20_000,
-        length=2,
-        cache=tmp_path / "cache",
-    )
+    return write_sequence_data(tmp_path, length=2)
 
 
 def test_a_whole_clip_has_all_its_windows_as_they_are(data: SequenceData) -> None:
@@ -87,21 +81,3 @@ def test_a_crop_is_the_same_square_of_every_map(height: int, width: int, data) -
     assert cut["place"].shape == (1, side, side)
     square = whole["place"][..., top : top + side, left : left + side]
     np.testing.assert_array_equal(cut["place"], square)
-
-
-def test_mirrored_flow_points_to_the_mirrored_pixel() -> None:
-    chance = np.random.default_rng(0)
-    image = chance.random((1, 4, 6)).astype(np.float32)
-    flow = np.stack([np.full((4, 6), 2.0), np.full((4, 6), -1.0)])[None].astype(np.float32)
-    for x in (False, True):
-        for y in (False, True):
-            turned = flip({"image": image, "flow": flow}, x=x, y=y)
-            assert turned["flow"].dtype == np.float32
-            for row in range(1, 4):
-                for column in range(4):
-                    # The pixel that (column, row) moves to, and the same in the mirror.
-                    target = image[0, row - 1, column + 2]
-                    r, c = (3 - row if y else row), (5 - column if x else column)
-                    dx, dy = turned["flow"][0, :, r, c].astype(int)
-                    assert turned["image"][0, r, c] == image[0, row, column]
-                    assert turned["image"][0, r + dy, c + dx] == target

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+from texvent_lab.train.sequences import SequenceData
+
 TEXT = """\
 name = "tiny"
 splits = {train = 0.5, validation = 0.5}
@@ -17,8 +19,21 @@ contrast_threshold = 0.2
 simulator = "esim"
 """
 
+SLICE_US = 20_000
+
 
 def write_specification(folder: Path, text: str = TEXT) -> Path:
     path = folder / "tiny.toml"
     path.write_text(text)
     return path
+
+
+def write_sequence_data(folder: Path, length: int) -> SequenceData:
+    """Examples of so many windows of its variant "paper"."""
+    return SequenceData(
+        specification=write_specification(folder),
+        variant="paper",
+        slice_us=SLICE_US,
+        length=length,
+        cache=folder / "cache",
+    )

@@ -28,3 +28,25 @@ def write_bars(folder: Path) -> Path:
         samples = {f"{split}{n:03d}": bar(n % 2, first + n) for n in range(count)}
         write_shard(folder, "paper", split, 0, samples, labels=LABELS)
     return folder
+
+
+def write_recordings(folder: Path, *, per_class: int = 4, format: str = "npz") -> Path:
+    """Moving bars as files: train and val, of classes bus and car."""
+    for first, split in enumerate(("train", "val")):
+        for label, name in enumerate(("bus", "car")):
+            place = folder / split / name
+            place.mkdir(parents=True, exist_ok=True)
+            for number in range(per_class):
+                bar(label, 100 * first + number).save(place / f"{number}.{format}")
+    return folder
+
+
+def write_bars_training(folder: Path, *, epochs: int) -> Path:
+    """A training file, and the bars that it trains with."""
+    write_bars(folder / "bars")
+    path = folder / "bars.toml"
+    path.write_text(
+        f'data = {{folder = "bars"}}\n[schedule]\nepochs = {epochs}\n'
+        "batch_size = 5\nlearning_rate = 0.01\n"
+    )
+    return path

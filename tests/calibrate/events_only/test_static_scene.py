@@ -4,7 +4,12 @@ import dataclasses
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from texvent.calibrate.events_only.rest import leak_rate
 
+from texvent.calibrate.estimates import Estimate
+from texvent.calibrate.events_only.pixel_trains import find_dead_time
 from texvent.calibrate.events_only.static_scene import find_hot_pixels, measure_static_scene
 from texvent.errors import InputError
 from texvent.events import EventStream
@@ -102,3 +107,37 @@ def test_hot_pixels_stand_out_of_the_spread_of_the_others():
     assert find_hot_pixels(counts, everywhere).sum() <= 1
     counts[[5, 70]] = 400
     assert np.flatnonzero(find_hot_pixels(counts, everywhere)).tolist() == [5, 70]
+
+
+@given(noise=st.floats(0.01, 20), leak=st.floats(0.05, 20))
+def test_the_leak_is_found_from_how_often_it_fires_among_noise(noise, leak):
+    if noise / leak > 20:
+        return
+    # After each of n events per second, leak comes first with probability exp(-n / g).
+    surplus = noise / np.expm1(noise / leak)
+    assert leak_rate(noise, surplus, 0.0, 0.0) == pytest.approx(leak, rel=1e-3)
+
+
+@given(noise=st.floats(0.1, 5), leak=st.floats(0.2, 5), decades=st.floats(0.0, 0.3))
+def test_the_mean_over_pixels_is_that_of_drawn_ones(noise, leak, decades):
+    draws = np.random.default_rng(1).standard_normal(20_000)
+    spread = np.log(10) * decades
+    ratio = noise * np.exp(spread * draws - spread**2 / 2) / leak
+    surplus = float((leak * ratio / np.expm1(np.minimum(ratio, 500))).mean())
+    if surplus > 1e-3 * leak:
+        assert leak_rate(noise, surplus, decades, 0.0) == pytest.approx(leak, rel=0.03)
+
+
+def test_rare_intervals_only_bound_it():
+    assert find_dead_time(np.array([400.0] * 49)) == "49 intervals; 50 are needed"
+    sparse = find_dead_time(np.linspace(1_000, 100_000, 50))
+    assert sparse == "intervals near it are too rare; it is at most 1000 µs"
+
+
+@given(dead=st.integers(100, 5_000), seed=st.integers(0, 1000))
+def test_the_dead_time_is_within_its_interval(dead, seed):
+    waits = dead + np.random.default_rng(seed).exponential(dead * 50, 20_000)
+    found = find_dead_time(waits)
+    assert isinstance(found, Estimate)
+    # The shortest of them lies above; 1/ρ is the mean gap, of which the interval holds three.
+    assert found.low - 0.05 * dead <= dead <= found.high

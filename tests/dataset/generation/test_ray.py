@@ -14,7 +14,13 @@ from tests.dataset.generation.small_sets import clips_recipe, digests, make
 
 import texvent
 from texvent.batch.engines import Outcome
-from texvent.dataset.generation.make import ShardTask, find_work, make_shards, remove_dead_parts
+from texvent.dataset.generation.make import (
+    ShardTask,
+    Work,
+    find_work,
+    make_shards,
+    remove_dead_parts,
+)
 from texvent.dataset.generation.ray_cluster import RayEngine
 from texvent.dataset.generation.recipe import Recipe, Shard
 from texvent.errors import ConfigError, MissingDependencyError, OutputError
@@ -130,23 +136,29 @@ def test_a_cluster_that_is_not_there() -> None:
         RayEngine("127.0.0.1:1")
 
 
-def test_a_node_that_is_lost_changes_no_byte(cluster: Any, tmp_path: Path) -> None:
-    recipe, folder = clips_recipe(tmp_path), tmp_path / "out"
-    make(recipe, tmp_path / "wanted")
-    second = cluster.add_node(**NODE, num_cpus=1)
+def make_losing(cluster: Any, node: Any, recipe: Recipe, folder: Path) -> tuple[Work, int]:
+    """Make a data set and lose a node after the first shard: what was done, in how many shards."""
     recipe.begin(folder)
     work, seen = find_work(recipe, folder), list[Outcome]()
 
     def lose_a_node(outcome: Outcome) -> None:
         seen.append(outcome)
         if len(seen) == 1:
-            cluster.remove_node(second, allow_graceful=False)
+            cluster.remove_node(node, allow_graceful=False)
 
     with closing(RayEngine(cluster.address)) as engine:
         make_shards(work, engine, lose_a_node)
     remove_dead_parts(recipe, folder)
     assert not work.failures
-    assert len(seen) == len(work.complete) == 6
+    return work, len(seen)
+
+
+def test_a_node_that_is_lost_changes_no_byte(cluster: Any, tmp_path: Path) -> None:
+    recipe, folder = clips_recipe(tmp_path), tmp_path / "out"
+    make(recipe, tmp_path / "wanted")
+    second = cluster.add_node(**NODE, num_cpus=1)
+    work, seen = make_losing(cluster, second, recipe, folder)
+    assert seen == len(work.complete) == 6
     assert sum(counts.total() for counts in work.complete.values()) == 24
     assert digests(folder) == digests(tmp_path / "wanted")
     assert not list(folder.rglob(".texvent-*"))
@@ -157,17 +169,6 @@ def test_videos_have_a_gpu_each_and_outlive_its_node(cluster: Any, tmp_path: Pat
     recipe, folder = video_recipe(tmp_path, 5), tmp_path / "out"
     make(recipe, tmp_path / "wanted")
     nodes = [cluster.add_node(**{**NODE, "num_gpus": 1}, num_cpus=1) for _ in range(2)]
-    recipe.begin(folder)
-    work, seen = find_work(recipe, folder), list[Outcome]()
-
-    def lose_a_node(outcome: Outcome) -> None:
-        seen.append(outcome)
-        if len(seen) == 1:
-            cluster.remove_node(nodes.pop(), allow_graceful=False)
-
-    with closing(RayEngine(cluster.address)) as engine:
-        make_shards(work, engine, lose_a_node)
-    remove_dead_parts(recipe, folder)
-    assert not work.failures
+    make_losing(cluster, nodes[-1], recipe, folder)
     assert digests(folder) == digests(tmp_path / "wanted")
     assert len(digests(folder)) == 15

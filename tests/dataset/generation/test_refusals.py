@@ -14,9 +14,8 @@ import sys
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
-import numpy as np
 import pytest
-from tests.dataset.generation.small_sets import digests
+from tests.dataset.generation.small_sets import clips_recipe, digests
 
 from texvent.cli.app import main
 
@@ -39,10 +38,7 @@ seeds = 2
 def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """A specification of six shards, and the data set as one process makes it."""
     folder = tmp_path_factory.mktemp("inputs")
-    (folder / "clips").mkdir()
-    for number in range(6):
-        clip = np.random.default_rng(number).integers(0, 255, (6, 12, 16), dtype=np.uint8)
-        np.save(folder / "clips" / f"{number}.npy", clip)
+    clips_recipe(folder)
     (folder / "tiny.toml").write_text(SPECIFICATION)
     done = make(folder, folder / "wanted")
     assert done.returncode == 0, done.stderr

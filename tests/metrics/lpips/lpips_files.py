@@ -1,6 +1,5 @@
 """A narrow network of LPIPS's shape, its file as published, and its distance written slowly."""
 
-import math
 import pickle
 from dataclasses import replace
 
@@ -41,69 +40,32 @@ def write_published(weights, path):
 
 
 def slow_distance(a, b, weights):
-    """LPIPS one number at a time; a and b are [height, width, 3], 0..1."""
+    """LPIPS one pixel at a time; a and b are [height, width, 3], 0..1."""
     total = 0.0
-    for number, (one, other) in enumerate(
+    for number, pair in enumerate(
         zip(slow_features(a, weights), slow_features(b, weights), strict=True)
     ):
-        head, height, width = weights[f"head{number}"], len(one), len(one[0])
-        for y in range(height):
-            for x in range(width):
-                lengths = [
-                    math.sqrt(sum(v * v for v in at)) + 1e-10 for at in (one[y][x], other[y][x])
-                ]
-                total += sum(
-                    head[c] * (one[y][x][c] / lengths[0] - other[y][x][c] / lengths[1]) ** 2
-                    for c in range(len(head))
-                ) / (height * width)
+        one, other = (x / (np.sqrt((x**2).sum(axis=2, keepdims=True)) + 1e-10) for x in pair)
+        total += ((one - other) ** 2 @ weights[f"head{number}"]).mean()
     return total
 
 
 def slow_features(image, weights):
     shift, spread = (-0.030, -0.088, -0.188), (0.458, 0.448, 0.450)
-    x = [
-        [[(2 * v - 1 - s) / d for v, s, d in zip(at, shift, spread, strict=True)] for at in row]
-        for row in image.tolist()
-    ]
-    compared = []
+    x, compared = (2 * image - 1 - np.array(shift)) / spread, []
     for number, layer in enumerate(ALEX):
         if layer.pools:
-            x = slow_pool(x, layer.pools)
-        kernel, bias = weights[f"kernel{number}"], weights[f"bias{number}"]
-        x = slow_convolution(x, kernel.tolist(), bias.tolist(), layer.stride, layer.padding)
+            x = np.array([[at.max(axis=(0, 1)) for at in row] for row in cut(x, layer.pools, 2)])
+        kernel = weights[f"kernel{number}"].astype(np.float64)
+        padded = np.pad(x, ((layer.padding,) * 2, (layer.padding,) * 2, (0, 0)))
+        parts = cut(padded, len(kernel), layer.stride)
+        x = np.array([[np.tensordot(at, kernel, 3) for at in row] for row in parts])
+        x = np.maximum(x + weights[f"bias{number}"], 0.0)
         compared.append(x)
     return compared
 
 
-def slow_convolution(x, kernel, bias, stride, padding):
-    side, height, width = len(kernel), len(x), len(x[0])
-
-    def output(row, column, channel):
-        value = bias[channel]
-        for i in range(side):
-            for j in range(side):
-                at_y, at_x = row * stride + i - padding, column * stride + j - padding
-                if 0 <= at_y < height and 0 <= at_x < width:
-                    value += sum(
-                        v * k[channel] for v, k in zip(x[at_y][at_x], kernel[i][j], strict=True)
-                    )
-        return max(value, 0.0)
-
-    rows, columns = ((n + 2 * padding - side) // stride + 1 for n in (height, width))
-    return [
-        [[output(r, c, k) for k in range(len(bias))] for c in range(columns)] for r in range(rows)
-    ]
-
-
-def slow_pool(x, side):
-    rows, columns = ((n - side) // 2 + 1 for n in (len(x), len(x[0])))
-    return [
-        [
-            [
-                max(x[2 * r + i][2 * c + j][k] for i in range(side) for j in range(side))
-                for k in range(len(x[0][0]))
-            ]
-            for c in range(columns)
-        ]
-        for r in range(rows)
-    ]
+def cut(x, side, stride):
+    """Rows of the squares that a kernel sees."""
+    rows, columns = (range(0, n - side + 1, stride) for n in x.shape[:2])
+    return [[x[r : r + side, c : c + side] for c in columns] for r in rows]

@@ -1,6 +1,5 @@
 from __future__ import annotations
 
-from collections.abc import Callable
 from fractions import Fraction
 from pathlib import Path
 
@@ -8,7 +7,6 @@ import av
 import numpy as np
 import pytest
 
-from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.video import Frame
@@ -95,11 +93,3 @@ def test_gif_times_are_rounded_but_do_not_drift(tmp_path: Path, steps: Steps) ->
 def test_one_frame_gives_a_video_of_one_image(tmp_path: Path, steps: Steps, extension: str) -> None:
     path = write_video(tmp_path / f"out{extension}", steps[:1])
     assert len(read_video(path)[0]) == 1
-
-
-def test_no_frame_at_all_is_an_input_error(
-    tmp_path: Path, folder_is_clean: Callable[[], bool]
-) -> None:
-    with pytest.raises(InputError, match="at least one frame"):
-        write_video(tmp_path / "out.mp4", [])
-    assert folder_is_clean()

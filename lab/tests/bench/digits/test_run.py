@@ -6,10 +6,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from texvent_lab.bench.digits.data import read_mnist
-from texvent_lab.bench.digits.plan import ARMS, Cell, DigitsPlan, Training, find_arm
+from texvent_lab.bench.digits.plan import ARMS, Cell, DigitsPlan, Training
 from texvent_lab.bench.digits.results import digits_table, read_report
-from texvent_lab.bench.digits.run import Run, run_digits, simulate_digits
+from texvent_lab.bench.digits.run import Run, run_digits
 from texvent_lab.bench.digits.training import shift_images
 from texvent_lab.bench.document import read_document, write_document
 from texvent_lab.bench.page import page_files
@@ -92,18 +91,6 @@ def test_the_page_shows_what_the_document_holds(report, tmp_path):
     assert sorted(files) == ["digits.md", "digits.svg"]
     assert digits_table(report).rstrip() in files["digits.md"].decode()
     assert "| esim | true frames |" in digits_table(report)
-
-
-def test_counts_fall_with_the_threshold(data):
-    mnist = read_mnist(data[0])
-    counts = [
-        simulate_digits(
-            mnist, np.arange(1, 7), find_arm("esim").settings("exact", threshold=threshold)
-        ).median_count
-        for threshold in (0.1, 0.2, 0.4, 0.8)
-    ]
-    assert counts == sorted(counts, reverse=True)
-    assert counts[0] > 3 * counts[-1]
 
 
 def test_images_move_by_whole_pixels_with_zeros_behind():

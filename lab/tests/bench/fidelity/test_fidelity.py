@@ -13,7 +13,7 @@ from texvent.settings.resolution import resolve
 from texvent.simulate.physical.threshold_map import read_threshold_map
 from texvent_lab.bench.fidelity.entries import Entry, choose_entries
 from texvent_lab.bench.fidelity.results import read_report
-from texvent_lab.bench.fidelity.run import fit_threshold, score_entry
+from texvent_lab.bench.fidelity.run import score_entry
 from texvent_lab.bench.fidelity.table import fidelity_tables
 from texvent_lab.bench.oracle.pixel import IDEAL, NOISY, PixelArray
 from texvent_lab.bench.oracle.recording import SIZE, TrueFrames, oracle_scene, record
@@ -119,15 +119,6 @@ def test_a_scene_without_true_events_has_undefined_ratios_not_numbers():
     name, reason = score_entry(truth, Entry(simulator="v2ce", interpolate="none"), metrics)
     assert name == "v2ce, none"
     assert "weights" in reason
-
-
-def test_without_true_events_the_threshold_is_kept_and_nothing_is_searched():
-    counted = []
-    match, ratio = fit_threshold(lambda δ: counted.append(δ) or 10, 0, 0.2)
-    assert (match.threshold, match.is_matched) == (0.2, False)
-    assert math.isnan(match.ratio)
-    assert math.isnan(ratio)
-    assert not counted
 
 
 def six_textures(**entries):

@@ -13,7 +13,6 @@ from texvent_lab.bench.oracle.scenes import (
     ValueNoise,
     build_scene,
     camera_level,
-    radiance_of,
 )
 
 ONE = SensorSize(1, 1)
@@ -143,8 +142,3 @@ def test_a_prompt_is_a_scene_that_the_camera_films_as_the_generator_drew_it():
     # It moves, and another seed shows another scene.
     assert not np.array_equal(oracle_scene(name, seed)(0.0), oracle_scene(name, seed)(0.4))
     assert not np.array_equal(oracle_scene(name, seed)(0.0), oracle_scene(name, 8)(0.0))
-
-
-def test_radiance_of_levels_turns_the_camera_round():
-    levels = np.array([0.0, 17.25, 128.0, 255.0], np.float32)
-    assert camera_level(radiance_of(levels)) == pytest.approx(levels, abs=1e-4)

@@ -27,6 +27,7 @@ from texvent_lab.bench.paper.run import (
 )
 from texvent_lab.bench.real.recording import RecordingPart, open_scene
 
+from ...nt_imagenet.tiny_data import write_stream
 from ..reconstruction.synthetic_network import StandInReconstructor, moving_bar, write_recording
 from ..synthetic_report import synthetic_report
 
@@ -171,13 +172,8 @@ def test_accuracy_is_measured_for_the_columns_that_have_a_folder(tmp_path, monke
         place = tmp_path / "streams" / "texvent" / name
         place.mkdir(parents=True)
         events.save(place / "a.npz", format="n-imagenet")
-    # The recorded files of N-ImageNet store no size; they are 640x480.
-    recorded = np.zeros(3, [("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
-    recorded["x"] = 639
-    for name in ("n01", "n02"):
-        place = tmp_path / "streams" / "Original" / name
-        place.mkdir(parents=True)
-        np.savez(place / "a.npz", event_data=recorded)
+        # The recorded files of N-ImageNet store no size; they are 640x480.
+        write_stream(tmp_path / "streams" / "Original" / name / "a.npz", 30, seed=0)
     tensors = ResNet(2, 2, width=1).tensors
     state = {name: torch.ones_like(one) for name, one in tensors.items()}
     weights = tmp_path / "weights.tar"

@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
-from hypothesis import strategies as st
-from tests.represent.definitions import rows, streams
+from tests.represent.definitions import rows
 
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
@@ -48,15 +46,6 @@ def test_mirrored_events_are_at_the_other_side() -> None:
 def test_what_is_shifted_out_is_dropped() -> None:
     found = augment(events(), Augmentation(shift=2), Chance(shift=(1, -1)))
     assert rows(found) == [(2, 1, 14, 0)]
-
-
-@given(streams(), st.booleans(), st.booleans())
-def test_done_twice_it_is_undone(stream: EventStream, time: bool, x: bool) -> None:
-    whole, chance = Augmentation(shift=0, flip_time=True, flip_x=True), Chance(time=time, x=x)
-    twice = augment(augment(stream, whole, chance), whole, chance)
-    np.testing.assert_array_equal(twice.x, stream.x)
-    np.testing.assert_array_equal(twice.p, stream.p)
-    np.testing.assert_array_equal(twice.t - twice.t[:1], stream.t - stream.t[:1])
 
 
 def test_a_run_is_drawn_of_longer_recordings_only() -> None:

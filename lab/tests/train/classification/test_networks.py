@@ -15,7 +15,7 @@ torch = pytest.importorskip("torch", reason="make test-torch runs the tests that
 from texvent_lab.networks.layers import make_seeded  # noqa: E402
 from texvent_lab.networks.resnet34 import BLOCKS, ResNet  # noqa: E402
 
-from ..written_samples import bar  # noqa: E402
+from ..written_samples import write_recordings  # noqa: E402
 from .torch_resnet import torch_resnet  # noqa: E402
 
 pytestmark = pytest.mark.torch
@@ -69,12 +69,7 @@ def test_resnet34_has_the_published_number_of_parameters() -> None:
 def test_weights_of_another_representation_are_refused(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    for split, count in (("train", 4), ("val", 2)):
-        for label, name in enumerate(("n01", "n02")):
-            folder = tmp_path / "recorded" / split / name
-            folder.mkdir(parents=True)
-            for number in range(count):
-                bar(label, number).save(folder / f"{number}.npz", format="n-imagenet")
+    write_recordings(tmp_path / "recorded")
     text = (
         'data = {recordings = "recorded", validation_split = "val", image_size = "64x48"}\n'
         'network = {name = "resnet34", width = 2, representation = "binary-event-image"}\n'
@@ -90,12 +85,9 @@ def test_weights_of_another_representation_are_refused(
 
 
 def test_a_checkpoint_of_n_imagenets_program_is_evaluated(tmp_path: Path) -> None:
-    for label, name in enumerate(("n01", "n02")):
-        folder = tmp_path / "recorded" / "test" / name
-        folder.mkdir(parents=True)
-        bar(label, 0).save(folder / "a.npz", format="n-imagenet")
+    write_recordings(tmp_path / "recorded")
     (tmp_path / "spec.toml").write_text(
-        'data = {recordings = "recorded", image_size = "64x48"}\n'
+        'data = {recordings = "recorded", validation_split = "val", image_size = "64x48"}\n'
         'network = {name = "resnet34", width = 2, representation = "binary-event-image"}\n'
     )
     # Several GPUs put "module." before every name; torch counts the batches of normalisations.

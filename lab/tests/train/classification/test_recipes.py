@@ -5,11 +5,12 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
-import numpy as np
 import pytest
 
 from texvent.cli.app import main
 from texvent.dataset.specification.reading import read_specification
+
+from ...nt_imagenet.tiny_data import WNIDS, write_stream
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
@@ -20,21 +21,6 @@ from texvent_lab.train.run import read_training  # noqa: E402
 pytestmark = pytest.mark.torch
 ROOT = Path(__file__).parents[4]
 FILES = ROOT / "configs" / "training"
-
-
-def write_n_imagenet(folder: Path, classes: int, per_class: int) -> None:
-    """Files as those of N-ImageNet: no sensor size, polarity as bool."""
-    chance = np.random.default_rng(1)
-    for split in ("extracted_train", "extracted_val"):
-        for label in range(classes):
-            place = folder / split / f"n{label:08d}"
-            place.mkdir(parents=True)
-            for number in range(per_class):
-                events = np.zeros(500, [("x", "<u2"), ("y", "<u2"), ("t", "<i8"), ("p", "?")])
-                events["x"] = chance.integers(200 * label, 200 * label + 200, 500)
-                events["y"], events["t"] = chance.integers(0, 480, 500), np.arange(500)
-                events["p"] = chance.integers(0, 2, 500)
-                np.savez(place / f"{number}.npz", event_data=events)
 
 
 def test_n_imagenets_recipe_is_the_published_one() -> None:
@@ -52,7 +38,10 @@ def test_n_imagenets_recipe_is_the_published_one() -> None:
 def test_n_imagenets_recipe_learns_files_of_its_layout(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
-    write_n_imagenet(tmp_path / "N_Imagenet", classes=3, per_class=4)
+    for split in ("train", "val"):
+        for number, wnid in enumerate(WNIDS * 4):
+            place = tmp_path / "N_Imagenet" / f"extracted_{split}" / wnid / f"{number}.npz"
+            write_stream(place, 500, number)
     text = (FILES / "n-imagenet-resnet34.toml").read_text()
     text = text.replace("epochs = 100", "epochs = 1")
     text = text.replace("[network]", "[network]\nwidth = 2")

@@ -13,7 +13,7 @@ from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 
-from ..written_samples import SIZE, bar, write_bars
+from ..written_samples import SIZE, bar, write_bars, write_recordings
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
@@ -23,17 +23,6 @@ from texvent_lab.train.classification.task import ClassificationTask  # noqa: E4
 from texvent_lab.train.run import read_training  # noqa: E402
 
 pytestmark = pytest.mark.torch
-
-
-def write_recordings(folder: Path, *, per_class: int = 4, format: str = "npz") -> Path:
-    """Moving bars as files: train and val, of classes bus and car."""
-    for first, split in enumerate(("train", "val")):
-        for label, name in enumerate(("bus", "car")):
-            place = folder / split / name
-            place.mkdir(parents=True, exist_ok=True)
-            for number in range(per_class):
-                bar(label, 100 * first + number).save(place / f"{number}.{format}")
-    return folder
 
 
 def write(path: Path, data: str, more: str = "") -> Path:

@@ -52,18 +52,3 @@ def test_hot_pixels_stay_the_same_in_all_bins_of_all_windows(max_fraction, seed)
     expected = slow_hot_pixels(voxels, 0.5, max_fraction, seed)
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6)
     assert not voxels.any()
-
-
-def test_the_share_of_hot_pixels_is_uniform_up_to_the_largest():
-    voxels = np.zeros((1, 1, 100, 100), np.float32)
-    shares = [
-        np.mean(
-            add_hot_pixels(
-                voxels, deviation=0.1, max_fraction=0.01, chance=np.random.default_rng(seed)
-            )
-            != 0
-        )
-        for seed in range(300)
-    ]
-    assert max(shares) <= 0.01
-    assert np.mean(shares) == pytest.approx(0.005, rel=0.1)

@@ -26,7 +26,7 @@ from texvent_lab.train.reconstruction.config import (  # noqa: E402
     ReconstructionAugmentation,
     ReconstructionConfig,
 )
-from texvent_lab.train.reconstruction.task import ReconstructionTask  # noqa: E402
+from texvent_lab.train.reconstruction.task import ReconstructionTask, new_network  # noqa: E402
 from texvent_lab.train.run import (  # noqa: E402
     read_training,
     train_from_file,
@@ -205,3 +205,26 @@ def test_videos_train_without_flow(tmp_path: Path) -> None:
     batch = next(task.batches(workers=0).epoch(0))
     assert "flow" not in batch
     assert task.loss(task.make_network(), batch, DEVICE).item() > 0
+
+
+def voxels(count: int = 2) -> torch.Tensor:
+    return torch.randn(2, count, 5, 16, 16, generator=torch.Generator().manual_seed(0))
+
+
+@pytest.mark.parametrize("name", ["firenet", "e2vid+"])
+def test_the_state_is_carried_from_window_to_window(name: str) -> None:
+    published = RECONSTRUCTORS.load(name)
+    network, grids = new_network(published, 0), voxels(3)
+    with torch.no_grad():
+        images = network(grids)
+        one_by_one = published.network.from_tensors(network.tensors, {})
+        expected = [one_by_one.step(grids[:, place]) for place in range(3)]
+        torch.testing.assert_close(images, torch.stack(expected, dim=1))
+        assert not torch.equal(network(grids[:, 1:])[:, 0], images[:, 1])
+
+
+def test_gradients_reach_all_parameters_through_time() -> None:
+    network, grids = new_network(RECONSTRUCTORS.load("e2vid+"), 0), voxels(3).requires_grad_()
+    network(grids)[:, -1].sum().backward()
+    assert grids.grad[:, 0].any()
+    assert all(one.grad.any() for one in network.parameters())
