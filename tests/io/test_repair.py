@@ -11,7 +11,7 @@ import pytest
 from texvent.errors import FileFormatError, TexventWarning
 from texvent.events import EventStream
 from texvent.io import repair
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns
 from texvent.io.files import load, open_events, save
 from texvent.io.repair import RepairCounts, repair_blocks
 from texvent.sensor import SensorSize

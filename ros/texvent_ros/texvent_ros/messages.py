@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from texvent.errors import ConfigError, InputError, few, shown
 from texvent.events import EventStream
 from texvent.io.block_codec import split_by_time
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns
 from texvent.io.prophesee import evt3_coding
 from texvent.io.ros.messages import NS, NS_PER_S, EventPacket
 from texvent.sensor import SensorSize

@@ -42,8 +42,7 @@ from texvent.io.block_codec import (
     read_records,
     write_records,
 )
-from texvent.io.block_writer import UNLIMITED, FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns
+from texvent.io.block_writer import UNLIMITED, Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import read_sidecar
 from texvent.io.reading import ReadOptions

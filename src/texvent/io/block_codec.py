@@ -22,8 +22,14 @@ from numpy.typing import ArrayLike
 from texvent.errors import ConfigError, FileFormatError, warn
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.io.block_writer import BlockWriter, FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns, SideData
+from texvent.io.block_writer import (
+    BlockWriter,
+    Columns,
+    FileTarget,
+    FormatLimits,
+    SideData,
+    WriteBlock,
+)
 from texvent.io.input_checks import (
     existing_file,
     existing_folder,

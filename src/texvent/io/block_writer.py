@@ -6,20 +6,25 @@ A format opens a file, adds columns to it, and knows how it begins and ends.
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Self, TypeAlias
 
+from numpy.typing import NDArray
+
 from texvent.errors import InputError, OutputError, warn
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
-from texvent.io.columns import Columns
 from texvent.io.metadata import metadata_to_json, sidecar_path, sidecar_text
 from texvent.sensor import SensorSize
 
+Columns: TypeAlias = Mapping[str, NDArray[Any]]
+"""Name → column of events: x, y, t, p, and label where it is known."""
+SideData: TypeAlias = Mapping[str, Callable[[], Iterator[Columns]]]
+"""triggers, imu: what a recording holds beside its events → reads its columns, of which t is µs."""
 UNLIMITED = "hdf5 (.h5), npz (.npz) and ecd (.txt)"
 """Formats that hold every sensor size and time."""
 LONGEST = "npz (.npz) or ecd (.txt)"

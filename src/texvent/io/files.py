@@ -12,8 +12,7 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.block_codec import BlockCodec, BlockReader
-from texvent.io.block_writer import BlockWriter
-from texvent.io.columns import SideData
+from texvent.io.block_writer import BlockWriter, SideData
 from texvent.io.input_checks import refuse_missing, refuse_other_kind
 from texvent.io.reading import read_options
 from texvent.runtime.background_writer import BackgroundWriter

@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns
 from texvent.sensor import SensorSize
 
 _Columns: TypeAlias = dict[str, NDArray[Any]]

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, InputError, shown
 from texvent.events import COLUMN_TYPES, ID_COLUMNS
 from texvent.io.block_codec import TimedRows
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns
 from texvent.io.reading import (
     ReadOptions,
     TimeUnit,

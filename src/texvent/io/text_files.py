@@ -36,8 +36,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
 from texvent.io.block_codec import BlockCodec, FileContents, write_records
-from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import ZIP_DAMAGE, check_zip, reporting_damage
 from texvent.io.metadata import read_sidecar
 from texvent.io.reading import (

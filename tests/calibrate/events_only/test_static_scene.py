@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
-from texvent.calibrate.events_only.rest import leak_rate
 
 from texvent.calibrate.estimates import Estimate
 from texvent.calibrate.events_only.pixel_trains import find_dead_time
+from texvent.calibrate.events_only.rest import leak_rate
 from texvent.calibrate.events_only.static_scene import find_hot_pixels, measure_static_scene
 from texvent.errors import InputError
 from texvent.events import EventStream

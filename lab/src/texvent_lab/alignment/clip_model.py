@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError
 from texvent.extending import require
 from texvent.generate.diffusers_models.pipeline_loading import resolve_device
-from texvent.generate.video_models.loading import loading
+from texvent.generate.video_models.model_files import loading
 from texvent.video import PixelArray
 from texvent_lab.networks.saved_models import find_saved_model
 

@@ -13,7 +13,7 @@ from typing import Any
 from texvent.errors import InputError, one_line
 from texvent.extending import require
 from texvent.generate.diffusers_models.pipeline_loading import resolve_device
-from texvent.generate.video_models.loading import loading
+from texvent.generate.video_models.model_files import loading
 from texvent_lab.networks.saved_models import find_saved_model
 
 EXTRA = "generate"

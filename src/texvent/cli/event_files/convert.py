@@ -17,7 +17,7 @@ from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError, shown, warn
 from texvent.event_packets import EventPackets
 from texvent.io.atomic import atomic_file, check_outputs
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns
 from texvent.io.files import open_writer, side_data
 from texvent.io.pixel_mask import read_pixel_mask
 from texvent.io.split_files import read_intervals, write_split

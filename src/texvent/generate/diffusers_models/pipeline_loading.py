@@ -19,9 +19,8 @@ from texvent.generate.diffusers_models.guardrail import (
 )
 from texvent.generate.video_config import DiffusersConfig
 from texvent.generate.video_models.known_models import VideoModel
-from texvent.generate.video_models.loading import loading, without_bars
 from texvent.generate.video_models.lora import Lora, load_loras
-from texvent.generate.video_models.model_files import read_pipeline_index
+from texvent.generate.video_models.model_files import loading, read_pipeline_index, without_bars
 
 EXTRA = "generate"
 Pipeline: TypeAlias = Any

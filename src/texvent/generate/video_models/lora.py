@@ -12,7 +12,7 @@ from typing import Any
 
 from texvent._require import require
 from texvent.errors import ConfigError, shown
-from texvent.generate.video_models.loading import loading
+from texvent.generate.video_models.model_files import loading
 from texvent.networks.weight_files import SAFETENSORS
 
 EXTRA = "generate"

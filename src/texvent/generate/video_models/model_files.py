@@ -21,6 +21,10 @@ if TYPE_CHECKING:
     from texvent.generate.video_models.known_models import VideoModel
 
 EXTRA = "generate"
+LIBRARIES = ("diffusers", "transformers")
+DAMAGE = (OSError, ValueError, RuntimeError, AttributeError, TypeError, LookupError)
+"""Exceptions of the libraries for files that do not fit, beside that of safetensors."""
+LONGEST_REASON = 300
 REPOSITORY = r"[A-Za-z0-9]\w*(?:[.-]\w+)*/[A-Za-z0-9]\w*(?:[.-]\w+)*"
 """`organisation/name` as the model hub allows it: no two dots or hyphens in a row."""
 HUB = "hub:"
@@ -232,3 +236,38 @@ def read_json(path: Path) -> dict[str, Any]:
     if not isinstance(content, dict):
         raise FileFormatError(f"{path} is damaged: it holds no names; fetch it again")
     return content
+
+
+@contextlib.contextmanager
+def loading(folder: Path, role: str) -> Iterator[None]:
+    """Inside, a library loads `folder`; it shows no bars, and a damaged folder is refused.
+
+    Weights that a file lacks are filled by the libraries with random numbers, which they warn of.
+
+    Args:
+        folder: what is loaded.
+        role: what it is loaded as, for the message: "a decoder".
+
+    Raises:
+        FileFormatError: a file is damaged, or of another network.
+        MissingDependencyError: a package is not installed.
+    """
+    damage = require("safetensors", extra=EXTRA).SafetensorError
+    try:
+        with without_bars():
+            yield
+    except (*DAMAGE, damage) as error:
+        reason = " ".join(str(error).split())[:LONGEST_REASON]
+        raise FileFormatError(f"{folder} cannot be loaded as {role}: {reason}") from error
+
+
+@contextlib.contextmanager
+def without_bars() -> Iterator[None]:
+    """Inside, the libraries show no progress bars."""
+    with contextlib.ExitStack() as stack:
+        for name in LIBRARIES:
+            bars = require(f"{name}.utils.logging", extra=EXTRA)
+            if bars.is_progress_bar_enabled():
+                bars.disable_progress_bar()
+                stack.callback(bars.enable_progress_bar)
+        yield

@@ -45,8 +45,7 @@ from texvent.io.aedat.aedat4_tables import (
     read_events,
 )
 from texvent.io.block_codec import BlockCodec, FileContents, split_by_time
-from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns, SideData
+from texvent.io.block_writer import Columns, FileTarget, FormatLimits, SideData, WriteBlock
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import metadata_from_json, metadata_to_json
 from texvent.io.reading import ReadOptions, choose

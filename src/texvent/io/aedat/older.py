@@ -50,7 +50,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError
 from texvent.io.block_codec import BlockReader, FileContents, read_records
-from texvent.io.columns import Columns, SideData
+from texvent.io.block_writer import Columns, SideData
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import MAX_HEADER_BYTES, metadata_from_json
 from texvent.io.reading import ReadOptions

@@ -31,7 +31,7 @@ from texvent.errors import FileFormatError, shown
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.arrays.npz import read_arrays
 from texvent.io.block_codec import BlockReader, FileContents, already_open, read_rows, seek_rows
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns
 from texvent.io.metadata import metadata_from_json, parse_sidecar
 from texvent.io.reading import ReadOptions
 from texvent.io.tables import find_tables

@@ -21,8 +21,7 @@ import numpy as np
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.arrays.npz import NpzCodec, array_names
-from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.files import load
 from texvent.io.metadata import metadata_to_json
 from texvent.sensor import SensorSize

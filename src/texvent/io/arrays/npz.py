@@ -36,8 +36,7 @@ from texvent.io.block_codec import (
     read_rows,
     seek_rows,
 )
-from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import (
     TIMESTAMP_SCALE_MS,
     ZIP_DAMAGE,

@@ -15,7 +15,7 @@ from typing import Any, ClassVar
 from texvent._require import require
 from texvent.errors import FileFormatError
 from texvent.io.block_codec import BlockReader, FileContents
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns
 from texvent.io.input_checks import begins_with, reporting_damage
 from texvent.io.metadata import metadata_from_json
 from texvent.io.reading import ReadOptions, TimeUnit, to_microseconds

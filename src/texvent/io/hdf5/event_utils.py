@@ -25,8 +25,7 @@ from numpy.typing import NDArray
 from texvent.errors import InputError
 from texvent.event_packets import EventPackets
 from texvent.io.atomic import atomic_file
-from texvent.io.block_writer import FileTarget
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns, FileTarget
 from texvent.io.files import save
 from texvent.io.hdf5.native import (
     CHUNK_EVENTS,

@@ -45,8 +45,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, shown
 from texvent.events import COLUMN_TYPES, OPTIONAL_COLUMNS
 from texvent.io.block_codec import BlockCodec, FileContents, TimedRows, read_rows, seek_rows
-from texvent.io.block_writer import BlockWriter, FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns
+from texvent.io.block_writer import BlockWriter, Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.hdf5.storage import (
     DeferredErrorFile,
     Hdf5Writer,

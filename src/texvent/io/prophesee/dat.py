@@ -22,8 +22,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
 from texvent.io.block_codec import BlockCodec, FileContents, read_records, write_records
-from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
 from texvent.io.reading import ReadOptions
 

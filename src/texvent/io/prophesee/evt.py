@@ -33,8 +33,7 @@ from texvent.io.block_codec import (
     read_records,
     write_records,
 )
-from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns, SideData
+from texvent.io.block_writer import Columns, FileTarget, FormatLimits, SideData, WriteBlock
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
 from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding, read_triggers
 from texvent.io.reading import ReadOptions

@@ -40,7 +40,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError
 from texvent.events import COLUMN_TYPES
 from texvent.io.block_codec import BlockReader, FileContents, TimedRows, read_rows, seek_rows
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns
 from texvent.io.hdf5.native import read_metadata, stored_size
 from texvent.io.hdf5.storage import check_claims, open_hdf5
 from texvent.io.reading import ReadOptions

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns
 
 TIME_LOW, TIME_HIGH, TRIGGER = 6, 8, 10
 Words = NDArray[np.int64]

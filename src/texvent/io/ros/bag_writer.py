@@ -27,7 +27,7 @@ from texvent._require import require
 from texvent.events import EventStream
 from texvent.io.atomic import hidden_folder
 from texvent.io.block_codec import split_by_time
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns
 from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.ros.messages import (
     EVENT_ARRAY,

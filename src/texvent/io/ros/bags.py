@@ -25,8 +25,7 @@ from typing import Any, ClassVar
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, one_line
 from texvent.io.block_codec import BlockCodec, BlockReader, FileContents
-from texvent.io.block_writer import FileTarget, FormatLimits, WriteBlock
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import parse_sidecar, sidecar_text
 from texvent.io.prophesee.evt import Evt3Codec

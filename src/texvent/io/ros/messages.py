@@ -30,7 +30,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
-from texvent.io.columns import Columns
+from texvent.io.block_writer import Columns
 from texvent.sensor import SensorSize
 
 EVENT_ARRAY = "dvs_msgs/msg/EventArray"
