@@ -95,7 +95,7 @@ class ObjectPlacer:
         colour = rgb_of(scene_object.colour)
         models: list[Model] = [
             in_material(
-                noun.build(colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31))),
+                noun.build(colour=colour, scale=scene_object.size, seed=int(rng.integers(2**31))),
                 scene_object.material,
                 colour,
             )
@@ -103,7 +103,7 @@ class ObjectPlacer:
         ]
         if scene_object.picture is not None and can_show(noun.name):
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
-        motions = (scene_object.motion or STANDING, *scene_object.then)
+        motions = scene_object.motions or (STANDING,)
         plan = plan_motion(motions, noun, models[0], self._duration_s, rng)
         if scene_object.heading_deg is not None:
             plan = plan.turned(math.radians(scene_object.heading_deg))
@@ -162,7 +162,8 @@ class ObjectPlacer:
                 goal = place_by_subject(group, relation.kind, subject, height)
                 return place_at_distance(goal, relation, subject, -1.0)
         if self._along is not None:
-            is_goal = self._description.shot.target == group.index
+            target = self._description.camera.target
+            is_goal = self._description.index(target) == group.index
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
         return self._choose_free_goal(group, height)
 
@@ -177,7 +178,7 @@ class ObjectPlacer:
 
     def _choose_free_goal(self, group: ObjectGroup, height: float) -> Goal:
         """In the middle, or at the side of the image that the scene says."""
-        side = group.scene_object.side or ""
+        side = group.scene_object.placement or ""
         offset = _SIDES.get(side, 0.0) * 2.0 * group.size_m
         offset += self._spread_apart(group) + self._stagger(group)
         depth = {"far": 2.2 * group.size_m + 6.0, "near": -1.2 * group.size_m}.get(side, 0.0)
@@ -255,7 +256,7 @@ class ObjectPlacer:
         """The copies of a group on their trajectories."""
         rng = seeded(self._seed, "lead", group.index, group.noun.name)
         actors = []
-        said = (group.plan.motion, *group.scene_object.then)
+        said = (group.plan.motion, *group.scene_object.motions[1:])
         for number, (model, offset) in enumerate(zip(group.models, group.offsets, strict=True)):
             x, y, z = group.centre + np.array(offset)
             trajectory = self._choose(group, model, (x, y, z), number, rng)

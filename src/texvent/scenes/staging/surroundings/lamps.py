@@ -9,11 +9,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.colours import rgb_of
-from texvent.scenes.description import SceneDescription, SceneLamp
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.effects import LAMPS, Lamp, lamp_of
 from texvent.scenes.models.places import Place
 from texvent.scenes.models.protocol import ModelPart, fraction
 from texvent.scenes.scene import LAMP_COLUMNS, Float64Array, Ground
+from texvent.scenes.spec.scene import Lamp as SceneLamp
 from texvent.scenes.staging.actors import Actor, PlacedModel
 from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.surroundings.lighting import (
