@@ -95,12 +95,6 @@ def point(values: Sequence[float] | Affine) -> Point:
     return x, y, z
 
 
-def part_way(start: Point, end: Point, share: float) -> Point:
-    """`start` at share 0, `end` at share 1."""
-    x, y, z = (a + share * (b - a) for a, b in zip(start, end, strict=True))
-    return (x, y, z)
-
-
 def mixed(first: Any, second: Any, share: float) -> Any:
     """Between numbers, tuples or dataclasses of them; flags are those of the second."""
     if is_dataclass(first):
@@ -131,23 +125,8 @@ def shift(x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Affine:
     return np.array([[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, y], [0.0, 0.0, 1.0, z]])
 
 
-def turn_x(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
-    """A roll about an axis along x: positive lifts the left side (+y)."""
-    return turn_about("x", angle, pivot)
-
-
-def turn_y(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
-    """A turn about an axis along y: positive as a wheel that rolls towards +x."""
-    return turn_about("y", angle, pivot)
-
-
-def turn_z(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
-    """A turn about an upright axis: positive turns the nose left, from +x to +y."""
-    return turn_about("z", angle, pivot)
-
-
 def turn_about(axis: str, angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
-    """A turn about an axis along "x", "y" or "z"."""
+    """A turn about an axis along "x", "y" or "z", from y to z, from z to x or from x to y."""
     turn, centre = rotation(axis, angle), np.array(pivot)
     return np.column_stack([turn, centre - turn @ centre])
 

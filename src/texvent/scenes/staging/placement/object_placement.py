@@ -12,6 +12,7 @@ from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import STANDING, Relation, SceneDescription
 from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.protocol import Model, Noun
+from texvent.scenes.models.shapes import point
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
@@ -42,7 +43,7 @@ from texvent.scenes.staging.trajectories.choose_trajectory import (
     orbit,
 )
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
-from texvent.scenes.staging.trajectories.trajectory import Attached, Trajectory, Vector, vector
+from texvent.scenes.staging.trajectories.trajectory import Attached, Trajectory, Vector
 
 _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
@@ -162,8 +163,8 @@ class ObjectPlacer:
                 goal = place_by_subject(group, relation.kind, subject, height)
                 return place_at_distance(goal, relation, subject, -1.0)
         if self._along is not None:
-            target = self._description.camera.target
-            is_goal = self._description.index(target) == group.index
+            scene = self._description
+            is_goal = scene.index(scene.camera.target) == group.index
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
         return self._choose_free_goal(group, height)
 
@@ -290,7 +291,7 @@ class ObjectPlacer:
     def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Trajectory:
         """On what carries it, which moves as a whole."""
         rng = seeded(self._seed, "lead", below.index, below.noun.name)
-        carrier = self._choose(below, below.models[0], vector(below.centre), 0, rng)
+        carrier = self._choose(below, below.models[0], point(below.centre), 0, rng)
         (x, y, z), yaw = np.array(home) - below.centre, below.plan.yaw
         cosine, sine = math.cos(yaw), math.sin(yaw)
         place = (x * cosine + y * sine, y * cosine - x * sine, z)
