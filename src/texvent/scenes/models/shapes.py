@@ -272,29 +272,24 @@ class ArticulatedModel:
             poses: what its size is measured over.
             is_wheeled: whether it rolls on wheels; what does not rolls as a whole.
         """
-        self._scale = float(scale)
-        self._rigid = [_scaled(each, self._scale) for each in rigid]
+        self.scale = float(scale)
+        self._rigid = [_scaled(each, self.scale) for each in rigid]
         self._articulate = articulate
         self._anchor = anchor
         self.is_centred = is_centred
         self.is_wheeled = is_wheeled
-        low, high = (self._scale * corner for corner in _measure(rigid, articulate, poses))
+        low, high = (self.scale * corner for corner in _measure(rigid, articulate, poses))
         reach = np.maximum(np.abs(low), np.abs(high))
         self.length = float(2.0 * reach[0])
         self.width = float(2.0 * reach[1])
         self.height = float(2.0 * reach[2]) if is_centred else float(high[2])
-
-    @property
-    def scale(self) -> float:
-        """Size relative to the usual one."""
-        return self._scale
 
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """The shapes at that pose, rigid ones first."""
         if self._articulate is None:
             return list(self._rigid)
         usual = self._at_usual_size(pose)
-        return [*self._rigid, *(_scaled(each, self._scale) for each in self._articulate(usual))]
+        return [*self._rigid, *(_scaled(each, self.scale) for each in self._articulate(usual))]
 
     def anchor(self, name: str, pose: Pose) -> Affine | None:
         """Axes [3, 4] at a named place, m; None = this model names no places."""
@@ -303,20 +298,20 @@ class ArticulatedModel:
         axes = self._anchor(name, self._at_usual_size(pose))
         if axes is None:
             return None
-        return np.column_stack([axes[:, :3], self._scale * axes[:, 3]])
+        return np.column_stack([axes[:, :3], self.scale * axes[:, 3]])
 
     def _at_usual_size(self, pose: Pose) -> Pose:
         """The same instant of a body of the usual size."""
-        if self._scale == 1.0:
+        if self.scale == 1.0:
             return pose
         grips = tuple(
-            (name, (x / self._scale, y / self._scale, z / self._scale))
+            (name, (x / self.scale, y / self.scale, z / self.scale))
             for name, (x, y, z) in pose.grips
         )
         return replace(
             pose,
-            distance_m=pose.distance_m / self._scale,
-            speed_m_s=pose.speed_m_s / self._scale,
+            distance_m=pose.distance_m / self.scale,
+            speed_m_s=pose.speed_m_s / self.scale,
             grips=grips,
         )
 

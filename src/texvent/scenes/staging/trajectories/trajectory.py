@@ -10,7 +10,6 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Protocol
 
 import numpy as np
@@ -245,7 +244,7 @@ class Attached:
     @classmethod
     def seated(cls, carrier: Trajectory, seat: Vector, activity: str) -> Attached:
         """At a fixed place in the carrier's body coordinates, m."""
-        return cls(carrier, partial(_body_axes, carrier), shift(*seat), activity)
+        return cls(carrier, lambda time_s: carrier.at(time_s).to_world(), shift(*seat), activity)
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
@@ -256,10 +255,6 @@ class Attached:
             speed_m_s=below.speed_m_s,
             activity=self.activity,
         )
-
-
-def _body_axes(path: Trajectory, time_s: float) -> Float64Array:
-    return path.at(time_s).to_world()
 
 
 @dataclass(frozen=True)
