@@ -92,8 +92,8 @@ def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
     """Where an effect comes from."""
     words = EFFECTS[kind]
     if actor is None:
-        size, height, behind = setting.framing.distance_m * np.array(words.alone)
-        target = np.array(setting.framing.target, dtype=np.float64)
+        size, height, behind = setting.camera.framing.distance_m * np.array(words.alone)
+        target = np.array(setting.camera.framing.target, dtype=np.float64)
         target[2] = target[2] + height if height else 0.0
         return Source(float(size), target + behind * setting.away)
     bulk, model, noun = _bulk(actor), actor.model, actor.noun.name

@@ -264,7 +264,7 @@ def _still_lamps(items: Sequence[SceneryItem], strength: float) -> list[Float64A
     for item in items if strength > 0.0 else ():
         placed = item.place()
         for part in placed.parts:
-            lamp = lamp_of(item.noun, part.colour) if part.emission > 0.0 else None
+            lamp = lamp_of(item.rule.noun, part.colour) if part.emission > 0.0 else None
             if lamp is not None and not lamp.hue:
                 rows.append(lamp_row(lamp, part, placed.to_world, strength))
     return rows
