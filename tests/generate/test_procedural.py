@@ -119,8 +119,8 @@ def test_a_film_in_black_and_white_has_the_luminance_of_the_one_in_colour() -> N
 
 
 def test_a_black_and_white_animal_is_no_film_in_black_and_white() -> None:
-    assert not understand("a black and white cat", list_nouns()).is_grey
-    assert understand("a cat in black and white", list_nouns()).is_grey
+    assert not understand("a black and white cat", list_nouns()).camera.is_grey
+    assert understand("a cat in black and white", list_nouns()).camera.is_grey
 
 
 def test_frames_from_one_on_are_those_of_the_whole_video() -> None:

@@ -5,17 +5,9 @@ from typing import Any
 
 import numpy as np
 
-from texvent.scenes.description import (
-    Effect,
-    Illumination,
-    ObjectMotion,
-    Relation,
-    SceneDescription,
-    SceneObject,
-    Shot,
-    Surroundings,
-)
+from texvent.scenes.description import Relation, SceneDescription
 from texvent.scenes.scene import project
+from texvent.scenes.spec.scene import Camera, Effect, Light, Motion, Place, SceneObject
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.compose import ComposedScene, compose_scene
 from texvent.sensor import SensorSize
@@ -26,8 +18,7 @@ DURATION_S = 2.0
 
 def thing(noun: str, *motions: tuple[str, ...], **fields: Any) -> SceneObject:
     """An object that does one thing after the other; each is a kind and a direction."""
-    said = [ObjectMotion(*motion) for motion in motions]
-    return SceneObject(noun, motion=said[0] if said else None, then=tuple(said[1:]), **fields)
+    return SceneObject(noun, motions=tuple(Motion(*motion) for motion in motions), **fields)
 
 
 @lru_cache(maxsize=32)
@@ -35,7 +26,7 @@ def stage(
     *objects: SceneObject,
     relations: tuple[tuple[Any, ...], ...] = (),
     effects: tuple[Effect, ...] = (),
-    shot: Shot | None = None,
+    camera: Camera | None = None,
     place: str | None = "grass",
     light: str | None = None,
     seed: int = 0,
@@ -43,13 +34,12 @@ def stage(
 ) -> ComposedScene:
     """A scene; a relation is its kind, an object's number and those of its targets."""
     description = SceneDescription(
-        "",
-        objects,
-        tuple(Relation(kind, who, tuple(targets)) for kind, who, *targets in relations),
+        objects=objects,
+        relations=tuple(Relation(kind, who, tuple(targets)) for kind, who, *targets in relations),
         effects=effects,
-        shot=shot or Shot(),
-        light=Illumination(light),
-        surroundings=Surroundings(place),
+        camera=camera or Camera(),
+        light=Light(light),
+        place=Place(place),
     )
     return compose_scene(description, seed=seed, size=SIZE, duration_s=duration_s)
 

@@ -7,9 +7,10 @@ import pytest
 from tests.scenes.staged import DURATION_S, SIZE, stage, thing
 
 from texvent.generate.procedural import ProceduralConfig, ProceduralGenerator
-from texvent.scenes.description import Relation, SceneDescription, SceneObject
+from texvent.scenes.description import Relation, SceneDescription
 from texvent.scenes.in_view import LEAST_PIXELS, Unseen, count_pixels, find_unseen
 from texvent.scenes.raycast.ground_truth import ground_truth
+from texvent.scenes.spec.scene import SceneObject
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framing import pose
 
@@ -20,11 +21,11 @@ def unseen_from(*objects, relations=(), position=None, target=(0.0, 0.0, 1.0)):
     scene = stage(*objects, relations=relations, place="plain")
     if position is not None:
         scene = replace(scene, camera_path=CameraPath(pose(position, target), (), DURATION_S))
-    return find_unseen(scene, SceneDescription("", objects), SIZE, DURATION_S)
+    return find_unseen(scene, SceneDescription(objects=objects), SIZE, DURATION_S)
 
 
 def test_what_the_camera_frames_is_in_view_and_what_is_worn_is_part_of_who_wears_it():
-    assert unseen_from(CAR, SceneObject("tree", 2), SceneObject("dog")) == Unseen((), ())
+    assert unseen_from(CAR, SceneObject("tree", count=2), SceneObject("dog")) == Unseen((), ())
     worn = unseen_from(SceneObject("man"), SceneObject("hat"), relations=(("wear", 0, 1),))
     assert worn.out_of_view == ()
 
@@ -32,7 +33,7 @@ def test_what_the_camera_frames_is_in_view_and_what_is_worn_is_part_of_who_wears
 def test_what_is_behind_the_camera_is_out_of_view_and_copies_are_counted():
     behind = unseen_from(CAR, position=(0.0, -30.0, 1.5), target=(0.0, -60.0, 1.5))
     assert behind.out_of_view == ("car",)
-    beside = unseen_from(SceneObject("car", 3), position=(0.0, -3.5, 1.0))
+    beside = unseen_from(SceneObject("car", count=3), position=(0.0, -3.5, 1.0))
     assert beside.out_of_view in (("car (1 of 3)",), ("car (2 of 3)",))
 
 
@@ -52,7 +53,7 @@ def test_pixels_of_small_things_are_counted_one_by_one():
         assert count == pytest.approx(int(np.sum(truth == instance)), rel=0.5, abs=20)
 
 
-BALL = SceneObject("sphere", scale=0.5)
+BALL = SceneObject("sphere", size=0.5)
 HELD = {
     "on": (SceneObject("cup"), SceneObject("table")),
     "under": (SceneObject("cat"), SceneObject("table")),
@@ -61,7 +62,7 @@ HELD = {
     "right of": (BALL, SceneObject("cube")),
     "behind": (SceneObject("man"), CAR),
     "front": (SceneObject("dog"), SceneObject("house")),
-    "between": (BALL, SceneObject("cube", 2)),
+    "between": (BALL, SceneObject("cube", count=2)),
     "past": (thing("car", ("drive",)), SceneObject("tree")),
     "through": (thing("train", ("drive",)), SceneObject("tunnel")),
     "towards": (thing("dog", ("walk",)), SceneObject("man")),
@@ -80,7 +81,7 @@ def test_a_relation_holds_where_it_is_staged_and_another_one_does_not(kind):
     scene = stage(*objects, relations=((kind, 0, 1),), place="plain")
 
     def find(said):
-        description = SceneDescription("", objects, (Relation(said, 0, (1,)),))
+        description = SceneDescription(objects=objects, relations=(Relation(said, 0, (1,)),))
         return [one.value for one in find_unseen(scene, description, SIZE, DURATION_S).unheld]
 
     assert (find(kind), find(OTHER[kind])) == ([], [OTHER[kind]])
@@ -90,7 +91,7 @@ def test_a_relation_holds_where_it_is_staged_and_another_one_does_not(kind):
 def test_a_direction_holds_where_it_is_staged(way, other):
     scene = stage(thing("drone", ("fly", way)), place="plain")
     for said, faults in ((way, ()), (other, (other,))):
-        description = SceneDescription("", (thing("drone", ("fly", said)),))
+        description = SceneDescription(objects=(thing("drone", ("fly", said)),))
         unheld = find_unseen(scene, description, SIZE, DURATION_S).unheld
         assert tuple(one.value for one in unheld) == faults
 

@@ -343,7 +343,7 @@ class ProceduralGenerator:
             out_of_view=unseen.out_of_view,
             too_small=unseen.too_small,
         )
-        scene = replace(scene, has_highlights=self.config.hdr, is_grey=description.is_grey)
+        scene = replace(scene, has_highlights=self.config.hdr, is_grey=description.camera.is_grey)
         return scene, self._accepted(report), list_files(description, named)
 
     @cached_property

@@ -9,19 +9,12 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import (
-    SPIN_RATE_HZ,
-    STANDING,
-    CameraMove,
-    ObjectMotion,
-    Relation,
-    SceneDescription,
-    SceneObject,
-)
+from texvent.scenes.description import SPIN_RATE_HZ, STANDING, Relation, SceneDescription
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.places import is_room
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import nouns_with, trait_value
+from texvent.scenes.spec.scene import CameraMove, Motion, SceneObject
 
 NO_PLACE = "no place is said"
 """Begins the note about it."""
@@ -53,15 +46,14 @@ def complete(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneD
     """
     description = _rest(_set_far(description), nouns)
     objects = tuple(
-        replace(one, motion=_decide_motion(one.motion, nouns[one.noun]))
+        replace(one, motions=(*_decide_motion(one.motion, nouns[one.noun]), *one.motions[1:]))
         for one in description.objects
     )
     description = _darken(_move_others(replace(description, objects=objects), nouns))
     place = _choose_place(description, nouns)
-    if description.surroundings.name is None:
+    if description.place.name is None:
         description = _note(description, f"{NO_PLACE}: {place} is chosen")
-    surroundings = replace(description.surroundings, name=place)
-    description = replace(description, surroundings=surroundings)
+    description = replace(description, place=replace(description.place, name=place))
     if not _has_motion(description):
         description = _set_in_motion(description, nouns)
     everything = range(len(description.objects))
@@ -78,10 +70,11 @@ def _change(description: SceneDescription, new: Mapping[int, SceneObject]) -> Sc
     return replace(description, objects=objects)
 
 
-def _move(description: SceneDescription, motions: Mapping[int, ObjectMotion]) -> SceneDescription:
+def _move(description: SceneDescription, motions: Mapping[int, Motion]) -> SceneDescription:
     """The description with motions of objects that have none."""
-    both = enumerate(description.objects)
-    new = {n: replace(one, motion=motions.get(n)) for n, one in both if one.motion is None}
+    objects = description.objects
+    new = {n: replace(objects[n], motions=(one,)) for n, one in motions.items()
+           if not objects[n].motions}  # fmt: skip
     return _change(description, new)
 
 
@@ -89,32 +82,32 @@ def _set_far(description: SceneDescription) -> SceneDescription:
     """Towering objects stand in the background of others that they are not related to."""
     towering, objects = nouns_with("towering"), description.objects
     related = {n for one in description.relations for n in (one.subject, *one.targets)}
-    related |= {n for n in (description.shot.target,) if n is not None}
+    related |= {n for n in (description.index(description.camera.target),) if n is not None}
     if all(one.noun in towering for one in objects):
         return description
-    far = (n for n, one in enumerate(objects) if one.noun in towering and one.side is None)
-    return _change(description, {n: replace(objects[n], side="far") for n in {*far} - related})
+    far = (n for n, one in enumerate(objects) if one.noun in towering and one.placement is None)
+    return _change(description, {n: replace(objects[n], placement="far") for n in {*far} - related})
 
 
-def _decide_motion(motion: ObjectMotion | None, noun: Noun) -> ObjectMotion | None:
+def _decide_motion(motion: Motion | None, noun: Noun) -> tuple[Motion, ...]:
     """The usual motion for "move", and for what always moves."""
     if noun.is_working and _is_work(motion, noun):
-        return _work(motion, noun)
+        return (_work(motion, noun),)
     if motion is None and noun.name in HAND_NOUNS:
-        return STANDING
+        return (STANDING,)
     if motion is None:
         lives_there = noun.habitat in ("air", "water") and noun.motion != "stand"
-        return ObjectMotion(noun.motion) if lives_there else None
+        return (Motion(noun.motion),) if lives_there else ()
     if motion.kind == "move":
         motion = replace(motion, kind=_GOING.get(noun.motion, noun.motion))
     if motion.kind == "turn" and noun.habitat == "fixed":
         motion = replace(motion, kind="spin", pace=0.5 * motion.pace)
     if motion.kind == "spin" and motion.rate_hz is not None:
         motion = replace(motion, pace=motion.rate_hz / SPIN_RATE_HZ, rate_hz=None)
-    return motion
+    return (motion,)
 
 
-def _is_work(motion: ObjectMotion | None, noun: Noun) -> bool:
+def _is_work(motion: Motion | None, noun: Noun) -> bool:
     """Whether a motion is that of the parts of a noun, which stays where it is."""
     if motion is None or motion.kind in ("stand", "swing", "spin", "turn", "work", "sway"):
         return True
@@ -122,12 +115,12 @@ def _is_work(motion: ObjectMotion | None, noun: Noun) -> bool:
     return motion.kind == "move" and (motion.direction is None or is_flat)
 
 
-def _work(motion: ObjectMotion | None, noun: Noun) -> ObjectMotion:
+def _work(motion: Motion | None, noun: Noun) -> Motion:
     rests = motion is None or motion.kind == "stand"
     if rests and noun.name in nouns_with("works on demand"):
         return STANDING
     if motion is None:
-        return ObjectMotion("work")
+        return Motion("work")
     kept = motion.direction in ("clockwise", "counter-clockwise", "left", "right")
     way = motion.direction if kept else None
     pace, own_hz = motion.pace, trait_value("turns per second", noun.name)
@@ -135,15 +128,15 @@ def _work(motion: ObjectMotion | None, noun: Noun) -> ObjectMotion:
         pace = motion.rate_hz / own_hz
     elif motion.kind in ("spin", "turn", "swing"):  # "rotates" is no slower than usual
         pace = max(pace, 1.0)
-    return ObjectMotion("work", way, pace, end_pace=motion.end_pace)
+    return Motion("work", way, pace, end_pace=motion.end_pace)
 
 
 def _rest(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
     """What is only said to be somewhere stays there; bicycles without a rider are parked."""
-    motions: dict[int, ObjectMotion] = {}
+    motions: dict[int, Motion] = {}
     for one in description.relations:
         motions.update(_rest_of(one, description.objects, nouns))
-    is_plain = description.surroundings.name is None and not description.shot.is_moving
+    is_plain = description.place.name is None and not description.camera.is_moving
     resting = nouns_with("lies still") | (
         nouns_with("parked unless ridden") if is_plain else frozenset()
     )
@@ -156,13 +149,13 @@ def _rest(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
 
 def _rest_of(
     relation: Relation, objects: Sequence[SceneObject], nouns: Mapping[str, Noun]
-) -> dict[int, ObjectMotion]:
+) -> dict[int, Motion]:
     """Who is on a seat or at a table sits; what a relation would be undone by stands."""
     kind, target = relation.kind, objects[relation.targets[0]]
     is_person = objects[relation.subject].noun in PERSON_NOUNS
     seats = nouns_with("seat") | nouns_with("sat on")
     if kind == "at" or (kind == "on" and is_person and target.noun in seats):
-        return {relation.subject: ObjectMotion("sit")}
+        return {relation.subject: Motion("sit")}
     if kind == "in" or (kind == "on" and target.motion is None):
         return {relation.subject: STANDING}
     if kind == "wear" or (kind == "hold" and is_person):
@@ -176,38 +169,38 @@ def _rest_of(
 
 def _move_others(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
     """What is followed or overtaken moves; who runs on a treadmill stays in place."""
-    motions: dict[int, ObjectMotion] = {}
+    motions: dict[int, Motion] = {}
     new: dict[int, SceneObject] = {}
     kinds = [nouns[one.noun] for one in description.objects]
     for one in description.relations:
         target = one.targets[0]
         if one.kind in ("follow", "overtake") and kinds[target].speed_m_s > 0.0:
             pace = 0.5 if one.kind == "overtake" else 1.0
-            motions[target] = ObjectMotion(kinds[target].motion, pace=pace)
+            motions[target] = Motion(kinds[target].motion, pace=pace)
         rider = description.objects[one.subject]
         is_treadmill = description.objects[target].noun in nouns_with("moves under feet")
         if one.kind == "on" and is_treadmill and rider.motion and rider.motion.kind in _PACES:
             pace = rider.motion.pace * _PACES[rider.motion.kind]
             done = replace(rider.motion, kind="run in place", pace=pace, direction=None)
-            new[one.subject] = replace(rider, motion=done)
-    if any(move.kind == "follow" for move in description.shot.moves):
+            new[one.subject] = replace(rider, motions=(done, *rider.motions[1:]))
+    if any(move.kind == "follow" for move in description.camera.moves):
         movers = [n for n, noun in enumerate(kinds) if noun.speed_m_s > 0.0]
-        aim = description.shot.target
+        aim = description.index(description.camera.target)
         for n in movers[:1] if aim is None else {aim}.intersection(movers):
-            motions[n] = ObjectMotion(kinds[n].motion)
+            motions[n] = Motion(kinds[n].motion)
     return _move(_change(description, new), motions)
 
 
 def _has_motion(description: SceneDescription) -> bool:
     moved = (
         one.blink_hz is not None
-        or bool(one.then)
+        or len(one.motions) > 1
         or one.noun in nouns_with("flows")
         or (one.motion is not None and one.motion.kind not in ("stand", "hang", "sit"))
         for one in description.objects
     )
     acts = any(one.kind in _ACTS for one in description.relations)
-    return description.shot.is_moving or bool(description.effects) or acts or any(moved)
+    return description.camera.is_moving or bool(description.effects) or acts or any(moved)
 
 
 def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
@@ -219,16 +212,16 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
         usual = _usual_motion(description, nouns[one.noun])
         if one.motion is None and usual != "stand" and n not in held:
             note = f"no motion is said of the {one.noun}, so it does what it usually does"
-            return _note(_move(description, {n: ObjectMotion(usual)}), note)
+            return _note(_move(description, {n: Motion(usual)}), note)
     is_seen = description.light.flicker_hz is not None or description.is_timelapse
-    if is_seen or description.surroundings.weather in ("rain", "snow"):
+    if is_seen or description.place.weather in ("rain", "snow"):
         return description
-    if description.shot.moves:
+    if description.camera.moves:
         note = "nothing moves in the prompt and the camera is static: there will be no events"
         return _note(description, note)
-    shot = replace(description.shot, moves=(SWAY,))
+    camera = replace(description.camera, moves=(SWAY,))
     note = "nothing moves in the prompt, so the camera sways a little, as in a hand"
-    return _note(replace(description, shot=shot), note)
+    return _note(replace(description, camera=camera), note)
 
 
 def _stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) -> bool:
@@ -241,8 +234,8 @@ def _stays_together(description: SceneDescription, nouns: Mapping[str, Noun]) ->
 
 def _usual_motion(description: SceneDescription, noun: Noun) -> str:
     """What it does if nothing else moves: people stay in a close shot, cars in a room."""
-    place, is_person = description.surroundings.name, noun.name in PERSON_NOUNS
-    if is_person and (place == "space" or description.shot.framing in ("close", "medium")):
+    place, is_person = description.place.name, noun.name in PERSON_NOUNS
+    if is_person and (place == "space" or description.camera.framing in ("close", "medium")):
         return "hover" if place == "space" else "stand"
     is_parked = place is None or is_room(place)
     return "stand" if noun.motion == "drive" and is_parked else noun.motion
@@ -261,7 +254,7 @@ def _park(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDesc
     ridden, new = _list_ridden(description), {}
     for n, one in enumerate(description.objects):
         parked = f"parked {one.noun}"
-        stands = one.motion is not None and one.motion.kind == "stand" and not one.then
+        stands = [motion.kind for motion in one.motions] == ["stand"]
         if parked in nouns and n not in ridden and stands:
             new[n] = replace(one, noun=parked)
     return _change(description, new)
@@ -284,14 +277,14 @@ def _choose_place(description: SceneDescription, nouns: Mapping[str, Noun]) -> s
     held = {n for one in description.relations if one.kind in _AT_HAND for n in one.targets}
     members = [nouns[one.noun] for n, one in enumerate(description.objects) if n not in held]
     kinds = {one.motion.kind for one in description.objects if one.motion is not None}
-    said, usual = description.surroundings, _usual_place(members, description, kinds)
+    said, usual = description.place, _usual_place(members, description, kinds)
     dives = all(noun.habitat == "water" and noun.motion not in _AFLOAT for noun in members)
     dives = dives and bool(members) and "jump" not in kinds
     if dives and said.name in (None, "sea", "lake", "river"):
         return "underwater"
     if said.name == "sea" and any(noun.habitat == "ground" for noun in members):
         return "sea" if kinds.intersection(_IN_WATER) else "beach"
-    travel = (one.means or "" for one in description.shot.moves if one.kind == "travel")
+    travel = (one.means or "" for one in description.camera.moves if one.kind == "travel")
     of_travel = [_PLACES_OF_TRAVEL[means] for means in travel if means in _PLACES_OF_TRAVEL]
     if said.name is None and not of_travel and (said.has_snow or said.weather == "snow"):
         return "snow"
@@ -306,7 +299,7 @@ def _usual_place(members: Sequence[Noun], description: SceneDescription, kinds: 
         return "sea"
     if any(noun.motion in _AFLOAT for noun in members):
         return "sea" if "sea" in of_nouns else "lake"
-    is_outdoors = description.surroundings.weather in ("rain", "snow") or any(
+    is_outdoors = description.place.weather in ("rain", "snow") or any(
         noun.name in nouns_with("outdoors") for noun in members
     )
     of_acts = [trait_value("place of activity", kind) for kind in sorted(kinds)]

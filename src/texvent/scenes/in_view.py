@@ -15,7 +15,7 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from texvent.scenes.defaults import NO_PLACE
-from texvent.scenes.description import SceneDescription, Surroundings
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.meanings import list_meanings
 from texvent.scenes.models.effects import LAMPS
 from texvent.scenes.models.places import PLACES, Place
@@ -25,6 +25,7 @@ from texvent.scenes.raycast.render import render
 from texvent.scenes.relation_check import Unheld, bodies_of, find_unheld
 from texvent.scenes.scene import Camera, Ground, Primitives, Scene, Texture, project
 from texvent.scenes.spec.data import PLACING
+from texvent.scenes.spec.scene import Place as Surroundings
 from texvent.scenes.staging.actors import assemble
 from texvent.scenes.staging.compose import ComposedScene
 from texvent.scenes.staging.particles.choose import FALLING
@@ -123,7 +124,7 @@ def _unlit(
     scene: ComposedScene, description: SceneDescription, duration_s: float
 ) -> Iterator[Unheld]:
     """Words of light, sky, ground and weather that leave no trace in the picture."""
-    said, times = description.surroundings, [share * duration_s for share in _INSTANTS]
+    said, times = description.place, [share * duration_s for share in _INSTANTS]
     base, place = scene.animated_environment.base, scene.place
     x, y = map(float, base.road_offset)
     road = RoadLine(base.road_angle, (x, y), tuple(map(tuple, base.road_crossings)))
@@ -139,7 +140,7 @@ def _unlit(
         value, usual = getattr(said, name), getattr(Surroundings, name)
         is_so = name == "has_snow" and place.ground is Ground.SNOW  # by itself
         if value != usual and value not in FALLING and not is_so:
-            other = without(surroundings=replace(said, **{name: usual}))
+            other = without(place=replace(said, **{name: usual}))
             yield from _unseen(scene, other, times, name, value)
     if description.light.kind not in (None, "day"):
         other = without(light=replace(description.light, kind=None))
@@ -154,7 +155,7 @@ def _unshown(
     scene: ComposedScene, description: SceneDescription, duration_s: float
 ) -> Iterator[Unheld]:
     """Effects, spin and a place that leave no trace in the picture."""
-    said, times = description.surroundings, [share * duration_s for share in _INSTANTS]
+    said, times = description.place, [share * duration_s for share in _INSTANTS]
     place, staged = scene.place, scene.particles
     for kind in dict.fromkeys((said.weather, *(one.kind for one in description.effects))):
         pairs = zip(staged.effects, staged.kinds, strict=True)
@@ -164,8 +165,8 @@ def _unshown(
             name = "weather" if kind == said.weather else "effect"
             yield from _unseen(scene, other, times, name, kind)
     turning = [one for one in description.objects
-               if one.motion and one.motion.kind in _TURNS and not one.then]  # fmt: skip
-    if turning and not description.shot.is_moving and not _differs(scene, scene, times, 0.13):
+               if one.motion and one.motion.kind in _TURNS and not one.motions[1:]]  # fmt: skip
+    if turning and not description.camera.is_moving and not _differs(scene, scene, times, 0.13):
         line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
         yield Unheld("motion", turning[0].motion.kind if turning[0].motion else "", line)
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)

@@ -17,12 +17,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError, shown
-from texvent.scenes.description import Picture
 from texvent.scenes.mesh import SurfaceImage, decode_srgb, surface_image
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import half_extents
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Colour, Shape, Texture
+from texvent.scenes.spec.scene import Picture
 
 VIDEO_ENDINGS = frozenset({".mp4", ".m4v", ".mov", ".avi", ".mkv", ".webm", ".gif", ".mpg", ".ts"})
 """Endings of files that play; any other file is read as an image."""

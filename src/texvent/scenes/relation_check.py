@@ -12,9 +12,10 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.description import RELATIONS, SceneDescription, SceneObject
+from texvent.scenes.description import RELATIONS, SceneDescription
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Camera, Float64Array, Primitives, Shape
+from texvent.scenes.spec.scene import SceneObject
 
 _TRAVELS = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
                       "roll", "crawl", "rise", "sink"})  # fmt: skip
@@ -115,7 +116,7 @@ def _unrelated(description: SceneDescription, copies: Copies) -> Iterator[Unheld
         who = sent.get(one.subject, one.subject) if one.kind == "towards" else one.subject
         own, others = copies[who], [body for t in one.targets for body in copies[t]]
         nouns = [description.objects[n].noun for n in (one.subject, one.targets[0])]
-        side = description.objects[one.subject].side
+        side = description.objects[one.subject].placement
         if one.kind in ("past", "overtake") and side in ("left", "right"):
             yield Unheld("placement", side, f"{names[one.subject]} passing on the {side}")
         is_flat = one.kind == "on" and nouns_with("flat pattern").issuperset(nouns)
@@ -137,16 +138,16 @@ def _unmoved(
 ) -> Iterator[Unheld]:
     """Side, way and direction of an object that its copies do not have."""
     name, motion = f"the {thing.noun.removeprefix('parked ')}", thing.motion
-    if thing.side in ("left", "right") and others:
+    if thing.placement in ("left", "right") and others:
         middle, rest = (np.mean([one.seen[:, 0] for one in group]) for group in (own, others))
-        if (middle < rest) != (thing.side == "left"):
-            yield Unheld("placement", thing.side, f"{name} on the {thing.side}")
+        if (middle < rest) != (thing.placement == "left"):
+            yield Unheld("placement", thing.placement, f"{name} on the {thing.placement}")
     if motion is None or is_led:
         return
-    gone = [one.kind for one in (motion, *thing.then) if one.kind in _TRAVELS]
+    gone = [one.kind for one in thing.motions if one.kind in _TRAVELS]
     if gone and all(one.is_still for one in own):
         yield from (Unheld("motion", kind, f"{name}'s way: it stays in its place") for kind in gone)
-    elif not thing.then and motion.kind in _DIRECTED and motion.direction in _AXES:
+    elif len(thing.motions) == 1 and motion.kind in _DIRECTED and motion.direction in _AXES:
         axis, sign = _AXES[motion.direction]
         ways = [sign * one.way[axis] if sign else abs(one.way[axis]) for one in own]
         sizes = [max(float(np.linalg.norm(one.way)), 1e-6) for one in own]

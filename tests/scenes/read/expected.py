@@ -17,18 +17,17 @@ FACTS = Path(__file__).parent / "facts.toml"
 PROMPTS: list[dict[str, Any]] = tomllib.loads(FACTS.read_text(encoding="utf-8"))["prompt"]
 
 _VALUES: Mapping[str, Callable[[SceneDescription], set[str]]] = {
-    "place": lambda scene: {scene.surroundings.name or ""},
+    "place": lambda scene: {scene.place.name or ""},
     "relation": lambda scene: {one.kind for one in scene.relations},
     "colour": lambda scene: {one.colour for one in scene.objects if one.colour},
     "count": lambda scene: {str(one.count) for one in scene.objects},
     "light": lambda scene: {scene.light.kind or ""},
-    "weather": lambda scene: {scene.surroundings.weather or ""},
+    "weather": lambda scene: {scene.place.weather or ""},
     "direction": lambda scene: {
-        motion.direction or "" for one in scene.objects for motion in (one.motion, *one.then)
-        if motion is not None
+        motion.direction or "" for one in scene.objects for motion in one.motions
     },
     "camera": lambda scene: {
-        name for move in scene.shot.moves for name in (move.kind, f"{move.kind} {move.direction}")
+        name for move in scene.camera.moves for name in (move.kind, f"{move.kind} {move.direction}")
     },
     "blink": lambda scene: {f"{one.blink_hz:g}" for one in scene.objects if one.blink_hz},
     "flicker": lambda scene: {str(one) for one in (scene.light.flicker_hz,) if one},
@@ -45,8 +44,7 @@ def has_fact(scene: SceneDescription, fact: str) -> bool:
             motion.kind
             for one in scene.objects
             if one.noun.removeprefix("parked ") in noun.split("|")
-            for motion in (one.motion, *one.then)
-            if motion is not None
+            for motion in one.motions
         }
         return bool(done & set(motions.split("|")))
     field, _, values = fact.partition(" ")

@@ -126,7 +126,7 @@ def test_a_file_by_hand_gives_every_field():
     SCHEMA.validate(tomllib.loads(EVERY_FIELD.read_text()))
     described = describe_scene(scene, list_nouns())
     assert described.objects[0].motion == to_description(scene).objects[0].motion
-    assert described.surroundings.name == "road"
+    assert described.place.name == "road"
 
 
 def default(part: Any, name: str) -> Any:

@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.scenes.staged import DURATION_S, SIZE, in_image, stage, thing
 
-from texvent.scenes.description import CameraMove, ObjectMotion, SceneObject, Shot
 from texvent.scenes.scene import project
+from texvent.scenes.spec.scene import Camera, CameraMove, Motion, SceneObject
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.camera.framing import (
     come_near,
@@ -80,14 +80,14 @@ def test_the_camera_stops_where_the_subject_reaches_the_goal(goal):
      ("wave", "wide", True), ("walk", "medium", False), ("stand", "close", False)],
 )  # fmt: skip
 def test_the_image_ends_at_the_waist_of_who_acts_with_the_arms_alone(activity, framing, is_whole):
-    scene = stage(thing("man", (activity,)), shot=Shot(framing=framing))
+    scene = stage(thing("man", (activity,)), camera=Camera(framing=framing))
     shown = in_image(scene, scene.actors[0], 1.0)
     assert shown[:, 1].min() > -0.05
     assert (shown[:, 1].max() < 1.0) == is_whole
 
 
 def film(*shot, noun="dog", motion=("stand",)):
-    return stage(SceneObject(noun, motion=ObjectMotion(*motion)), shot=Shot(shot))
+    return stage(SceneObject(noun, motions=(Motion(*motion),)), camera=Camera(shot))
 
 
 @settings(max_examples=30)
@@ -131,7 +131,7 @@ def test_phases_follow_each_other():
 
 
 def travel(place, direction, *objects):
-    return stage(*objects, shot=Shot((CameraMove("travel", direction),)), place=place)
+    return stage(*objects, camera=Camera((CameraMove("travel", direction),)), place=place)
 
 
 @pytest.mark.parametrize("place", PLACES)

@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from texvent.generate.scene_input import understand
-from texvent.scenes.description import SceneDescription, SceneObject, Surroundings
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.scene import Camera, Float64Array, Texture
+from texvent.scenes.spec.scene import Place, SceneObject
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.perform import ACTS
 from texvent.scenes.staging.camera.framing import image_of
@@ -61,7 +62,7 @@ def test_the_subjects_are_in_the_image_throughout(prompt):
     for actor in movers:
         for time in TIMES:
             middle = inside(scene.camera(time), actor.middle(time))
-            if described(prompt).objects[actor.object_index].side != "far":
+            if described(prompt).objects[actor.object_index].placement != "far":
                 assert middle[2] > 0.0
                 assert np.abs(middle[:2]).max() < 0.98, (actor.noun.name, time)
 
@@ -114,7 +115,7 @@ def test_actors_do_not_stand_in_one_another(prompt):
 
 def test_a_noun_alone_is_large_in_the_image():
     for name in list(NOUNS)[::7]:
-        thing = SceneDescription("", (SceneObject(name),), surroundings=Surroundings("grass"))
+        thing = SceneDescription("", (SceneObject(name),), place=Place("grass"))
         scene = compose_scene(thing, seed=0, size=SIZE, duration_s=2.0)
         for time in (0.0, 2.0):
             points = seen(scene, scene.actors[0], time)
@@ -127,9 +128,10 @@ def test_a_noun_alone_is_large_in_the_image():
 @pytest.mark.parametrize("nouns", [("house", "tree"), ("ball", "cube"), ("man", "bus")])
 def test_left_and_right_are_so_in_the_picture(nouns):
     objects = tuple(
-        SceneObject(noun, side=side) for noun, side in zip(nouns, ("left", "right"), strict=True)
+        SceneObject(noun, placement=side)
+        for noun, side in zip(nouns, ("left", "right"), strict=True)
     )
-    description = SceneDescription("", objects, surroundings=Surroundings("grass"))
+    description = SceneDescription("", objects, place=Place("grass"))
     scene = compose_scene(description, seed=0, size=SIZE, duration_s=2.0)
     for time in TIMES:
         left, right = (float(seen(scene, one, time)[:, 0].mean()) for one in scene.actors)

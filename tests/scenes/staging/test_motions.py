@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.scenes.staged import stage, thing
 
-from texvent.scenes.description import ObjectMotion
 from texvent.scenes.models.nouns import NOUNS
+from texvent.scenes.spec.scene import Motion
 from texvent.scenes.staging.trajectories.action_trajectories import (
     GRAVITY_M_S2,
     Flight,
@@ -35,7 +35,7 @@ KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "spin", "rise", "sink
          "jump", "bounce", "fall", "topple", "stand", "sit", "sway", "hover")  # fmt: skip
 DIRECTIONS = (None, "left", "right", "towards", "away", "backward", "around", "up")
 motions = st.builds(
-    ObjectMotion, st.sampled_from(KINDS), st.sampled_from(DIRECTIONS),
+    Motion, st.sampled_from(KINDS), st.sampled_from(DIRECTIONS),
     st.sampled_from([0.5, 1.0, 2.0]), end_pace=st.sampled_from([None, None, 0.0, 2.0]),
 )  # fmt: skip
 pieces = st.builds(
@@ -55,9 +55,9 @@ def path_of(*sequence, noun="car", speed=4.0, duration_s=4.0):
 
 
 def test_motions_share_the_clip_evenly_and_stated_times_are_kept():
-    sequence = [ObjectMotion("walk"), ObjectMotion("jump", start_s=2.0), ObjectMotion("sit")]
+    sequence = [Motion("walk"), Motion("jump", start_s=2.0), Motion("sit")]
     assert [phase.start_s for phase in schedule(sequence, 6.0)] == [0.0, 2.0, 4.0]
-    waiting = schedule([ObjectMotion("walk", start_s=1.5)], 2.0)
+    waiting = schedule([Motion("walk", start_s=1.5)], 2.0)
     assert [(p.motion.kind, p.start_s) for p in waiting] == [("stand", 0.0), ("walk", 1.5)]
 
 
@@ -80,7 +80,7 @@ def test_sequences_are_continuous(sequence, noun, time_s, duration_s):
 
 @pytest.mark.parametrize(("direction", "sign"), [("left", 1.0), ("right", -1.0)])
 def test_a_car_turns_a_quarter_circle_and_drives_on(direction, sign):
-    start, end = (path_of(ObjectMotion("turn", direction)).at(time_s) for time_s in (0.0, 4.0))
+    start, end = (path_of(Motion("turn", direction)).at(time_s) for time_s in (0.0, 4.0))
     assert end.yaw - start.yaw == pytest.approx(sign * 0.5 * math.pi)
     assert end.distance_m > 10.0
     assert end.speed_m_s == start.speed_m_s
@@ -88,21 +88,19 @@ def test_a_car_turns_a_quarter_circle_and_drives_on(direction, sign):
 
 @given(st.floats(0.5, 20.0))
 def test_stated_speeds_are_exact(speed):
-    kinds = [ObjectMotion("drive", speed_m_s=speed), ObjectMotion("turn", "left", speed_m_s=speed)]
+    kinds = [Motion("drive", speed_m_s=speed), Motion("turn", "left", speed_m_s=speed)]
     for time_s in (0.3, 1.0, 3.0):
         assert path_of(*kinds).at(time_s).speed_m_s == pytest.approx(speed, rel=1e-12)
 
 
 @pytest.mark.parametrize(("pace", "speed"), [(2.0, 8.0), (0.0, 0.0)])
 def test_accelerating_and_braking_end_at_the_end_pace(pace, speed):
-    path = path_of(ObjectMotion("drive", end_pace=pace))
+    path = path_of(Motion("drive", end_pace=pace))
     assert (path.at(0.0).speed_m_s, path.at(4.0).speed_m_s) == (4.0, speed)
 
 
 def test_an_airplane_takes_off_along_a_runway_and_lands_on_it():
-    off, down = (
-        path_of(ObjectMotion(kind), noun="airplane", speed=20.0) for kind in ("rise", "sink")
-    )
+    off, down = (path_of(Motion(kind), noun="airplane", speed=20.0) for kind in ("rise", "sink"))
     assert off.at(1.0).position[2] == 0.0
     assert off.at(4.0).position[2] > 5.0
     assert off.at(4.0).pitch < -0.1

@@ -4,14 +4,11 @@ import numpy as np
 import pytest
 from tests.scenes.staged import SIZE, stage
 
-from texvent.scenes.description import (
-    Effect,
-    SceneObject,
-)
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.raycast.ground_truth import ground_truth
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Float64Array
+from texvent.scenes.spec.scene import Effect, SceneObject
 from texvent.scenes.staging.compose import ComposedScene
 from texvent.scenes.staging.particles.emitter import TINY_M, flight
 
@@ -27,7 +24,7 @@ def small(scene: ComposedScene, time_s: float) -> Float64Array:
     return np.concatenate([one.at(time_s).to_world for one in scene.particles.effects])
 
 
-CASES = [(kind, source) for kind in EFFECTS for source in (0, None)]
+CASES = [(kind, source) for kind in EFFECTS for source in ("box", None)]
 
 
 @pytest.mark.parametrize(("kind", "source"), CASES)

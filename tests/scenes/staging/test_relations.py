@@ -9,14 +9,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from tests.scenes.staged import stage, thing
 
-from texvent.scenes.description import (
-    ObjectMotion,
-    SceneObject,
-)
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Ground
+from texvent.scenes.spec.scene import Motion, SceneObject
 from texvent.scenes.staging.surroundings.environment import RoadLine
 from texvent.scenes.staging.surroundings.scenery import under_snow
 from texvent.sensor import SensorSize
@@ -62,8 +59,8 @@ def test_chairs_stand_around_a_table_and_face_it():
 
 
 def test_what_begins_after_the_clip_is_reported():
-    jumps = ObjectMotion("jump", start_s=5.0)
-    walks = SceneObject("man", motion=ObjectMotion("walk"), then=(jumps,))
+    jumps = Motion("jump", start_s=5.0)
+    walks = SceneObject("man", motions=(Motion("walk"), jumps))
     assert stage(walks).not_shown == ("the man's jump after 5 s (the clip ends at 2 s)",)
     assert stage(walks, duration_s=8.0).not_shown == ()
 

@@ -37,8 +37,6 @@ class AssetModel:
     width: float
     height: float
     is_centred: bool = False
-    note: str = ""
-    """How its size was found."""
 
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """Its mesh, at any pose."""
@@ -73,8 +71,7 @@ def load_model(
     used = mesh.vertices[np.unique(mesh.triangles)]
     places = (used @ to_file[:, :3].T + to_file[:, 3]) @ turn.T
     low, high = places.min(axis=0), places.max(axis=0)
-    factors, note = _scale(asset, high - low)
-    factors = factors * scale
+    factors = scale * _scale(asset, high - low)
     extents = (high - low) * factors
     middle = 0.5 * (low + high) * factors
     foot = middle[2] if is_centred else low[2] * factors[2]
@@ -82,7 +79,7 @@ def load_model(
     to_body[:, 3] -= [middle[0], middle[1], foot]
     length, width, height = (max(float(extent), 1e-3) for extent in extents)
     shown = mesh if colour is None else painted(mesh, colour)
-    return AssetModel(shown, to_body, length, width, height, is_centred, note)
+    return AssetModel(shown, to_body, length, width, height, is_centred)
 
 
 def _changed_ns(asset: Asset) -> int:
@@ -114,30 +111,29 @@ def _axis(name: str) -> Float64Array:
     return np.asarray(sign * np.eye(3)["xyz".index(name[-1])])
 
 
-def _scale(asset: Asset, extents: Float64Array) -> tuple[Float64Array, str]:
-    """[3] factors along length, width and height, and how they were found."""
+def _scale(asset: Asset, extents: Float64Array) -> Float64Array:
+    """[3] factors along length, width and height: as the catalogue or the index says, or usual."""
     sides = np.maximum(extents, 1e-9)
     if asset.size is not None:
         width, depth, height = asset.size
-        return np.array([depth, width, height]) / sides, "size from the catalogue"
+        return np.array([depth, width, height]) / sides
     if asset.scale is not None:
-        return np.full(3, asset.scale), "scale from the index"
+        return np.full(3, asset.scale)
     if asset.height is not None:
-        return np.full(3, asset.height / sides[2]), "height from the index"
+        return np.full(3, asset.height / sides[2])
     if asset.length is not None:
-        return np.full(3, asset.length / sides.max()), "length from the index"
+        return np.full(3, asset.length / sides.max())
     if asset.path.suffix.lower() == ".glb":
-        return np.ones(3), "in metres, as glTF says"
+        return np.ones(3)  # metres, as glTF says
     usual = usual_noun(asset.noun)
     if usual is not None:
         model = usual.build(colour=None, scale=1.0, seed=0)
         longest = max(model.length, model.width, model.height)
-        return np.full(3, longest / sides.max()), f"as long as the embedded {usual.name}"
+        return np.full(3, longest / sides.max())
     unit = 1.0
     for above, metres in _UNITS:
         unit = metres if sides.max() > above else unit
-    words = {1.0: "metres", 0.01: "centimetres", 0.001: "millimetres"}[unit]
-    return np.full(3, unit), f"its unit taken to be {words}"
+    return np.full(3, unit)
 
 
 def usual_noun(name: str) -> Noun | None:

@@ -17,7 +17,7 @@ from texvent.scenes.models.shapes import (
     moved,
     plank,
     shift,
-    turn_z,
+    turn_about,
 )
 from texvent.scenes.models.surfaces import Painted
 
@@ -200,7 +200,7 @@ class Chain:
                 drawn = moved(head, shift(*joints[0]))
                 for index, (a, b) in enumerate(pairwise(joints)):
                     drawn += [self._link(material, a, b, index), *moved(beads, shift(*b))]
-                parts += moved(drawn, turn_z(2.0 * math.pi * turn / self.around))
+                parts += moved(drawn, turn_about("z", 2.0 * math.pi * turn / self.around))
             return parts
 
         return draw

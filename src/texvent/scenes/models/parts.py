@@ -38,7 +38,6 @@ from texvent.scenes.models.joints import (
     read_wave,
 )
 from texvent.scenes.models.limbs import Chain, read_walk
-from texvent.scenes.models.materials import shade
 from texvent.scenes.models.part_lines import Placed, read_groups, read_parts
 from texvent.scenes.models.people.figure import read_rider
 from texvent.scenes.models.protocol import ModelPart, Noun, Pose, between, choose, fraction
@@ -51,9 +50,9 @@ from texvent.scenes.models.shapes import (
     half_extents,
     moved,
     shift,
-    turn_y,
+    turn_about,
 )
-from texvent.scenes.models.surfaces import Painted, paint_model
+from texvent.scenes.models.surfaces import Painted, paint_model, toned
 from texvent.scenes.scene import Colour
 
 _KEYS: Mapping[str, tuple[type, ...]] = {
@@ -240,13 +239,8 @@ def _read_clump(
             between(seed, f"{name} {index}", *table[name])
             for name in ("out", "up", "size", "shade")
         )
-        tinted = replace(
-            material,
-            colour=shade(material.colour, tint),
-            second_colour=shade(material.second_colour, tint),
-        )
         at = (out * math.cos(angle), across * out * math.sin(angle), up)
-        parts.append(ball(tinted, at, (size, across * size, flat * size)))
+        parts.append(ball(toned(material, tint), at, (size, across * size, flat * size)))
     return parts, _Group((), tuple(map(read_joint, table.get("joints", ()))))
 
 
@@ -271,7 +265,7 @@ def _clip(box: ModelPart, axis: int, low: float, high: float) -> ModelPart:
 
 def _laid(parts: Sequence[Placed]) -> tuple[Placed, ...]:
     """Parts drawn upright, laid on their backs over the origin."""
-    turn = turn_y(-0.5 * math.pi)
+    turn = turn_about("y", -0.5 * math.pi)
     turned = [replace(one, to_body=compose(turn, one.to_body)) for one in parts]
     ends = [half_extents(one.shape, one.to_body) for one in turned]
     low = np.min([low for low, _ in ends], axis=0)

@@ -95,12 +95,6 @@ def point(values: Sequence[float] | Affine) -> Point:
     return x, y, z
 
 
-def part_way(start: Point, end: Point, share: float) -> Point:
-    """`start` at share 0, `end` at share 1."""
-    x, y, z = (a + share * (b - a) for a, b in zip(start, end, strict=True))
-    return (x, y, z)
-
-
 def mixed(first: Any, second: Any, share: float) -> Any:
     """Between numbers, tuples or dataclasses of them; flags are those of the second."""
     if is_dataclass(first):
@@ -131,23 +125,8 @@ def shift(x: float = 0.0, y: float = 0.0, z: float = 0.0) -> Affine:
     return np.array([[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, y], [0.0, 0.0, 1.0, z]])
 
 
-def turn_x(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
-    """A roll about an axis along x: positive lifts the left side (+y)."""
-    return turn_about("x", angle, pivot)
-
-
-def turn_y(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
-    """A turn about an axis along y: positive as a wheel that rolls towards +x."""
-    return turn_about("y", angle, pivot)
-
-
-def turn_z(angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
-    """A turn about an upright axis: positive turns the nose left, from +x to +y."""
-    return turn_about("z", angle, pivot)
-
-
 def turn_about(axis: str, angle: float, pivot: Point = (0.0, 0.0, 0.0)) -> Affine:
-    """A turn about an axis along "x", "y" or "z"."""
+    """A turn about an axis along "x", "y" or "z", from y to z, from z to x or from x to y."""
     turn, centre = rotation(axis, angle), np.array(pivot)
     return np.column_stack([turn, centre - turn @ centre])
 
@@ -293,29 +272,24 @@ class ArticulatedModel:
             poses: what its size is measured over.
             is_wheeled: whether it rolls on wheels; what does not rolls as a whole.
         """
-        self._scale = float(scale)
-        self._rigid = [_scaled(each, self._scale) for each in rigid]
+        self.scale = float(scale)
+        self._rigid = [_scaled(each, self.scale) for each in rigid]
         self._articulate = articulate
         self._anchor = anchor
         self.is_centred = is_centred
         self.is_wheeled = is_wheeled
-        low, high = (self._scale * corner for corner in _measure(rigid, articulate, poses))
+        low, high = (self.scale * corner for corner in _measure(rigid, articulate, poses))
         reach = np.maximum(np.abs(low), np.abs(high))
         self.length = float(2.0 * reach[0])
         self.width = float(2.0 * reach[1])
         self.height = float(2.0 * reach[2]) if is_centred else float(high[2])
-
-    @property
-    def scale(self) -> float:
-        """Size relative to the usual one."""
-        return self._scale
 
     def parts(self, pose: Pose) -> Sequence[ModelPart]:
         """The shapes at that pose, rigid ones first."""
         if self._articulate is None:
             return list(self._rigid)
         usual = self._at_usual_size(pose)
-        return [*self._rigid, *(_scaled(each, self._scale) for each in self._articulate(usual))]
+        return [*self._rigid, *(_scaled(each, self.scale) for each in self._articulate(usual))]
 
     def anchor(self, name: str, pose: Pose) -> Affine | None:
         """Axes [3, 4] at a named place, m; None = this model names no places."""
@@ -324,20 +298,20 @@ class ArticulatedModel:
         axes = self._anchor(name, self._at_usual_size(pose))
         if axes is None:
             return None
-        return np.column_stack([axes[:, :3], self._scale * axes[:, 3]])
+        return np.column_stack([axes[:, :3], self.scale * axes[:, 3]])
 
     def _at_usual_size(self, pose: Pose) -> Pose:
         """The same instant of a body of the usual size."""
-        if self._scale == 1.0:
+        if self.scale == 1.0:
             return pose
         grips = tuple(
-            (name, (x / self._scale, y / self._scale, z / self._scale))
+            (name, (x / self.scale, y / self.scale, z / self.scale))
             for name, (x, y, z) in pose.grips
         )
         return replace(
             pose,
-            distance_m=pose.distance_m / self._scale,
-            speed_m_s=pose.speed_m_s / self._scale,
+            distance_m=pose.distance_m / self.scale,
+            speed_m_s=pose.speed_m_s / self.scale,
             grips=grips,
         )
 

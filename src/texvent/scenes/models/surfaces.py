@@ -73,7 +73,7 @@ def read_surface(text: str, hues: Mapping[str, Colour]) -> Material:
         shared = shared_surfaces() if hues else {}
         if base not in shared:
             raise ValueError(f"unknown surface {text!r}; known: {', '.join([*hues, *shared])}")
-        return _toned(shared[base], factors)
+        return toned(shared[base], math.prod(map(float, factors)))
     colour, second = read_colour(first, hues), None
     texture, values = Texture.WORN, {"scale": 1.0, "glow": 0.0}
     for word, following in zip(rest, [*rest, ""][1:], strict=True):
@@ -90,11 +90,8 @@ def read_surface(text: str, hues: Mapping[str, Colour]) -> Material:
     return replace(made, emission=values["glow"])
 
 
-def _toned(surface: Material, factors: list[str]) -> Material:
+def toned(surface: Material, factor: float) -> Material:
     """The same surface, darker or lighter."""
-    factor = math.prod(float(one) for one in factors)
-    if factor == 1.0:
-        return surface
     return replace(
         surface,
         colour=shade(surface.colour, factor),

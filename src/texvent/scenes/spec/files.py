@@ -38,21 +38,15 @@ def toml_text(data: Mapping[str, Any]) -> str:
         motions = [{ kind = "drive" }]
         <BLANKLINE>
     """
-    plain = {name: one for name, one in data.items() if not _is_table(one) and not _is_tables(one)}
-    blocks = [_fields(plain)] if plain else []
+    plain, blocks = dict[str, Any](), list[str]()
     for name, one in data.items():
-        if name not in plain:
-            title = f"[{name}]" if _is_table(one) else f"[[{name}]]"
-            blocks += [f"{title}\n{_fields(each)}" for each in ([one] if _is_table(one) else one)]
-    return "\n".join(blocks)
-
-
-def _is_table(value: Any) -> bool:
-    return isinstance(value, Mapping)
-
-
-def _is_tables(value: Any) -> bool:
-    return isinstance(value, list) and all(map(_is_table, value)) and bool(value)
+        if isinstance(one, Mapping):
+            blocks.append(f"[{name}]\n{_fields(one)}")
+        elif isinstance(one, list) and one and all(isinstance(each, Mapping) for each in one):
+            blocks += [f"[[{name}]]\n{_fields(each)}" for each in one]
+        else:
+            plain[name] = one
+    return "\n".join([_fields(plain), *blocks] if plain else blocks)
 
 
 def _fields(table: Mapping[str, Any]) -> str:

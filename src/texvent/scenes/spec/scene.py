@@ -153,6 +153,11 @@ class SceneObject:
     """Heading, degrees anticlockwise seen from above: 0 = right (x), 90 = away (y); it takes the
     place of a motion's direction."""
 
+    @property
+    def motion(self) -> Motion | None:
+        """The first of its motions; None: not stated."""
+        return self.motions[0] if self.motions else None
+
 
 @dataclass(frozen=True)
 class Effect:
@@ -204,6 +209,11 @@ class Camera:
     """Point on the optical axis, m."""
     field_of_view_deg: Annotated[float, Between(1.0, 150.0)] | None = None
     """Horizontal field of view of the lens, degrees."""
+
+    @property
+    def is_moving(self) -> bool:
+        """Whether the camera moves."""
+        return any(move.kind != "static" for move in self.moves)
 
 
 @dataclass(frozen=True)

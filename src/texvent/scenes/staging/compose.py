@@ -136,9 +136,9 @@ def compose_scene(
         f"the {one.noun}'s {motion.kind} after {motion.start_s:g} s "
         f"(the clip ends at {duration_s:g} s)"
         for one in description.objects
-        for motion in left_out([*filter(None, [one.motion]), *one.then], duration_s)
+        for motion in left_out(one.motions, duration_s)
     ]
-    place = description.surroundings.name or "grass"
+    place = description.place.name or "grass"
     levels = _choose_levels(PLACES[place], description, nouns)
     travel = plan_travel(description, place, duration_s)
     placer = ObjectPlacer(
@@ -212,7 +212,7 @@ def _scatter_all(
     """
     said = {*description.absent, *(scene_object.noun for scene_object in description.objects)}
     unsaid = {name: noun for name, noun in nouns.items() if name not in said}
-    surroundings = description.surroundings
+    surroundings = description.place
     place = surroundings.name or "grass"
     rules = [
         rule for rule in PLACES[place].scenery if rule.is_structure or not surroundings.is_empty

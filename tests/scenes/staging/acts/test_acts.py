@@ -6,13 +6,10 @@ import numpy as np
 import pytest
 from tests.scenes.staged import DURATION_S, middle, stage
 
-from texvent.scenes.description import (
-    ObjectMotion,
-    SceneObject,
-)
 from texvent.scenes.models.anchors import top_heights
 from texvent.scenes.models.protocol import Pose
 from texvent.scenes.models.shapes import bounds, moved
+from texvent.scenes.spec.scene import Motion, SceneObject
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.striking import contact_time
 
@@ -20,12 +17,15 @@ CONTACT_M = 0.02
 
 
 def act(kind, *nouns, motion=None, seed=0):
-    objects = [SceneObject(nouns[0], motion=motion), *(SceneObject(noun) for noun in nouns[1:])]
+    objects = [
+        SceneObject(nouns[0], motions=(motion,) if motion else ()),
+        *(SceneObject(noun) for noun in nouns[1:]),
+    ]
     relation = (kind, 0, *range(1, len(nouns)))
     return stage(*objects, relations=(relation,), place=None, seed=seed)
 
 
-WALK_RIGHT = ObjectMotion("walk", "right")
+WALK_RIGHT = Motion("walk", "right")
 SCENES = {
     "kick": ("kick", "man", "football"),
     "throw": ("throw", "woman", "ball"),

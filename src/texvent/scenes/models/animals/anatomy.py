@@ -17,12 +17,11 @@ from texvent.scenes.models.shapes import (
     ball,
     blade,
     limb,
+    mixed,
     moved,
-    part_way,
     rod,
     spike,
-    turn_y,
-    turn_z,
+    turn_about,
 )
 
 LOWEST = -1.15
@@ -44,7 +43,7 @@ def tip(build: Build, stance: Stance, sits: float) -> Affine:
     length, _, height = build.body_size
     hips = (-0.30 * length, 0.0, build.shoulder - 0.5 * height)
     low = lowered_head(build, stance) * (1.0 - sits)
-    return turn_y(_bow(build) * low - _seated_pitch(build) * sits, hips)
+    return turn_about("y", _bow(build) * low - _seated_pitch(build) * sits, hips)
 
 
 def lowered_head(build: Build, stance: Stance) -> float:
@@ -163,11 +162,11 @@ def draw_neck_and_head(
             1.25 * thick if build.neck[0] < 1.2 else thick,
             side_radius=0.34 * width,
         ),
-        limb(coat.limbs, part_way(base, top, 0.5), top, 0.9 * thick, side_radius=0.26 * width),
+        limb(coat.limbs, mixed(base, top, 0.5), top, 0.9 * thick, side_radius=0.26 * width),
     ]
     curled = curled_trunk(stance) if stance.head_down else 0.0
     head = draw_head(build, coat, top, wag, stance, curled)
-    head = moved(head, turn_y(0.75 * down, top)) if down else head
+    head = moved(head, turn_about("y", 0.75 * down, top)) if down else head
     return [*parts, *head, *_mane(build, coat, base, top)]
 
 
@@ -295,7 +294,7 @@ def _mouth(
     hinge = (brow[0], 0.0, brow[2] - 0.10 * skull)
     tip = (nose[0] - 0.04 * skull, 0.0, nose[2] - 0.06 * skull)
     lower = limb(jaw, hinge, tip, 0.13 * skull, side_radius=0.17 * skull)
-    return moved([lower], turn_y(0.75 * stance.gape, hinge))
+    return moved([lower], turn_about("y", 0.75 * stance.gape, hinge))
 
 
 def _ear(build: Build, coat: Coat, at: tuple[Point, float], twitch: float) -> ModelPart:
@@ -308,7 +307,7 @@ def _ear(build: Build, coat: Coat, at: tuple[Point, float], twitch: float) -> Mo
         middle = (x - 0.40 * skull, side * (0.70 + 0.15 * twitch) * skull, z - 0.10 * skull)
         return moved(
             [ball(coat.dark, middle, (0.95 * long, 0.12 * skull, 1.15 * long))],
-            turn_z(-0.7 * side, middle),
+            turn_about("z", -0.7 * side, middle),
         )[0]
     if kind == "round":
         return ball(material, (root[0], root[1], root[2] + 0.05 * skull), (0.5 * long, long, long))

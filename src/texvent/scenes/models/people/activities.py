@@ -193,7 +193,7 @@ def _slope(here: Key, before: Key, after: Key) -> tuple[float, ...]:
 
 @dataclass(frozen=True)
 class Activity:
-    """One activity; its name is an `ObjectMotion.kind`."""
+    """One activity; its name is an `Motion.kind`."""
 
     words: tuple[str, ...] = ()
     """Verb phrases in their base form."""

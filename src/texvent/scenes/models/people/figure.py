@@ -27,8 +27,8 @@ from texvent.scenes.models.shapes import (
     Point,
     ball,
     limb,
+    mixed,
     moved,
-    part_way,
     point,
     rod,
     spike,
@@ -114,8 +114,8 @@ def _torso(kind: PersonKind, outfit: Outfit) -> list[ModelPart]:
 
 def _arm(outfit: Outfit, shoulder: Point, elbow: Point, palm: Point) -> list[ModelPart]:
     """Sleeve, forearm and hand; `palm` is the middle of the palm."""
-    wrist = part_way(elbow, palm, FOREARM / LOWER_ARM)
-    tips = part_way(elbow, palm, 1.16)
+    wrist = mixed(elbow, palm, FOREARM / LOWER_ARM)
+    tips = mixed(elbow, palm, 1.16)
     return [
         limb(outfit.shirt, shoulder, elbow, 0.055),
         limb(outfit.forearms, elbow, wrist, 0.040),

@@ -24,9 +24,7 @@ from texvent.scenes.models.shapes import (
     mixed,
     moved,
     shift,
-    turn_x,
-    turn_y,
-    turn_z,
+    turn_about,
 )
 from texvent.scenes.models.tables import read_table
 from texvent.scenes.scene import Colour
@@ -124,8 +122,8 @@ def _shape_at(pose: Pose) -> HandShape:
 def _turned(shape: HandShape) -> Affine:
     """How the hand turns about the wrist; the forearm stays."""
     wrist: Point = (0.0, 0.0, _WRIST_Z)
-    tilted = compose(turn_x(-shape.roll, wrist), turn_y(shape.pitch, wrist))
-    return compose(tilted, turn_z(shape.yaw, wrist))
+    tilted = compose(turn_about("x", -shape.roll, wrist), turn_about("y", shape.pitch, wrist))
+    return compose(tilted, turn_about("z", shape.yaw, wrist))
 
 
 def _draw_finger(index: int, shape: HandShape, surface: Material) -> list[ModelPart]:

@@ -6,18 +6,12 @@ import itertools
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
-from texvent.scenes.description import (
-    STANDING,
-    ObjectMotion,
-    Relation,
-    SceneDescription,
-    SceneObject,
-)
+from texvent.scenes.description import STANDING, Relation, SceneDescription
 from texvent.scenes.models.people.activities import PERSON_NOUNS
 from texvent.scenes.models.people.outfit import list_props
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import trait_value
-from texvent.scenes.spec.scene import Direction
+from texvent.scenes.spec.scene import Direction, Motion, SceneObject
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.acts import holding, striking
 from texvent.scenes.staging.acts.holding import hides_riders
@@ -91,22 +85,23 @@ def _settle(
     kind: str, subject: SceneObject, target: SceneObject, nouns: Mapping[str, Noun], way: Direction
 ) -> tuple[SceneObject, SceneObject]:
     """Who acts and on what, with the motions that the act leaves them."""
-    motion, still = subject.motion or STANDING, replace(target, motion=None, then=())
+    motion, still = subject.motion or STANDING, replace(target, motions=())
     if kind == "ride":
-        sitting = replace(subject, motion=ObjectMotion("sit"), then=())
+        sitting = replace(subject, motions=(Motion("sit"),))
         return sitting, _give_motion(subject, target, nouns)
     if kind == "collide":
-        return replace(subject, motion=None, then=()), still
+        return replace(subject, motions=()), still
     if kind in SINGLE:
-        return replace(subject, motion=ObjectMotion(kind, way), then=()), still
+        return replace(subject, motions=(Motion(kind, way),)), still
     if kind == "push":
         if motion.kind in ("push", "stand"):
-            subject = replace(subject, motion=ObjectMotion("walk", motion.direction))
+            walk = Motion("walk", motion.direction)
+            subject = replace(subject, motions=(walk, *subject.motions[1:]))
         return subject, still
     if kind == "wear":
         return subject, still
     size = trait_value("carried size", target.noun) or 1.0
-    return subject, replace(still, scale=size * target.scale)
+    return subject, replace(still, size=size * target.size)
 
 
 def _mounted(
@@ -130,8 +125,8 @@ def _implied_acts(objects: Sequence[SceneObject], relations: Sequence[Relation])
     bound = {target for one in relations if one.kind in ACTS for target in one.targets}
     found: list[Relation] = []
     for index, person in enumerate(objects):
-        motions = [person.motion, *person.then] if person.noun in PERSON_NOUNS else []
-        props = [prop for motion in motions if motion for prop in list_props(motion.kind)]
+        motions = person.motions if person.noun in PERSON_NOUNS else ()
+        props = [prop for motion in motions for prop in list_props(motion.kind)]
         for prop in props:
             free = [n for n, one in enumerate(objects) if one.noun in prop.nouns and n not in bound]
             if free and prop.anchor != "ground" and not prop.is_own:
@@ -147,11 +142,12 @@ def _give_motion(rider: SceneObject, ridden: SceneObject, nouns: Mapping[str, No
     if nouns[ridden.noun].habitat == "fixed" or usual == "roll":
         usual = "slide"
     if said is None:
-        return replace(ridden, motion=ObjectMotion(usual))
+        return replace(ridden, motions=(Motion(usual),))
     if said.kind in ("sit", "stand"):
         return ridden
     kind = said.kind if said.kind in ("run", "jump", "turn", "fly", "swim") else usual
-    return replace(ridden, motion=replace(said, kind=kind), then=ridden.then or rider.then)
+    later = ridden.motions[1:] or rider.motions[1:]
+    return replace(ridden, motions=(replace(said, kind=kind), *later))
 
 
 def _choose_way(objects: Sequence[SceneObject], pair: tuple[int, int], seed: int) -> Direction:

@@ -11,7 +11,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from texvent.scenes.models.shapes import bounds, moved, shift
+from texvent.scenes.models.shapes import bounds, moved, point, shift
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.acts.holding import (
@@ -32,7 +32,6 @@ from texvent.scenes.staging.trajectories.trajectory import (
     Vector,
     ahead,
     rotation,
-    vector,
 )
 
 _FLIGHT_M = 2.4
@@ -92,7 +91,7 @@ def throw(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor
 
 def _at(thing: Actor, middle: Float64Array, yaw: float) -> BodyState:
     """The thing with its middle there."""
-    place = vector(middle - [0.0, 0.0, thing.lift_m])
+    place = point(middle - [0.0, 0.0, thing.lift_m])
     return BodyState(place, yaw, pivot_m=thing.lift_m)
 
 
@@ -154,7 +153,7 @@ def _find_contact(mover: Actor, still: Actor, yaw: float, level_m: float) -> Vec
         if box[0][2] < low + mover.model.height and box[1][2] > low and box[0][1] <= y <= box[1][1]
     ] or boxes  # fmt: skip
     x = min(float(box[0][0]) for box in met) - 0.5 * mover.model.length
-    return vector(frame.T @ np.array([x, y, level_m]))
+    return point(frame.T @ np.array([x, y, level_m]))
 
 
 def _run_up(actor: Actor, touching: Vector, yaw: float, contact_s: float) -> SteeredPath:

@@ -9,8 +9,8 @@ from functools import cached_property
 
 import numpy as np
 
-from texvent.scenes.description import CameraMove
 from texvent.scenes.scene import Camera, Float64Array
+from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.framing import Framing, direction, look_at
 from texvent.scenes.staging.trajectories.steered_path import SteeredPath

@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.description import CameraMove, SceneDescription
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.places import PLACES, is_room
 from texvent.scenes.scene import Float64Array, Ground
+from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.actors import Actor, corners_over
 from texvent.scenes.staging.camera.camera_path import CameraPath, Tie
 from texvent.scenes.staging.camera.framing import (
@@ -82,20 +83,20 @@ def place_camera(
     angle where nothing is said.
     """
     shooting = _Shooting(description, actors, place, seed, aspect, duration_s)
-    is_fixed = travel is not None or description.shot.position_m is not None or not actors
+    is_fixed = travel is not None or description.camera.position_m is not None or not actors
     if travel is not None:
         path = _travel(shooting, travel)
-    elif description.shot.position_m is not None:
+    elif description.camera.position_m is not None:
         path = _stand_at(shooting)
     else:
         path = _watch(shooting) if actors else _look_around(shooting)
-    angle_deg = description.shot.field_of_view_deg
+    angle_deg = description.camera.field_of_view_deg
     path = replace(path, framing=seen_through(path.framing, angle_deg, is_fixed=is_fixed))
     if actors and not is_fixed:
         path = _keep_in_view(path, choose_main(description, actors), shooting)
     if travel is not None or not is_room(place):
         return path
-    near = [one for one in actors if description.objects[one.object_index].side != "far"]
+    near = [one for one in actors if description.objects[one.object_index].placement != "far"]
     corners = corners_over(near or actors, shooting.times) if actors else np.zeros((1, 3))
     return path.in_room(corners, shooting.times)
 
@@ -170,7 +171,7 @@ def _runs_into(path: CameraPath, shooting: _Shooting) -> bool:
 def _look_around(shooting: _Shooting) -> CameraPath:
     """A camera in a place where the scene has no object."""
     usual = 0.2 if PLACES[shooting.place].ground is Ground.RIVER else 0.06
-    elevation = ELEVATIONS.get(shooting.description.shot.view or "", usual)
+    elevation = ELEVATIONS.get(shooting.description.camera.view or "", usual)
     distance = 16.0 if elevation < 0.5 else 24.0
     empty = Framing(np.array([0.0, 0.0, 2.0]), 0.0, elevation, distance, 1.0)
     if is_room(shooting.place):
@@ -182,7 +183,7 @@ def _look_around(shooting: _Shooting) -> CameraPath:
 def _stand_at(shooting: _Shooting) -> CameraPath:
     """The camera where metres say; its moves go through that pose at mid clip."""
     description, actors = shooting.description, shooting.actors
-    framing = pose(description.shot.position_m or (), description.shot.look_at_m or ())
+    framing = pose(description.camera.position_m or (), description.camera.look_at_m or ())
     moves = _plan_moves(description, None, shooting.duration_s)
     tie = Tie.of(moves, choose_main(description, actors)) if actors else None
     return CameraPath(framing, moves, shooting.duration_s, tie, has_floor=False)
@@ -206,7 +207,7 @@ def _plan_moves(
     description: SceneDescription, main: Actor | None, duration_s: float
 ) -> tuple[CameraMove, ...]:
     """The moves that are said, each kind once at a time; else the subject is followed if fast."""
-    said = {(one.kind, one.phase): one for one in description.shot.moves}
+    said = {(one.kind, one.phase): one for one in description.camera.moves}
     if main is None or said or not main.is_mover:
         return tuple(said.values())
     has_landmark = any(
@@ -217,6 +218,6 @@ def _plan_moves(
         return ()
     span = max(main.model.length, main.model.height)
     way = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))
-    is_near = description.shot.framing in ("close", "medium")
+    is_near = description.camera.framing in ("close", "medium")
     least = _NEAR_LENGTHS if is_near else _TRACKING_LENGTHS
     return (CameraMove("follow"),) if way > least * span else ()

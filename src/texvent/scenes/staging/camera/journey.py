@@ -9,9 +9,10 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import CameraMove, SceneDescription
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.places import PLACES
 from texvent.scenes.scene import Ground
+from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.camera.camera_path import Journey
 from texvent.scenes.staging.surroundings.environment import RoadLine
 from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
@@ -83,10 +84,10 @@ class TravelPlan:
 
 def plan_travel(description: SceneDescription, place: str, duration_s: float) -> TravelPlan | None:
     """The route of a camera that travels, with the road below it; None where it does not."""
-    moves = [move for move in description.shot.moves if move.kind == "travel"]
+    moves = [move for move in description.camera.moves if move.kind == "travel"]
     if not moves:
         return None
-    ground, view = PLACES[place].ground, description.shot.view
+    ground, view = PLACES[place].ground, description.camera.view
     is_aerial = view in ("aerial", "top")
     usual = _BY_GROUND.get(ground, "walk")
     means = _MEANS[moves[0].means or ("fly" if is_aerial else usual)]
@@ -98,12 +99,12 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     road_half = PLACES[place].road_m if PLACES[place].has_road else 0.0
     is_on_pavement = ground is Ground.CITY and not is_aerial and means.speed_m_s < _ON_FOOT_M_S
     lane = 0.5 * road_half if means.is_on_road else road_half + 1.0 if is_on_pavement else 0.0
-    last = max(move.phase for move in description.shot.moves)
+    last = max(move.phase for move in description.camera.moves)
     phases = [[move for move in moves if move.phase == number] for number in range(last + 1)]
     route, length = _lay_route(phases, speed, duration_s)
     clear = (max(road_half + lane, _LEAST_CLEAR_M), max(road_half - lane, _LEAST_CLEAR_M))
     road = RoadLine(NORTH, (-lane, route.start[1]))
-    if description.surroundings.road == "crossing":
+    if description.place.road == "crossing":
         crossing = (-lane, route.start[1] + 0.6 * length + 4.0, NORTH + 0.5 * math.pi)
         road = replace(road, crossings=(crossing,))
     return TravelPlan(Journey(route, height, pitch, means.step_m), length, clear, road)

@@ -8,11 +8,12 @@ from typing import NamedTuple
 
 import numpy as np
 
-from texvent.scenes.description import CameraMove, SceneDescription
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.anchors import has_places
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.places import is_room
 from texvent.scenes.scene import Float64Array
+from texvent.scenes.spec.scene import CameraMove
 from texvent.scenes.staging.actors import Actor, corners_over, seeded
 from texvent.scenes.staging.camera.camera_path import Tie
 from texvent.scenes.staging.trajectories.trajectory import Stationary
@@ -63,7 +64,7 @@ _HERD, _HERD_ELEVATION = 6, 0.3
 
 def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
     """The object the camera is about: as said, or the first that moves or could."""
-    target = description.shot.target
+    target = description.index(description.camera.target)
     asked = [one for one in actors if target is not None and one.object_index == target]
     able = [one for one in actors if one.is_mover or _is_able(one)]
     return [*asked[:1], *able[:1], actors[0]][0]
@@ -110,7 +111,7 @@ def choose_angles(
         azimuth = math.copysign(_ALONG_IT, math.cos(yaw))
     else:
         azimuth = wander
-    elevation = ELEVATIONS.get(description.shot.view or "")
+    elevation = ELEVATIONS.get(description.camera.view or "")
     if elevation is None:
         elevation = _choose_elevation(main, place, is_in_depth)
         if description.objects[main.object_index].count >= _HERD and elevation > 0.0:
@@ -173,13 +174,13 @@ def list_views(
     moves: Sequence[CameraMove], times: Float64Array,
 ) -> list[View]:  # fmt: skip
     """What the image may hold, from all there is to the subject alone, at instants, s."""
-    shot, tie = description.shot, Tie.of(moves, main)
+    shot, tie = description.camera, Tie.of(moves, main)
     relations = description.relations
     passed = {n for r in relations if r.kind in ("past", "overtake") for n in r.targets}
     first = {one.object_index: one for one in reversed(actors)}
     cut = {n for n, one in first.items() if shot.framing is None and acts_with_arms(one, times)}
     scope = _Scope(main, times, tie, passed, cut)
-    near = [one for one in actors if description.objects[one.object_index].side != "far"]
+    near = [one for one in actors if description.objects[one.object_index].placement != "far"]
     framing = shot.framing
     if framing == "close" or (framing == "medium" and main.noun.name in PERSON_NOUNS):
         boxes = corners_over([main], times if tie is None else times[:1])

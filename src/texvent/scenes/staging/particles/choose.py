@@ -6,9 +6,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.description import Effect, SceneDescription
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.effects import EFFECTS, LAMPS, EmitterStyle
 from texvent.scenes.models.tables import trait_value
+from texvent.scenes.spec.scene import Effect, object_ids
 from texvent.scenes.staging.actors import Actor, seeded
 from texvent.scenes.staging.particles.effect import (
     Setting,
@@ -34,18 +35,19 @@ def stage_effects(description: SceneDescription, setting: Setting) -> Staged:
 
     An effect whose object has several copies is at each of them.
     """
-    weather = description.surroundings.weather
+    weather = description.place.weather
     said = [Effect(weather)] if weather in FALLING else []
     said += description.effects
     named = {(effect.kind, effect.source) for effect in said}
-    for index, one in enumerate(description.objects):
+    for id, one in zip(object_ids(description), description.objects, strict=True):
         kind = trait_value("own effect", one.noun)
-        if kind is not None and one.is_lit is not False and (kind, index) not in named:
-            said.append(Effect(kind, index))
+        if kind is not None and one.is_lit is not False and (kind, id) not in named:
+            said.append(Effect(kind, id))
     effects: list[Emitter] = []
     kinds: list[str] = []
     for number, effect in enumerate(said):
-        copies = [one for one in setting.actors if one.object_index == effect.source]
+        source = description.index(effect.source)
+        copies = [one for one in setting.actors if one.object_index == source]
         for copy, actor in enumerate(copies or [None]):
             rng = seeded(setting.seed, "effect", effect.kind, number, copy)
             effects += _make(effect, actor, setting, rng)
@@ -90,8 +92,8 @@ def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
     """Where an effect comes from."""
     words = EFFECTS[kind]
     if actor is None:
-        size, height, behind = setting.framing.distance_m * np.array(words.alone)
-        target = np.array(setting.framing.target, dtype=np.float64)
+        size, height, behind = setting.camera.framing.distance_m * np.array(words.alone)
+        target = np.array(setting.camera.framing.target, dtype=np.float64)
         target[2] = target[2] + height if height else 0.0
         return Source(float(size), target + behind * setting.away)
     bulk, model, noun = _bulk(actor), actor.model, actor.noun.name

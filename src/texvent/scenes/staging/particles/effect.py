@@ -17,7 +17,6 @@ from texvent.scenes.scene import (
 )
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
-from texvent.scenes.staging.camera.framing import Framing
 
 _NO_GROUND = ("sky", "space", "underwater")
 TINY_M = 5e-6
@@ -35,14 +34,9 @@ class Setting:
     seed: int
 
     @property
-    def framing(self) -> Framing:
-        """What the camera looks at, and from where."""
-        return self.camera.framing
-
-    @property
     def away(self) -> Float64Array:
         """[3] horizontal unit vector away from the camera."""
-        flat = -self.framing.offset * [1.0, 1.0, 0.0]
+        flat = -self.camera.framing.offset * [1.0, 1.0, 0.0]
         return np.asarray(flat / max(float(np.linalg.norm(flat)), 1e-9))
 
     @property

@@ -39,7 +39,7 @@ class RoutePlacer:
         if plan.is_path and not crosses and group.noun.habitat != "fixed":
             return self._place_on_the_way(group, height)
         is_passage = group.noun.name in nouns_with("passage")
-        if not (is_goal or crosses or is_passage or group.scene_object.side == "lane"):
+        if not (is_goal or crosses or is_passage or group.scene_object.placement == "lane"):
             return self._place_beside(group, height)
         along = 0.6 * travel.length_m
         if is_goal or not is_passage:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from texvent.scenes.colours import rgb_of
-from texvent.scenes.description import STANDING, SceneDescription, SceneObject
+from texvent.scenes.description import STANDING, SceneDescription
 from texvent.scenes.models.anchors import find_support
 from texvent.scenes.models.nouns import NOUNS
 from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
@@ -20,6 +20,7 @@ from texvent.scenes.models.protocol import Model, Noun, Pose
 from texvent.scenes.models.shapes import bounds, moved
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
+from texvent.scenes.spec.scene import SceneObject
 from texvent.scenes.staging.actors import is_centred, size_of
 from texvent.scenes.staging.trajectories.choose_trajectory import ORBIT_SIZES
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
@@ -256,7 +257,7 @@ def choose_props(description: SceneDescription, group: ObjectGroup) -> tuple[Pro
     if group.noun.name not in PERSON_NOUNS:
         return ()
     shown = {scene_object.noun for scene_object in description.objects}
-    said = (group.scene_object.motion or STANDING, *group.scene_object.then)
+    said = group.scene_object.motions or (STANDING,)
     kinds = dict.fromkeys(motion.kind for motion in said)
     size = size_of(group.models[0])
     props = [prop for kind in kinds for prop in list_props(kind, size)]

@@ -12,6 +12,7 @@ from texvent.scenes.colours import rgb_of
 from texvent.scenes.description import STANDING, Relation, SceneDescription
 from texvent.scenes.models.materials import in_material
 from texvent.scenes.models.protocol import Model, Noun
+from texvent.scenes.models.shapes import point
 from texvent.scenes.pictures import PicturedModel, can_show
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.staging.actors import Actor, is_centred, lowest_point, seeded
@@ -42,7 +43,7 @@ from texvent.scenes.staging.trajectories.choose_trajectory import (
     orbit,
 )
 from texvent.scenes.staging.trajectories.motion_plan import plan_motion
-from texvent.scenes.staging.trajectories.trajectory import Attached, Trajectory, Vector, vector
+from texvent.scenes.staging.trajectories.trajectory import Attached, Trajectory, Vector
 
 _MUCH_LARGER = 1.3
 """Beside what is so many times larger, a thing stands nearer to the camera, else further away."""
@@ -95,7 +96,7 @@ class ObjectPlacer:
         colour = rgb_of(scene_object.colour)
         models: list[Model] = [
             in_material(
-                noun.build(colour=colour, scale=scene_object.scale, seed=int(rng.integers(2**31))),
+                noun.build(colour=colour, scale=scene_object.size, seed=int(rng.integers(2**31))),
                 scene_object.material,
                 colour,
             )
@@ -103,7 +104,7 @@ class ObjectPlacer:
         ]
         if scene_object.picture is not None and can_show(noun.name):
             models = [PicturedModel(one, noun.name, scene_object.picture) for one in models]
-        motions = (scene_object.motion or STANDING, *scene_object.then)
+        motions = scene_object.motions or (STANDING,)
         plan = plan_motion(motions, noun, models[0], self._duration_s, rng)
         if scene_object.heading_deg is not None:
             plan = plan.turned(math.radians(scene_object.heading_deg))
@@ -162,7 +163,8 @@ class ObjectPlacer:
                 goal = place_by_subject(group, relation.kind, subject, height)
                 return place_at_distance(goal, relation, subject, -1.0)
         if self._along is not None:
-            is_goal = self._description.shot.target == group.index
+            scene = self._description
+            is_goal = scene.index(scene.camera.target) == group.index
             return Goal(self._along.place(group, height, is_goal=is_goal), np.zeros(3))
         return self._choose_free_goal(group, height)
 
@@ -177,7 +179,7 @@ class ObjectPlacer:
 
     def _choose_free_goal(self, group: ObjectGroup, height: float) -> Goal:
         """In the middle, or at the side of the image that the scene says."""
-        side = group.scene_object.side or ""
+        side = group.scene_object.placement or ""
         offset = _SIDES.get(side, 0.0) * 2.0 * group.size_m
         offset += self._spread_apart(group) + self._stagger(group)
         depth = {"far": 2.2 * group.size_m + 6.0, "near": -1.2 * group.size_m}.get(side, 0.0)
@@ -255,7 +257,7 @@ class ObjectPlacer:
         """The copies of a group on their trajectories."""
         rng = seeded(self._seed, "lead", group.index, group.noun.name)
         actors = []
-        said = (group.plan.motion, *group.scene_object.then)
+        said = (group.plan.motion, *group.scene_object.motions[1:])
         for number, (model, offset) in enumerate(zip(group.models, group.offsets, strict=True)):
             x, y, z = group.centre + np.array(offset)
             trajectory = self._choose(group, model, (x, y, z), number, rng)
@@ -289,7 +291,7 @@ class ObjectPlacer:
     def _ride_on(self, group: ObjectGroup, below: ObjectGroup, home: Vector) -> Trajectory:
         """On what carries it, which moves as a whole."""
         rng = seeded(self._seed, "lead", below.index, below.noun.name)
-        carrier = self._choose(below, below.models[0], vector(below.centre), 0, rng)
+        carrier = self._choose(below, below.models[0], point(below.centre), 0, rng)
         (x, y, z), yaw = np.array(home) - below.centre, below.plan.yaw
         cosine, sine = math.cos(yaw), math.sin(yaw)
         place = (x * cosine + y * sine, y * cosine - x * sine, z)

@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.scenes.colours import rgb_of
 from texvent.scenes.defaults import NO_PLACE
-from texvent.scenes.description import SceneDescription, Surroundings
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.materials import mix
 from texvent.scenes.models.places import Place
 from texvent.scenes.models.tables import nouns_with
@@ -23,6 +23,7 @@ from texvent.scenes.scene import (
     Ground,
     Texture,
 )
+from texvent.scenes.spec.scene import Place as Surroundings
 from texvent.scenes.staging.actors import Actor
 from texvent.scenes.staging.camera.camera_path import CameraPath
 from texvent.scenes.staging.surroundings.lighting import (
@@ -84,10 +85,10 @@ def find_road(
     """The road along the path of the first object on the ground that moves, or at `usual_y`, m."""
     lane_m = 0.5 * place.road_m
     has_pavement = place.ground is Ground.CITY and all(
-        one.side != "lane" for one in description.objects
+        one.placement != "lane" for one in description.objects
     )
     road = _straight_road(actors, usual_y, lane_m, has_pavement=has_pavement)
-    if description.surroundings.road == "crossing" and not road.crossings:
+    if description.place.road == "crossing" and not road.crossings:
         x, y, angle = road.at(_CROSSING_AHEAD_M)
         return replace(road, crossings=((x, y, angle + 0.5 * math.pi),))
     return road
@@ -214,7 +215,7 @@ class AnimatedEnvironment:
     base: Environment
     flicker_hz: float | None
     wave: str = "sine"
-    """As `Illumination.wave`."""
+    """As `Light.wave`."""
     time_scale: float = 1.0
     """How much faster than in life clouds and waves go."""
 
@@ -239,7 +240,7 @@ class AnimatedEnvironment:
 def contrasting(place: Place, description: SceneDescription, actors: Sequence[Actor]) -> Place:
     """The place, dark where it is an open backdrop too near in brightness to an object."""
     is_open = any(one.startswith(NO_PLACE) for one in description.notes)
-    if not (is_open and place.is_backdrop and actors) or description.surroundings.colour:
+    if not (is_open and place.is_backdrop and actors) or description.place.colour:
         return place
     first, second = place.colours
     dark = (mix(_BLACK, first, _DARKER), mix(_BLACK, second, _DARKER))
@@ -267,7 +268,7 @@ def build_environment(
     Fog is scaled to the distance of the camera from what it looks at; `room_m` is half the side of
     the room, where the place is one.
     """
-    lighting, said = choose_lighting(place, description.light), description.surroundings
+    lighting, said = choose_lighting(place, description.light), description.place
     colour, second = _ground_colours(place, said)
     sky_top, horizon = _sky_colours(place, lighting, said)
     fog_distance, fog_colour = _choose_fog(place, said.weather, horizon, distance_m)
@@ -310,7 +311,7 @@ def _ground_under(description: SceneDescription, place: Place) -> Ground:
     """The ground; none under flat patterns before a backdrop."""
     nouns = {one.noun for one in description.objects}
     is_flat = bool(nouns) and nouns <= nouns_with("flat pattern")
-    is_bare = place.is_backdrop and description.surroundings.sky is None
+    is_bare = place.is_backdrop and description.place.sky is None
     return Ground.NONE if is_flat and is_bare else place.ground
 
 
@@ -325,7 +326,7 @@ def _sky_colours(place: Place, lighting: Lighting, said: Surroundings) -> tuple[
 
 def _cloud_share(description: SceneDescription, place: Place, lighting: Lighting) -> float:
     """Share of the sky that clouds cover."""
-    said = description.surroundings
+    said = description.place
     usual = 0.0 if place.is_backdrop and said.sky is None else lighting.clouds
     least = [usual if said.clouds is None else said.clouds]
     least += [0.5] * description.is_timelapse

@@ -9,11 +9,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from texvent.scenes.colours import rgb_of
-from texvent.scenes.description import SceneDescription, SceneLamp
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.effects import LAMPS, Lamp, lamp_of
 from texvent.scenes.models.places import Place
 from texvent.scenes.models.protocol import ModelPart, fraction
+from texvent.scenes.models.shapes import rotation
 from texvent.scenes.scene import LAMP_COLUMNS, Float64Array, Ground
+from texvent.scenes.spec.scene import Lamp as SceneLamp
 from texvent.scenes.staging.actors import Actor, PlacedModel
 from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.surroundings.lighting import (
@@ -145,8 +147,7 @@ def lamp_row(
     if lamp.direction is not None:
         beam = np.array(lamp.direction) / np.linalg.norm(lamp.direction)
         angle = 2.0 * math.pi * lamp.turns_hz * time_s
-        cosine, sine = math.cos(angle), math.sin(angle)
-        beam = np.array([[cosine, -sine, 0.0], [sine, cosine, 0.0], [0.0, 0.0, 1.0]]) @ beam
+        beam = rotation("z", angle) @ beam
         centre += beam * np.abs(beam @ part.to_body[:, :3]).max()
         row[7:10] = to_world[:, :3] @ beam
         row[7:10] /= np.linalg.norm(row[7:10])
@@ -263,7 +264,7 @@ def _still_lamps(items: Sequence[SceneryItem], strength: float) -> list[Float64A
     for item in items if strength > 0.0 else ():
         placed = item.place()
         for part in placed.parts:
-            lamp = lamp_of(item.noun, part.colour) if part.emission > 0.0 else None
+            lamp = lamp_of(item.rule.noun, part.colour) if part.emission > 0.0 else None
             if lamp is not None and not lamp.hue:
                 rows.append(lamp_row(lamp, part, placed.to_world, strength))
     return rows

@@ -7,9 +7,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.description import Illumination
 from texvent.scenes.models.places import Place
 from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Ground
+from texvent.scenes.spec.scene import Light
 
 _WARM: Colour = (1.0, 0.72, 0.40)
 _LAMP_OFFSET = np.array([-0.25, -0.25, 0.55])
@@ -83,7 +83,7 @@ _DAYLIGHTS = {"room": _ROOM, "underwater": _UNDERWATER, "space": _SPACE}
 _DARK = ("night", "moonlight", "lamp")
 
 
-def choose_lighting(place: Place, light: Illumination) -> Lighting:
+def choose_lighting(place: Place, light: Light) -> Lighting:
     """The lighting of a place at a time of day, or under another light of `LIGHTINGS`."""
     kind = light.kind or "day"
     if place.light == "underwater":

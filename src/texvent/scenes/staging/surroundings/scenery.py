@@ -66,11 +66,6 @@ class SceneryItem:
     """Of its origin, m."""
 
     @property
-    def noun(self) -> str:
-        """What it is."""
-        return self.rule.noun
-
-    @property
     def is_flat(self) -> bool:
         """Whether others may stand on it: paint on the ground."""
         return self.rule.where == "under"

@@ -12,6 +12,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from texvent.scenes.models.shapes import point
 from texvent.scenes.staging.trajectories.trajectory import (
     BodyState,
     Trajectory,
@@ -67,8 +68,8 @@ class Oscillating:
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         state = self.path.at(time_s)
-        (x, y, z), (yaw, pitch, roll) = state.position, _angles(state)
-        values = {"x": x, "y": y, "z": z, "yaw": yaw, "pitch": pitch, "roll": roll}
+        values = dict(zip("xyz", state.position, strict=True))
+        values |= {"yaw": state.yaw, "pitch": state.pitch, "roll": state.roll}
         for wave in self.waves:
             angle = 2.0 * math.pi * wave.rate_hz * time_s + wave.phase
             values[wave.axis] += wave.amplitude * math.sin(angle)
@@ -144,13 +145,9 @@ def bounce_height(drop_m: float, up_m_s: float, restitution: float, elapsed_s: f
     return max(speed * into - 0.5 * GRAVITY_M_S2 * into**2, 0.0)
 
 
-def _angles(state: BodyState) -> Vector:
-    return (state.yaw, state.pitch, state.roll)
-
-
 def about_pivot(state: BodyState, pivot_m: float) -> BodyState:
     """The same body in the same place, said by a point so high above its origin."""
     pivot = np.array([0.0, 0.0, pivot_m])
     turn = rotation(state.yaw, state.pitch, state.roll)
-    x, y, z = state.to_world()[:, 3] + turn @ pivot - pivot
-    return replace(state, position=(float(x), float(y), float(z)), pivot_m=pivot_m)
+    position = point(state.to_world()[:, 3] + turn @ pivot - pivot)
+    return replace(state, position=position, pivot_m=pivot_m)

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.description import ObjectMotion
 from texvent.scenes.models.people.activities import (
     ACTIVITIES,
     HAND_GESTURES,
@@ -18,6 +17,7 @@ from texvent.scenes.models.people.activities import (
 )
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.tables import nouns_with, trait_value
+from texvent.scenes.spec.scene import Motion
 from texvent.scenes.staging.trajectories.action_trajectories import Axis
 from texvent.scenes.staging.trajectories.phases import (
     GOING,
@@ -47,7 +47,7 @@ second is for what slides: a board, a mirror."""
 class MotionPlan:
     """What an object's motion comes to: heading, speed, and how much room it takes."""
 
-    motion: ObjectMotion
+    motion: Motion
     yaw: float
     speed_m_s: float
     duration_s: float
@@ -89,7 +89,7 @@ class MotionPlan:
 
 
 def plan_motion(
-    motions: Sequence[ObjectMotion],
+    motions: Sequence[Motion],
     noun: Noun,
     model: Model,
     duration_s: float,
@@ -122,7 +122,7 @@ def plan_motion(
     return replace(plan, speed_m_s=speed * pace, gesture=choose_gesture(noun, motion))
 
 
-def _as_it_does(noun: Noun, motion: ObjectMotion) -> ObjectMotion:
+def _as_it_does(noun: Noun, motion: Motion) -> Motion:
     """What rotates spins, but for a hand at its wrist; what stands on a small foot falls over."""
     if motion.kind == "rotate" and noun.name not in HAND_NOUNS:
         return replace(motion, kind="spin")
@@ -130,7 +130,7 @@ def _as_it_does(noun: Noun, motion: ObjectMotion) -> ObjectMotion:
     return replace(motion, kind="topple") if is_falling_over else motion
 
 
-def _choose_yaw(motions: Sequence[ObjectMotion], noun: Noun, model: Model, toss: float) -> float:
+def _choose_yaw(motions: Sequence[Motion], noun: Noun, model: Model, toss: float) -> float:
     motion, default = motions[0], YAWS["left" if toss < 0.5 else "right"]
     later = (m.direction for m in motions if m.kind in PATH_KINDS and m.direction in YAWS)
     direction = motion.direction or next(later, None) or ""
@@ -147,7 +147,7 @@ def _choose_yaw(motions: Sequence[ObjectMotion], noun: Noun, model: Model, toss:
     return YAWS.get(direction, default)
 
 
-def _faces_camera(noun: Noun, model: Model, motion: ObjectMotion) -> bool:
+def _faces_camera(noun: Noun, model: Model, motion: Motion) -> bool:
     """Whether it shows its front while it goes or spins: a board slides so, a shape always."""
     if noun.name in nouns_with("flat pattern"):
         return motion.kind in PATH_KINDS | {"orbit", "spin", "rise", "sink"}
@@ -157,7 +157,7 @@ def _faces_camera(noun: Noun, model: Model, motion: ObjectMotion) -> bool:
     return noun.habitat == "fixed" and is_wide and motion.kind == "slide"
 
 
-def choose_gesture(noun: Noun, motion: ObjectMotion) -> str | None:
+def choose_gesture(noun: Noun, motion: Motion) -> str | None:
     """The activity of a person or hand that stays in its place; None = it is no such thing."""
     kinds = {**dict.fromkeys(PERSON_NOUNS, ACTIVITIES), **dict.fromkeys(HAND_NOUNS, HAND_GESTURES)}
     known = kinds.get(noun.name)
@@ -171,7 +171,7 @@ def choose_gesture(noun: Noun, motion: ObjectMotion) -> str | None:
     return motion.kind if motion.kind in known else None
 
 
-def _is_seen_from_front(noun: Noun, motion: ObjectMotion) -> bool:
+def _is_seen_from_front(noun: Noun, motion: Motion) -> bool:
     """Whether its direction says which hand, or where it leans, not which way the body faces."""
     if motion.kind in ("sway", "work"):
         return True
@@ -179,7 +179,7 @@ def _is_seen_from_front(noun: Noun, motion: ObjectMotion) -> bool:
     return gesture is not None and not (gesture in ACTIVITIES and ACTIVITIES[gesture].is_sideways)
 
 
-def _choose_speed(motions: Sequence[ObjectMotion], noun: Noun, model: Model) -> float:
+def _choose_speed(motions: Sequence[Motion], noun: Noun, model: Model) -> float:
     """Speed at pace 1, or as stated, m/s."""
     motion = motions[0]
     stated = next((m.speed_m_s for m in motions if m.speed_m_s is not None), None)
@@ -198,7 +198,7 @@ def _choose_speed(motions: Sequence[ObjectMotion], noun: Noun, model: Model) -> 
     return min(speed, most * size)
 
 
-def _face_camera(noun: Noun, model: Model, motion: ObjectMotion, toss: float) -> float:
+def _face_camera(noun: Noun, model: Model, motion: Motion, toss: float) -> float:
     """Heading of what stays in place: animals from the side, the rest facing the camera.
 
     Fronts are at +x. Flat objects turn it to the camera; others stand at an angle to it.

@@ -8,10 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from texvent.scenes.description import SPIN_RATE_HZ, STANDING, ObjectMotion
+from texvent.scenes.description import SPIN_RATE_HZ, STANDING
 from texvent.scenes.models.people.activities import ON_GROUND, PERSON_NOUNS, TRAVELLING
 from texvent.scenes.models.protocol import Model, Noun
 from texvent.scenes.models.tables import nouns_with
+from texvent.scenes.spec.scene import Motion
 from texvent.scenes.staging.trajectories.steered_path import (
     HOP_PAUSE_S,
     Piece,
@@ -61,7 +62,7 @@ _REACHED = {"sit down": "sit", "stand up": "stand"}
 class Phase:
     """One motion and when it happens, s."""
 
-    motion: ObjectMotion
+    motion: Motion
     start_s: float
     end_s: float
 
@@ -71,7 +72,7 @@ class Phase:
         return self.end_s - self.start_s
 
 
-def schedule(motions: Sequence[ObjectMotion], duration_s: float) -> list[Phase]:
+def schedule(motions: Sequence[Motion], duration_s: float) -> list[Phase]:
     """When each motion happens: where the prompt says so, else in even shares of the time.
 
     Motions that would begin at the end of the clip or later are left out.
@@ -93,12 +94,12 @@ def schedule(motions: Sequence[ObjectMotion], duration_s: float) -> list[Phase]:
     return [phase for phase in shown if phase.duration_s > 1e-6 * duration_s]
 
 
-def left_out(motions: Sequence[ObjectMotion], duration_s: float) -> list[ObjectMotion]:
+def left_out(motions: Sequence[Motion], duration_s: float) -> list[Motion]:
     """Motions that would begin when the clip is over."""
     return [m for m in motions if m.start_s is not None and m.start_s >= duration_s]
 
 
-def needs_steering(motions: Sequence[ObjectMotion]) -> bool:
+def needs_steering(motions: Sequence[Motion]) -> bool:
     """Whether these motions are a path of pieces, not one simple movement."""
     first = motions[0]
     return (
@@ -117,7 +118,7 @@ def least_radius(model: Model, noun: Noun) -> float:
 
 
 def build_path(
-    motions: Sequence[ObjectMotion],
+    motions: Sequence[Motion],
     noun: Noun,
     model: Model,
     *,
@@ -217,7 +218,7 @@ class _Builder:
         self._height += piece.climb_m_s * span
         self.pieces.append(piece)
 
-    def _speed(self, motion: ObjectMotion) -> float:
+    def _speed(self, motion: Motion) -> float:
         """Signed speed at the beginning of a motion, m/s."""
         speed = self._usual * motion.pace if motion.speed_m_s is None else motion.speed_m_s
         if motion.kind == "turn" and not self._is_mobile:
@@ -225,14 +226,14 @@ class _Builder:
         is_back = motion.direction == "backward" or motion.kind == "reverse"
         return -speed if is_back else speed
 
-    def _end_speed(self, motion: ObjectMotion, speed: float) -> float | None:
+    def _end_speed(self, motion: Motion, speed: float) -> float | None:
         if motion.end_pace is None:
             return None
         if motion.speed_m_s is not None:
             return speed * motion.end_pace / max(motion.pace, 1e-6)
         return math.copysign(self._usual * motion.end_pace, speed)
 
-    def _travel(self, motion: ObjectMotion, span: float) -> None:
+    def _travel(self, motion: Motion, span: float) -> None:
         """Along segments, straight or turning, at the end of which it may change its speed."""
         speed, activity = self._speed(motion), activity_of(motion.kind)
         end = self._end_speed(motion, speed)
@@ -258,7 +259,7 @@ class _Builder:
             rest_s = (1.0 - lead) * last_s
             self._append(Piece(rest_s, end, 0.0, climb, ramp * last_s, activity))
 
-    def _choose_segments(self, motion: ObjectMotion) -> list[tuple[float, float]]:
+    def _choose_segments(self, motion: Motion) -> list[tuple[float, float]]:
         """Shares of the time, and by what angle each one turns, rad."""
         direction = motion.direction or ""
         angle = math.pi if direction == "around" else QUARTER
@@ -274,7 +275,7 @@ class _Builder:
             return [(1.0, 0.0)]
         return [(_HEADING_SHARE, turn), (1.0 - _HEADING_SHARE, 0.0)]
 
-    def _climb(self, motion: ObjectMotion, span: float) -> None:
+    def _climb(self, motion: Motion, span: float) -> None:
         """Straight up or down; from a runway, along it first, or last."""
         is_up = motion.kind == "rise"
         if self._is_single and self._noun.name in nouns_with("takes off"):
@@ -298,7 +299,7 @@ class _Builder:
         ramp, factor = (span, 2.0) if is_slow else (min(0.6, 0.6 * span), 1.0)
         self._append(Piece(span, climb_m_s=factor * climb, ramp_s=ramp))
 
-    def _hop(self, motion: ObjectMotion, span: float) -> None:
+    def _hop(self, motion: Motion, span: float) -> None:
         """Jump or bounce."""
         model, speed = self._model, self._last.speed_m_s
         height = max(1.5 * model.height, 0.4)
@@ -325,7 +326,7 @@ class _Builder:
         self._append(piece)
         self._height = 0.0
 
-    def _rest(self, motion: ObjectMotion, span: float) -> None:
+    def _rest(self, motion: Motion, span: float) -> None:
         """Come to rest, and act in place."""
         last = self._last
         activity = "stand" if motion.kind in ("stand", "hover", "work") else motion.kind

@@ -10,12 +10,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from functools import partial
 from typing import Protocol
 
 import numpy as np
 
-from texvent.scenes.models.shapes import compose, shift
+from texvent.scenes.models.shapes import compose, point, shift
+from texvent.scenes.models.shapes import rotation as about
 from texvent.scenes.scene import Float64Array
 
 Vector = tuple[float, float, float]
@@ -57,11 +57,6 @@ class BodyState:
         return np.column_stack([turn, offset])
 
 
-def vector(values: Float64Array) -> Vector:
-    """Three numbers of an array as a tuple of floats."""
-    return (float(values[0]), float(values[1]), float(values[2]))
-
-
 def ahead(home: Vector, yaw: float, along_m: float, height_m: float) -> Vector:
     """The point `along_m` from `home` along a heading, at a height, m."""
     x, y, _ = home
@@ -75,13 +70,7 @@ def rotation(yaw: float, pitch: float, roll: float) -> Float64Array:
         >>> rotation(math.pi / 2, 0.0, 0.0).round(6).tolist()[1]
         [1.0, 0.0, 0.0]
     """
-    cy, sy = math.cos(yaw), math.sin(yaw)
-    cp, sp = math.cos(pitch), math.sin(pitch)
-    cr, sr = math.cos(roll), math.sin(roll)
-    about_z = np.array([[cy, -sy, 0.0], [sy, cy, 0.0], [0.0, 0.0, 1.0]])
-    about_y = np.array([[cp, 0.0, sp], [0.0, 1.0, 0.0], [-sp, 0.0, cp]])
-    about_x = np.array([[1.0, 0.0, 0.0], [0.0, cr, -sr], [0.0, sr, cr]])
-    return np.asarray(about_z @ about_y @ about_x)
+    return np.asarray(about("z", yaw) @ about("y", pitch) @ about("x", roll))
 
 
 def state_of(to_world: Float64Array) -> BodyState:
@@ -89,8 +78,7 @@ def state_of(to_world: Float64Array) -> BodyState:
     pitch = math.asin(min(max(-float(to_world[2, 0]), -1.0), 1.0))
     yaw = math.atan2(float(to_world[1, 0]), float(to_world[0, 0]))
     roll = math.atan2(float(to_world[2, 1]), float(to_world[2, 2]))
-    x, y, z = (float(value) for value in to_world[:, 3])
-    return BodyState((x, y, z), yaw, pitch, roll, activity="stand")
+    return BodyState(point(to_world[:, 3]), yaw, pitch, roll, activity="stand")
 
 
 class Trajectory(Protocol):
@@ -256,7 +244,7 @@ class Attached:
     @classmethod
     def seated(cls, carrier: Trajectory, seat: Vector, activity: str) -> Attached:
         """At a fixed place in the carrier's body coordinates, m."""
-        return cls(carrier, partial(_body_axes, carrier), shift(*seat), activity)
+        return cls(carrier, lambda time_s: carrier.at(time_s).to_world(), shift(*seat), activity)
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
@@ -267,10 +255,6 @@ class Attached:
             speed_m_s=below.speed_m_s,
             activity=self.activity,
         )
-
-
-def _body_axes(path: Trajectory, time_s: float) -> Float64Array:
-    return path.at(time_s).to_world()
 
 
 @dataclass(frozen=True)
