@@ -10,8 +10,7 @@ from fractions import Fraction
 from typing import Any, Literal
 
 from texvent.errors import ConfigError
-from texvent.options.fields import option_help, option_names
-from texvent.options.values import with_options
+from texvent.options.values import option_help, option_names, with_options
 
 Widget = tuple[Any, dict[str, Any]]
 """Type of an input, or its choices; and what ComfyUI's page knows of it."""

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from typing import Annotated, Any, Literal, get_args, get_origin
 
-from texvent.options.fields import option_help
+from texvent.options.values import option_help
 from texvent.scenes.spec import scene as spec
 from texvent.scenes.spec.data import field_types, inner_type
 from texvent.scenes.spec.limits import Between

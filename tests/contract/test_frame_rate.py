@@ -15,7 +15,7 @@ import pytest
 
 import texvent
 from texvent._registry import SIMULATORS
-from texvent.options.fields import option_names
+from texvent.options.values import option_names
 from texvent.settings.presets import frame_bound_presets
 
 RATES = (30, 60, 240, 960)

@@ -11,7 +11,7 @@ from texvent.api import generate, simulate, video
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
 from texvent.generate.video_config import DiffusersConfig
 from texvent.options import keywords
-from texvent.options.fields import option_names
+from texvent.options.values import option_names
 
 SIMULATOR_CONFIGS = [SIMULATORS.load(name).config_type for name in SIMULATORS.builtin]
 GENERATOR_CONFIGS = [GENERATORS.load(name).config_type for name in GENERATORS.builtin]

@@ -156,7 +156,7 @@ def test_a_share_of_the_machines_memory_is_usable():
 
 MEASURE = """
 import sys, numpy as np, texvent
-from texvent.runtime.allocator import release_freed_memory
+from texvent.runtime.memory import release_freed_memory
 def clip(side):
     y, x = np.mgrid[:side, :side]
     return np.stack([(127 + 100 * np.sin((x + 3 * k) / 9) * np.cos(y / 13)).astype(np.uint8)

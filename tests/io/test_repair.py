@@ -123,3 +123,14 @@ def test_columns_are_sorted_where_asked_for() -> None:
         [1, 2, 3], [0, 0, 0], [9, 5, 9], [1, 0, 0], size=SIZE, sort=True
     )
     assert (events.x.tolist(), events.t.tolist()) == ([2, 1, 3], [5, 9, 9])
+
+
+def test_rows_that_are_no_events_are_dropped_and_counted(tmp_path: Path) -> None:
+    path = tmp_path / "e.csv"
+    path.write_text("t,x,y,p\n1,1,1,1\nnan,2,2,0\nt,x,y,p\n5,3,3,0\n9,4\n")
+    with pytest.warns(TexventWarning, match="unreadable rows: 3"):
+        events = load(path, size=SIZE, repair=True, time_unit="us")
+    assert events.t.tolist() == [1, 5]
+    path.write_text("a;b;c;d\n" * 3)
+    with pytest.raises(FileFormatError):
+        load(path, size=SIZE, repair=True, columns="t,x,y,p")

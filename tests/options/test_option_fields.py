@@ -6,7 +6,7 @@ import pytest
 
 from texvent._registry import SIMULATORS
 from texvent.config import CaptureConfig, InterpolateConfig, RunConfig
-from texvent.options.fields import option_help, option_names
+from texvent.options.values import option_help, option_names
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -15,7 +15,7 @@ import numpy as np
 from texvent._registry import SIMULATORS
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.intensity_scale import float_levels
-from texvent.options.fields import option_names
+from texvent.options.values import option_names
 from texvent.transfer import WHITE, Transfer, encode_srgb
 from texvent.video import Frame, FrameStream, transfer_of
 

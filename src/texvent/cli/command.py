@@ -13,7 +13,7 @@ from texvent.cli.outputs import OutputOptions
 from texvent.errors import ConfigError
 from texvent.generate.scene_input import Subject, check_words
 from texvent.io.atomic import protect_inputs
-from texvent.options.fields import option_names
+from texvent.options.values import option_names
 from texvent.scenes.spec.files import is_scene_file, load_scene
 from texvent.settings.config_files import Command
 from texvent.settings.presets import preset_help

@@ -7,8 +7,7 @@ import typing
 from collections.abc import Iterator
 from typing import Any, Literal, NamedTuple
 
-from texvent.options.fields import option_help, option_names
-from texvent.options.values import SCALARS
+from texvent.options.values import SCALARS, option_help, option_names
 
 
 class _Required:

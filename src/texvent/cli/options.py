@@ -14,8 +14,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED, Option, declared_options, flag_of
 from texvent.errors import ConfigError, shown
 from texvent.io.atomic import protect_inputs
-from texvent.options.fields import option_names
-from texvent.options.values import SCALARS
+from texvent.options.values import SCALARS, option_names
 
 LONGEST_HELP = 120
 """Characters of an option's help that an error repeats."""

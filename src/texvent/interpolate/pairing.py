@@ -17,7 +17,7 @@ from texvent.pairs.frame_pair import (
 )
 from texvent.pairs.instants import intermediate_times_us
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
-from texvent.runtime.allocator import release_freed_memory
+from texvent.runtime.memory import release_freed_memory
 from texvent.runtime.prefetch import prefetch
 from texvent.video import Frame, FrameStream, MovingStream, StreamChecker
 

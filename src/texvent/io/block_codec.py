@@ -11,7 +11,7 @@ from abc import ABC, abstractmethod
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager, nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar, TypeAlias
@@ -65,6 +65,8 @@ class FileContents:
     """Gives columns x, y, t, p, and label if known, block by block, from the start at each call."""
     seek: TimeSeek | None = None
     """For files that can find a time."""
+    left_out: list[int] = field(default_factory=list)
+    """Receives how many rows could not be read, where that is repaired."""
 
 
 class BlockReader(ABC):
@@ -224,12 +226,17 @@ class BlockPackets:
 def _repaired(path: Path, contents: FileContents, size: SensorSize) -> EventPackets:
     """Events of a damaged file; one pass counts what is repaired.
 
+    Raises:
+        FileFormatError: nothing of it can be read.
+
     Warns:
         TexventWarning: how much was repaired.
     """
     counts = RepairCounts()
-    for _ in repair_blocks(contents.blocks(), size, counts):
-        pass
+    kept = sum(len(block["t"]) for block in repair_blocks(contents.blocks(), size, counts))
+    if counts.cut_off and not kept:
+        raise FileFormatError(counts.cut_off)
+    counts.unreadable_rows = sum(contents.left_out)
     counts.cut_off = counts.cut_off.removeprefix(f"{path} ").removeprefix(f"{path}: ")
     facts = counts.facts()
     if facts:

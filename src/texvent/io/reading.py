@@ -24,6 +24,8 @@ LARGEST_FLOAT = 1 << 51
 LEAST_HZ, LEAST_EVENTS = 5, 20
 """So many events at a lower mean rate are no recording in this unit: a quiet sensor gives more."""
 LIKELY_HZ = 10
+LATEST_GUESSED_US = 1 << 52
+"""Later times since 1970 (142 years) are none of this unit."""
 SAMPLE_TIMES = 4096
 
 
@@ -104,6 +106,14 @@ def unit_in_name(name: str) -> tuple[str, TimeUnit | None]:
     return match[1], units.get(match[2], "ns")
 
 
+def unit_in_words(word: object) -> TimeUnit | None:
+    """Unit of an attribute: "ns", "microseconds", b"s" and the like; None of others."""
+    text = word.decode("latin-1") if isinstance(word, bytes) else str(word)
+    prefixes = {"nanosec": "ns", "microsec": "us", "millisec": "ms", "second": "s"}
+    long = next((unit for start, unit in prefixes.items() if text.lower().startswith(start)), text)
+    return unit_in_name(f"t_{long}")[1]
+
+
 def guess_unit(times: NDArray[Any]) -> TimeUnit:
     """Unit of times whose file does not state it: µs of whole numbers, s of fractions."""
     sample = times[:SAMPLE_TIMES]
@@ -131,28 +141,30 @@ def to_microseconds(path: Path, times: NDArray[Any], unit: TimeUnit) -> NDArray[
     return whole // (per_second // MICROSECONDS)
 
 
-def check_rate(path: Path, count: int, span_us: int, unit: TimeUnit) -> None:
+def check_rate(path: Path, count: int, range_us: tuple[int, int], unit: TimeUnit) -> None:
     """Refuse times whose unit was guessed and cannot be meant.
 
     Args:
         path: the file.
         count: number of events.
-        span_us: time from the first to the last, µs.
+        range_us: first and last time, µs.
         unit: guessed unit.
 
     Raises:
-        TimeUnitError: the mean rate is below that of a quiet sensor.
+        TimeUnitError: the mean rate is below that of a quiet sensor, or no clock shows such times.
     """
-    if count < LEAST_EVENTS or count * MICROSECONDS >= LEAST_HZ * span_us:
+    span_us = range_us[1] - range_us[0]
+    is_slow = count * MICROSECONDS < LEAST_HZ * span_us
+    if count < LEAST_EVENTS or not (is_slow or range_us[1] > LATEST_GUESSED_US):
         return
-    rate = count * MICROSECONDS / span_us
+    rate = count * MICROSECONDS / max(span_us, 1)
     finer = [one for one in PER_SECOND if PER_SECOND[one] > PER_SECOND[unit]]
     likely = [one for one in finer if rate * PER_SECOND[one] / PER_SECOND[unit] >= LIKELY_HZ]
     probable = f"they are probably {likely[0]}: " if likely else ""
     name = likely[0] if likely else "s, ms, us or ns"
     raise TimeUnitError(
-        f"{path}: its times read as {unit} make {count:,} events in "
-        f"{span_us / MICROSECONDS:,.0f} s, {rate:.2g} per second; {probable}give "
+        f"{path}: its times read as {unit} make {count:,} events in {span_us / MICROSECONDS:,.0f} "
+        f"s from {range_us[0] / MICROSECONDS:,.0f} s on, {rate:.2g} per second; {probable}give "
         f"time_unit (--time-unit {name})"
     )
 

@@ -40,6 +40,8 @@ class RepairCounts:
     """Of those, events too late to be sorted, which are dropped."""
     clock_resets: int = 0
     """Resets of the clock that were joined."""
+    unreadable_rows: int = 0
+    """Rows of a text that are no events, which are dropped."""
     cut_off: str = ""
     """Damage that ended the reading."""
 

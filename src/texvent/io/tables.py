@@ -219,8 +219,7 @@ class EventTable:
             return {**pixels, **extra, "t": in_us(parts[place.array])}
 
         if known is None and count:
-            span_us = int(times(count - 1, count)[0]) - int(times(0, 1)[0])
-            check_rate(path, count, span_us, unit)
+            check_rate(path, count, (int(times(0, 1)[0]), int(times(count - 1, count)[0])), unit)
         return TimedRows(count, lambda index: int(times(index, index + 1)[0]), read, block)
 
 

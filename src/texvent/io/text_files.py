@@ -23,7 +23,7 @@ from __future__ import annotations
 import io
 import re
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
@@ -172,6 +172,26 @@ class Dialect:
         times = parse(comments=None, dtype=np.int64, usecols=place, converters=exact)
         return {**whole, "t": times[:, 0]}
 
+    def parse_sound(self, path: Path, block: bytes, *, left_out: list[int]) -> Columns:
+        """Columns of the rows of a block that are events; the number of others is appended.
+
+        Raises:
+            FileFormatError: none is.
+        """
+        try:
+            return self.parse(path, block)
+        except FileFormatError:
+            rows = [row for row in _without_comments(block).split(b"\n") if row.strip()]
+            sound = [row for row in rows if self._is_row(row)]
+            if not sound:
+                raise
+            left_out.append(len(rows) - len(sound))
+            return self.parse(path, b"\n".join(sound))
+
+    def _is_row(self, row: bytes) -> bool:
+        words = [word.strip() for word in row.decode("latin-1").split(self.delimiter)]
+        return len(words) == self.width and all(map(_is_value, words))
+
 
 def _exact_us(word: str, *, unit: TimeUnit) -> int:
     value = Decimal(word) * MICROSECONDS / PER_SECOND[unit]
@@ -242,10 +262,9 @@ def _is_comment(line: bytes) -> bool:
 
 def _is_value(word: str) -> bool:
     try:
-        Decimal(word)
+        return Decimal(word).is_finite()
     except InvalidOperation:
         return word.lower() in ("true", "false")
-    return True
 
 
 def _places(
@@ -306,23 +325,30 @@ class TextCodec(BlockCodec):
             options if options.size or size is None else replace(options, size=SensorSize(*size))
         )
         dialect = find_dialect(path, sample, sized, self.default)
-        return FileContents(size or dialect.size, metadata, partial(self._read, path, dialect))
+        left_out: list[int] = []
+        parse = dialect.parse
+        if options.repair:
+            parse = partial(dialect.parse_sound, left_out=left_out)
+        blocks = partial(self._read, path, dialect, parse)
+        return FileContents(size or dialect.size, metadata, blocks, left_out=left_out)
 
     def open_text(self, path: Path) -> AbstractContextManager[BinaryIO]:
         """The text, open to read."""
         return path.open("rb")
 
-    def _read(self, path: Path, dialect: Dialect) -> Iterator[Columns]:
+    def _read(
+        self, path: Path, dialect: Dialect, parse: Callable[[Path, bytes], Columns]
+    ) -> Iterator[Columns]:
         first_us = count = 0
         with self.open_text(path) as file:
             file.read(dialect.start)
             for block in read_text_blocks(file):
-                columns = dialect.parse(path, block)
+                columns = parse(path, block)
                 times = columns["t"]
                 if not dialect.is_stated and len(times):
                     first_us = int(times[0]) if count == 0 else first_us
                     count += len(times)
-                    check_rate(path, count, int(times[-1]) - first_us, dialect.unit)
+                    check_rate(path, count, (first_us, int(times[-1])), dialect.unit)
                 yield columns
 
 

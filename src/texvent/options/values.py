@@ -1,10 +1,14 @@
-"""Values of options: converted to their declared types, and back to plain values for files."""
+"""Options of config dataclasses: names, help, and values, which are converted to their types."""
 
 from __future__ import annotations
 
+import ast
 import dataclasses
+import inspect
+import itertools
 import numbers
 import re
+import textwrap
 import types
 import typing
 from collections.abc import Callable, Mapping
@@ -14,7 +18,6 @@ from typing import Any, Literal, NamedTuple, TypeVar
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
-from texvent.options.fields import option_names
 
 Config = TypeVar("Config")
 MAX_DIGITS = 100
@@ -149,3 +152,28 @@ SCALARS: Mapping[Any, Scalar] = {
         "RATE", "a rate such as 24, 29.97 or 30000/1001", parse_fraction, parse_fraction
     ),
 }
+
+
+def option_names(config_type: type) -> tuple[str, ...]:
+    """Names of the options of a config dataclass, in order."""
+    return tuple(field.name for field in dataclasses.fields(config_type))
+
+
+def option_help(config_type: type) -> dict[str, str]:
+    """Option name → the text under its field, on one line; also what `--help` shows."""
+    texts: dict[str, str] = {}
+    for owner in reversed(config_type.__mro__):
+        if not dataclasses.is_dataclass(owner):
+            continue
+        body = typing.cast(
+            "ast.ClassDef", ast.parse(textwrap.dedent(inspect.getsource(owner))).body[0]
+        )
+        for field, text in itertools.pairwise(body.body):
+            if (
+                isinstance(field, ast.AnnAssign)
+                and isinstance(field.target, ast.Name)
+                and isinstance(text, ast.Expr)
+                and isinstance(text.value, ast.Constant)
+            ):
+                texts[field.target.id] = " ".join(str(text.value.value).split())
+    return texts

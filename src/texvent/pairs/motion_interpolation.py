@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.pairs.instants import float_luma, position
-from texvent.runtime.read_only import read_only
+from texvent.runtime.kernel_arrays import read_only
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
 from texvent.video import Frame

@@ -21,7 +21,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.runtime.read_only import read_only
+from texvent.runtime.kernel_arrays import read_only
 
 Floats = NDArray[np.float32]
 Numbers = NDArray[np.int32]

@@ -38,7 +38,7 @@ from texvent.pairs.sampling_cpu import (
     sample,
 )
 from texvent.runtime.jit import jit
-from texvent.runtime.read_only import read_only
+from texvent.runtime.kernel_arrays import read_only
 
 POINTS = 3072
 """About how many pixels are warped at a time: their data stays in the nearest caches."""

@@ -9,8 +9,7 @@ from typing import Any
 
 from texvent.generate.scene_input import Subject
 from texvent.io.atomic import atomic_folder, check_output_folder
-from texvent.options.fields import option_names
-from texvent.options.values import with_options
+from texvent.options.values import option_names, with_options
 from texvent.rig.config import RigConfig
 from texvent.rig.layouts import bag, dsec, native
 from texvent.rig.layouts.parts import FACTS, Tally, write_facts

@@ -16,8 +16,7 @@ from texvent.batch.identity import derived_seed
 from texvent.errors import ConfigError, shown, warn
 from texvent.generate.procedural import ProceduralVideo
 from texvent.generate.scene_input import Subject, prompt_of
-from texvent.options.fields import option_names
-from texvent.options.values import plain
+from texvent.options.values import option_names, plain
 from texvent.pipeline import Simulation, text_to_video
 from texvent.rig.config import RigConfig, check_generator
 from texvent.rig.description import (

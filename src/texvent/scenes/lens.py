@@ -98,13 +98,57 @@ def distort(lens: Lens, points: Float64Array) -> Float64Array:
 
 
 def undistort(lens: Lens, points: Float64Array) -> Float64Array:
-    """The inverse of `distort`, by Newton's method; NaN where it does not converge."""
-    # Imported here: the kernels load Numba, which most commands with a lens do not need.
-    from texvent.scenes.raycast.vectors import undistort_points
+    """The inverse of `distort`, by Newton's method; NaN where it does not converge.
 
-    found = np.array(points, dtype=np.float64).reshape(-1, 2)
-    undistort_points(lens.number, np.array(lens.coefficients), found)
-    return found.reshape(np.shape(points))
+    This is the definition that the kernel `raycast.vectors.undistorted` is tested against.
+    """
+    target = np.asarray(points, dtype=np.float64)
+    if lens.distortion == "none":
+        return target
+    found = np.array(target)
+    if lens.distortion == "equidistant":
+        radius = np.linalg.norm(target, axis=-1)
+        angle = _equidistant_angle(lens, radius)
+        ratio = np.where(radius > 0.0, np.tan(angle) / np.where(radius > 0.0, radius, 1.0), 1.0)
+        return np.asarray(target * ratio[..., None])
+    k1, k2, p1, p2 = lens.coefficients
+    for _ in range(ITERATIONS):
+        x, y = found[..., 0], found[..., 1]
+        square = x * x + y * y
+        radial, slope = 1.0 + square * (k1 + square * k2), 2.0 * (k1 + 2.0 * k2 * square)
+        miss_x = x * radial + 2.0 * p1 * x * y + p2 * (square + 2.0 * x * x) - target[..., 0]
+        miss_y = y * radial + 2.0 * p2 * x * y + p1 * (square + 2.0 * y * y) - target[..., 1]
+        xx = radial + slope * x * x + 2.0 * p1 * y + 6.0 * p2 * x
+        xy = slope * x * y + 2.0 * p1 * x + 2.0 * p2 * y
+        yy = radial + slope * y * y + 2.0 * p2 * x + 6.0 * p1 * y
+        determinant = xx * yy - xy * xy
+        determinant = np.where(determinant == 0.0, np.nan, determinant)
+        step = np.stack(
+            [
+                (yy * miss_x - xy * miss_y) / determinant,
+                (xx * miss_y - xy * miss_x) / determinant,
+            ],
+            axis=-1,
+        )
+        found = found - step
+        if not np.any(np.abs(step) > CONVERGED):
+            break
+    return found
+
+
+def _equidistant_angle(lens: Lens, distorted: Float64Array) -> Float64Array:
+    """θ of θ_d, radians; NaN beyond `WIDEST`."""
+    k1, k2, k3, k4 = lens.coefficients
+    angle = np.array(distorted)
+    for _ in range(ITERATIONS):
+        a = angle * angle
+        miss = angle * (1.0 + a * (k1 + a * (k2 + a * (k3 + a * k4)))) - distorted
+        slope = 1.0 + a * (3.0 * k1 + a * (5.0 * k2 + a * (7.0 * k3 + a * 9.0 * k4)))
+        step = miss / np.where(slope == 0.0, np.nan, slope)
+        angle = angle - step
+        if not np.any(np.abs(step) > CONVERGED):
+            break
+    return np.where((angle >= 0.0) & (angle <= WIDEST), angle, np.nan)
 
 
 @functools.lru_cache(maxsize=64)

@@ -15,8 +15,7 @@ from typing import Any
 from texvent._registry import GENERATORS, INTERPOLATORS, SIMULATORS, suggest
 from texvent.config import CaptureConfig, IdleOptions, InterpolateConfig, RunConfig, check_range
 from texvent.errors import ConfigError, shown, warn
-from texvent.options.fields import option_names
-from texvent.options.values import plain, with_options
+from texvent.options.values import option_names, plain, with_options
 from texvent.sensor import SENSORS, Sensor, SensorSize, find_sensor, parse_sensor
 from texvent.settings.config_files import Command, read_config
 from texvent.settings.presets import find_preset

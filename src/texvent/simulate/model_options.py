@@ -9,7 +9,7 @@ from typing import Any, Literal, NamedTuple, TypeAlias, TypeVar
 
 from texvent._registry import suggest
 from texvent.errors import ConfigError, shown
-from texvent.options.fields import option_names
+from texvent.options.values import option_names
 from texvent.simulate.random.draws import draw_normals, draw_uniforms, frame_key
 
 Config = TypeVar("Config")

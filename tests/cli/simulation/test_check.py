@@ -11,7 +11,7 @@ from tests.cli.running import refused
 from tests.video_check.made_clips import encode, pan
 
 from texvent.cli.app import main
-from texvent.options.fields import option_names
+from texvent.options.values import option_names
 from texvent.settings.resolution import base_settings
 from texvent.video_check.checks import CHECKS
 

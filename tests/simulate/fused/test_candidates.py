@@ -10,7 +10,7 @@ import pytest
 from tests.pairs.reference import sample_along
 
 from texvent.pairs.warp_cpu import prepare_pair
-from texvent.runtime.read_only import read_only
+from texvent.runtime.kernel_arrays import read_only
 from texvent.simulate.fused import candidates
 from texvent.simulate.fused.bounds import (
     PairArrays,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -18,7 +19,7 @@ from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import CaptureConfig
-from texvent.errors import visible
+from texvent.errors import FileFormatError, visible
 from texvent.event_packets import EventPackets
 from texvent.io.files import is_event_path, side_data
 from texvent.io.reading import SeveralRecordingsError, UnknownLayoutError
@@ -90,7 +91,10 @@ def _describe_file(options: InfoOptions) -> dict[str, Any]:
             write_out("".join(f"{one}\n" for one in error.holds))
         raise
     for name, read in side_data(options.path, options.format).items():
-        facts[name] = sum(len(block["t"]) for block in read())
+        facts[name] = 0
+        with contextlib.suppress(*[FileFormatError] * options.repair):
+            for block in read():
+                facts[name] += len(block["t"])
     if is_aedat4(options.path):
         facts["frames"] = count_frames(options.path)
     return facts

@@ -14,8 +14,7 @@ from texvent.cli.options import take_options
 from texvent.cli.outputs import default_event_file
 from texvent.cli.run import print_settings
 from texvent.errors import ConfigError
-from texvent.options.fields import option_names
-from texvent.options.values import plain
+from texvent.options.values import option_names, plain
 from texvent.rig.config import RigConfig, check_generator
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.settings.resolution import Settings, base_settings

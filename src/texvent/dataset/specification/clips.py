@@ -18,7 +18,7 @@ from texvent.dataset.specification.specification import (
     extreme_options,
 )
 from texvent.errors import ConfigError
-from texvent.options.fields import option_names
+from texvent.options.values import option_names
 from texvent.run.prepare import check_run
 from texvent.settings.config_files import Command
 from texvent.settings.resolution import Settings, resolve

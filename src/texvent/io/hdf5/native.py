@@ -56,7 +56,7 @@ from texvent.io.hdf5.storage import (
 )
 from texvent.io.input_checks import TIMESTAMP_SCALE_MS, begins_with, stated_unit
 from texvent.io.metadata import metadata_from_json, metadata_to_json
-from texvent.io.reading import ReadOptions, choose
+from texvent.io.reading import ReadOptions, choose, unit_in_words
 from texvent.io.tables import TABLE_OPTIONS, EventTable, find_tables
 
 CHUNK_EVENTS = 65_536
@@ -246,7 +246,9 @@ def _find_table(file: Any, path: Path, options: ReadOptions) -> tuple[EventTable
     for array in used.values():
         check_filters(array, path)
         check_claims(array, path)
+    attributes = arrays[table.columns["t"].array].attrs
     unit = table.unit or stated_unit(path, file.attrs.get("timestamp_scale_ms"))
+    unit = unit or unit_in_words(attributes.get("unit", attributes.get("units")))
     return replace(table, unit=unit), used
 
 

@@ -130,17 +130,6 @@ def _undistorted_equidistant(k: Record, tx: float, ty: float) -> tuple[float, fl
     return tx * ratio, ty * ratio
 
 
-@jit(error_model="numpy")
-def undistort_points(distortion: int, k: Float64Array, points: Float64Array) -> None:
-    """Take the distortion out of normalised coordinates [n, 2], in place."""
-    for n in range(len(points)):
-        tx, ty = points[n]
-        if distortion == RADTAN:
-            points[n] = _undistorted_radtan(k, tx, ty)
-        elif distortion != NO_DISTORTION:
-            points[n] = _undistorted_equidistant(k, tx, ty)
-
-
 @jit(error_model="numpy", inner=True)
 def plane_point(instant: Record, x: float, y: float) -> tuple[float, float]:
     """Where the ray through image point (x, y) meets the image without distortion, pixels.

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
-from texvent.options.fields import option_help
+from texvent.options.values import option_help
 from texvent.runtime.file_names import usable_path
 from texvent.scenes.colours import PALETTES
 from texvent.scenes.spec.data import (

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.runtime.scratch import take_scratch
+from texvent.runtime.kernel_arrays import take_scratch
 from texvent.simulate.kernels.radix_sort import KEY_USES, key_bits
 from texvent.simulate.packets import check_event_number
 from texvent.simulate.random.mismatch import Thresholds

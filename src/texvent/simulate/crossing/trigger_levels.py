@@ -25,8 +25,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.runtime.read_only import read_only
-from texvent.runtime.scratch import take_scratch
+from texvent.runtime.kernel_arrays import read_only, take_scratch
 from texvent.simulate.kernels.active_pixels import (
     RUN,
     MarkedRuns,

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.runtime.scratch import take_scratch
+from texvent.runtime.kernel_arrays import take_scratch
 from texvent.simulate.crossing.ramp import (
     RampChanges,
     RefractoryPeriod,

@@ -29,7 +29,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.runtime.read_only import read_only
+from texvent.runtime.kernel_arrays import read_only
 from texvent.simulate.crossing.trigger_levels import MARGIN
 
 Float32Array: TypeAlias = NDArray[np.float32]

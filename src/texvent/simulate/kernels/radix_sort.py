@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.runtime.jit import jit
-from texvent.runtime.read_only import read_only
-from texvent.runtime.scratch import take_scratch
+from texvent.runtime.kernel_arrays import read_only, take_scratch
 from texvent.simulate.packets import SortedEvents, UnsortedEvents
 
 Uint64Array = NDArray[np.uint64]

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.runtime.read_only import read_only
+from texvent.runtime.kernel_arrays import read_only
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.kernels.active_pixels import append_by_lane, is_equal
 from texvent.simulate.kernels.elementary_cpu import decay_and_gain, exponential, natural_log

@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import InputError
 from texvent.runtime.jit import jit
-from texvent.runtime.read_only import read_only
+from texvent.runtime.kernel_arrays import read_only
 from texvent.simulate.kernels.radix_sort import sort_almost_sorted, sort_keys
 from texvent.simulate.packets import FrameInterval, check_event_number
 from texvent.simulate.random.draws import UNIT, Purpose, draw_normals

@@ -37,7 +37,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array, balanced_log
-from texvent.runtime.read_only import read_only
+from texvent.runtime.kernel_arrays import read_only
 from texvent.simulate.crossing.trigger_levels import MARGIN, trigger_factors
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.video import UINT16_PER_LEVEL

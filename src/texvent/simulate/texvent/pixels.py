@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array, balanced_log
 from texvent.events import NOISE, EventStream
-from texvent.runtime.read_only import read_only
+from texvent.runtime.kernel_arrays import read_only
 from texvent.simulate.packets import FrameInterval
 from texvent.simulate.texvent.brightness_cache import CacheSchedule
 from texvent.simulate.texvent.config import TexventConfig

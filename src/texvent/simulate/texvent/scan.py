@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array
 from texvent.runtime.jit import jit
-from texvent.runtime.read_only import read_only
+from texvent.runtime.kernel_arrays import read_only
 from texvent.simulate.kernels.active_pixels import (
     RUN,
     ByteArray,

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from texvent.events import NOISE
 from texvent.runtime.jit import jit
-from texvent.runtime.scratch import take_scratch
+from texvent.runtime.kernel_arrays import take_scratch
 from texvent.simulate.crossing.ramp import (
     KeyLayout,
     RampChanges,

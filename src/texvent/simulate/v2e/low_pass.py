@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.runtime.read_only import read_only
-from texvent.runtime.scratch import take_scratch
+from texvent.runtime.kernel_arrays import read_only, take_scratch
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.kernels.active_pixels import WORD, is_equal, list_marked
 from texvent.simulate.kernels.elementary_cpu import natural_log

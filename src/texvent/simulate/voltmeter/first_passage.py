@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from texvent.events import NOISE
 from texvent.runtime.jit import jit
-from texvent.runtime.read_only import read_only
+from texvent.runtime.kernel_arrays import read_only
 from texvent.runtime.threads import count_threads, run_parts, split
 from texvent.simulate.kernels.active_pixels import WORD, append_by_lane, list_marked, make_room
 from texvent.simulate.kernels.elementary_cpu import cosine_of_turns, natural_log

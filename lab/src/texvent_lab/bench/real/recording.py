@@ -19,7 +19,7 @@ from texvent.errors import InputError
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.files import open_events
-from texvent.options.fields import option_names
+from texvent.options.values import option_names
 from texvent.settings.resolution import Settings, apply_options
 from texvent.video import MICROSECONDS, Frame, FrameStream, Video
 from texvent_lab.bench.fidelity.entries import Entry, simulate_video

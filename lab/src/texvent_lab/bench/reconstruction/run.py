@@ -20,7 +20,7 @@ import numpy as np
 from texvent.config import check_range
 from texvent.errors import ConfigError, InputError, TexventError
 from texvent.events import EventStream
-from texvent.options.fields import option_names
+from texvent.options.values import option_names
 from texvent.pipeline import Simulation, video_to_events
 from texvent.represent.slices import slice_between
 from texvent.run.rate_search import match_rate

@@ -5,11 +5,11 @@ import sys
 
 import pytest
 
-from texvent.runtime.allocator import _find_trim
+from texvent.runtime.memory import _find_trim
 
 SCRIPT = """
 import sys
-from texvent.runtime.allocator import release_freed_memory
+from texvent.runtime.memory import release_freed_memory
 def resident_kib():
     with open("/proc/self/status") as status:
         return int(next(line for line in status if line.startswith("VmRSS")).split()[1])
@@ -24,7 +24,7 @@ print(before - resident_kib())
 FAULTS = """
 import resource
 import numpy as np
-from texvent.runtime.allocator import keep_freed_memory
+from texvent.runtime.memory import keep_freed_memory
 keep_freed_memory()
 def fill():
     blocks = [np.full(3_000_000, 1, np.uint8) for _ in range(8)]

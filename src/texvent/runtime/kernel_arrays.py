@@ -1,8 +1,8 @@
-"""Scratch memory of kernels, kept by each thread from call to call.
+"""Arrays of kernels: scratch memory, which each thread keeps from call to call; read-only views.
 
 The system clears every page of a new array at its first use, which costs more than most kernels
 spend on it, and arrays of a packet's size go back to the system when freed. What a thread keeps
-grows to its largest packet.
+grows to its largest packet. Numba compiles a kernel for each kind of array, writable or not.
 """
 
 from __future__ import annotations
@@ -40,3 +40,10 @@ def take_scratch(use: str, size: int, dtype: type[np.generic]) -> NDArray[Any]:
     if array is None or array.size < size:
         array = _kept.arrays[use] = np.empty(int(size * SLACK), dtype)
     return array[:size]
+
+
+def read_only(array: NDArray[Any]) -> NDArray[Any]:
+    """A C-contiguous view (or copy) of an array that cannot be written."""
+    view = np.ascontiguousarray(array).view()
+    view.flags.writeable = False
+    return view
