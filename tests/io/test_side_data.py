@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from texvent.cli.app import main
 from texvent.io.files import codec_that_reads
 from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding, read_triggers
 
@@ -96,6 +97,8 @@ def test_signals_and_imu_samples_of_older_files_are_read(tmp_path: Path) -> None
     path.write_bytes(chip + b"".join(struct.pack(">II", *one) for one in records))
     side = codec_that_reads(path).side_data(path)
     assert [one["t"].tolist() for one in side["triggers"]()] == [[6]]
+    path.write_bytes(path.read_bytes() + b"cut")
+    assert (main(["info", str(path)]), main(["info", str(path), "--repair"])) == (2, 0)
     header = b"#!AER-DAT3.1\r\n#Source 1: DAVIS346\r\n#!END-HEADER\r\n"
     special = struct.pack("<2h6i", 0, 1, 8, 4, 1, 2, 2, 2)
     special += struct.pack("<4I", 2 << 1 | 1, 9, 1 << 1 | 1, 10)

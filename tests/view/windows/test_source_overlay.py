@@ -27,7 +27,7 @@ class KnownVideo(Video):
         flow[:, :24] = (3, 0)
         unseen = np.zeros(SIZE.shape, dtype=np.int32)
         car = Box(1, "car", 10, 12, 30, 24, 1.0)
-        return GroundTruth(0.0, 0.0, unseen + np.float32(1), unseen, flow, unseen > 0, (car,))
+        return GroundTruth(unseen + np.float32(1), unseen, flow, unseen > 0, (car,))
 
 
 def video(kind: type[Video] = KnownVideo) -> Video:

@@ -92,7 +92,7 @@ def _describe_file(options: InfoOptions) -> dict[str, Any]:
         raise
     for name, read in side_data(options.path, options.format).items():
         facts[name] = 0
-        with contextlib.suppress(*[FileFormatError] * options.repair):
+        with contextlib.suppress(FileFormatError) if options.repair else contextlib.nullcontext():
             for block in read():
                 facts[name] += len(block["t"])
     if is_aedat4(options.path):

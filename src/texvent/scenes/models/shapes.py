@@ -239,7 +239,7 @@ SAMPLE_POSES = tuple(
     for step in range(12)
 )
 STANDING_POSES = SAMPLE_POSES[:12]
-"""The sample for what moves with time alone."""
+"""Sample poses of nouns whose parts move by time, not by gait."""
 
 
 class ArticulatedModel:

@@ -60,10 +60,6 @@ class Box:
 class GroundTruth:
     """What is true of each pixel's centre at t0, and where it goes until t1."""
 
-    t0_s: float
-    """First instant, s."""
-    t1_s: float
-    """Second instant, s; before or after the first."""
     depth: Float32Array
     """[H, W] metres along the optical axis; inf for the sky, and where a lens sees nothing."""
     instance: NDArray[np.int32]
@@ -101,8 +97,6 @@ def ground_truth(scene: Scene, t0_s: float, t1_s: float, size: SensorSize) -> Gr
     hidden = _hidden(world_at(scene, t1_s, size, shadows=False), place, size)
     shape = size.shape
     return GroundTruth(
-        t0_s,
-        t1_s,
         depth=seen.depth.astype(np.float32).reshape(shape),
         instance=instances.reshape(shape),
         flow=flow.astype(np.float32).reshape(*shape, 2),

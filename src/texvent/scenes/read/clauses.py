@@ -298,7 +298,7 @@ class _Parser:
         first = self._at
         while head is None and not self._ends_group(first) and self._agrees(article, first):
             token = self._take()
-            if token.is_unknown:  # what stands before it is said of it
+            if token.is_unknown:  # the words before it qualify it
                 unknown, modifiers = [*unknown, *modifiers, token], []
             elif not token.has(*_HEADS) or self._stands_before(token):
                 modifiers.append(token)

@@ -131,7 +131,7 @@ def collide(subject: Actor, other: Actor, duration_s: float) -> tuple[Actor, Act
 
 
 def _run_into(mover: Actor, still: Actor, yaw: float, contact_s: float) -> tuple[Actor, Actor]:
-    """What comes goes back; what stands has its front to it."""
+    """The mover rebounds; the still object faces it."""
     if still.model.length < _THIN * still.model.width:
         yaw += _ASLANT if yaw == 0.0 else -_ASLANT
         place = still.trajectory.at(0.0).position

@@ -38,7 +38,7 @@ from texvent.scenes.staging.trajectories.trajectory import Attached, Stationary
 _LEAST_TURN = 0.9
 """Least change of heading, radians, after which a road goes off there."""
 _PAVEMENT_M, _VERGE_M = 1.4, 0.5
-"""From the edge of the road to who walks beside it, and to what stands beside it."""
+"""Distances from the edge of the road to pedestrians and to standing objects beside it."""
 _ROADSIDE = 1.4
 """Where one walks on a road without pavement, in lanes from its middle."""
 _USUAL_S = 2.0
@@ -162,7 +162,7 @@ def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
 def water_line(place: Place, actors: Sequence[Actor], path: CameraPath) -> RoadLine:
     """The middle of a river, or the shore of a lake with the water on its left.
 
-    It runs through what floats or swims, and behind what stands beside it.
+    It runs through objects that float or swim, and behind those on land.
     """
     forward = path.at(0.0).rotation[2, :2]
     angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi
