@@ -187,7 +187,9 @@ def test_a_bad_intensity_is_refused_and_changes_nothing(device):
         (torch.zeros(1, 2, 3, 4), [0.0, 0.5], "whole microseconds"),
     ],
 )
-def test_frames_and_times_that_cannot_be_used_are_refused(frames, times_us, message):
+def test_frames_and_times_that_cannot_be_used_are_refused(frames, times_us, message, device):
+    if isinstance(frames, torch.Tensor):
+        frames = frames.to(device)
     with pytest.raises(InputError, match=message):
         GpuSimulator().step(frames, times_us)
 

@@ -142,7 +142,7 @@ def run_passes(
     signal = int(host_ends[-1])
     words = torch.empty(signal + int(host_noise_ends[-1]), dtype=torch.int64, device=device)
     records = pixels.records(signal)
-    pixels.find_events(call, tally._replace(events=starts), records)
+    pixels.find_events(call, tally._replace(events=starts, bad=None), records)
     if signal:
         pixels.timestamp(call, records, ends, words)
     if drawn is not None and len(words) > signal:

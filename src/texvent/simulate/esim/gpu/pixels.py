@@ -95,25 +95,25 @@ def scan_ramp(
         size = tl.where(inside, tl.abs(now - level), 0.0)
         cell = find_cell(tally, segment)
         place = tl.full([], 0, tl.int64)
-        if records is not None:
+        if tally.bad is None:
             place = tl.load(cell)
         order = 1
         passed = tl.zeros([BLOCK], tl.int32)
         reached = size >= threshold
         while tl.max(reached.to(tl.int32)) > 0:
-            if records is not None:
+            if tally.bad is None:
                 write_events(records, place, reached, (at, order, level))
             place += tl.sum(reached.to(tl.int32))
             passed += reached.to(tl.int32)
             order += 1
             reached = size >= order * threshold
-        if records is None:
+        if tally.bad is not None:
             tl.store(cell, place)
             bad += count_bad(intensity, inside)
         moved = passed.to(tl.float64) * threshold
         level = tl.where(is_on, level + moved, level - moved)
         before = now
-    if records is None:
+    if tally.bad is not None:
         tl.atomic_add(tally.bad, tl.sum(bad))
     else:
         tl.store(reference + home, level, mask=inside)

@@ -87,18 +87,18 @@ def scan_levels(
         fired = (now <= low) | (now >= high)
         total = tl.sum(fired.to(tl.int32))
         cell = find_cell(tally, segment)
-        if records is None:
+        if tally.bad is not None:
             tl.store(cell, total)
             mark_fired(tally, segment, frames.area, fired, BLOCK)
             bad += count_bad(now, inside)
         elif total > 0:
-            write_events(records, tl.load(cell), fired, (at, None, level))
+            write_events(records, tl.load(cell), fired, (at, at, level))
         if total > 0:
             low, high = _move_levels(now, fired, low, high, rules)
             level = tl.where(fired, now, level)
         before = now
         now = ahead
-    if records is None:
+    if tally.bad is not None:
         tl.atomic_add(tally.bad, tl.sum(bad))
     else:
         tl.store(reference + home, level, mask=inside)
@@ -176,7 +176,7 @@ def scan_brightness(
         number = tl.where(fired, count_events(size, threshold, rules), 0)
         total = tl.sum(number)
         cell = find_cell(tally, segment)
-        if records is None:
+        if tally.bad is not None:
             tl.store(cell, total)
             mark_fired(tally, segment, frames.area, fired, BLOCK)
             bad += count_bad(last, inside)
@@ -192,7 +192,7 @@ def scan_brightness(
         else:
             level = tl.where(fired, now, level)
         before = now
-    if records is None:
+    if tally.bad is not None:
         tl.atomic_add(tally.bad, tl.sum(bad))
     else:
         tl.store(reference + home, level, mask=inside)
