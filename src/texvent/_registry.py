@@ -157,7 +157,6 @@ SIMULATORS = Registry(
         "esim": "texvent.simulate.esim.simulator:EsimSimulator",
         "v2e": "texvent.simulate.v2e.simulator:V2eSimulator",
         "senpi": "texvent.simulate.senpi.simulator:SenpiSimulator",
-        "v2ce": "texvent.simulate.v2ce.simulator:V2ceSimulator",
         "voltmeter": "texvent.simulate.voltmeter.simulator:VoltmeterSimulator",
     },
 )

@@ -12,7 +12,6 @@ from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.senpi.simulator import SenpiConfig, SenpiSimulator
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.simulator import TexventSimulator
-from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator
 from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
 from texvent.simulate.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
 
@@ -25,8 +24,6 @@ __all__ = [
     "SenpiSimulator",
     "TexventConfig",
     "TexventSimulator",
-    "V2ceConfig",
-    "V2ceSimulator",
     "V2eConfig",
     "V2eSimulator",
     "VoltmeterConfig",

@@ -19,7 +19,7 @@ from texvent.video import Frame
 
 from .pixel_frames import moving_texture, run
 
-MODELS = {name: SIMULATORS.load(name) for name in SIMULATORS.builtin if name != "v2ce"}
+MODELS = {name: SIMULATORS.load(name) for name in SIMULATORS.builtin}
 EVERY_PRESET = [(name, preset) for name, model in MODELS.items() for preset in model.presets]
 TWO_PRESETS = [
     (name, preset)

@@ -66,10 +66,10 @@ def test_a_run_scores_the_recorded_events_and_every_simulator():
 
 def test_a_simulator_that_cannot_run_is_skipped_with_the_reason():
     report = run_reconstruction(
-        [moving_bar()], scorer(entries=(Entry(simulator="v2ce", interpolate="none"), ESIM))
+        [moving_bar()], scorer(entries=(Entry(simulator="esim", interpolate="motion"), ESIM))
     )
     assert [row.source for row in report.rows] == [RECORDED, ESIM.name]
-    assert "v2ce_3d.pt" in report.skipped["v2ce, none"]
+    assert "motion" in report.skipped["esim, motion"]
 
 
 def test_by_default_the_part_that_evreal_names_counts_else_all_but_the_first_images():

@@ -48,7 +48,6 @@ NETWORKS = {1: "e2vid", 7: "e2vid", 8: "et-net"}
 ENTRIES: Mapping[str, Entry] = {
     "VID2E": Entry(simulator="esim", interpolate="flow"),
     "V2E": Entry(simulator="v2e", interpolate="flow"),
-    "V2CE": Entry(simulator="v2ce", interpolate="none"),
     "DVS-Voltmeter": Entry(simulator="voltmeter", interpolate="none"),
     "SENPI": Entry(simulator="senpi", interpolate="none"),
     "Texvent": Entry(simulator="texvent", preset="paper", interpolate="flow"),
