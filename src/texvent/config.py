@@ -94,7 +94,7 @@ class RunConfig:
     input_texts: ClassVar[tuple[str, ...]] = ("sensor",)
 
     simulator: str = "texvent"
-    """Pixel model. It turns brightness into events: texvent, physical, esim, v2e, senpi or
+    """Pixel model. It turns brightness into events: texvent, physical, esim, v2e or
     voltmeter."""
     preset: str = "accurate"
     """Set of simulator options; --help run lists them. Single options override it. Without

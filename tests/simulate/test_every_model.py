@@ -31,7 +31,6 @@ NOISY: dict[str, dict[str, Any]] = {
         "leak_rate_hz": 0.0,
     },
     "v2e": {"shot_noise_rate_hz": RATE_HZ / V2E_SHARE, "leak_rate_hz": 0.0, "threshold_sigma": 0.0},
-    "senpi": {"noise_rate_hz": RATE_HZ, "refractory_period_us": 0},
     "voltmeter": {"constants": f"5.265 20 1e-4 {RATE_HZ * 1e-6} 0 1e-5"},
 }
 """Options with which a dark pixel at rest fires at `RATE_HZ`. ESIM has no noise."""
@@ -40,7 +39,6 @@ CLEAN: dict[str, dict[str, Any]] = {
     "physical": {"preset": "clean"},
     "esim": {},
     "v2e": {"preset": "peer-common"},
-    "senpi": {"preset": "peer-common"},
     "voltmeter": {"constants": "5.265 20 0 0 0 0"},
 }
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
@@ -100,7 +98,7 @@ def test_impossible_options_fail_by_name(model):
                 dataclasses.replace(config, **{name: wrong})
 
 
-@pytest.mark.parametrize("model", ["texvent", "esim", "senpi"])  # compiles kernels of its own
+@pytest.mark.parametrize("model", ["texvent", "esim"])  # compiles kernels of its own
 def test_a_whole_number_may_be_an_int(model):
     kind = SIMULATORS.load(model)
     config = dataclasses.replace(kind.config_type(), **NOISY.get(model, {}))
