@@ -9,7 +9,6 @@ from texvent.config import check_range
 from texvent.errors import ConfigError, shown
 from texvent.represent.array_ops import (
     Array,
-    EventColumns,
     Events,
     columns_of,
     flat_index,
@@ -75,9 +74,6 @@ def time_surface(
     return ops.cast(ops.xp.where(latest >= 0, recency, recency * 0.0), "float32")
 
 
-NEVER = -1
-
-
 def timestamp_image(events: Events) -> Array:
     """Time of the last event per polarity and pixel, as a share of the slice.
 
@@ -101,23 +97,8 @@ def timestamp_image(events: Events) -> Array:
         [[[1.0, 0.0]], [[0.0, 0.5]]]
     """
     columns = columns_of(events)
-    return columns.ops.cast(_shares(columns), "float32")
-
-
-def latest_events(columns: EventColumns) -> Array:
-    """Time of the last event since the first of the slice, µs, [2, H, W] int64, ON first.
-
-    `NEVER` where there is none.
-    """
-    height, width = columns.size.shape
+    ops, (height, width) = columns.ops, columns.size.shape
     index = flat_index((1 - columns.p, 2), *columns.pixel_axes)
-    since = columns.t - columns.t[:1]
-    latest = columns.ops.latest_at(index, since, 2 * height * width, NEVER)
-    return latest.reshape(2, height, width)
-
-
-def _shares(columns: EventColumns) -> Array:
-    """`timestamp_image` in float64."""
+    latest = ops.latest_at(index, columns.t - columns.t[:1], 2 * height * width, 0)
     span = max(int(columns.t[-1] - columns.t[0]), 1) if len(columns) else 1
-    latest = columns.ops.xp.clip(latest_events(columns), 0, None)
-    return columns.ops.cast(latest, "float64") / span
+    return ops.cast(ops.cast(latest.reshape(2, height, width), "float64") / span, "float32")
