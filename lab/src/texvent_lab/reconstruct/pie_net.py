@@ -7,6 +7,7 @@ its network does not import and which disturb a CPU build of torch and texvent's
 
 from __future__ import annotations
 
+import importlib
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -17,16 +18,16 @@ from texvent_lab.reconstruct.recurrent_network import PublishedNetwork, Recurren
 
 INSTALL = "pip install --no-deps event-pienet==1.1.3"
 try:
-    import pie_net
+    _package: Any = importlib.import_module("pie_net")
 except ImportError as error:
     raise MissingDependencyError(
         f"pie-net is in the package event-pienet, which is not installed: {INSTALL}"
     ) from error
 
-_PieNet: Any = pie_net.PIENet
+_PieNet: Any = _package.PIENet
 
 
-class PieNet(RecurrentNetwork, _PieNet):  # type: ignore[misc]
+class PieNet(RecurrentNetwork, _PieNet):
     """The full variant: a recurrent U-Net that also sees its last image and its variance."""
 
     bins = 5
@@ -61,5 +62,5 @@ PIE_NET = PublishedNetwork(
     "pie-net",
     PieNet,
     f"the package event-pienet carries them: {INSTALL}",
-    file=Path(pie_net.__file__).parent / "pretrained" / "model.pth",
+    file=Path(_package.__file__).parent / "pretrained" / "model.pth",
 )

@@ -78,7 +78,7 @@ class View:
 
     def vectors(self, now: CameraPose2D, other: CameraPose2D) -> Float32Array:
         """[h, w, 2] from each pixel's centre to its place in the other view, px."""
-        moved = np.float32([now.x - other.x, now.y - other.y])
+        moved = np.array([now.x - other.x, now.y - other.y], np.float32)
         return np.broadcast_to(moved, (*self.sensor.shape, 2)).copy()
 
 
