@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar
 
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
+from texvent.data.catalogue import DATA_SETS
 from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, choose_entries
 from texvent_lab.bench.fidelity.table import BASELINE, check_baseline, fidelity_tables
 from texvent_lab.bench.real.recording import (
     LINEAR_GAMMA,
     WITH_FRAMES,
+    FrameRecording,
     RecordingPart,
     locate_source,
     open_recording,
@@ -119,11 +121,16 @@ def _score_images(
         frames_gamma=options.frames_gamma or LINEAR_GAMMA,
     )
     reconstructor = load_reconstructor(network, options.weights)
-    recordings = [open_recording(locate_source(source)[0]) for source in options.sources]
+    recordings = [_open_whole(source) for source in options.sources]
     scorer = ReconstructionScorer(reconstructor=reconstructor, measures=load_measures(), plan=plan)
     report = run_reconstruction(recordings, scorer, progress=output.progress)
     output.write(lambda: reconstruction_document(report))
     write_out(reconstruction_tables(report))
+
+
+def _open_whole(source: str) -> FrameRecording:
+    recording = open_recording(locate_source(source)[0])
+    return replace(recording, name=source) if source in DATA_SETS else recording
 
 
 def _choose_entries(options: RealOptions) -> list[Entry]:
