@@ -199,11 +199,13 @@ $(AUDIT_VENV)/.audit: $(AUDIT_VENV)/bin/python requirements/audit.txt requiremen
 	$(AUDIT_VENV)/bin/python $(HASHED) -r requirements/audit.txt
 	@touch $@
 
+# event-pienet asks for torchvision and a second OpenCV, which its network does not import.
 $(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml lab/pyproject.toml constraints.txt
 	@echo "installing texvent and torch into $(TORCH_VENV) (once; see CONTRIBUTING.md for its size)"
-	@$(TORCH_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,v2ce,rife,generate,gpu]' -e 'lab[train]' || { \
+	@$(TORCH_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,rife,generate,gpu]' -e 'lab[train]' || { \
 		echo "error: torch could not be installed, so the tests that need it did not run. Name a place that has a CPU build of the version in constraints.txt, with PIP_FIND_LINKS or PIP_EXTRA_INDEX_URL, and run make test-torch again"; \
 		exit 2; }
+	$(TORCH_VENV)/bin/python -m pip install $(PIP_OPTIONS) --no-deps event-pienet==1.1.3
 	@touch $@
 
 $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.txt

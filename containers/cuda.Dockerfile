@@ -6,7 +6,7 @@ FROM python:3.13-slim-trixie@sha256:9d2e5553305c7c7b0097999bb17187c69b921ccd6bc9
 WORKDIR /source
 COPY pyproject.toml README.md LICENSE constraints.txt ./
 COPY src src
-ARG EXTRAS="gpu,rife,v2ce"
+ARG EXTRAS="gpu,rife"
 ENV PIP_CONSTRAINT=/source/constraints.txt PIP_DISABLE_PIP_VERSION_CHECK=1
 RUN python -m venv /opt/texvent \
     && /opt/texvent/bin/pip install --no-cache-dir --no-compile ".${EXTRAS:+[$EXTRAS]}"

@@ -2,7 +2,7 @@
 Pixel models side by side
 =========================
 
-The same frames through six models, each with its own defaults.
+The same frames through five models, each with its own defaults.
 """
 
 import matplotlib.pyplot as plt
@@ -10,7 +10,7 @@ import matplotlib.pyplot as plt
 import texvent
 
 frames = texvent.video("a dog runs across a meadow", sensor="128x96", duration=0.3, seed=1)
-names = ("texvent", "esim", "v2e", "physical", "voltmeter", "senpi")
+names = ("texvent", "esim", "v2e", "physical", "voltmeter")
 
 figure, axes = plt.subplots(2, 3, figsize=(7, 4))
 for name, panel in zip(names, axes.flat, strict=True):

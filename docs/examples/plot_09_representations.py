@@ -18,7 +18,7 @@ names = (
     "time-surface",
     "stacked-histogram",
     "timestamp-image",
-    "sorted-time-surface",
+    "voxel-dsec",
 )
 for name, panel in zip(names, axes.flat, strict=True):
     array = part.represent(name)

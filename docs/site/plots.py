@@ -13,7 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 RESULTS = Path(__file__).parents[1] / "results"
-SIMULATORS = ("physical", "texvent accurate", "esim", "voltmeter", "v2e", "texvent paper", "senpi")
+SIMULATORS = ("physical", "texvent accurate", "esim", "voltmeter", "v2e", "texvent paper")
 # Ink, faint ink, and colours that colour-blind readers can tell apart, for light and dark pages.
 LOOKS = {
     "light": ("#1f2328", "#c8ccd0", ("#0b62a4", "#c2410c", "#3f7d20", "#6b7280", "#7c3aed")),

@@ -156,8 +156,6 @@ SIMULATORS = Registry(
         "physical": "texvent.simulate.physical.simulator:PhysicalSimulator",
         "esim": "texvent.simulate.esim.simulator:EsimSimulator",
         "v2e": "texvent.simulate.v2e.simulator:V2eSimulator",
-        "senpi": "texvent.simulate.senpi.simulator:SenpiSimulator",
-        "v2ce": "texvent.simulate.v2ce.simulator:V2ceSimulator",
         "voltmeter": "texvent.simulate.voltmeter.simulator:VoltmeterSimulator",
     },
 )
@@ -223,9 +221,6 @@ REPRESENTATIONS = Registry(
         "histogram-2d": "texvent.represent.histogram:histogram_2d",
         "histogram-3d": "texvent.represent.histogram:histogram_3d",
         "timestamp-image": "texvent.represent.time_surface:timestamp_image",
-        "event-image": "texvent.represent.time_surface:event_image",
-        "sorted-time-surface": "texvent.represent.time_surface:sorted_time_surface",
-        "dist": "texvent.represent.time_surface:dist",
     },
 )
 FILTERS = Registry(

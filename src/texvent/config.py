@@ -94,7 +94,7 @@ class RunConfig:
     input_texts: ClassVar[tuple[str, ...]] = ("sensor",)
 
     simulator: str = "texvent"
-    """Pixel model. It turns brightness into events: texvent, physical, esim, v2e, senpi, v2ce or
+    """Pixel model. It turns brightness into events: texvent, physical, esim, v2e or
     voltmeter."""
     preset: str = "accurate"
     """Set of simulator options; --help run lists them. Single options override it. Without
@@ -166,14 +166,14 @@ class CaptureConfig:
     instances: Path | None = None
     """Ids of objects, in files as --motion, or .png."""
     camera: str | None = None
-    """Over a still image: saccade, shake, pan or FILE. The camera moves as N-MNIST's sensor did, as
-    if held by hand, or to the right; or as a file says (t x y [roll [zoom]]: s, px, degrees)."""
+    """Over a still image: saccade, shake or pan. The camera moves as N-MNIST's sensor did, as if
+    held by hand, or to the right."""
     camera_amplitude: float | None = None
     """Size of the movement, px: the longest saccade (5.5), the shake's root mean square (2), or the
     pan's px per second (60)."""
     duration: float | None = None
-    """How long the camera moves, s. Without it, as long as its path: 0.315 (saccade), 1 (shake,
-    pan), or what its file says."""
+    """How long the camera moves, s. Without it, as long as its path: 0.315 (saccade) or 1 (shake,
+    pan)."""
 
     def __post_init__(self) -> None:
         check_range("start", self.start, 0.0)

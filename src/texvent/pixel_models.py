@@ -9,10 +9,8 @@ packet = simulator.step(frame)  # a texvent.Frame
 from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
-from texvent.simulate.senpi.simulator import SenpiConfig, SenpiSimulator
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.simulator import TexventSimulator
-from texvent.simulate.v2ce.simulator import V2ceConfig, V2ceSimulator
 from texvent.simulate.v2e.simulator import V2eConfig, V2eSimulator
 from texvent.simulate.voltmeter.simulator import VoltmeterConfig, VoltmeterSimulator
 
@@ -21,12 +19,8 @@ __all__ = [
     "EsimSimulator",
     "PhysicalConfig",
     "PhysicalSimulator",
-    "SenpiConfig",
-    "SenpiSimulator",
     "TexventConfig",
     "TexventSimulator",
-    "V2ceConfig",
-    "V2ceSimulator",
     "V2eConfig",
     "V2eSimulator",
     "VoltmeterConfig",

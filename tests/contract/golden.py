@@ -54,7 +54,6 @@ SIMULATORS: dict[str, list[dict[str, Any]]] = {
     ],
     "physical": [{}, {"preset": "clean"}, {"sensor": "davis346"}],
     "v2e": [{}, {"preset": "noisy"}],
-    "senpi": [{}],
     "voltmeter": [{}],
 }
 FLOW = {"interpolate": "flow"}

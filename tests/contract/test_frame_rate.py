@@ -37,10 +37,7 @@ QUIET: Mapping[str, Any] = {
 }
 BY_DEFINITION = {
     ("texvent", "paper"),  # its cache forgets at every source frame
-    ("senpi", "default"),  # its pixels fire at most once per frame
-    ("senpi", "peer-common"),
     ("v2e", "noisy"),  # its 30 Hz low-pass takes one Euler step per frame
-    ("v2ce", "default"),  # its network was trained on pairs of frames at 30 per second
 }
 """Presets whose published definition has the frame in it; docs/simulators.md names them."""
 CASES = [

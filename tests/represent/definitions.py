@@ -104,52 +104,6 @@ def timestamp_image(events):
     return image.astype(np.float32)
 
 
-def event_image(events):
-    layers = []
-    for pixels, shares in zip(per_pixel(events), timestamp_image(events), strict=True):
-        counts = np.zeros_like(shares)
-        for (x, y), times in pixels.items():
-            counts[y, x] = Fraction(len(times), max(map(len, pixels.values())))
-        layers += [counts, shares]
-    return np.stack(layers)
-
-
-def sorted_time_surface(events):
-    image = np.zeros((2, events.size.height, events.size.width))
-    for lane, pixels in enumerate(per_pixel(events)):
-        order = sorted({times[-1] for times in pixels.values()})
-        for (x, y), times in pixels.items():
-            image[lane, y, x] = Fraction(order.index(times[-1]), max(len(order) - 1, 1))
-    return image.astype(np.float32)
-
-
-def dist(events):
-    """Kim et al., section 4.2, with the clipping of their program; in exact fractions."""
-    width, height = events.size
-    places = [(x, y) for y in range(height) for x in range(width)]
-    image = np.zeros((2, height, width))
-    for lane, pixels in enumerate(per_pixel(events)):
-        counts = {place: len(pixels.get(place, ())) for place in places}
-        covered, limit = 0, 0
-        for count in sorted(set(counts.values())):
-            covered += sum(other == count for other in counts.values())
-            limit += covered < Fraction(99, 100) * len(places)
-        counts = {place: min(count, limit) for place, count in counts.items()}
-        values = {}
-        for x, y in places:
-            near = [(a, b) for a, b in places if max(abs(a - x), abs(b - y)) <= 2]
-            number = sum(counts[place] for place in near)
-            value = Fraction(max(pixels.get((x, y), [0])))
-            if counts[x, y]:
-                times = [t for place in near for t in pixels.get(place, ())]
-                value -= Fraction(3 * (max(times) - min(times)), number)
-            values[x, y] = Fraction(0) if number == 1 else max(value, Fraction(0))
-        order = sorted(set(values.values()))
-        for (x, y), value in values.items():
-            image[lane, y, x] = Fraction(order.index(value), len(order))
-    return image.astype(np.float32)
-
-
 @st.composite
 def streams(draw, least=0):
     """Short streams in which pixels and times often coincide, far from time 0 or at it."""

@@ -41,8 +41,9 @@ def of_samples(folder, options):
 
 
 def test_missing_weights_are_named_before_a_generator_starts(tmp_path, prompts):
-    options = {**SMALL, "simulator": "v2ce", "weights": str(tmp_path / "none.pt")}
-    with pytest.raises((InputError, MissingDependencyError), match=r"no such|none\.pt|torch"):
+    options = {**SMALL, "interpolate": "rife"}
+    options["interpolator_weights"] = str(tmp_path / "none.pt")
+    with pytest.raises((InputError, MissingDependencyError), match=r"none\.pt|torch"):
         prepare_prompt(PROMPT, resolve("generate", options))
     assert prompts == []
 

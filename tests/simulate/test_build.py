@@ -17,7 +17,7 @@ from texvent.simulate.streaming import SteppingSimulator
 
 from .pixel_frames import moving_texture
 
-SIMULATORS = [name for name in _registry.SIMULATORS.builtin if name != "v2ce"]  # needs weights
+SIMULATORS = list(_registry.SIMULATORS.builtin)
 
 
 class PlugIn(SteppingSimulator):

@@ -31,17 +31,14 @@ NOISY: dict[str, dict[str, Any]] = {
         "leak_rate_hz": 0.0,
     },
     "v2e": {"shot_noise_rate_hz": RATE_HZ / V2E_SHARE, "leak_rate_hz": 0.0, "threshold_sigma": 0.0},
-    "senpi": {"noise_rate_hz": RATE_HZ, "refractory_period_us": 0},
     "voltmeter": {"constants": f"5.265 20 1e-4 {RATE_HZ * 1e-6} 0 1e-5"},
 }
-"""Options with which a dark pixel at rest fires at `RATE_HZ`. ESIM has no noise, and V2CE's is in
-its network."""
+"""Options with which a dark pixel at rest fires at `RATE_HZ`. ESIM has no noise."""
 CLEAN: dict[str, dict[str, Any]] = {
     "texvent": {"noise": "none"},
     "physical": {"preset": "clean"},
     "esim": {},
     "v2e": {"preset": "peer-common"},
-    "senpi": {"preset": "peer-common"},
     "voltmeter": {"constants": "5.265 20 0 0 0 0"},
 }
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
@@ -53,7 +50,7 @@ def texture(**options: Any):
 
 
 def test_no_model_is_forgotten():
-    assert set(SIMULATORS.names()) - {"v2ce"} == set(CLEAN)
+    assert set(SIMULATORS.names()) == set(CLEAN)
     assert set(CLEAN) - {"esim"} == set(NOISY)
 
 
@@ -95,13 +92,13 @@ def test_impossible_options_fail_by_name(model):
     config = SIMULATORS.load(model).config_type()
     numbers = -1e19, 1e19, math.nan
     for name, value in vars(config).items():
-        words = ("abacus",) if isinstance(value, str) and model != "v2ce" else ()
+        words = ("abacus",) if isinstance(value, str) else ()
         for wrong in numbers if type(value) in (int, float) else words:
             with pytest.raises(ConfigError, match=name):
                 dataclasses.replace(config, **{name: wrong})
 
 
-@pytest.mark.parametrize("model", ["texvent", "esim", "senpi"])  # compiles kernels of its own
+@pytest.mark.parametrize("model", ["texvent", "esim"])  # compiles kernels of its own
 def test_a_whole_number_may_be_an_int(model):
     kind = SIMULATORS.load(model)
     config = dataclasses.replace(kind.config_type(), **NOISY.get(model, {}))

@@ -12,14 +12,13 @@ from texvent._registry import SIMULATORS
 from texvent.errors import InputError
 from texvent.simulate.esim.simulator import EsimSimulator
 from texvent.simulate.physical.simulator import PhysicalSimulator
-from texvent.simulate.senpi.simulator import SenpiSimulator
 from texvent.simulate.v2e.simulator import V2eSimulator
 from texvent.simulate.voltmeter.simulator import VoltmeterConfig
 from texvent.video import Frame
 
 from .pixel_frames import moving_texture, run
 
-MODELS = {name: SIMULATORS.load(name) for name in SIMULATORS.builtin if name != "v2ce"}
+MODELS = {name: SIMULATORS.load(name) for name in SIMULATORS.builtin}
 EVERY_PRESET = [(name, preset) for name, model in MODELS.items() for preset in model.presets]
 TWO_PRESETS = [
     (name, preset)
@@ -131,7 +130,6 @@ SYMMETRIC = {
     "physical": (dataclasses.replace(PhysicalSimulator.presets["clean"], gamma=1.0), 10.0),
     "esim": (EsimSimulator.presets["default"], 0.255),
     "v2e": (V2eSimulator.presets["peer-common"], 0.0),
-    "senpi": (SenpiSimulator.presets["peer-common"], 0.0),
     # Without noise: ΔL / (mean L + k2) changes its sign exactly where L + k2 is inverted.
     "voltmeter": (VoltmeterConfig(constants="5 20 0 0 0 0"), 20.0),
 }
@@ -170,7 +168,6 @@ def test_the_seed_decides_everything_random(name):
         "physical": {"noise_scale": 10.0},
         "esim": {"threshold_sigma": 0.03},
         "v2e": {"shot_noise_rate_hz": 50.0},
-        "senpi": {"noise_rate_hz": 50.0},
         "voltmeter": {"constants": "5.265 20 1e-4 1e-7 5e-9 1e-3"},
     }
     config = dataclasses.replace(preset, **noisy.get(name, {}))

@@ -15,8 +15,7 @@ RECONSTRUCTORS = Registry(
         "e2vid+": "texvent_lab.reconstruct.networks:E2VID_PLUS",
         "firenet": "texvent_lab.reconstruct.networks:FIRENET",
         "firenet+": "texvent_lab.reconstruct.networks:FIRENET_PLUS",
-        "hypere2vid": "texvent_lab.reconstruct.networks:HYPER_E2VID",
-        "et-net": "texvent_lab.reconstruct.networks:ET_NET",
+        "pie-net": "texvent_lab.reconstruct.pie_net:PIE_NET",
     },
 )
 TASKS = Registry(

@@ -41,5 +41,5 @@ def synthetic_report():
         score_seeds=[21, 33],
         references=[reference],
         scores=scores,
-        skipped={"v2ce, none": "needs weights"},
+        skipped={"esim, motion": "needs motion"},
     )

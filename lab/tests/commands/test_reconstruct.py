@@ -1,4 +1,4 @@
-"""`texvent reconstruct` and `texvent bench reconstruction`, from files to files."""
+"""`texvent reconstruct` and images in `texvent bench real`, from files to files."""
 
 import json
 
@@ -80,27 +80,12 @@ def test_wrong_options_are_refused_before_any_work(words, message, events, weigh
     assert not out.exists()
 
 
-def test_the_benchmark_prints_its_tables_and_keeps_every_value(
-    recording, weights, tmp_path, capsys
-):
+def test_the_benchmark_of_recordings_scores_images_too(recording, weights, tmp_path, capsys):
     out = tmp_path / "result.json"
-    words = ("--simulators", "esim", "--interpolations", "blend", "--skip-frames", "2")
-    files = ("-o", out, "-q")
-    code, said = run(
-        capsys, "bench", "reconstruction", recording, *words, *files, *network(weights)
-    )
+    words = ("--simulators", "esim", "--interpolations", "blend", "--seconds", "0.5", "-q")
+    code, said = run(capsys, "bench", "real", recording, *words, "-o", out, *network(weights)[:-2])
     assert code == 0
-    assert "## bar, firenet (12 images)" in said.out
+    assert "## bar, firenet (2 images)" in said.out
     assert "| esim, blend |" in said.out
     document = json.loads(out.read_text())
     assert [row["source"] for row in document["rows"]] == ["recorded", "esim, blend"]
-
-
-def test_events_and_frames_of_a_recording_may_lie_apart(recording, weights, capsys):
-    words = ("--frames", recording / "images", "--simulators", "esim", "-q")
-    words += ("--interpolations", "none")
-    code, said = run(
-        capsys, "bench", "reconstruction", recording / "events.txt", *words, *network(weights)
-    )
-    assert code == 0
-    assert "## events, firenet (4 images)" in said.out

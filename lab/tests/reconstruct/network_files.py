@@ -16,8 +16,6 @@ HEADS = {
     "firenet+": "head.conv2d.weight",
     "e2vid": "unetrecurrent.head.conv2d.weight",
     "e2vid+": "unetrecurrent.head.conv2d.weight",
-    "hypere2vid": "unetrecurrent.head.conv2d.weight",
-    "et-net": "head.conv2d.weight",
 }
 
 

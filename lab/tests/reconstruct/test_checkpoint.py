@@ -59,7 +59,7 @@ def test_tensors_alone_are_read_too(suffix, tmp_path):
     assert settings_of(path) == {}
 
 
-@pytest.mark.parametrize("name", ["e2vid", "e2vid+", "hypere2vid", "firenet"])
+@pytest.mark.parametrize("name", ["e2vid", "e2vid+", "firenet"])
 def test_what_each_program_says_about_its_network_is_found(name, tmp_path):
     settings = {"num_bins": 5, "final_activation": "sigmoid"}
     path = save_published(torch, name, tmp_path / "model.pth", settings=settings)
@@ -131,13 +131,6 @@ def test_firenet_has_the_published_24_tensors_and_37777_parameters(name):
 
 def test_e2vid_has_the_published_10_7_million_parameters():
     assert count_parameters(shapes_like("e2vid", {})) == pytest.approx(10.71e6, rel=0.002)
-
-
-def test_hyper_e2vid_differs_from_e2vid_in_its_first_decoder_alone():
-    plain, hyper = small_shapes("e2vid+"), small_shapes("hypere2vid")
-    different = plain.keys() ^ hyper.keys()
-    assert different
-    assert all(name.startswith("unetrecurrent.decoders.0.") for name in different)
 
 
 @pytest.mark.parametrize("name", HEADS)

@@ -66,13 +66,13 @@ def test_only_e2vid_stretches_its_images(folder):
 
 
 def test_a_twin_shares_weights_but_no_memory(folder):
-    reconstructor = load(folder, "hypere2vid")
+    reconstructor = load(folder, "e2vid+")
     first = reconstructor.reconstruct(noise())
     twin = reconstructor.twin()
     np.testing.assert_array_equal(twin.reconstruct(noise()), first)
     second = reconstructor.reconstruct(noise(seed=1))
     np.testing.assert_array_equal(twin.reconstruct(noise(seed=1)), second)
-    name = HEADS["hypere2vid"]
+    name = HEADS["e2vid+"]
     assert twin._network.tensors[name] is reconstructor._network.tensors[name]
 
 
@@ -96,7 +96,7 @@ def test_output_that_is_not_finite_is_refused(tmp_path):
         reconstructor.reconstruct(noise())
 
 
-@pytest.mark.parametrize("name", RECONSTRUCTORS.names())
+@pytest.mark.parametrize("name", HEADS)
 def test_without_weights_the_message_says_where_they_come_from_and_go(name, tmp_path, monkeypatch):
     monkeypatch.setenv("TEXVENT_CACHE", str(tmp_path))
     with pytest.raises(InputError) as told:

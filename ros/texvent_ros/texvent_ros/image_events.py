@@ -107,7 +107,7 @@ class ImageEvents:
         return answer
 
     def finish(self) -> Answer | None:
-        """The events that the simulator held back, as V2CE does; the next image begins a recording.
+        """The events that the simulator held back; the next image begins a recording.
 
         Returns:
             None where there is no such event.

@@ -83,8 +83,6 @@ class SimulatorOptions(TypedDict, total=False):
     contrast_threshold_off: float | None
     log_eps: float | None
     shot_noise_rate_hz: float | None
-    weights: str | Path | None
-    sequence_length: int | None
     constants: str | None
 
 

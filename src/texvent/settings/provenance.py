@@ -73,15 +73,13 @@ def describe_source(metadata: Mapping[str, Any]) -> dict[str, Any]:
 
     Args:
         metadata: of a video; `source` names what it was read from, `motion` the files of its
-            motion vectors, `camera_files` that of a camera's path; they get theirs under
-            "motion_fingerprint" and "camera_fingerprint".
+            motion vectors, which get theirs under "motion_fingerprint".
     """
     found = {"fingerprint": fingerprint(metadata.get("source"))}
-    for name, key in (("motion", "motion_fingerprint"), ("camera_files", "camera_fingerprint")):
-        files = metadata.get(name)
-        if isinstance(files, Mapping):
-            prints = [one for one in map(fingerprint, files.values()) if one is not None]
-            found[key] = "-".join(prints) or None
+    files = metadata.get("motion")
+    if isinstance(files, Mapping):
+        prints = [one for one in map(fingerprint, files.values()) if one is not None]
+        found["motion_fingerprint"] = "-".join(prints) or None
     return {**metadata, **{name: text for name, text in found.items() if text is not None}}
 
 

@@ -5,6 +5,7 @@ import math
 
 import numpy as np
 import pytest
+from tests.calibrate.known_scenes import simulate_flicker
 
 from texvent.calibrate.events_only.flicker import NAMES, measure_flicker
 from texvent.calibrate.events_only.flicker_cycles import find_bursts, find_cycles
@@ -14,7 +15,6 @@ from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent_lab.bench.oracle.pixel import NOISY, PixelArray
-from texvent_lab.measure.known_scenes import simulate_flicker
 
 SIZE = SensorSize(28, 20)
 START = PhysicalConfig(gamma=1.0)

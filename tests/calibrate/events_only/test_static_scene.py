@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from tests.calibrate.known_scenes import simulate_static
 
 from texvent.calibrate.estimates import Estimate
 from texvent.calibrate.events_only.pixel_trains import find_dead_time
@@ -15,7 +16,6 @@ from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
 from texvent.simulate.physical.config import PhysicalConfig
-from texvent_lab.measure.known_scenes import simulate_static
 
 SIZE = SensorSize(96, 64)
 START = PhysicalConfig(gamma=1.0)

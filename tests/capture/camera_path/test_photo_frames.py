@@ -107,7 +107,11 @@ def test_enough_frames_are_rendered_that_nothing_moves_by_more_than_a_pixel():
 @pytest.mark.parametrize(
     ("options", "error", "said"),
     [
-        ({"camera": "wobble"}, InputError, "give saccade, shake, pan, or a file that exists"),
+        (
+            {"camera": "wobble"},
+            ConfigError,
+            "unknown camera 'wobble'; allowed: saccade",
+        ),
         ({"camera": "pan", "start": 1.0}, ConfigError, "start is for videos.*`duration` says"),
         ({"camera": "pan", "fit": "stretch"}, ConfigError, "fit is for videos"),
         ({"camera": "pan", "duration": 0.0}, ConfigError, "duration is 0 s; it must be"),

@@ -1,7 +1,5 @@
 """Flat images under a moved camera: means over pixels at sub-pixel positions, and the scale."""
 
-import math
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -67,21 +65,13 @@ def test_a_smaller_sensor_averages_over_the_area_of_its_pixels():
         (1.0, CameraPose2D(0.37, -2.81)),
         (1.7, CameraPose2D(1.21, 0.4)),
         (2.6, CameraPose2D(-0.77, 0.9)),
-        (1.5, CameraPose2D(0.3, 0.2, zoom=1.3)),
     ],
 )
-def test_fractional_shifts_scales_and_zooms_are_means_over_the_area(scale, place):
+def test_fractional_shifts_and_scales_are_means_over_the_area(scale, place):
     view = view_of(7, 5, scale=scale)
     # 40 points along a pixel know an edge to 1/80 of it, of at most 255 levels, at four borders.
     expected = slow_sample(view, place)
     np.testing.assert_allclose(view.render(IMAGE, place), expected, atol=255 * 4 / 80)
-
-
-def test_a_quarter_turn_clockwise_turns_the_image_counterclockwise():
-    image = IMAGE[:, :14]
-    view = view_of(14, 14, image=image)
-    turned = view.render(image, CameraPose2D(roll=math.pi / 2))
-    np.testing.assert_allclose(turned, np.rot90(image), atol=1e-3)
 
 
 def test_the_scale_keeps_the_path_inside_an_image_that_is_large_enough():
@@ -109,11 +99,12 @@ def test_a_path_that_leads_far_away_is_refused():
         fitted_view(view_of(), [CameraPose2D(45.0)], is_pixelwise=True)
 
 
-@given(st.floats(-2, 2), st.floats(-2, 2), st.floats(-0.3, 0.3), st.floats(0.8, 1.3))
-def test_vectors_lead_to_the_place_in_the_other_view(x, y, turn, zoom):
-    view, first, place = view_of(), CameraPose2D(), CameraPose2D(x, y, turn, zoom)
+@given(st.floats(-2, 2), st.floats(-2, 2), st.floats(0.5, 3))
+def test_vectors_lead_to_the_place_in_the_other_view(x, y, scale):
+    view, first, place = view_of(scale=scale), CameraPose2D(), CameraPose2D(x, y)
     there = view.vectors(first, place)
     for row, column in ((1, 5), (0, 0)):
         moved = np.append(np.array([column + 0.5, row + 0.5]) + there[row, column], 1.0)
         u, v, _ = view.matrix(place) @ moved
-        np.testing.assert_allclose([u, v], [column + 0.5, row + 0.5], atol=1e-5)
+        expected = view.matrix(first) @ [column + 0.5, row + 0.5, 1.0]
+        np.testing.assert_allclose([u, v], expected[:2], atol=1e-5)

@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+from tests.calibrate.known_scenes import simulate_flicker, simulate_static
 from tests.cli.running import refused
 
 from texvent.cli.app import main
@@ -10,7 +11,6 @@ from texvent.simulate.physical.config import PhysicalConfig
 from texvent.simulate.physical.simulator import PhysicalSimulator
 from texvent.simulate.physical.threshold_map import read_threshold_map
 from texvent.video import Video
-from texvent_lab.measure.known_scenes import simulate_flicker, simulate_static
 
 
 @pytest.fixture(scope="module")

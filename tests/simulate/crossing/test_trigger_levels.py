@@ -11,7 +11,6 @@ from hypothesis import strategies as st
 from texvent.simulate.crossing.trigger_levels import BrightnessCurve, OutsidePixels, TriggerLevels
 from texvent.simulate.esim.simulator import EsimConfig, EsimSimulator
 from texvent.simulate.random.mismatch import Thresholds
-from texvent.simulate.senpi.simulator import SenpiConfig, SenpiSimulator
 from texvent.video import Frame
 
 from ..pixel_frames import run
@@ -36,22 +35,13 @@ def list_every_pixel(levels, luma):
 
 
 LOW, HIGH = st.sampled_from([0.01, 0.1, np.log(2.0), 3.0]), st.sampled_from([0.15, np.log(2.0), 10])
-MODELS = st.one_of(
-    st.builds(
-        EsimConfig,
-        contrast_threshold_on=LOW,
-        contrast_threshold_off=HIGH,
-        log_eps=st.sampled_from([1e-9, 1e-3, 1.0]),
-        refractory_period_us=st.sampled_from([0, 700, 3000]),
-    ).map(lambda config: partial(EsimSimulator, config)),
-    st.builds(
-        SenpiConfig,
-        contrast_threshold_on=LOW,
-        contrast_threshold_off=HIGH,
-        threshold_sigma=st.sampled_from([0.0, 0.1]),
-        noise_rate_hz=st.just(0.0),
-    ).map(lambda config: partial(SenpiSimulator, config)),
-)
+MODELS = st.builds(
+    EsimConfig,
+    contrast_threshold_on=LOW,
+    contrast_threshold_off=HIGH,
+    log_eps=st.sampled_from([1e-9, 1e-3, 1.0]),
+    refractory_period_us=st.sampled_from([0, 700, 3000]),
+).map(lambda config: partial(EsimSimulator, config))
 
 
 @settings(max_examples=100)

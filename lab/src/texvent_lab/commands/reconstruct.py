@@ -27,11 +27,11 @@ from texvent_lab.reconstruct.reconstructor import (
     load_reconstructor,
 )
 
-DESCRIPTION = """Reconstruct intensity images from events by a published network whose weights you
-provide (docs/reconstruction.md says where to get them).
+DESCRIPTION = """Reconstruct intensity images from events by a published network: pie-net, whose
+package brings its weights, or one whose weights you provide (docs/reconstruction.md).
 
-  texvent reconstruct out.h5 -o out.mp4 --network firenet --weights firenet.pth
-  texvent reconstruct out.h5 -o frames/ --weights e2vid.pth --fps 100"""
+  texvent reconstruct out.h5 -o out.mp4
+  texvent reconstruct out.h5 -o frames/ --network e2vid --weights e2vid.pth --fps 100"""
 
 
 @dataclass(frozen=True, kw_only=True)

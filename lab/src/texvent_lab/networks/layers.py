@@ -61,11 +61,6 @@ def count_blocks(shapes: Mapping[str, Shape], prefix: str) -> int:
     return number
 
 
-def upsample(x: Tensor) -> Tensor:
-    """Twice the size, bilinear."""
-    return _nn.functional.interpolate(x, scale_factor=2, mode="bilinear", align_corners=False)
-
-
 class ConvLayer(_Module):
     """A convolution, and a batch normalisation that takes the place of its bias if it has one."""
 
@@ -88,22 +83,8 @@ class UpsampleLayer(ConvLayer):
 
     def forward(self, x: Tensor) -> Tensor:
         """Twice the size."""
-        return super().forward(upsample(x)).relu()
-
-
-class TransposedLayer(_Module):
-    """Transposed convolution to twice the size, then ReLU."""
-
-    def __init__(self, narrow: int, wide: int, side: int, *, has_norm: bool = False) -> None:
-        super().__init__()
-        self.transposed_conv2d = _nn.ConvTranspose2d(
-            narrow, wide, side, 2, side // 2, output_padding=1, bias=not has_norm
-        )
-        self.norm_layer = _nn.BatchNorm2d(wide) if has_norm else _nn.Identity()
-
-    def forward(self, x: Tensor) -> Tensor:
-        """Twice the size."""
-        return self.norm_layer(self.transposed_conv2d(x)).relu()
+        x = _nn.functional.interpolate(x, scale_factor=2, mode="bilinear", align_corners=False)
+        return super().forward(x).relu()
 
 
 class ResidualBlock(_Module):

@@ -37,7 +37,7 @@ def find_weights(published: PublishedNetwork, path: Path | None = None) -> Path:
         InputError: there is no such file; the message says where it comes from and where to put
             it.
     """
-    usual = cache_folder("weights") / published.file_name
+    usual = published.file or cache_folder("weights") / published.file_name
     chosen = path or usual
     if chosen.is_file():
         return chosen

@@ -6,10 +6,9 @@ benchmark and analysis suite for event-based video reconstruction", CVPRW 2023, 
 
 from __future__ import annotations
 
-from texvent_lab.reconstruct.et_net import EtNet
 from texvent_lab.reconstruct.firenet import FireNet, FireNetPlus
 from texvent_lab.reconstruct.recurrent_network import PublishedNetwork
-from texvent_lab.reconstruct.recurrent_unet import E2vid, E2vidPlus, HyperE2vid
+from texvent_lab.reconstruct.recurrent_unet import E2vid, E2vidPlus
 
 EVREAL = "the project ercanburak/EVREAL on GitHub carries it as pretrained/{}/model.pth"
 FIRENET = PublishedNetwork("firenet", FireNet, EVREAL.format("FireNet"), is_normalised=True)
@@ -22,13 +21,3 @@ E2VID = PublishedNetwork(
     is_stretched=True,
 )
 E2VID_PLUS = PublishedNetwork("e2vid+", E2vidPlus, EVREAL.format("E2VID+"))
-HYPER_E2VID = PublishedNetwork(
-    "hypere2vid",
-    HyperE2vid,
-    f"{EVREAL.format('HyperE2VID')}, and ercanburak/HyperE2VID links to it",
-)
-ET_NET = PublishedNetwork(
-    "et-net",
-    EtNet,
-    f"{EVREAL.format('ET-Net')}, and WarranWeng/ET-Net links to it",
-)

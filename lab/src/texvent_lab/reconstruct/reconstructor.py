@@ -31,11 +31,11 @@ Device: TypeAlias = Literal["auto", "cpu", "cuda"]
 class ReconstructConfig:
     """Which network turns events into images."""
 
-    network: str = "e2vid"
-    """Network: e2vid, e2vid+, firenet, firenet+, hypere2vid or et-net."""
+    network: str = "pie-net"
+    """Network: pie-net, e2vid, e2vid+, firenet or firenet+."""
     weights: Path | None = None
-    """File with its published weights, which texvent neither carries nor downloads; default: its
-    place in the weights folder."""
+    """File with its published weights, which texvent neither carries nor downloads; default: that
+    of pie-net's package, or its place in the weights folder."""
     device: Device = "auto"
     """Where it runs: cpu, cuda (an NVIDIA GPU), or auto for a GPU if there is one."""
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from texvent.extending import require
@@ -91,6 +92,8 @@ class PublishedNetwork:
     """Whether the non-zero voxels are brought to mean 0 and deviation 1."""
     is_stretched: bool = False
     """Whether the image is stretched so that its 1st and 99th percentile become 0 and 1."""
+    file: Path | None = None
+    """Weights that an installed package brings; None: they are the user's."""
 
     @property
     def file_name(self) -> str:

@@ -83,7 +83,7 @@ def keep_few(monkeypatch):
     """Three of the columns, without motion compensation, which is tested elsewhere."""
     few = {
         column: dataclasses.replace(paper.ENTRIES[column], interpolate="none")
-        for column in ("VID2E", "V2CE", "Texvent")
+        for column in ("VID2E", "Texvent")
     }
     monkeypatch.setattr(paper, "ENTRIES", few)
 
@@ -134,7 +134,6 @@ def test_event_frames_are_compared_where_simulators_can_run(pan_folder, monkeypa
     mse = found.rows["event frames: MSE ↓"]
     assert set(mse) == {"VID2E", "Texvent"}
     assert all(0 < float(value) < 1 for value in mse.values())
-    assert any(need.startswith("v2ce, none: ") for need in found.needs)
     assert "ef_lpips: no weights" in found.needs
     # A recording compared with itself would have 0.
     recorded = scenes[0].recorded(scenes[0].scored[0])

@@ -20,7 +20,7 @@ METRICS = ("stpp", "count_ratio")
 ENTRIES = (
     Entry(simulator="esim", interpolate="flow"),
     Entry(simulator="esim", interpolate="none"),
-    Entry(simulator="v2ce", interpolate="none"),
+    Entry(simulator="esim", interpolate="motion"),
 )
 
 
@@ -50,7 +50,7 @@ def test_motion_compensation_comes_closest_and_the_bounds_bound_it(report):
     assert reference.floor["stpp"] == [1.0] * 4
     assert np.mean(reference.null["stpp"]) < flow.summary("stpp").mean < 1
     assert flow.values["count_ratio"] == pytest.approx([1] * 4, abs=0.15)
-    assert "weights" in report.skipped["v2ce, none"]
+    assert "motion vectors" in report.skipped["esim, motion"]
 
 
 def test_an_offset_that_is_wrong_scores_lower(pan_folder, report):

@@ -66,24 +66,25 @@ def test_a_run_scores_the_recorded_events_and_every_simulator():
 
 def test_a_simulator_that_cannot_run_is_skipped_with_the_reason():
     report = run_reconstruction(
-        [moving_bar()], scorer(entries=(Entry(simulator="v2ce", interpolate="none"), ESIM))
+        [moving_bar()], scorer(entries=(Entry(simulator="esim", interpolate="motion"), ESIM))
     )
     assert [row.source for row in report.rows] == [RECORDED, ESIM.name]
-    assert "v2ce_3d.pt" in report.skipped["v2ce, none"]
+    assert "motion" in report.skipped["esim, motion"]
 
 
 def test_by_default_the_part_that_evreal_names_counts_else_all_but_the_first_images():
     plan = ReconstructionPlan()
     assert plan.scored_part(moving_bar("slider_depth")) == ((1_000_000, 2_500_000), 0)
     assert plan.scored_part(moving_bar()) == (None, DEFAULT_SKIP)
-    chosen = ReconstructionPlan(span_us=(5, 6))
-    assert chosen.scored_part(moving_bar("slider_depth")) == ((5, 6), 0)
+    chosen = ReconstructionPlan(start_s=0.1, seconds=0.2)
+    assert chosen.scored_part(moving_bar("slider_depth")) == ((100_000, 300_000), DEFAULT_SKIP)
     assert ReconstructionPlan(skip=3).scored_part(moving_bar("slider_depth")) == (None, 3)
 
 
 def test_nothing_is_reconstructed_after_the_part_that_counts():
     end_us = 5 * STEP_US
-    row = scorer(span_us=(2 * STEP_US, end_us)).score(moving_bar(), moving_bar().events)
+    part = {"start_s": 2 * STEP_US / 1e6, "seconds": 3 * STEP_US / 1e6, "skip": 0}
+    row = scorer(**part).score(moving_bar(), moving_bar().events)
     assert row.scores.t_us == [number * STEP_US for number in range(2, 6)]
     assert row.events == len(moving_bar().events.collect().between(0, end_us))
 
@@ -123,7 +124,7 @@ def test_tables_and_document_state_every_figure():
         assert part in text
     assert "not measured: lpips: LPIPS's weights are not here" in text
     document = json.loads(json.dumps(reconstruction_document(report), allow_nan=False))
-    assert document["schema"] == "texvent-reconstruction-2"
+    assert document["schema"] == "texvent-reconstruction-3"
     assert len(document["rows"]) == 4
     assert len(document["rows"][0]["values"]["ssim"]) == 4
     assert document["rows"][1]["mean"]["mse"] == pytest.approx(report.rows[1].scores.mean("mse"))

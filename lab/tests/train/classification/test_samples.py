@@ -146,7 +146,7 @@ def test_a_sample_without_events_is_an_image_of_zeros(tmp_path: Path) -> None:
     path = write(
         tmp_path / "empty.toml",
         f"{RECORDED}, slice_events = 10",
-        'network = {representation = "dist"}\naugmentation = {flip_time = true}',
+        'network = {representation = "timestamp-image"}\naugmentation = {flip_time = true}',
     )
     assert train(path) == 0
 

@@ -27,10 +27,6 @@ class CameraPose2D:
     """How far it looks to the right of the image's centre, px: the image moves to the left."""
     y: float = 0.0
     """How far it looks below the centre, px."""
-    roll: float = 0.0
-    """Turn about the optical axis, clockwise, radians: the image turns counterclockwise."""
-    zoom: float = 1.0
-    """Magnification about the centre of the view."""
 
 
 class CameraPath(Protocol):

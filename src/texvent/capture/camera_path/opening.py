@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent._registry import suggest
 from texvent.capture.camera_path.motion import CameraPath, Pan, Saccades, Shake
 from texvent.capture.camera_path.photo_frames import PhotoFrames
-from texvent.capture.camera_path.trajectory_file import read_trajectory
 from texvent.capture.image_folder import coding_facts, read_image
 from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels, usable_pixels
 from texvent.capture.linear_light import (
@@ -61,26 +61,16 @@ def open_photo(
         seed: of the shake.
 
     Raises:
-        InputError: the source is no image, or a file does not fit it.
+        InputError: the source is no image.
         FileFormatError: a file is damaged.
-        ConfigError: an option does not go with the others.
+        ConfigError: an option does not go with the others, or no path has that name.
     """
     path = _path(config, seed)
     levels, facts = _levels(source, config)
-    if config.camera not in PRESETS:
-        facts["camera_files"] = {"path": config.camera}
     fps = FPS if config.fps is None else Fraction(config.fps)
     seconds = path.seconds if config.duration is None else config.duration
     intervals = max(1, math.ceil(Fraction(round(seconds * MICROSECONDS), MICROSECONDS) * fps))
-    return PhotoFrames(
-        levels,
-        path,
-        getattr(path, "start_us", 0),
-        fps,
-        intervals,
-        size,
-        facts,
-    )
+    return PhotoFrames(levels, path, fps, intervals, size, facts)
 
 
 def check_camera_options(config: CaptureConfig) -> None:
@@ -103,26 +93,15 @@ def check_camera_options(config: CaptureConfig) -> None:
 
 
 def _path(config: CaptureConfig, seed: int) -> CameraPath:
-    """The camera's path: a preset, or that of a file."""
-    camera, amplitude = str(config.camera), config.camera_amplitude
+    """The path of that name."""
+    camera, amplitude = config.camera, config.camera_amplitude
     if camera == "saccade":
         return Saccades(amplitude)
     if camera == "shake":
         return Shake(amplitude, seed)
     if camera == "pan":
         return Pan(amplitude, config.duration or Pan.seconds)
-    file = usable_path(camera).expanduser()
-    if not file.exists():
-        raise InputError(
-            f"camera is {shown(camera)}; give {', '.join(PRESETS)}, or a file that exists with a "
-            "camera path"
-        )
-    if amplitude is not None:
-        raise ConfigError(
-            "camera_amplitude is for saccade, shake and pan; a file states its own sizes, so leave "
-            "it out"
-        )
-    return read_trajectory(file)
+    raise ConfigError(f"unknown camera {shown(camera)}; {suggest(camera, PRESETS)}")
 
 
 def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], dict[str, Any]]:

@@ -29,7 +29,6 @@ class PhotoFrames(FrameSource):
     Args:
         levels: [H, W] luma of the image, 0..255 scale.
         path: of the camera.
-        start_us: time of the first frame, µs.
         fps: frames per second.
         intervals: frame intervals; there is one frame more.
         sensor: size of the frames; None: the image's own, pixel by pixel.
@@ -43,16 +42,15 @@ class PhotoFrames(FrameSource):
         self,
         levels: NDArray[np.float32],
         path: CameraPath,
-        start_us: int,
         fps: Fraction,
         intervals: int,
         sensor: SensorSize | None,
         facts: Mapping[str, Any],
     ) -> None:
-        self._arguments = levels, path, start_us, fps, intervals, sensor, facts
-        self._path, self._start_us, self._fps, self._count = path, start_us, fps, intervals + 1
+        self._arguments = levels, path, fps, intervals, sensor, facts
+        self._path, self._fps, self._count = path, fps, intervals + 1
         image = SensorSize(levels.shape[1], levels.shape[0])
-        times = np.linspace(start_us, frame_time_us(intervals, fps, start_us), INSTANTS)
+        times = np.linspace(0, frame_time_us(intervals, fps, 0), INSTANTS)
         places = [path(float(t_us)) for t_us in times]
         view = fitted_view(View(image, sensor or image), places, is_pixelwise=sensor is None)
         wanted = max(1, round(view.scale / PX_ALONG))
@@ -77,13 +75,13 @@ class PhotoFrames(FrameSource):
 
     def gamma_coded(self) -> PhotoFrames:
         """The same camera over the image as gamma-coded levels, where it is linear light."""
-        levels, path, start_us, fps, intervals, sensor, facts = self._arguments
+        levels, path, fps, intervals, sensor, facts = self._arguments
         levels = encode_srgb(levels / np.float32(WHITE))
         facts = {name: one for name, one in facts.items() if name != "transfer"}
-        return PhotoFrames(levels, path, start_us, fps, intervals, sensor, facts)
+        return PhotoFrames(levels, path, fps, intervals, sensor, facts)
 
     def _time(self, index: int) -> int:
-        return frame_time_us(index, self._fps, self._start_us)
+        return frame_time_us(index, self._fps, 0)
 
     def _motion(self, index: int, place: CameraPose2D) -> Motion:
         forward, backward = (

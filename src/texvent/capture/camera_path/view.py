@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
@@ -37,11 +36,9 @@ class View:
         """Affine map [3, 3] of sensor px to image px, homogeneous; pixel i covers i to i + 1."""
         centre_x, centre_y = self.sensor.width / 2, self.sensor.height / 2
         image_x, image_y = self.image.width / 2, self.image.height / 2
-        factor = self.scale / place.zoom
-        cos, sin = factor * math.cos(place.roll), factor * math.sin(place.roll)
-        x = self.scale * place.x + image_x - (cos * centre_x - sin * centre_y)
-        y = self.scale * place.y + image_y - (sin * centre_x + cos * centre_y)
-        return np.array([[cos, -sin, x], [sin, cos, y], [0.0, 0.0, 1.0]])
+        x = self.scale * place.x + image_x - self.scale * centre_x
+        y = self.scale * place.y + image_y - self.scale * centre_y
+        return np.array([[self.scale, 0.0, x], [0.0, self.scale, y], [0.0, 0.0, 1.0]])
 
     def reach(self, places: Sequence[CameraPose2D]) -> float:
         """Distance of the sensor's corners from the image's centre, the farthest: 1 is its border.
@@ -66,7 +63,7 @@ class View:
         Returns:
             [h, w] of the sensor.
         """
-        fineness = max(1, round(self.scale / place.zoom))
+        fineness = max(1, round(self.scale))
         size = self.sensor.width * fineness, self.sensor.height * fineness
         # OpenCV counts from the centres of pixels, this map from their corners.
         to_sensor = np.array([[1, 0, 0.5], [0, 1, 0.5], [0, 0, fineness]]) / fineness
@@ -81,11 +78,8 @@ class View:
 
     def vectors(self, now: CameraPose2D, other: CameraPose2D) -> Float32Array:
         """[h, w, 2] from each pixel's centre to its place in the other view, px."""
-        rows, columns = (one.ravel() for one in np.indices(self.sensor.shape))
-        points = np.stack([columns + 0.5, rows + 0.5, np.ones(len(rows))], axis=1)
-        to_other = np.linalg.solve(self.matrix(other), self.matrix(now))
-        moved = (points @ to_other.T - points)[:, :2]
-        return np.asarray(moved, np.float32).reshape(*self.sensor.shape, 2)
+        moved = np.array([now.x - other.x, now.y - other.y], np.float32)
+        return np.broadcast_to(moved, (*self.sensor.shape, 2)).copy()
 
 
 def fitted_view(start: View, places: Sequence[CameraPose2D], *, is_pixelwise: bool) -> View:

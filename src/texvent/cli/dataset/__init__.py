@@ -1,1 +1,1 @@
-"""`texvent dataset`: data sets made, looked at, checked, published."""
+"""`texvent dataset`: data sets made, looked at, checked, exported."""

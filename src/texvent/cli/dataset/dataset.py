@@ -15,7 +15,6 @@ STEPS: Mapping[str, str] = {
     "verify": "check every file of a data set, and every sample",
     "stats": "count what a data set holds",
     "sample": "a page with some samples",
-    "publish": "write the card of a data set",
     "export": "write the samples of a data set in another layout",
 }
 """Name → what it does. `plan` and `make` have modules of their own; the others are in `stored`."""

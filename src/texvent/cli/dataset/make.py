@@ -179,5 +179,5 @@ def _finish(folder: Path, work: Work, options: MakeOptions, *, is_whole: bool) -
             "kept. --retry-failed makes them again, --allow-failed accepts the set as it is"
         )
     if is_whole:
-        write_out(f"next: texvent dataset sample {folder}, then verify, stats, publish\n")
+        write_out(f"next: texvent dataset sample {folder}, then verify, stats, export\n")
     return 0

@@ -1,4 +1,4 @@
-"""Steps of `texvent dataset` that read one: verify, stats, sample, publish, export."""
+"""Steps of `texvent dataset` that read one: verify, stats, sample, export."""
 
 from __future__ import annotations
 
@@ -19,7 +19,6 @@ from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
 from texvent.dataset.export import LAYOUTS, export
-from texvent.dataset.publish import CARD_FILE, publish
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.statistics import (
     COUNTS,
@@ -29,7 +28,7 @@ from texvent.dataset.statistics import (
     summary_lines,
 )
 from texvent.dataset.verify import Findings, verify
-from texvent.errors import ConfigError, InputError, one_line
+from texvent.errors import ConfigError
 from texvent.runtime.threads import count_threads
 
 MOST_LINES = 20
@@ -54,11 +53,6 @@ facts.
 
   texvent dataset sample cars
   texvent dataset sample cars --variant paper --label bus -n 60 -o buses.html""",
-    "publish": """Write the card that a data set is published with into its folder: README.md, with
-what Hugging Face reads. Nothing is uploaded. Equal shards give equal files.
-
-  texvent dataset publish cars --license cc-by-4.0
-  hf upload NAME/cars cars --repo-type dataset      then, for the Hub""",
     "export": f"""Write the samples of a data set in another layout: {", ".join(LAYOUTS)}. What a
 layout cannot hold is said. A stopped export goes on when it is run again.
 
@@ -220,43 +214,6 @@ def run_sample(arguments: Sequence[str]) -> int:
     )
     write_sample_page(dataset, samples, out, overwrite=options.overwrite)
     write_out(f"{len(samples)} samples of {dataset.name}: {out}\n")
-    return 0
-
-
-@dataclass(frozen=True, kw_only=True)
-class PublishOptions(StoredOptions):
-    """Contents of the card besides the counts."""
-
-    license: str | None = None
-    """Licence, such as cc-by-4.0; default: that of the specification."""
-    notes: Path | None = None
-    """A Markdown file whose text is added to the card."""
-    partial: bool = False
-    """Publish although shards are missing."""
-
-
-def run_publish(arguments: Sequence[str]) -> int:
-    """Run `texvent dataset publish`; returns its exit code."""
-    options = _parse("publish", arguments, PublishOptions())
-    notes = ""
-    if options.notes is not None:
-        try:
-            notes = options.notes.read_text("utf-8")
-        except (OSError, UnicodeDecodeError) as error:
-            raise InputError(
-                f"cannot read {options.notes} ({one_line(error)}); give a text file"
-            ) from error
-    statistics, missing = publish(
-        StoredDataset.open(options.folder),
-        license=options.license,
-        notes=notes,
-        partial=options.partial,
-    )
-    total = statistics.total
-    write_out(
-        f"{options.folder / CARD_FILE}: {total.samples:,} samples in {total.shards:,} shards"
-        f"{f'; {missing} shards are missing' if missing else ''}\n"
-    )
     return 0
 
 

@@ -45,8 +45,6 @@ Luma: TypeAlias = NDArray[Any]
 
 MARGIN = 1e-6
 """Shift of trigger levels towards the reference; relative, see above."""
-BRIGHTNESS_SLACK = 1e-9
-"""Log units by which a brightness must be out of reach, for what is rounded."""
 PIXELS_AT_A_TIME = 1 << 14
 _BYTE = np.dtype(np.uint8).str
 
@@ -82,8 +80,6 @@ class BrightnessCurve(NamedTuple):
     scale: float
     """A pixel of brightness v has the intensity `scale · e^v + offset`."""
     offset: float
-    darkest: float = -np.inf
-    """No intensity is as dark as a brightness below this, log units."""
 
 
 class TriggerLevels:
@@ -236,8 +232,7 @@ def _set_levels(
 ) -> None:
     """Set the levels of some pixels, between which they cannot fire; `low`, `high` are of all."""
     on, off = thresholds
-    scale, offset, darkest = curve
-    darkest_level = scale * exponential(darkest - BRIGHTNESS_SLACK) + offset
+    scale, offset = curve
     centre, up, down = np.empty(BLOCK), np.empty(BLOCK), np.empty(BLOCK)
     lowest, highest = np.empty(BLOCK, low.dtype), np.empty(BLOCK, low.dtype)
     for first in range(0, pixel.size, BLOCK):
@@ -250,7 +245,7 @@ def _set_levels(
             centre[j] = scale * exponential(centre[j])
         for j in range(size):
             below, above = centre[j] * down[j] + offset, centre[j] * up[j] + offset
-            least = below + MARGIN * (1.0 + abs(below)) if below >= darkest_level else 0.0
+            least = below + MARGIN * (1.0 + abs(below))
             lowest[j], highest[j] = _as_luma(least, above - MARGIN * (1.0 + abs(above)), low)
         for j in range(size):
             low[pixel[first + j]], high[pixel[first + j]] = lowest[j], highest[j]

@@ -47,7 +47,6 @@ class Purpose(IntEnum):
     FIRST_PASSAGE = 9
     PHASE = 10
     NOISE_RATE = 11
-    VOXEL = 14
     NOISE_PLACE = 15
 
     def draw(self, order: Any = 0) -> Any:

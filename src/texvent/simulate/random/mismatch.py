@@ -117,15 +117,6 @@ def draw_threshold_pair_at(
     )
 
 
-def sensor_thresholds(shape: Shape, seed: int, nominal: NominalThresholds) -> Thresholds:
-    """Thresholds that differ from pixel to pixel and never change; [1] each if all are alike."""
-    if nominal.threshold_sigma == 0:
-        on, off = nominal.contrast_threshold_on, nominal.contrast_threshold_off
-        return Thresholds(np.array([float(on)]), np.array([float(off)]))
-    pair = draw_threshold_pair(shape, sensor_key(seed), nominal)
-    return Thresholds(*(one.reshape(-1) for one in pair))
-
-
 def thresholds_at(pixel: NDArray[np.int64], thresholds: Thresholds) -> Thresholds:
     """Those of some pixels, of thresholds of all, [H · W] each, or [1] if all have the same."""
     on, off = (one if one.size == 1 else one[pixel] for one in thresholds)

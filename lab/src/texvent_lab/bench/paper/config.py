@@ -55,8 +55,8 @@ class PaperConfig:
     weights: Path | None = None
     """Tables 1, 7, 8: published weights of the network; table 9: those of the classifier."""
     network: str | None = None
-    """Tables 1, 7, 8: network that reconstructs images; default: the paper's (e2vid, for table 8
-    et-net). firenet is the smallest."""
+    """Tables 1, 7, 8: network that reconstructs images; default: e2vid as in the
+    paper, for table 8 pie-net in place of its ET-Net."""
     rvt_weights: Path | None = None
     """Table 2: RVT's published weights, for EQS."""
     folder: Path | None = None

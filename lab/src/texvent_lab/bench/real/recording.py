@@ -66,15 +66,12 @@ class FrameRecording:
         return None if span is None else (_us(span[0]), _us(span[1]))
 
 
-def open_recording(path: Path, *, frames: str | None = None) -> FrameRecording:
+def open_recording(path: Path) -> FrameRecording:
     """A recording from the files it is usually kept in.
 
     Args:
         path: a folder of the Event-Camera Dataset (events.txt, images.txt), an EVREAL folder with
-            images, a DSEC sequence, an AEDAT4 file with frames, or any event file if `frames` is
-            given.
-        frames: the frames, where they lie elsewhere: a video file or image folder on the clock of
-            the events. Events without a stored size have that of the frames.
+            images, a DSEC sequence, or an AEDAT4 file with frames.
 
     Raises:
         InputError: there is no such recording, or it holds no frames.
@@ -82,15 +79,14 @@ def open_recording(path: Path, *, frames: str | None = None) -> FrameRecording:
     """
     if not path.exists():
         raise InputError(f"there is no recording {path}")
-    if frames is None and path.is_dir() and not (is_evreal(path) or is_dsec(path)):
+    if path.is_dir() and not (is_evreal(path) or is_dsec(path)):
         missing = [name for name in (ECD_EVENTS, ECD_FRAMES) if not (path / name).is_file()]
         if missing:
             raise InputError(
                 f"{path} has no {missing[0]}, and is no EVREAL folder with images.npy and no DSEC "
-                "sequence; give a folder of either kind, an AEDAT4 file, or an event file and "
-                "--frames"
+                "sequence; give a folder of either kind or an AEDAT4 file"
             )
-    video = open_frames(frames or str(path), CaptureConfig())
+    video = open_frames(str(path), CaptureConfig())
     events = open_events(_events_of(path), size=video.size)
     return FrameRecording(name=path.resolve().stem, frames=video, events=events)
 

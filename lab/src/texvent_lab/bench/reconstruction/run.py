@@ -50,19 +50,14 @@ class ReconstructionPlan:
         ConfigError: a value is out of range, or an entry does not exist.
     """
 
-    entries: Sequence[Entry] = (
-        Entry(simulator="texvent", preset="paper", interpolate="blend"),
-        Entry(simulator="texvent", preset="paper", interpolate="flow"),
-        Entry(simulator="texvent", preset="accurate", interpolate="flow"),
-        Entry(simulator="physical", interpolate="flow"),
-        Entry(simulator="esim", interpolate="flow"),
-        Entry(simulator="v2e", interpolate="flow"),
-    )
-    span_us: tuple[int, int] | None = None
-    """First and last time that counts, µs; None: EVREAL's part of recordings that it names, all
-    but the first `skip` images of others."""
+    entries: Sequence[Entry] = ()
+    start_s: float = 0.0
+    """Where the part begins that counts, s after the first frame."""
+    seconds: float | None = None
+    """Length of that part, s; None: EVREAL's part of recordings that it names, all of others."""
     skip: int | None = None
-    """Images at the start that do not count; None: 10 where no part is named, else none."""
+    """Images at the start of a recording that do not count; None: 10, but none where EVREAL names a
+    part."""
     is_rate_matched: bool = False
     """Fit each contrast threshold to the number of recorded events, instead of keeping it."""
     frames_gamma: float = 1.0
@@ -83,9 +78,13 @@ class ReconstructionPlan:
 
     def scored_part(self, recording: FrameRecording) -> tuple[tuple[int, int] | None, int]:
         """First and last µs that count, and how many images at the start do not."""
-        span = self.span_us or (recording.evreal_span_us if self.skip is None else None)
-        default = 0 if span is not None else DEFAULT_SKIP
-        return span, default if self.skip is None else self.skip
+        span, skip = None, DEFAULT_SKIP
+        if self.seconds is not None:
+            first_us = next(iter(recording.frames)).t_us + round(self.start_s * MICROSECONDS)
+            span = first_us, first_us + round(self.seconds * MICROSECONDS)
+        elif self.skip is None and recording.evreal_span_us is not None:
+            span, skip = recording.evreal_span_us, 0
+        return span, skip if self.skip is None else self.skip
 
 
 @dataclass(frozen=True, kw_only=True)

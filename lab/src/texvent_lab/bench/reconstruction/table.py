@@ -12,7 +12,7 @@ from texvent_lab.bench.fidelity.comparison import Comparison
 from texvent_lab.bench.reconstruction.run import RECORDED, ReconstructionReport, ReconstructionRow
 from texvent_lab.bench.reconstruction.scores import ImageScores, pool_scores
 
-SCHEMA = "texvent-reconstruction-2"
+SCHEMA = "texvent-reconstruction-3"
 """Name of the document's layout; docs/reconstruction.md describes it."""
 COLUMNS = {"mse": "MSE ↓", "psnr": "PSNR, dB ↑", "ssim": "SSIM ↑", "lpips": "LPIPS ↓"}
 DIGITS = {"mse": 4, "psnr": 2, "ssim": 3, "lpips": 3}
@@ -53,7 +53,8 @@ def reconstruction_document(report: ReconstructionReport) -> dict[str, Any]:
         "schema": SCHEMA,
         "environment": describe_environment(),
         "network": {"name": report.network, "sha256": report.sha256},
-        "span_us": plan.span_us,
+        "start_s": plan.start_s,
+        "seconds": plan.seconds,
         "skip": plan.skip,
         "is_rate_matched": plan.is_rate_matched,
         "frames_gamma": plan.frames_gamma,

@@ -3,21 +3,39 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import ClassVar
 
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
+from texvent.data.catalogue import DATA_SETS
 from texvent_lab.bench.fidelity.entries import ConfigEntry, Entry, choose_entries
 from texvent_lab.bench.fidelity.table import BASELINE, check_baseline, fidelity_tables
-from texvent_lab.bench.real.recording import WITH_FRAMES, RecordingPart, open_scene
+from texvent_lab.bench.real.recording import (
+    LINEAR_GAMMA,
+    WITH_FRAMES,
+    FrameRecording,
+    RecordingPart,
+    locate_source,
+    open_recording,
+    open_scene,
+)
 from texvent_lab.bench.real.run import INTERPOLATIONS, real_entries, run_real
+from texvent_lab.bench.reconstruction.run import (
+    ReconstructionPlan,
+    ReconstructionScorer,
+    run_reconstruction,
+)
+from texvent_lab.bench.reconstruction.table import reconstruction_document, reconstruction_tables
 from texvent_lab.commands.bench.bench import ResultOptions
+from texvent_lab.reconstruct.image_measures import load_measures
+from texvent_lab.reconstruct.reconstructor import load_reconstructor
 
 DESCRIPTION = """\
-Simulators get the frames that a sensor recorded, and are scored by the events it recorded.
+Simulators get the frames that a sensor recorded, and are scored by the events it recorded; with
+--network, by the images that a network makes of either, beside the frames.
 
 A source is a pulled data set (slider_depth, davis346), a folder of the Event-Camera Dataset, an
 EVREAL folder with images, a DSEC sequence, or an AEDAT4 file with frames. docs/real-data.md
@@ -31,7 +49,7 @@ class RealOptions:
     input_texts: ClassVar[tuple[str, ...]] = ("sources",)
     positional: ClassVar[tuple[str, ...]] = ("sources",)
     main_options: ClassVar[tuple[str, ...]] = (
-        "start", "seconds", "simulators", "interpolations", "config", "baseline", "out",
+        "start", "seconds", "simulators", "interpolations", "config", "baseline", "network", "out",
         "overwrite",
     )  # fmt: skip
 
@@ -56,8 +74,15 @@ class RealOptions:
     left as it is."""
     baseline: str = BASELINE
     """Row that the others are compared with, pair by pair."""
+    network: str | None = None
+    """Score images: pie-net, or firenet, firenet+, e2vid, e2vid+ with their weights. Default rows:
+    flow. The first 10 images do not count."""
+    weights: Path | None = None
+    """File with the network's weights; pie-net's package has its own."""
+    match_rate: bool = False
+    """With network: fit each contrast threshold to the number of recorded events."""
     jobs: int = 2
-    """Processes to use."""
+    """Processes to use; with network, one."""
 
     def __post_init__(self) -> None:
         check_range("start", self.start, 0.0)
@@ -74,6 +99,9 @@ def run(arguments: Sequence[str]) -> None:
     )
     output.check()
     entries = _choose_entries(options)
+    if options.network is not None:
+        _score_images(options, options.network, entries, output)
+        return
     check_baseline(options.baseline, [entry.name for entry in entries])
     part = RecordingPart(options.start, options.seconds, options.offset_us, options.frames_gamma)
     scenes = [open_scene(source, part) for source in options.sources]
@@ -82,10 +110,36 @@ def run(arguments: Sequence[str]) -> None:
     write_out(fidelity_tables(report, baseline=options.baseline))
 
 
+def _score_images(
+    options: RealOptions, network: str, entries: Sequence[Entry], output: ResultOptions
+) -> None:
+    plan = ReconstructionPlan(
+        entries=entries,
+        start_s=options.start,
+        seconds=options.seconds,
+        is_rate_matched=options.match_rate,
+        frames_gamma=options.frames_gamma or LINEAR_GAMMA,
+    )
+    reconstructor = load_reconstructor(network, options.weights)
+    recordings = [_open_whole(source) for source in options.sources]
+    scorer = ReconstructionScorer(reconstructor=reconstructor, measures=load_measures(), plan=plan)
+    report = run_reconstruction(recordings, scorer, progress=output.progress)
+    output.write(lambda: reconstruction_document(report))
+    write_out(reconstruction_tables(report))
+
+
+def _open_whole(source: str) -> FrameRecording:
+    recording = open_recording(locate_source(source)[0])
+    return replace(recording, name=source) if source in DATA_SETS else recording
+
+
 def _choose_entries(options: RealOptions) -> list[Entry]:
     entries: list[Entry] = real_entries()
+    if options.network is not None:
+        entries = [entry for entry in entries if entry.interpolate == "flow"]
     if options.simulators or options.interpolations:
-        names = options.interpolations or ",".join(INTERPOLATIONS)
+        usual = ",".join(INTERPOLATIONS) if options.network is None else "flow"
+        names = options.interpolations or usual
         entries = choose_entries(options.simulators, names)
     if options.config is not None:
         entries.append(ConfigEntry.read(options.config))

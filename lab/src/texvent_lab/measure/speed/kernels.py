@@ -35,9 +35,7 @@ class Plan:
 
 
 QUICK = Plan(frames=16, steps=24)
-FULL = Plan(
-    frames=48, steps=96, models=("texvent", "esim", "v2e", "senpi", "voltmeter", "physical")
-)
+FULL = Plan(frames=48, steps=96, models=("texvent", "esim", "v2e", "voltmeter", "physical"))
 
 
 @contextmanager

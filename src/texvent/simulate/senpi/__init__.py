@@ -1,1 +1,0 @@
-"""SENPI's pixel model."""

@@ -1,1 +1,0 @@
-"""V2CE: a published network, and its sampling of event times (LDATI)."""
