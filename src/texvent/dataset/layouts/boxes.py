@@ -1,0 +1,69 @@
+"""Boxes as a layout wants them: at its instants, inside the picture, numbered by its classes."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+Boxes = NDArray[Any]
+"""Records of `texvent.truth.boxes.BOX_RECORD` in time order."""
+LONGEST_GAP_US = 100_000
+"""Boxes are not moved between instants further apart than this."""
+REACH_US = 25_000
+"""Where boxes are not moved, they hold this long before and after their instant."""
+
+
+def boxes_at(boxes: Boxes, instants_us: NDArray[np.int64], t_us: int) -> Boxes | None:
+    """Boxes at any instant: those of the nearest labelled one, moved along their tracks.
+
+    A track that is known on both sides moves in a straight line; one that comes or goes in between
+    stays at its nearest place.
+
+    Args:
+        boxes: those of all labelled instants.
+        instants_us: the labelled instants, also those without a box, µs, increasing.
+        t_us: the instant.
+
+    Returns:
+        Its boxes, with this time, or None where they are not known: the labelled instants around
+        it are more than `LONGEST_GAP_US` apart or one is missing, and none is within `REACH_US`.
+    """
+    place = int(np.searchsorted(instants_us, t_us))
+    around = instants_us[max(place - 1, 0) : place + 1]
+    near_us, far_us = sorted(map(int, around[[0, -1]]), key=lambda one: abs(one - t_us))
+    found = _labelled(boxes, near_us)
+    if far_us != near_us and abs(far_us - near_us) <= LONGEST_GAP_US:
+        share = (t_us - near_us) / (far_us - near_us)
+        found = _moved(found, _labelled(boxes, far_us), share)
+    elif abs(near_us - t_us) > REACH_US:
+        return None
+    found["t"] = t_us
+    return found
+
+
+def _labelled(boxes: Boxes, t_us: int) -> Boxes:
+    start, stop = np.searchsorted(boxes["t"], (t_us, t_us + 1))
+    return boxes[start:stop].copy()
+
+
+def _moved(near: Boxes, far: Boxes, share: float) -> Boxes:
+    """Boxes moved a share of the way; as they are where tracks do not tell them apart."""
+    if any(len(np.unique(one["track_id"])) < len(one) for one in (near, far)):
+        return near
+    _, own, others = np.intersect1d(near["track_id"], far["track_id"], return_indices=True)
+    for side in ("x", "y", "w", "h"):
+        near[side][own] += share * (far[side][others] - near[side][own])
+    return near
+
+
+def clip_boxes(boxes: Boxes, *, width: float, height: float, least_side: float = 1.0) -> Boxes:
+    """The parts of boxes inside 0..width, 0..height; those with a side below `least_side` go."""
+    clipped = boxes.copy()
+    for place, side, limit in (("x", "w", width), ("y", "h", height)):
+        start = np.clip(boxes[place], 0, limit)
+        clipped[place] = start
+        clipped[side] = np.clip(boxes[place] + boxes[side], 0, limit) - start
+    return clipped[(clipped["w"] >= least_side) & (clipped["h"] >= least_side)]
