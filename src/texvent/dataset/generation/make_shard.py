@@ -146,9 +146,9 @@ class _ShardSamples:
     def __init__(self, recipe: Recipe, folder: Path, shard: Shard, scratch: Path) -> None:
         self._recipe, self._shard, self._scratch = recipe, shard, scratch
         self._labels = {label: number for number, label in enumerate(recipe.items.labels)}
-        self._stored: _StoredVideos | None = None
+        self._stored: StoredVideos | None = None
         if recipe.stores_videos and shard.variant != VIDEOS:
-            self._stored = _StoredVideos(folder, replace(shard, variant=VIDEOS), scratch)
+            self._stored = StoredVideos(folder, replace(shard, variant=VIDEOS), scratch)
 
     def __iter__(self) -> Iterator[tuple[SampleRecord, Make]]:
         for clip in self._recipe.clips_of(self._shard):
@@ -237,7 +237,7 @@ def _record(key: str, clip: Clip, seed: int) -> SampleRecord:
     )
 
 
-class _StoredVideos:
+class StoredVideos:
     """The videos of a shard of the first stage."""
 
     def __init__(self, folder: Path, shard: Shard, scratch: Path) -> None:
