@@ -14,13 +14,16 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager
 from itertools import count
 from pathlib import Path
-from typing import IO, Any
+from typing import IO, TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.io.arrays.npy_file import growing_array
-from texvent.scenes.raycast.ground_truth import Box
 from texvent.sensor import SensorSize
+
+if TYPE_CHECKING:
+    from texvent.scenes.raycast.ground_truth import Box
 
 COCO, PROPHESEE = "coco.json", "bbox.npy"
 BOX_RECORD = np.dtype(
@@ -30,6 +33,54 @@ BOX_RECORD = np.dtype(
     }
 )
 """Time in µs, left, top, width, height in pixels; `track_id` is the instance."""
+
+SMALL_AREA, MEDIUM_AREA = 32**2, 96**2
+"""Areas, px², from which on COCO calls an object medium, and large."""
+SIZE_CLASSES = ("small", "medium", "large")
+
+
+def box_records(t_us: int, boxes: Sequence[Box], class_ids: Sequence[int]) -> NDArray[np.void]:
+    """Records of the boxes of one instant, of `BOX_RECORD`.
+
+    Args:
+        t_us: the instant, µs.
+        boxes: visible objects.
+        class_ids: class of each.
+    """
+    rows = [
+        (t_us, box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0, class_id, box.instance, 1.0)
+        for box, class_id in zip(boxes, class_ids, strict=True)
+    ]
+    return np.array(rows, dtype=BOX_RECORD)
+
+
+def size_classes(boxes: NDArray[np.void]) -> NDArray[np.int64]:
+    """Place of each box in `SIZE_CLASSES`, by its area.
+
+    Example:
+        >>> size_classes(np.array([(0, 0, 0, 32, 32, 3, 1, 1.0)], BOX_RECORD)).tolist()
+        [1]
+    """
+    area: NDArray[np.float32] = boxes["w"] * boxes["h"]
+    return np.searchsorted((SMALL_AREA, MEDIUM_AREA), area, side="right")
+
+
+def detection_target(boxes: NDArray[np.void]) -> dict[str, NDArray[Any]]:
+    """Boxes as detectors take them.
+
+    Args:
+        boxes: [k] records of `BOX_RECORD`.
+
+    Returns:
+        `boxes`: x0, y0, x1, y1 in pixels, [k, 4] float32; `labels`: class ids, `track_ids`, and
+        `times`, µs, [k] int64 each.
+    """
+    x, y, w, h = (boxes[name] for name in "xywh")
+    whole = {"labels": "class_id", "track_ids": "track_id", "times": "t"}
+    return {
+        "boxes": np.stack([x, y, x + w, y + h], axis=1).astype(np.float32),
+        **{name: boxes[column].astype(np.int64) for name, column in whole.items()},
+    }
 
 
 class BoxFiles:
@@ -66,14 +117,12 @@ class BoxFiles:
             "t_us": t_us,
         }
         _write_item(self._images, image)
-        records = []
         for box, class_id, area in zip(boxes, class_ids, areas, strict=True):
-            sides = box.x1 - box.x0, box.y1 - box.y0
             facts = {
                 "id": next(self._numbers),
                 "image_id": index,
                 "category_id": class_id,
-                "bbox": [box.x0, box.y0, *sides],
+                "bbox": [box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0],
                 "area": area,
                 "iscrowd": 0,
                 "track_id": box.instance,
@@ -81,8 +130,7 @@ class BoxFiles:
             if not np.isnan(box.visibility):
                 facts["visibility"] = box.visibility
             _write_item(self._annotations, facts)
-            records.append((t_us, box.x0, box.y0, *sides, class_id, box.instance, 1.0))
-        self._append(np.array(records, dtype=BOX_RECORD))
+        self._append(box_records(t_us, boxes, class_ids))
 
 
 @contextmanager
