@@ -65,6 +65,8 @@ def specification_from(
             "splits": _table(tables.get("splits", {"train": 1.0}), f"{where}: splits"),
             "options": _options(tables.get("options", {}), f"{where}: options"),
             "variants": _variants(tables.get("variants", {}), where),
+            "truth": tables.get("truth", ()),
+            "classes": _classes(tables.get("classes", ())),
             "filters": with_options(
                 Filters(), _options(tables.get("filters", {}), where), where=f"{where}: filters"
             ),
@@ -116,6 +118,14 @@ def _variants(value: Any, where: str) -> tuple[Variant, ...]:
         variant = with_options(Variant(name=name), own, where=f"{where}: variant {name}")
         variants.append(replace(variant, options=options))
     return tuple(variants)
+
+
+def _classes(value: Any) -> Any:
+    """Classes as a file names them; pairs, as `Specification.tables` has them, become a table."""
+    is_list = isinstance(value, Sequence) and not isinstance(value, str)
+    if is_list and all(isinstance(one, list) and len(one) == 2 for one in value):
+        return {str(noun): name for noun, name in value}
+    return value
 
 
 def _source(value: Any, folder: Path, where: str) -> SampleSource:
