@@ -56,6 +56,8 @@ class Exports:
     samples: int
     kept: int
     """Samples of an earlier run among these."""
+    classes: tuple[str, ...]
+    """Classes of boxes in the order of their numbers."""
     doubts: tuple[str, ...]
     """Content that the layout does not hold, and surprises for its readers."""
 
@@ -107,7 +109,7 @@ def export(
     doubts = doubts_of(dataset, chosen, variant, listed, has_frames=recipe is not None)
     if empty:
         doubts += (f"{empty} samples show no box and are left out; its readers want one",)
-    return Exports(written, kept, doubts)
+    return Exports(written, kept, listed.names, doubts)
 
 
 def _begin(
@@ -124,6 +126,7 @@ def _begin(
         "variant": variant,
         "identity": dataset.identity,
         "classes": list(classes.names),
+        "class_numbers": dict(classes.numbers),
     }
     path = folder / NOTE_FILE
     try:

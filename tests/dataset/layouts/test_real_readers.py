@@ -1,4 +1,4 @@
-"""Layouts read back by evlib's data module and Prophesee tools, and by pycocotools."""
+"""Layouts read back by evlib's data module and its port of Prophesee's tools, and by pycocotools."""
 
 from __future__ import annotations
 
@@ -11,9 +11,8 @@ from tests.dataset.layouts.crossing import SIZE, crossing, crossing_events
 from texvent.dataset.export import LAYOUTS
 from texvent.dataset.layouts.rvt import REPRESENTATION
 
-pytestmark = pytest.mark.detect
 
-
+@pytest.mark.detect
 def test_evlib_loads_rvt_sequences_with_the_histograms_that_it_computes(tmp_path: Path) -> None:
     import evlib
     import evlib.data as data
@@ -40,6 +39,7 @@ def test_evlib_loads_rvt_sequences_with_the_histograms_that_it_computes(tmp_path
     assert batch["is_padded_mask"].sum() == 4
 
 
+@pytest.mark.detect
 def test_evlib_reads_and_filters_boxes_of_gen1(tmp_path: Path) -> None:
     import evlib.data as data
     from evlib.eval.prophesee.box_filtering import filter_boxes
@@ -51,6 +51,7 @@ def test_evlib_reads_and_filters_boxes_of_gen1(tmp_path: Path) -> None:
     assert len(filter_boxes(boxes, skip_ts=100_000, min_box_diag=20, min_box_side=10)) == 4
 
 
+@pytest.mark.dataset
 def test_pycocotools_indexes_the_images(tmp_path: Path) -> None:
     from pycocotools.coco import COCO
 

@@ -293,6 +293,8 @@ def run_export(arguments: Sequence[str]) -> int:
     )
     kept = f" ({done.kept:,} were there)" if done.kept else ""
     write_out(f"{options.out}: {done.samples:,} samples as {options.layout}{kept}\n")
+    if done.classes:
+        write_out(f"classes of boxes, in the order of their numbers: {', '.join(done.classes)}\n")
     for doubt in done.doubts:
         write_out(f"note: {doubt}\n")
     return 0

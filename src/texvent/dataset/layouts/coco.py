@@ -18,7 +18,7 @@ from pathlib import Path
 
 import numpy as np
 
-from texvent.dataset.layouts.layout import Layout, LayoutSample
+from texvent.dataset.layouts.layout import USUAL_SPLITS, Layout, LayoutSample
 from texvent.io.atomic import atomic_file, atomic_folder
 from texvent.represent.event_frame import count_events
 from texvent.truth.coco import CocoFile, open_coco
@@ -79,6 +79,7 @@ COCO = Layout(
     place="{split}/{key}",
     write=_write,
     finish=_write_annotations,
+    splits=USUAL_SPLITS,
     lost="captions, events (only images of them)",
     has_boxes=True,
 )

@@ -23,7 +23,7 @@ from texvent.io.atomic import atomic_folder
 
 def _write(sample: LayoutSample, path: Path) -> bool:
     if sample.read_frames is None:
-        raise InputError(f"sample {sample.key} has no frames; make it with store_videos = true")
+        raise InputError(f"sample {sample.key} has no frames")
     events = sample.read_events()
     with atomic_folder(path, overwrite=False, is_own=lambda _: False) as part:
         with sample.read_frames() as frames:
