@@ -11,7 +11,7 @@ import cv2
 import numpy as np
 import pytest
 from tests.dataset.conftest import CARS, make_set
-from tests.dataset.generation.small_sets import digests
+from tests.dataset.generation.small_sets import digests, make
 
 import texvent
 from texvent import Augment
@@ -203,3 +203,75 @@ def test_classes_keep_their_order_in_the_folder(labelled: Path) -> None:
     turned = specification_from({**CARS, **TRUTH, "classes": ["bus", "man"]}, folder=Path())
     assert Recipe.of(other).identity != Recipe.of(turned).identity
     assert "truth" not in specification_from(CARS, folder=Path()).tables
+
+
+@pytest.fixture(scope="module")
+def filmed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the frames of a generated clip, and its boxes as COCO."""
+    folder = tmp_path_factory.mktemp("filmed")
+    frames = texvent.video("a red car drives left past a tree", sensor="32x24", duration=0.2)
+    texvent.save_truth(frames, folder / "truth", "boxes")
+    (folder / "truth/boxes/coco.json").rename(folder / "car.json")
+    (folder / "clips").mkdir()
+    np.save(folder / "clips/car.npy", np.stack([frame.pixels for frame in frames]).astype("u1"))
+    return folder
+
+
+def video_set(folder: Path, **changes: Any) -> Recipe:
+    source = {"videos": ["clips"], "boxes": "{name}.json", **changes.pop("source", {})}
+    tables = {"name": "filmed", "truth": ["boxes"], "classes": ["car"], "sources": [source],
+              "filters": {"min_events": 1}, "options": {"fps": 24, "interpolate": "none"}}  # fmt: skip
+    return Recipe.of(specification_from({**tables, **changes}, folder=folder))
+
+
+def test_labels_of_a_video_become_the_boxes_of_its_sample(filmed: Path, tmp_path: Path) -> None:
+    rated = {"source": {"box_rate": 48}, "options": {"fps": 24, "sensor": "16x12"}}
+    for name, changes in (("plain", {}), ("rated", rated)):
+        assert not make(video_set(filmed, **changes), tmp_path / name).failures
+        assert verify(StoredDataset.open(tmp_path / name)).is_sound
+    wanted = np.load(filmed / "truth/boxes/bbox.npy")
+    wanted = wanted[wanted["track_id"] == 1]
+    (plain,), (rated,) = (texvent.dataset.open(tmp_path / name) for name in ("plain", "rated"))
+    boxes = plain.truth.boxes
+    assert plain.truth.classes == {0: "car"}
+    assert set(boxes["class_id"].tolist()) == {0}
+    for column in ("t", "x", "y", "w", "h", "track_id"):
+        np.testing.assert_array_equal(boxes[column], wanted[column])
+    assert len(rated.truth.box_times_us) == 2 * len(plain.truth.box_times_us) - 1
+    np.testing.assert_allclose(rated.truth.boxes["x"][::2], boxes["x"] / 2)
+    middles = (boxes["x"][1:] + boxes["x"][:-1]) / 4
+    np.testing.assert_allclose(rated.truth.boxes["x"][1::2], middles, atol=1e-3)
+
+
+def test_labels_of_more_frames_fail_their_sample_in_one_line(filmed: Path, tmp_path: Path) -> None:
+    shorter = tmp_path / "clips"
+    shorter.mkdir()
+    np.save(shorter / "car.npy", np.load(filmed / "clips/car.npy")[:3])
+    (tmp_path / "car.json").write_bytes((filmed / "car.json").read_bytes())
+    make(video_set(tmp_path), tmp_path / "set")
+    record = read_record(tmp_path / "set/events/train-000000.tar")
+    assert record is not None
+    (sample,) = record.samples
+    assert sample.status == "failed"
+    assert "car.json labels frame 4 (from 0), and the video has 3 frames" in (sample.reason or "")
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"classes": ["cra"]}, "'cra', which no label has; .*did you mean 'car'"),
+        ({"classes": []}, "labels of videos need `classes`"),
+        ({"truth": []}, "truth does not name boxes"),
+        ({"truth": ["boxes", "poses"]}, "truth poses is not known of videos; leave it out"),
+        ({"options": {"fps": 24, "start": 0.1}}, "option start shows others"),
+        ({"source": {"boxes": "{name}.txt"}}, "no such labels: .*car.txt"),
+        ({"source": {"boxes": "{nmae}.json"}}, "names {nmae}; there is: folder, name"),
+        ({"source": {"boxes": ""}}, "or each source `boxes`, its labels"),
+        ({"source": {"box_rate": 0}}, "box_rate is 0"),
+    ],
+)
+def test_labels_that_cannot_be_are_refused_before_any_work(
+    filmed: Path, changes: dict[str, Any], said: str
+) -> None:
+    with pytest.raises(InputError, match=said):
+        video_set(filmed, **changes)

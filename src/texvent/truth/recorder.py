@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from texvent.truth.boxes import BOX_RECORD, box_records
 from texvent.truth.clip import StoredTruth
+from texvent.truth.labels.placing import PlacedLabels
 from texvent.truth.poses import intrinsics, pose_matrix
 from texvent.truth.source import Snapshot, TruthSource
 from texvent.truth.writer import check_instances
@@ -27,15 +28,23 @@ class TruthRecorder:
         parts: names of `CLIP_FILES`.
         classes: object → its class; only these objects have boxes, and classes are numbered from 0
             in this order. None: all objects, by the class ids of nouns.
+        labels: where boxes come from instead of the frames.
 
     Raises:
         ConfigError: the video does not know one of the parts.
     """
 
     def __init__(
-        self, video: FrameStream, parts: Sequence[str], classes: Mapping[str, str] | None = None
+        self,
+        video: FrameStream,
+        parts: Sequence[str],
+        classes: Mapping[str, str] | None = None,
+        *,
+        labels: PlacedLabels | None = None,
     ) -> None:
-        self._source, self._parts = TruthSource(video, parts), parts
+        of_frames = [part for part in parts if labels is None or part != "boxes"]
+        self._source, self._of_frames = TruthSource(video, of_frames), of_frames
+        self._parts, self._labels = parts, labels
         self._class_of = classes
         self._class_ids = number_classes(classes or {})
         self._pending: Frame | None = None
@@ -69,6 +78,7 @@ class TruthRecorder:
 
     def _files(self) -> StoredTruth:
         contents: dict[str, bytes] = {}
+        placed = {} if self._labels is None else self._place(self._labels)
         if "boxes" in self._parts:
             contents["boxes.npy"] = _file(np.save, np.concatenate(self._boxes))
             contents["visibility.npy"] = _file(np.save, np.array(self._visibility, np.float32))
@@ -82,14 +92,23 @@ class TruthRecorder:
             "parts": list(self._parts),
             "times_us": self._times,
             "classes": {str(number): name for number, name in classes.items()},
+            **placed,
             "instances": {str(one): name for one, name in self._source.class_names.items()},
         }
         return StoredTruth(contents, facts)
 
+    def _place(self, labels: PlacedLabels) -> dict[str, Any]:
+        """Take the boxes of labels; gives the facts of their times."""
+        times = np.array(self._times, np.int64)
+        numbers = {name: self._class_ids[one] for name, one in (self._class_of or {}).items()}
+        boxes, known = labels.boxes(times, self._source.size, numbers)
+        self._boxes, self._visibility = [boxes], [float("nan")] * len(boxes)
+        return {"box_times_us": known.tolist()}
+
     def _record(self, frame: Frame, next_us: int | None) -> None:
         truth = self._source.at(frame, self._times[-1] if self._times else None, next_us)
         self._times.append(truth.t_us)
-        if "boxes" in self._parts:
+        if "boxes" in self._of_frames:
             self._record_boxes(truth)
         if "flow" in self._parts and truth.flow is not None:
             more = {} if truth.flow.occluded is None else {"occluded": truth.flow.occluded}

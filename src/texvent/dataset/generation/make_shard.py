@@ -20,6 +20,7 @@ from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.sample import (
     count_boxes,
     prepare_clip,
+    record_truth,
     sample_members,
     simulate_sample,
     with_seed,
@@ -237,11 +238,7 @@ class _ShardSamples:
         """Recorder of the truth of a clip, one for all of its seeds; None where none is wanted."""
         specification = self._recipe.specification
         if specification.truth and (self._recorder is None or self._recorder[0] != clip.key):
-            from texvent.truth.recorder import TruthRecorder  # brings the ray caster
-
-            classes = specification.class_of or None
-            recorder = TruthRecorder(simulation.video, specification.truth, classes)
-            self._recorder = clip.key, recorder
+            self._recorder = clip.key, record_truth(specification, clip.item, simulation)
         return None if self._recorder is None else self._recorder[1]
 
 

@@ -6,6 +6,8 @@ import io
 import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from fractions import Fraction
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -13,19 +15,23 @@ from numpy.typing import NDArray
 
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.clips import Clip
-from texvent.dataset.specification.specification import Filters
+from texvent.dataset.specification.items import Item
+from texvent.dataset.specification.specification import Filters, Specification
 from texvent.events import SIGNAL, EventStream
 from texvent.pipeline import Simulation, select_events, text_to_video
 from texvent.represent.event_frame import count_events
 from texvent.run.prepare import prepare_source, prepare_video
+from texvent.sensor import as_size
 from texvent.settings.resolution import Settings
 from texvent.truth.boxes import SIZE_CLASSES, detection_target, size_classes
 from texvent.truth.clip import ClipTruth, StoredTruth
+from texvent.truth.labels.reading import read_labels
 from texvent.video import Frame
 from texvent.video_check.checks import evaluate
 from texvent.video_check.measurements import VideoMeasurer
 
 if TYPE_CHECKING:
+    from texvent.truth.recorder import TruthRecorder
     from texvent.view.drawing.canvas import Image
 
 
@@ -45,6 +51,29 @@ def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings) -> Simulation:
 def with_seed(settings: Settings, seed: int) -> Settings:
     """The same settings with another seed."""
     return replace(settings, run=replace(settings.run, seed=seed))
+
+
+def record_truth(specification: Specification, item: Item, simulation: Simulation) -> TruthRecorder:
+    """Recorder of the truth that a specification asks for, of the frames of a clip or its labels.
+
+    Raises:
+        TexventError: the labels cannot be read, or the video does not know its truth.
+    """
+    from texvent.truth.labels.placing import PlacedLabels  # brings OpenCV
+    from texvent.truth.recorder import TruthRecorder  # brings the ray caster
+
+    video, labels = simulation.video, None
+    if item.boxes is not None:
+        capture: Any = simulation.settings.source
+        labels = PlacedLabels(
+            labels=read_labels(Path(item.boxes)),
+            picture=as_size(video.metadata.get("size_before_fit", video.size)),
+            fit=capture.fit,
+            rate_hz=None if item.box_rate is None else Fraction(item.box_rate),
+            is_whole=capture.stop is None,
+        )
+    classes = specification.class_of or None
+    return TruthRecorder(video, specification.truth, classes, labels=labels)
 
 
 COLUMNS = ("x", "y", "t", "p")

@@ -148,8 +148,7 @@ def _source(value: Any, folder: Path, where: str) -> SampleSource:
     for name in ("videos", "scene"):
         if name in table:
             table[name] = tuple(str(folder / one) for one in table[name])
-    if "file" in table:
-        table["file"] = folder / table["file"]
+    table |= {name: folder / table[name] for name in ("file", "boxes") if name in table}
     try:
         return SampleSource(**table)
     except ConfigError as error:

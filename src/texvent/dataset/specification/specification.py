@@ -6,12 +6,13 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 from texvent._registry import suggest
 from texvent.batch.identity import derived_seed
-from texvent.config import check_range
+from texvent.config import FPS_RANGE, check_range
 from texvent.errors import ConfigError, shown
 from texvent.options.values import plain
 from texvent.truth.layout import CLIP_FILES
@@ -59,8 +60,18 @@ class SampleSource:
     the folder of a video."""
     split: str | None = None
     """The split that all of these belong to; None: they are shared out."""
+    boxes: Path | None = None
+    """Labels of the frames of videos, such as "labels/{name}.json": COCO .json, MOT .txt, or a YOLO
+    folder; "{name}" and "{folder}" are those of the video."""
+    box_rate: Fraction | None = None
+    """Boxes per second, interpolated along tracks; None: those of the labelled frames."""
 
     def __post_init__(self) -> None:
+        if self.boxes is not None and not (self.videos or self.file):
+            raise ConfigError("boxes are labels of videos; this source has none")
+        if self.box_rate is not None and self.boxes is None:
+            raise ConfigError("box_rate is that of boxes; this source names none")
+        check_range("box_rate", self.box_rate, *FPS_RANGE)
         given = [name for name in SOURCE_KINDS if getattr(self, name)]
         if len(given) != 1:
             raise ConfigError(

@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
 
 from texvent._registry import GENERATORS, suggest
 from texvent.dataset.specification.items import Items
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, shown
 from texvent.generate.scene_input import list_nouns
+from texvent.truth.labels.reading import read_labels
 from texvent.truth.layout import check_generator
 
 OPTIONS_OF_VIDEOS = {
@@ -29,12 +33,14 @@ def check_truth(specification: Specification, items: Items, *, is_stored: bool) 
         is_stored: whether videos are stored before they are simulated.
 
     Raises:
-        ConfigError: see above.
+        ConfigError, InputError: see above, and as `texvent.truth.labels.reading.read_labels`.
     """
+    if "boxes" not in specification.truth and any(item.boxes is not None for item in items.all):
+        raise ConfigError("a source has boxes, its labels, and truth does not name boxes")
     if not specification.truth:
         return
     if items.are_videos:
-        _check_videos(specification)
+        _check_videos(specification, items)
         return
     check_generator(str(specification.options.get("generator", next(iter(GENERATORS.builtin)))))
     if is_stored:
@@ -45,16 +51,48 @@ def check_truth(specification: Specification, items: Items, *, is_stored: bool) 
     _check_classes(specification, items)
 
 
-def _check_videos(specification: Specification) -> None:
-    for part in specification.truth:
-        options = OPTIONS_OF_VIDEOS.get(part, ())
-        if not any(name in specification.options for name in options):
-            remedy = f"give option {' or '.join(options)}, or leave it out" if options else ""
-            raise ConfigError(
-                f"truth {part} is not known of videos; {remedy or 'leave it out of truth'}"
-            )
-    if specification.classes:
+def _check_videos(specification: Specification, items: Items) -> None:
+    truth, options = specification.truth, specification.options
+    labelled = sum(item.boxes is not None for item in items.all)
+    for part in truth:
+        known = OPTIONS_OF_VIDEOS.get(part, ())
+        is_labelled = part == "boxes" and labelled == len(items.all)
+        if not is_labelled and not any(name in options for name in known):
+            remedy = f"give option {' or '.join(known)}" if known else "leave it out"
+            also = ", or each source `boxes`, its labels" if part == "boxes" else ""
+            raise ConfigError(f"truth {part} is not known of videos; {remedy}{also}")
+    if labelled:
+        _check_labels(specification, items)
+    elif specification.classes:
         raise ConfigError("classes are names of objects, and ids that come with frames have none")
+
+
+def _check_labels(specification: Specification, items: Items) -> None:
+    """Read the labels of all videos."""
+    if not specification.classes:
+        raise ConfigError(
+            "labels of videos need `classes`, the names of those to keep in training order, such "
+            "as classes = ['car', 'truck']"
+        )
+    for name in ("start", "camera"):
+        if name in specification.options:
+            raise ConfigError(
+                f"boxes are labels of the frames of a whole video, and option {name} shows others; "
+                "leave it out, and cut the video with its labels"
+            )
+    names = dict[str, None]()
+    for item in items.all:
+        labels = read_labels(Path(item.boxes or ""))
+        if item.box_rate is not None and not labels.has_tracks:
+            raise ConfigError(
+                f"box_rate interpolates along tracks, and {labels.path} has boxes without one; "
+                "leave box_rate out"
+            )
+        names |= dict.fromkeys(labels.names[one] for one in np.unique(labels.boxes["class_id"]))
+    for name in specification.class_of:
+        if name not in names:
+            raise ConfigError(f"classes names {shown(name)}, which no label has; "
+                              f"{suggest(name, tuple(names))}")  # fmt: skip
 
 
 def _check_classes(specification: Specification, items: Items) -> None:
