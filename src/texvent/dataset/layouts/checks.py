@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from pathlib import Path
 
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.shards import SampleRecord
@@ -12,6 +13,9 @@ from texvent.dataset.layouts.layout import Layout
 from texvent.dataset.layouts.samples import folder_name
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import InputError, few, shown
+
+MOST_CLASSES = 255
+"""Their numbers are stored in 8 bits."""
 
 
 def check_layout(dataset: StoredDataset, layout: Layout, name: str, variant: str) -> None:
@@ -74,14 +78,17 @@ def find_classes(
     there = _count_boxes(dataset, variant)
     if given is None and not layout.classes:
         named = [str(one) for _, one in dataset.specification.get("classes", ())]
-        return ClassList.of(dict.fromkeys(named or sorted(there)))
-    listed = ClassList.parse(given or layout.classes)
+        listed = ClassList.of(dict.fromkeys(named or sorted(there)))
+    else:
+        listed = ClassList.parse(given or layout.classes)
     others = [one for one in there if one not in listed.numbers]
-    if given is None and others:
+    if given is None and layout.classes and others:
         raise InputError(
             f"layout {name} has no class for {few(sorted(others))}; choose with --classes, which "
             f'leaves out all others: --classes "{layout.classes}"'
         )
+    if len(listed.names) > MOST_CLASSES:
+        raise InputError(f"{len(listed.names)} classes; layouts hold {MOST_CLASSES}")
     if given is not None and len(others) == len(there):
         raise InputError(
             f"no box is of the classes {shown(given)}; boxes are of {few(sorted(there)) or 'none'}"
@@ -106,11 +113,15 @@ def find_recipe(dataset: StoredDataset, layout: Layout, name: str) -> Recipe | N
     if not layout.takes_frames:
         return None
     try:
-        return load_recipe(dataset.folder)
+        recipe = load_recipe(dataset.folder)
+        for item in recipe.items.all:
+            if item.video is not None and not Path(item.video).exists():
+                raise InputError(f"its video {item.video} is not there")
     except InputError as error:
         if not layout.has_frames:
             return None
-        raise type(error)(f"layout {name} holds frames, which are made again: {error}") from error
+        raise InputError(f"layout {name} holds frames, which are made again: {error}") from error
+    return recipe
 
 
 def doubts_of(
