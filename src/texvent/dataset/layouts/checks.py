@@ -80,7 +80,7 @@ def find_classes(
         named = [str(one) for _, one in dataset.specification.get("classes", ())]
         listed = ClassList.of(dict.fromkeys(named or sorted(there)))
     else:
-        listed = ClassList.parse(given or layout.classes)
+        listed = ClassList.parse(layout.classes if given is None else given)
     others = [one for one in there if one not in listed.numbers]
     if given is None and layout.classes and others:
         raise InputError(
@@ -104,14 +104,16 @@ def _count_boxes(dataset: StoredDataset, variant: str) -> Counter[str]:
     return counts
 
 
-def find_recipe(dataset: StoredDataset, layout: Layout, name: str) -> Recipe | None:
-    """What the frames of the samples can be made of; None where a layout does without them.
+def find_recipe(
+    dataset: StoredDataset, layout: Layout, name: str
+) -> tuple[Recipe | None, tuple[str, ...]]:
+    """What the frames of the samples can be made of, or None and why, if that is to be said.
 
     Raises:
-        ConfigError, InputError: the layout needs frames, and this folder cannot give them.
+        InputError: the layout needs frames, and this folder cannot give them.
     """
     if not layout.takes_frames:
-        return None
+        return None, ()
     try:
         recipe = load_recipe(dataset.folder)
         for item in recipe.items.all:
@@ -119,23 +121,16 @@ def find_recipe(dataset: StoredDataset, layout: Layout, name: str) -> Recipe | N
                 raise InputError(f"its video {item.video} is not there")
     except InputError as error:
         if not layout.has_frames:
-            return None
+            return None, (f"it does not hold images: {error}",)
         raise InputError(f"layout {name} holds frames, which are made again: {error}") from error
-    return recipe
+    return recipe, ()
 
 
 def doubts_of(
-    dataset: StoredDataset,
-    layout: Layout,
-    variant: str,
-    classes: ClassList,
-    *,
-    has_frames: bool,
+    dataset: StoredDataset, layout: Layout, variant: str, classes: ClassList
 ) -> tuple[str, ...]:
     """What the layout does not hold of a variant, and what may surprise its readers."""
     doubts = [f"it does not hold {layout.lost}"] if layout.lost else []
-    if layout.takes_frames and not has_frames:
-        doubts.append("it does not hold images: this folder cannot make them again")
     if not layout.keeps_noise_labels and any(
         "label.npy" in sample.members for sample in _samples(dataset, variant)
     ):
