@@ -12,7 +12,6 @@ import numpy as np
 from texvent.dataset.generation.clip_frames import clip_frames
 from texvent.dataset.generation.recipe import Recipe, Shard
 from texvent.dataset.generation.shards import SampleRecord
-from texvent.dataset.layouts.boxes import clip_boxes
 from texvent.dataset.layouts.classes import ClassList
 from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
@@ -66,7 +65,6 @@ class Samples:
             truth = sample_truth(shard.path, sample.key, sample.members)
             boxes, instants = truth.boxes, truth.box_times_us
             boxes = self.classes.renumbered(boxes, truth.classes)
-            boxes = clip_boxes(boxes, width=size.width, height=size.height)
         frames = None
         if self.recipe is not None:
             place_of = Shard(record.variant, record.split, int(record.name.rpartition("-")[2]))
