@@ -15,6 +15,7 @@ from texvent.dataset.generation.shards import SampleRecord, read_members, read_p
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
+from texvent.truth.clip import ClipTruth
 
 COLUMN_MEMBERS = ("x.npy", "y.npy", "t.npy", "p.npy", "label.npy")
 _STORED_TYPES = {"x": np.uint16, "y": np.uint16, "t": np.uint32, "p": np.uint8}
@@ -135,3 +136,12 @@ def read_sample_facts(shard: Path, sample: SampleRecord) -> dict[str, Any]:
     if not isinstance(facts, dict):
         raise FileFormatError(f"{shard}: the facts of sample {sample.key} are no table")
     return facts
+
+
+def sample_truth(shard: Path, key: str, places: Mapping[str, tuple[int, int]]) -> ClipTruth:
+    """Ground truth of a sample, read when it is asked for; arguments as `read_columns`."""
+
+    def read_file(name: str) -> bytes:
+        return read_part(shard, *places[name])
+
+    return ClipTruth(read_file, f"sample {key} of {shard}")

@@ -1,0 +1,1 @@
+"""Layouts that detectors and other networks are trained on: one file each."""

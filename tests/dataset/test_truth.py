@@ -1,0 +1,249 @@
+"""Ground truth in data sets: stored as the scene or the labels know it, read, counted, drawn."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+import pytest
+from tests.dataset.conftest import CARS, make_set
+from tests.dataset.generation.small_sets import digests, make
+
+import texvent
+from texvent import Augment
+from texvent.cli.app import main
+from texvent.dataset.generation.recipe import Recipe
+from texvent.dataset.generation.shards import read_record, write_record
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.samples import SimulatedSamples
+from texvent.dataset.specification.reading import specification_from
+from texvent.dataset.verify import verify
+from texvent.errors import ConfigError, InputError
+from texvent.view.drawing.panels import BOX_COLOUR
+
+TRUTH: dict[str, Any] = {
+    "truth": ["boxes", "flow", "depth", "ids", "poses"],
+    "classes": {"bus": "vehicle", "man": "person", "car": "vehicle"},
+    "sources": [{"prompts": ["a red car drives left", "a man walks right past a tree"]}],
+    "splits": {"train": 1.0},
+}
+
+
+@pytest.fixture(scope="module")
+def labelled(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return make_set(tmp_path_factory.mktemp("labelled") / "cars", **TRUTH)
+
+
+def test_truth_is_that_of_the_scene_in_every_variant(labelled: Path, tmp_path: Path) -> None:
+    samples = texvent.dataset.open(labelled)
+    assert len(samples) == 6
+    for number, sample in enumerate(samples):
+        seeds = [one.facts["seed"] for one in samples if one.caption == sample.caption]
+        frames = texvent.video(sample.caption, seed=seeds[0], sensor="32x24", duration=0.1)
+        wanted = texvent.load_truth(texvent.save_truth(frames, tmp_path / f"{number}.truth"))
+        truth = sample.truth
+        assert truth.classes == {0: "vehicle", 1: "person"}
+        assert truth.instances == wanted.instances
+        names = np.array([wanted.classes[one] for one in wanted.boxes["class_id"].tolist()])
+        boxes = wanted.boxes[names != "tree"]
+        for column in ("t", "x", "y", "w", "h", "track_id"):
+            np.testing.assert_array_equal(truth.boxes[column], boxes[column])
+        np.testing.assert_array_equal(truth.boxes["class_id"], names[names != "tree"] == "man")
+        for index in range(3):
+            np.testing.assert_allclose(truth.depth[index], wanted.depth(index), rtol=5e-4)
+            np.testing.assert_array_equal(truth.instance[index], wanted.instance(index))
+        np.testing.assert_allclose(truth.flow[1], wanted.flow(1), rtol=5e-4, atol=1e-6)
+        np.testing.assert_array_equal(truth.occluded[1], wanted.occluded(1))
+        np.testing.assert_allclose(truth.poses, wanted.poses, atol=1e-8)
+    assert digests(make_set(tmp_path / "again", **TRUTH)) == digests(labelled)
+
+
+def test_without_classes_boxes_have_the_ids_of_nouns(tmp_path: Path) -> None:
+    folder = make_set(tmp_path / "cars", **{**TRUTH, "truth": ["boxes"], "classes": []})
+    for sample in texvent.dataset.open(folder, variant="esim"):
+        names = {sample.truth.classes[one] for one in sample.truth.boxes["class_id"].tolist()}
+        assert names == ({"car"} if "car" in (sample.caption or "") else {"man", "tree"})
+
+
+def test_boxes_are_counted_checked_and_drawn(
+    labelled: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    samples = texvent.dataset.open(labelled)
+    assert sum(len(sample.truth.boxes) for sample in samples) == 18
+    assert main(["dataset", "stats", str(labelled)]) == 0
+    out = capsys.readouterr().out
+    assert "18 of 6 objects: person 9; vehicle 9" in out
+    assert "18 small, 0 medium, 0 large" in out
+    pixels = cv2.imdecode(np.frombuffer(samples.members(0)["png"], np.uint8), cv2.IMREAD_COLOR)
+    assert pixels is not None
+    rows, columns = np.nonzero((pixels[..., ::-1] == BOX_COLOUR).all(axis=2))
+    boxes, scale = samples[0].truth.boxes[1:], pixels.shape[1] / 32  # one of the last two frames
+    assert abs(columns.min() - boxes["x"] * scale).min() < 3
+    assert abs(rows.max() + 1 - (boxes["y"] + boxes["h"]) * scale).min() < 3
+    shard = labelled / "esim" / "train-000000.tar"
+    record = read_record(shard)
+    assert record is not None
+    first, *others = record.samples
+    write_record(shard, replace(record, samples=(replace(first, tracks=5), *others)))
+    (said,) = verify(StoredDataset.open(labelled)).unsound
+    assert "counts other boxes" in said
+    write_record(shard, record)
+    assert verify(StoredDataset.open(labelled)).is_sound
+
+
+def test_targets_are_those_of_the_slice(labelled: Path, cars: Path) -> None:
+    samples = texvent.dataset.open(labelled, variant="paper").with_targets("boxes", "flow", "depth")
+    truth, made = samples[0].truth, samples.make(0)
+    assert made["boxes"]["times"].tolist() == [0, 41_667, 83_333]
+    np.testing.assert_array_equal(made["flow"], np.moveaxis(truth.flow, -1, 1))
+    sliced = samples.represented("voxel-e2vid", slice_us=41_667).make(0)
+    assert sliced["representation"].shape == (1, 5, 24, 32)
+    assert [one["times"].tolist() for one in sliced["boxes"]] == [[41_667]]
+    np.testing.assert_array_equal(sliced["depth"][0], truth.depth[1:2])
+    np.testing.assert_array_equal(sliced["flow"][0], made["flow"][:1])
+    calm = samples.augmented(Augment(["drop-events", "flip-polarity"]))
+    np.testing.assert_array_equal(calm.make(0)["boxes"]["boxes"], made["boxes"]["boxes"])
+    with pytest.raises(ConfigError, match="moves events by FlipX, and targets stay"):
+        samples.augmented(Augment(["flip-x"]))
+    with pytest.raises(ConfigError, match=r"unknown target 'box'; .* did you mean 'boxes'"):
+        samples.with_targets("box")
+    with pytest.raises(InputError, match="9 of 9 samples store no boxes; name boxes in `truth`"):
+        texvent.dataset.open(cars).with_targets("boxes")
+
+
+def test_simulated_samples_have_boxes_too() -> None:
+    options = {"sensor": "32x24", "duration": 0.1}
+    made = SimulatedSamples(
+        prompts=["a red car drives left"], slice_us=41_667, targets=("boxes", "instance"),
+        simulation=options,
+    ).make(0)  # fmt: skip
+    rows, columns = np.nonzero(made["instance"][0] == 1)
+    x0, y0, x1, y1 = made["boxes"][0]["boxes"][0].tolist()
+    assert (x0, y0, x1, y1) == (columns.min(), rows.min(), columns.max() + 1, rows.max() + 1)
+
+
+@pytest.mark.torch
+def test_batches_hold_a_table_of_boxes_per_sample(labelled: Path) -> None:
+    torch = pytest.importorskip("torch")
+    from texvent.dataset.loading.torch_samples import SampleDataset, collate
+
+    samples = texvent.dataset.open(labelled, variant="paper").with_targets("boxes", "flow")
+    batch = collate([SampleDataset(samples)[number] for number in (0, 1)])
+    assert [len(one["labels"]) for one in batch["boxes"]] == [3, 3]
+    assert batch["boxes"][0]["boxes"].dtype == torch.float32
+    assert batch["flow"].shape == (2, 2, 2, 24, 32)
+    sliced = SampleDataset(samples.represented("voxel-e2vid", slice_us=41_667))
+    batch = collate([sliced[0], sliced[1]])
+    assert batch["boxes"][1][0]["times"].tolist() == [41_667]
+    assert batch["flow"][0][0].shape == (1, 2, 24, 32)
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"truth": ["box"]}, "truth names 'box'; allowed: boxes, .* did you mean 'boxes'"),
+        ({"classes": ["car", "trcuk"]}, "'trcuk', which no source shows; did you mean 'truck'"),
+        ({"classes": ["car", "car"]}, "name each object once"),
+        ({"classes": ["car", 3]}, "give a list of objects"),
+        ({"truth": ["flow"]}, "truth does not name boxes"),
+        ({"store_videos": True}, "store_videos simulates from stored"),
+        ({"options": {"generator": "opensora"}}, "does not know the scene of its"),
+    ],
+)
+def test_truth_that_cannot_be_is_refused_before_any_work(
+    changes: dict[str, Any], said: str
+) -> None:
+    with pytest.raises(ConfigError, match=said):
+        Recipe.of(specification_from({**CARS, **TRUTH, **changes}, folder=Path()))
+
+
+def test_the_order_of_classes_is_part_of_the_identity() -> None:
+    def identity(*classes: str) -> str:
+        tables = {**CARS, **TRUTH, "classes": list(classes)}
+        recipe = Recipe.of(specification_from(tables, folder=Path()))
+        again = specification_from(recipe.specification.tables, folder=Path())
+        assert again.class_of == recipe.specification.class_of
+        return recipe.identity
+
+    assert identity("man", "bus") != identity("bus", "man")
+    assert "truth" not in specification_from(CARS, folder=Path()).tables  # as before there was any
+
+
+@pytest.fixture(scope="module")
+def filmed(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder with the frames of a generated clip, and its boxes as COCO."""
+    folder = tmp_path_factory.mktemp("filmed")
+    frames = texvent.video("a red car drives left past a tree", sensor="32x24", duration=0.2)
+    texvent.save_truth(frames, folder / "truth", "boxes")
+    (folder / "truth/boxes/coco.json").rename(folder / "car.json")
+    (folder / "clips").mkdir()
+    np.save(folder / "clips/car.npy", np.stack([frame.pixels for frame in frames]).astype("u1"))
+    return folder
+
+
+def video_set(folder: Path, source: dict[str, Any] | None = None, **changes: Any) -> Recipe:
+    tables = {
+        "name": "filmed",
+        "truth": ["boxes"],
+        "classes": ["car"],
+        "filters": {"min_events": 1},
+        "options": {"fps": 24, "interpolate": "none"},
+        "sources": [{"videos": ["clips"], "boxes": "{name}.json", **(source or {})}],
+    }
+    return Recipe.of(specification_from({**tables, **changes}, folder=folder))
+
+
+def test_labels_of_a_video_become_the_boxes_of_its_sample(filmed: Path, tmp_path: Path) -> None:
+    fitted = {"fps": 24, "interpolate": "none", "sensor": "16x12"}
+    assert not make(video_set(filmed), tmp_path / "plain").failures
+    rated = video_set(filmed, {"box_rate": 48}, options=fitted)
+    assert not make(rated, tmp_path / "rated").failures
+    (plain,) = texvent.dataset.open(tmp_path / "plain")
+    wanted = np.load(filmed / "truth/boxes/bbox.npy")
+    wanted = wanted[wanted["track_id"] == 1]
+    boxes = plain.truth.boxes
+    assert (plain.truth.classes, set(boxes["class_id"].tolist())) == ({0: "car"}, {0})
+    for column in ("t", "x", "y", "w", "h", "track_id"):
+        np.testing.assert_array_equal(boxes[column], wanted[column])
+    (sample,) = texvent.dataset.open(tmp_path / "rated")
+    assert len(sample.truth.box_times_us) == 2 * len(plain.truth.box_times_us) - 1
+    np.testing.assert_allclose(sample.truth.boxes["x"][::2], boxes["x"] / 2)
+    middles = (boxes["x"][1:] + boxes["x"][:-1]) / 4
+    np.testing.assert_allclose(sample.truth.boxes["x"][1::2], middles, atol=1e-3)
+    assert verify(StoredDataset.open(tmp_path / "rated")).is_sound
+
+
+def test_labels_of_more_frames_fail_their_sample_in_one_line(filmed: Path, tmp_path: Path) -> None:
+    (tmp_path / "clips").mkdir()
+    np.save(tmp_path / "clips/car.npy", np.load(filmed / "clips/car.npy")[:3])
+    (tmp_path / "car.json").write_bytes((filmed / "car.json").read_bytes())
+    make(video_set(tmp_path), tmp_path / "set")
+    record = read_record(tmp_path / "set/events/train-000000.tar")
+    assert record is not None
+    said = record.samples[0].reason or ""
+    assert "car.json labels frame 4 (from 0), and the video has 3 frames" in said
+
+
+@pytest.mark.parametrize(
+    ("changes", "said"),
+    [
+        ({"classes": ["cra"]}, "'cra', which no source shows; .*did you mean 'car'"),
+        ({"classes": []}, "boxes of videos need `classes`"),
+        ({"truth": []}, "truth does not name boxes"),
+        ({"truth": ["boxes", "poses"]}, "truth poses is not known of videos; leave it out"),
+        ({"truth": ["boxes", "depth"]}, "of videos; give option motion or depth"),
+        ({"options": {"fps": 24, "start": 0.1}}, "option start shows others"),
+        ({"source": {"boxes": "{name}.txt"}}, "no such labels: .*car.txt"),
+        ({"source": {"boxes": "{nmae}.json"}}, "names {nmae}; there is: folder, name"),
+        ({"source": {"boxes": ""}}, "or sources `boxes`, labels of their videos"),
+        ({"source": {"box_rate": 0}}, "box_rate is 0"),
+    ],
+)
+def test_labels_that_cannot_be_are_refused_before_any_work(
+    filmed: Path, changes: dict[str, Any], said: str
+) -> None:
+    with pytest.raises(InputError, match=said):
+        video_set(filmed, **changes)
