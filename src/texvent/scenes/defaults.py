@@ -213,7 +213,7 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
         if one.motion is None and usual != "stand" and n not in held:
             note = f"no motion is said of the {one.noun}, so it does what it usually does"
             return _note(_move(description, {n: Motion(usual)}), note)
-    is_seen = description.light.flicker_hz is not None or description.is_timelapse
+    is_seen = description.light.flicker_hz is not None
     if is_seen or description.place.weather in ("rain", "snow"):
         return description
     if description.camera.moves:

@@ -296,8 +296,6 @@ class Scene:
     """Surroundings."""
     absent: tuple[Annotated[str, Word("noun")], ...] = ()
     """Nouns that no scenery may show."""
-    is_timelapse: bool = False
-    """Whether clouds and sun move much faster than in life."""
 
 
 def object_ids(scene: Scene) -> tuple[str, ...]:

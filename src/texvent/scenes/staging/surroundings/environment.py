@@ -186,8 +186,6 @@ def _is_in_water(actor: Actor) -> bool:
     return is_of_water or actor.trajectory.at(0.0).activity in _AFLOAT
 
 
-TIMELAPSE = 60.0
-"""How much faster the sky goes in a time lapse."""
 NO_ROOM_M = 9.0
 """Half the side of a room where there is none, m; nothing shows it."""
 _BLACK: Colour = (0.0, 0.0, 0.0)
@@ -216,15 +214,13 @@ class AnimatedEnvironment:
     flicker_hz: float | None
     wave: str = "sine"
     """As `Light.wave`."""
-    time_scale: float = 1.0
-    """How much faster than in life clouds and waves go."""
 
     def at(self, time_s: float) -> Environment:
         """The surroundings at that instant."""
         factor = np.float32(self.flicker(time_s))
         return replace(
             self.base,
-            time_s=self.time_scale * time_s,
+            time_s=time_s,
             sun_colour=self.base.sun_colour * factor,
             ambient=self.base.ambient * factor,
         )
@@ -301,10 +297,7 @@ def build_environment(
         wall_colour=place.wall_colour,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )
-    return AnimatedEnvironment(
-        base, description.light.flicker_hz, description.light.wave,
-        TIMELAPSE if description.is_timelapse else 1.0,
-    )  # fmt: skip
+    return AnimatedEnvironment(base, description.light.flicker_hz, description.light.wave)
 
 
 def _ground_under(description: SceneDescription, place: Place) -> Ground:
@@ -329,7 +322,6 @@ def _cloud_share(description: SceneDescription, place: Place, lighting: Lighting
     said = description.place
     usual = 0.0 if place.is_backdrop and said.sky is None else lighting.clouds
     least = [usual if said.clouds is None else said.clouds]
-    least += [0.5] * description.is_timelapse
     least += [0.8] * (said.weather in ("rain", "snow"))
     return max(least)
 
