@@ -81,7 +81,7 @@ def report_of(description: SceneDescription) -> PromptReport:
         *(_effect(description, one) for one in description.effects),
         f"place: {_join(place.name or 'open', *_fields(place, 'name'))}",
         f"light: {_join(light.kind or 'day', *_fields(light, 'kind', 'lamps'))}",
-        f"camera: {_join(*(moves or ['static']), *_fields(camera, 'moves', 'target', 'is_grey'))}",
+        f"camera: {_join(*(moves or ['static']), *_fields(camera, 'moves', 'target'))}",
     ]
     if description.absent:
         lines.append(f"left out as asked: {', '.join(description.absent)}")

@@ -38,12 +38,7 @@ from texvent.scenes.staging.surroundings.environment import (
 )
 from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.surroundings.lighting import choose_lighting
-from texvent.scenes.staging.surroundings.scenery import (
-    SceneryItem,
-    ViewClearance,
-    scatter,
-    under_snow,
-)
+from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
 from texvent.scenes.staging.trajectories.phases import left_out
 from texvent.sensor import SensorSize
 
@@ -78,7 +73,6 @@ class ComposedScene:
     """Instance id → index of the description's object that it is a copy of."""
     has_highlights: bool = False
     """Whether light above white is kept; see `scene.Environment`."""
-    is_grey: bool = False  # filmed in black and white
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
@@ -219,7 +213,6 @@ def _scatter_all(
     ]
     for backdrop in surroundings.backdrops:
         rules.extend(PLACES[backdrop].scenery)
-    rules = under_snow(rules) if surroundings.has_snow else rules
     return scatter(rules, view, actors, unsaid, rng=seeded(seed, "scenery", place))
 
 

@@ -25,7 +25,7 @@ from texvent.scenes.staging.particles.effect import (
     many_shapes,
     tumbling,
 )
-from texvent.scenes.staging.surroundings.lighting import wave_level
+from texvent.scenes.staging.surroundings.lighting import point_lamp, wave_level
 
 GRAVITY = 9.81
 GENERATIONS = 16
@@ -176,18 +176,16 @@ class Emitter:
         style, size = self.style, self.source.size_m
         if style.light == 0.0 or time_s < self.start_s:
             return np.zeros((0, LAMP_COLUMNS))
-        row = np.zeros((1, LAMP_COLUMNS))
-        row[0, :3] = self.source.at(np.array([time_s]))[0] + [0.0, 0.0, 0.6 * size]
+        place = self.source.at(np.array([time_s]))[0] + [0.0, 0.0, 0.6 * size]
         level, hue = wave_level("flame", _FLAME_HZ * time_s, phase=0.37), _FLAME_LIGHT
         if style.salvos:
             age, draws = self.lives.at(time_s)
             age_s = max(float(age[0]), 0.0) * self.lives.life_s
             level = min(age_s / 0.02, 1.0) * math.exp(-age_s / (0.35 * math.sqrt(size / GRAVITY)))
-            row[0, :3] += self._offsets(draws)[0]
+            place += self._offsets(draws)[0]
             hue = self.colours[int(draws[0, 6] * len(self.colours))]
-        row[0, 3:6] = level * style.light * size * size * hue
-        row[0, 6], row[0, 10:12], row[0, 12] = 12.0 * size, -2.0, 0.4 * size
-        return row
+        light = level * style.light * size * size * hue
+        return point_lamp(place, light, 12.0 * size, 0.4 * size)[None]
 
     def _fly(self, time_s: float) -> _Flown:
         """All particles at an instant."""

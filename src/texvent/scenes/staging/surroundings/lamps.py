@@ -21,6 +21,7 @@ from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.surroundings.lighting import (
     FLAME_SHARES,
     hidden_lamp,
+    point_lamp,
     wave_level,
 )
 from texvent.scenes.staging.surroundings.scenery import SceneryItem
@@ -140,10 +141,12 @@ def lamp_row(
     The glowing part is in body coordinates; `level` is light as a share of its usual light, the
     instant turns beams that turn.
     """
-    row = np.zeros(LAMP_COLUMNS)
+    light = level * lamp.intensity * np.array(part.colour) / max(max(part.colour), 1e-9)
+    reach = min(math.sqrt(lamp.intensity / _FAINTEST), _FARTHEST_M)
     half = np.sort(np.linalg.norm(part.to_body[:, :3], axis=0))
-    centre = part.to_body[:, 3].copy()
-    row[10] = row[11] = -2.0
+    is_long = half[2] > _LONG * half[1]
+    radius = half[1] if lamp.is_panel else 0.5 * half[2] if is_long else half[0]
+    row, centre = point_lamp(np.zeros(3), light, reach, radius), part.to_body[:, 3].copy()
     if lamp.direction is not None:
         beam = np.array(lamp.direction) / np.linalg.norm(lamp.direction)
         angle = 2.0 * math.pi * lamp.turns_hz * time_s
@@ -155,23 +158,17 @@ def lamp_row(
         row[10] = math.cos(dark * (1.0 - lamp.soft_share))
         row[11] = math.cos(dark)
     row[:3] = to_world[:, :3] @ centre + to_world[:, 3]
-    row[3:6] = level * lamp.intensity * np.array(part.colour) / max(max(part.colour), 1e-9)
-    row[6] = min(math.sqrt(lamp.intensity / _FAINTEST), _FARTHEST_M)
-    is_long = half[2] > _LONG * half[1]
-    row[12] = half[1] if lamp.is_panel else 0.5 * half[2] if is_long else half[0]
     row[14] = float(lamp.glows and not lamp.is_panel and not is_long)
     return row
 
 
 def scene_lamp_row(lamp: SceneLamp, time_s: float) -> Float64Array:
     """A lamp at a position that the scene gives: its period is exactly 1 / frequency_hz."""
-    row = np.zeros(LAMP_COLUMNS)
     light = lamp.strength * np.array(rgb_of(lamp.colour or "#ffffff", "light"))
-    row[:3] = lamp.position_m
-    row[3:6] = light * wave_level(lamp.wave, (lamp.frequency_hz or 0.0) * time_s)
-    row[6] = math.sqrt(max(light.max(), 1e-9) / _FAINTEST)
-    row[10] = row[11] = -2.0
-    row[12], row[13] = _SCENE_LAMP_M, float(lamp.has_shadows)
+    reach = math.sqrt(max(light.max(), 1e-9) / _FAINTEST)
+    level = wave_level(lamp.wave, (lamp.frequency_hz or 0.0) * time_s)
+    row = point_lamp(lamp.position_m, level * light, reach, _SCENE_LAMP_M)
+    row[13] = float(lamp.has_shadows)
     return row
 
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -80,14 +80,6 @@ class SceneryItem:
         state = BodyState((*self.position, self.height_m), self.yaw, activity="stand")
         parts = self.model.parts(Pose(0.0, 0.0, 0.0, "stand"))
         return PlacedModel(parts, state.to_world(), 0)
-
-
-def under_snow(rules: Iterable[Scenery]) -> list[Scenery]:
-    """The same where snow lies: nothing blooms, and evergreens stand for trees in leaf."""
-    (evergreen,) = nouns_with("evergreen")
-    rules = [one for one in rules if one.noun not in nouns_with("in bloom")]
-    leafy = nouns_with("in leaf")
-    return [replace(one, noun=evergreen) if one.noun in leafy else one for one in rules]
 
 
 def scatter(

@@ -20,18 +20,14 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
 )
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.phases import NO_FLOOR_M, PATH_KINDS, activity_of
-from texvent.scenes.staging.trajectories.steered_path import (
-    SteeredPath,
-)
+from texvent.scenes.staging.trajectories.steered_path import SteeredPath, steady
 from texvent.scenes.staging.trajectories.trajectory import (
     TO_CAMERA,
     BodyState,
-    Circle,
     Facing,
     Rolling,
     Shuttle,
     Stationary,
-    Straight,
     Trajectory,
     Vector,
     ahead,
@@ -101,7 +97,10 @@ def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Tr
     rate = 2.0 * math.pi / max(plan.duration_s, 2.0) * plan.motion.pace
     rate *= -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
     activity = "run" if plan.motion.kind == "run" else "move"
-    circle = Circle(centre, radius_m, rate, 2.0 * math.pi * share, activity)
+    begin, (x, y, z) = 2.0 * math.pi * share, centre
+    start = (x + radius_m * math.cos(begin), y + radius_m * math.sin(begin), z)
+    yaw = begin + math.copysign(0.5 * math.pi, rate)
+    circle = steady(start, yaw, abs(rate) * radius_m, turn_rad_s=rate, activity=activity)
     return Facing(circle) if plan.is_facing else circle
 
 
@@ -119,11 +118,11 @@ def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
 
 
 def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
-    kind, mid_s = plan.motion.kind, 0.5 * plan.duration_s
-    if plan.is_facing:
-        home = _raised(home, plan.climb * plan.speed_m_s * mid_s)
-    doing = activity_of(kind)
-    path: Trajectory = Straight(home, plan.yaw, plan.speed_m_s, mid_s, doing, climb=plan.climb)
+    kind, half_m = plan.motion.kind, 0.5 * plan.duration_s * plan.speed_m_s
+    start = ahead(home, plan.yaw, -half_m, home[2] - plan.climb * half_m)
+    path: Trajectory = steady(
+        start, plan.yaw, plan.speed_m_s, climb=plan.climb, activity=activity_of(kind)
+    )
     is_flat = model.length < _FLAT * min(model.width, model.height)
     if plan.is_facing or (is_flat and kind in ("fly", "slide")):
         path = Facing(path, TO_CAMERA + 0.35 * (kind == "fly"))

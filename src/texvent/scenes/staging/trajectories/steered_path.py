@@ -145,6 +145,15 @@ class SteeredPath:
         )  # fmt: skip
 
 
+def steady(
+    start: Vector, yaw: float, speed_m_s: float, *, turn_rad_s: float = 0.0, climb: float = 0.0,
+    activity: str = "move",
+) -> SteeredPath:  # fmt: skip
+    """A straight line or a circle at constant speed; `climb` is metres up per metre along."""
+    piece = Piece(1.0, speed_m_s, turn_rad_s, climb * speed_m_s, ramp_s=0.0, activity=activity)
+    return SteeredPath(start, yaw, (piece,), speed_m_s, turn_rad_s, 0.0, -math.inf)
+
+
 def _ramp(piece: Piece) -> float:
     return min(piece.ramp_s, piece.duration_s)
 

@@ -110,31 +110,6 @@ class Stationary:
 
 
 @dataclass(frozen=True)
-class Straight:
-    """Moves along its heading at constant speed; at its home at `mid_s`."""
-
-    home: Vector
-    yaw: float
-    speed_m_s: float
-    mid_s: float
-    activity: str = "move"
-    climb: float = 0.0
-    """Metres up per metre along."""
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        along = self.speed_m_s * (time_s - self.mid_s)
-        return BodyState(
-            ahead(self.home, self.yaw, along, self.home[2] + along * self.climb),
-            self.yaw,
-            -math.atan(self.climb),
-            distance_m=self.speed_m_s * time_s,
-            speed_m_s=self.speed_m_s,
-            activity=self.activity,
-        )
-
-
-@dataclass(frozen=True)
 class Rolling:
     """Rolls without sliding: turns by distance over radius while `path` carries it."""
 
@@ -190,32 +165,6 @@ def _sine_path(angle: float) -> float:
     half_turns = math.floor(angle / math.pi + 0.5)
     sign = 1.0 if half_turns % 2 == 0 else -1.0
     return 2.0 * half_turns + sign * math.sin(angle)
-
-
-@dataclass(frozen=True)
-class Circle:
-    """Goes round a centre at constant speed, facing along its path."""
-
-    centre: Vector
-    radius_m: float
-    rate_rad_s: float
-    """Positive = anticlockwise seen from above."""
-    phase: float = 0.0
-    activity: str = "move"
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        angle = self.phase + self.rate_rad_s * time_s
-        turn = math.copysign(math.pi / 2.0, self.rate_rad_s)
-        x, y, z = self.centre
-        speed = abs(self.rate_rad_s) * self.radius_m
-        return BodyState(
-            (x + self.radius_m * math.cos(angle), y + self.radius_m * math.sin(angle), z),
-            angle + turn,
-            distance_m=speed * time_s,
-            speed_m_s=speed,
-            activity=self.activity,
-        )
 
 
 @dataclass(frozen=True)
