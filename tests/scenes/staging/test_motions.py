@@ -133,7 +133,7 @@ TRAJECTORIES = {
     "weaving": Oscillating(
         steady((0.0, 0.0, 2.0), 0.3, 1.0, climb=0.4), (Wave("yaw", 0.1, 0.7, 0.3),)
     ),
-    "rolling": Rolling(steady((0.0, 0.0, 0.0), 0.0, 2.0), 0.25, 0.25),
+    "rolling": Rolling(steady((0.0, 0.0, 0.0), 0.0, 2.0), 0.25),
     "shuttle": Shuttle((0.0, 0.0, 0.0), 0.5, 1.5, 2.0),
     "circle": steady((2.0, 0.0, 1.0), -0.5 * math.pi, 3.0, turn_rad_s=-1.5),
     "spin": Spin((0.0, 0.0, 0.0), 3.0),

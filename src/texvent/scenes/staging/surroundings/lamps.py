@@ -28,8 +28,6 @@ from texvent.scenes.staging.surroundings.scenery import SceneryItem
 
 MAINS_HZ = 20.0
 """From this frequency on, lamps on mains beat as a sine instead of going on and off."""
-_FLICKERING = 2.6
-"""How much more a flame flickers that is said to."""
 _UNLIT = (Ground.NONE, Ground.UNDERWATER, Ground.SEA)
 """Grounds of places without lamps out of sight."""
 _LIGHTS_A_ROOM, _DIMMEST_CASTER, _FAINTEST = 0.1, 0.5, 0.004
@@ -97,10 +95,7 @@ class LitActor:
         wave = "square" if lamp.wave == "sine" and rate < MAINS_HZ else lamp.wave
         # Two candles do not flicker in step.
         phase = fraction(self.actor.instance, "flame")
-        level = wave_level(wave, rate * time_s, phase=phase)
-        if wave == "flame" and self.blink_hz is not None:
-            level = max(1.0 + _FLICKERING * (level - 1.0), 0.05)
-        return full * level
+        return full * wave_level(wave, rate * time_s, phase=phase)
 
     def glow(self, placed: PlacedModel, time_s: float) -> PlacedModel:
         """The object with its glowing parts as bright as its lamps are at that instant."""

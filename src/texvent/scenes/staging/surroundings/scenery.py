@@ -216,16 +216,12 @@ class _Scatterer:
         return SceneryItem(rule, model, (float(x), float(y)), yaw)
 
     def _draw_reach(self, rule: Scenery, camera: Camera) -> float:
-        """Metres from the camera, no further than the top of the image shows."""
+        """Metres from the camera."""
         near, far = rule.reach
         if rule.where == "far":
             return float(self._rng.uniform(near, far))
         pitch = math.asin(min(max(-float(camera.rotation[2, 2]), -1.0), 1.0))
         flat = self._view.distance_m * math.cos(pitch)
-        top = pitch - math.atan(0.33 / camera.focal)
-        if top > 0.02:
-            seen = float(camera.position[2]) / math.tan(top) / max(flat, 1e-6) - 1.0
-            near, far = (min(near, 0.1 - 0.8 * seen, seen), seen) if far > seen else (near, far)
         return flat * (1.0 + float(self._rng.uniform(near, far)))
 
     def _stand_at_wall(self, rule: Scenery, model: Model, camera: Camera) -> SceneryItem:

@@ -65,7 +65,7 @@ def choose_trajectory(
     if plan.path is not None:
         path: Trajectory = _shift_path(plan.path, model, home)
         if plan.radius_m:
-            path = Rolling(path, plan.radius_m, plan.radius_m)
+            path = Rolling(path, plan.radius_m)
         return Facing(path) if plan.is_facing else path
     if plan.gesture is not None:
         return Stationary(home, plan.yaw, plan.gesture, plan.motion.pace)
@@ -130,7 +130,7 @@ def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
         return Oscillating(path, (Wave("z", 0.04 * model.height, _BOB_HZ, phase),))
     if kind == "swim":
         return Oscillating(path, (Wave("yaw", _WEAVE_RAD, _WEAVE_HZ, phase),))
-    return Rolling(path, plan.radius_m, plan.radius_m) if plan.radius_m else path
+    return Rolling(path, plan.radius_m) if plan.radius_m else path
 
 
 def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:

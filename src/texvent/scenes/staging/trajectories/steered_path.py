@@ -112,11 +112,6 @@ class SteeredPath:
             act_s=act_s,
         )
 
-    def distance_at(self, time_s: float) -> float:
-        """Way covered since t = 0, forwards less backwards, m."""
-        knot, piece, elapsed = self._find(time_s)
-        return knot.distance_m + _integral(knot.rates[0], piece.speed_m_s, _ramp(piece), elapsed)
-
     def _find(self, time_s: float) -> tuple[_Knot, Piece, float]:
         """The piece that holds an instant: its beginning, itself, and time in it."""
         knots = self._knots

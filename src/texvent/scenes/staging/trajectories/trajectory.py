@@ -99,14 +99,11 @@ class Stationary:
     tempo: float = 1.0
     gain_per_s: float = 0.0
     """By how much the tempo grows each second."""
-    pivot_m: float = 0.0
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         mean = self.tempo + 0.5 * self.gain_per_s * time_s
-        return BodyState(
-            self.home, self.yaw, activity=self.activity, tempo=mean, pivot_m=self.pivot_m
-        )
+        return BodyState(self.home, self.yaw, activity=self.activity, tempo=mean)
 
 
 @dataclass(frozen=True)
@@ -115,13 +112,12 @@ class Rolling:
 
     path: Trajectory
     radius_m: float
-    pivot_m: float
-    """Height of its middle above the body's origin."""
+    """Also the height of its middle above the body's origin."""
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         state = self.path.at(time_s)
-        return replace(state, pitch=state.distance_m / self.radius_m, pivot_m=self.pivot_m)
+        return replace(state, pitch=state.distance_m / self.radius_m, pivot_m=self.radius_m)
 
 
 @dataclass(frozen=True)
