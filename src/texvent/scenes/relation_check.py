@@ -138,29 +138,21 @@ def _clears(one: Body, other: Body, share: float) -> Float64Array:
     return np.asarray(one.middle[:, 2] - 0.5 * one.size[:, 2] - level)
 
 
-def _columns(one: Body, other: Body) -> _Flags:
-    """[t, k] whether its middle is above or below each part of the other."""
-    middle, (low, high) = one.middle[:, None, :2], other.parts.swapaxes(0, 1)[..., :2]
-    return np.asarray(((low < middle) & (high > middle)).all(axis=2))
-
-
 def _is_on(one: Body, other: Body) -> _Flags:
-    """Whether it is over its upper half and not above it, or right on a part of it."""
+    """Whether it is over its lower half and not above it."""
     room = 0.5 * one.size[:, 2] + 0.05 + np.ptp(one.middle[:, 2])  # it may bounce
-    is_over = (_clears(one, other, 0.5) <= room) & (one.middle[:, 2] >= other.middle[:, 2])
-    foot = (one.middle - 0.5 * one.size)[:, 2:]
-    is_top = np.asarray(np.abs(other.parts[:, 1, 2] - foot) <= room[:, None])
-    is_part = np.any(_columns(one, other) & is_top, axis=1)
-    return np.asarray((_within(one, other, 2) & is_over) | is_part)
+    is_over = (_clears(one, other, 0.5) <= room) & (_clears(one, other, -0.5) >= -0.05)
+    return np.asarray(_within(one, other, 2) & is_over)
 
 
 def _is_under(one: Body, other: Body) -> _Flags:
     """Whether a part of the other is above it, and none where it is itself."""
-    low, high = other.parts[:, 0], other.parts[:, 1]
-    middle, slim = one.middle[:, None], 0.4 * one.size[:, None]
+    (low, high), middle = other.parts.swapaxes(0, 1), one.middle[:, None]
+    slim = 0.4 * one.size[:, None]
     is_met = ((low < middle + slim) & (high > middle - slim)).all(axis=2)
-    is_roof = _columns(one, other) & np.asarray(low[:, 2] >= middle[:, :, 2])
-    return np.asarray(~np.any(is_met, axis=1) & np.any(is_roof, axis=1))
+    is_over = ((low < middle) & (high > middle))[..., :2].all(axis=2)
+    is_roof = is_over & np.asarray(low[:, 2] >= middle[..., 2])
+    return np.asarray(~is_met.any(axis=1) & is_roof.any(axis=1))
 
 
 def _aside(one: Body, other: Body) -> Float64Array:
@@ -180,11 +172,11 @@ def _recedes(one: Body, other: Body, sign: int) -> _Flags:
     return np.asarray(sign * (away - away[0]) > _LEAST_WAY * one.size.max())
 
 
-def _is_passing(one: Body, other: Body) -> _Flags:
-    """Whether its way begins before the other and ends behind it, or within sizes of both."""
+def _is_passing(one: Body, other: Body, share: float = 0.0) -> _Flags:
+    """Whether its way begins before the other and ends behind it, or in a share of both sizes."""
     off = (one.middle - other.middle)[:, :2]
     way = off[-1] - off[0]
-    room = 0.5 * (one.size.max() + other.size.max()) * np.linalg.norm(way)
+    room = share * (one.size.max() + other.size.max()) * np.linalg.norm(way)
     return np.array([off[0] @ way < room and off[-1] @ way > -room])
 
 
@@ -197,7 +189,7 @@ def _is_around(one: Body, other: Body) -> _Flags:
 
 _RULES: Mapping[str, _Rule] = {
     "on": _is_on, "under": _is_under, "around": _is_around,
-    "past": _is_passing, "overtake": _is_passing,
+    "overtake": _is_passing, "past": lambda one, other: _is_passing(one, other, 0.5),
     "in": lambda one, other: _within(one, other, 3),
     "ride": lambda one, other: _within(one, other, 2, 0.5),
     "between": lambda one, other: _within(one, other, 2, 0.5),
