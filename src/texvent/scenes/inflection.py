@@ -20,16 +20,6 @@ _SINGULAR = ("ss", "us", "is", "as", "lens")
 """Ends of singular nouns in s; others in s are plurals: "stairs", "headphones"."""
 
 
-def pluralise(noun: str) -> str:
-    """The plural a person would write.
-
-    Example:
-        >>> pluralise("person"), pluralise("tree"), pluralise("pitch lines")
-        ('people', 'trees', 'pitch lines')
-    """
-    return list_plurals(noun)[0]
-
-
 def list_plurals(noun: str) -> tuple[str, ...]:
     """Plurals of a noun of one or more words, the usual one first.
 

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.scenes.description import RELATIONS, SceneDescription
+from texvent.scenes.description import SceneDescription
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Camera, Float64Array, Primitives, Shape
 
@@ -102,7 +102,8 @@ def find_unheld(
         held = [any(np.mean(rule(body, other)) >= least for other in others) for body in own]
         if sum(held) < _MOST_COPIES * len(own) or not own:
             targets = " and ".join(names[target] for target in one.targets)
-            line = f"{names[one.subject]} {RELATIONS.get(one.kind, one.kind)} {targets}"
+            said = one.kind.replace("front", "in front of")
+            line = f"{names[one.subject]} {said} {targets}"
             yield Unheld("relation", one.kind, line if own and others else "")
     led = {target for one in description.relations for target in one.targets}
     for index, (thing, own) in enumerate(zip(description.objects, copies, strict=True)):
