@@ -175,8 +175,7 @@ def _move_others(description: SceneDescription, nouns: Mapping[str, Noun]) -> Sc
     for one in description.relations:
         target = one.targets[0]
         if one.kind in ("follow", "overtake") and kinds[target].speed_m_s > 0.0:
-            pace = 0.5 if one.kind == "overtake" else 1.0
-            motions[target] = Motion(kinds[target].motion, pace=pace)
+            motions[target] = Motion(kinds[target].motion)
         rider = description.objects[one.subject]
         is_treadmill = description.objects[target].noun in nouns_with("moves under feet")
         if one.kind == "on" and is_treadmill and rider.motion and rider.motion.kind in _PACES:

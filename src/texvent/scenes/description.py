@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, fields, replace
 from texvent.scenes.report import PromptReport
 from texvent.scenes.spec.data import scene_to_data
 from texvent.scenes.spec.files import inline_text
-from texvent.scenes.spec.scene import Motion, Scene, SceneObject, object_ids
+from texvent.scenes.spec.scene import Motion, Scene, object_ids
 
 SPIN_RATE_HZ = 0.5
 """Usual turns per second of what spins."""
@@ -62,9 +62,9 @@ def report_of(description: SceneDescription) -> PromptReport:
     Its lines are those of a scene file, an object each; `Scene.prompt` is left out.
 
     Example:
-        >>> car = SceneObject("car", motions=(Motion("drive", "left", speed_m_s=5.0),))
+        >>> car = SceneObject("car", motions=(Motion("drive", "left"),))
         >>> report_of(SceneDescription(objects=(car,))).lines()
-        ['objects: noun = "car", motions = [{ kind = "drive", direction = "left", speed_m_s = 5.0 }]']
+        ['objects: noun = "car", motions = [{ kind = "drive", direction = "left" }]']
     """
     objects = tuple(replace(one, id="" if one.id == one.noun else one.id)
                     for one in description.objects)  # fmt: skip

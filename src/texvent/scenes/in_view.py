@@ -23,10 +23,10 @@ from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.raycast.ground_truth import visible_instances
 from texvent.scenes.raycast.render import render
 from texvent.scenes.relation_check import Body, Unheld, body_of, find_unheld
-from texvent.scenes.scene import Camera, Ground, Primitives, Scene, Texture, project
+from texvent.scenes.scene import Camera, Ground, Scene, Texture, project
 from texvent.scenes.spec.data import PLACING
 from texvent.scenes.spec.scene import Place
-from texvent.scenes.staging.actors import assemble
+from texvent.scenes.staging.actors import Actor, assemble
 from texvent.scenes.staging.compose import ComposedScene
 from texvent.scenes.staging.particles.choose import FALLING
 from texvent.scenes.staging.surroundings.environment import RoadLine, build_environment
@@ -46,7 +46,6 @@ _SMALL, _LEAST_LEVELS, _LEAST_SHARE = SensorSize(120, 90), 6.0, 0.002
 """Size of small pictures; difference of a pixel, of 255, that is seen; share of those that are."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
-_Shots = Sequence[tuple[Primitives, Camera]]
 _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
 """Grounds that many places have: only their scenery shows which one it is."""
 _TURNS = ("spin", "work", "rotate")
@@ -75,17 +74,17 @@ def find_unseen(
     An object without a body of its own is part of another one's, as a worn coat is.
     """
     times = [float(time_s) for time_s in np.linspace(0.0, duration_s, INSTANTS)]
-    pixels = count_pixels(scene, list(scene.object_of), size, times)
-    shots = [(scene.primitives(time_s), scene.camera(time_s)) for time_s in times]
+    cameras = [scene.camera(time_s) for time_s in times]
+    pixels = count_pixels(scene, list(scene.class_names), size, times)
     related = {i for one in description.relations for i in one.targets}
     outside, small, bodies = list[str](), list[str](), list[list[Body]]()
     for index, thing in enumerate(description.objects):
-        counts = {one: pixels[one] for one, owner in scene.object_of.items() if owner == index}
-        seen = (body_of(shots, one) for one, count in counts.items() if count)
-        bodies.append([one for one in seen if one is not None])
-        if not counts:
+        own = [one for one in scene.actors if one.object_index == index]
+        counts = [pixels[one.instance] for one in own]
+        bodies.append([body_of(one, cameras, times) for one in own if pixels[one.instance]])
+        if not own:
             continue
-        most, lost = max(counts.values()), list(counts.values()).count(0)
+        most, lost = max(counts), counts.count(0)
         least = math.inf if index not in related else 0.1 * size.width * size.height
         if most == 0:
             outside.append(thing.noun)
@@ -93,7 +92,7 @@ def find_unseen(
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
         elif lost and len(counts) <= max(2 * lost, MOST_COUNTED):
             outside.append(f"{thing.noun} ({lost} of {len(counts)})")
-        elif most < least and max(_share_inside(shots, size, one) for one in counts) < LEAST_INSIDE:
+        elif most < least and all(_is_cut_off(one, cameras, times, size) for one in own):
             outside.append(f"{thing.noun} (cut off)")
     lines = (one.partition(" (") for one in (*outside, *small) if " of " not in one)
     unheld = [Unheld("noun", noun, "") for noun, *_ in lines]
@@ -175,16 +174,18 @@ def _list_without(
             yield name, kind, replace(scene, particles=replace(staged, effects=rest))
 
 
-def _share_inside(shots: _Shots, size: SensorSize, instance: int) -> float:
-    """Most that the image holds of an object at one instant: share of the box of its shapes."""
-    most = 0.0
-    for shapes, camera in shots:
-        seen = project(camera, size, shapes.to_world[shapes.instance == instance, :, 3])
+def _is_cut_off(
+    actor: Actor, cameras: Sequence[Camera], times: Sequence[float], size: SensorSize
+) -> bool:
+    """Whether no instant has more than a share of its box in the image."""
+    for time_s, camera in zip(times, cameras, strict=True):
+        seen = project(camera, size, actor.corners(time_s))
         if (seen[:, 2] > 0.0).all():
             box = np.array([seen[:, :2].min(axis=0) - 1.0, seen[:, :2].max(axis=0) + 1.0])
             inside = np.diff(np.clip(box, 0.0, [size.width, size.height]), axis=0)
-            most = max(most, float(np.prod(inside / np.diff(box, axis=0))))
-    return most
+            if float(np.prod(inside / np.diff(box, axis=0))) >= LEAST_INSIDE:
+                return False
+    return True
 
 
 def _differs(

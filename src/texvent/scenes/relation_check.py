@@ -13,8 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.description import SceneDescription
+from texvent.scenes.models.shapes import bounds, moved
 from texvent.scenes.models.tables import nouns_with
-from texvent.scenes.scene import Camera, Float64Array, Primitives, Shape
+from texvent.scenes.scene import Camera, Float64Array
+from texvent.scenes.staging.actors import Actor
 
 _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "paddle", "slide",
                        "roll", "crawl", "rise", "sink", "hover", "float", "bounce", "jump",
@@ -55,27 +57,17 @@ class Body(NamedTuple):
     """[k, 2, 3] boxes around its shapes at the first instant, m."""
 
 
-def body_of(shots: Sequence[tuple[Primitives, Camera]], instance: int) -> Body | None:
-    """The body of an instance; None: it has no shapes, as a hidden rider."""
-    boxes = [_boxes(shapes)[shapes.instance == instance] for shapes, _ in shots]
-    if not all(map(len, boxes)):
-        return None
-    low = np.array([one[:, 0].min(axis=0) for one in boxes])
-    high = np.array([one[:, 1].max(axis=0) for one in boxes])
-    middle, cameras = 0.5 * (low + high), [camera for _, camera in shots]
+def body_of(actor: Actor, cameras: Sequence[Camera], times: Sequence[float]) -> Body:
+    """The body of an actor at instants, s, with the camera at each."""
+    corners = np.array([actor.corners(time) for time in times])
+    low, high = corners.min(axis=1), corners.max(axis=1)
+    middle, shapes = 0.5 * (low + high), actor.place(times[0])
     seen = np.array([camera.rotation @ (place - camera.position)
                      for place, camera in zip(middle, cameras, strict=True)])  # fmt: skip
     seen[:, :2] /= np.maximum(seen[:, 2:], 1e-3)
-    way = cameras[len(shots) // 2].rotation @ (middle[-1] - middle[0])
-    return Body(middle, high - low, seen, way, boxes[0])
-
-
-def _boxes(shapes: Primitives) -> Float64Array:
-    """[n, 2, 3] least and greatest coordinates of every shape, m."""
-    axes, middle = shapes.to_world[:, :, :3], shapes.to_world[:, :, 3]
-    is_round = (shapes.shape == Shape.ELLIPSOID)[:, None]
-    half = np.where(is_round, np.linalg.norm(axes, axis=2), np.abs(axes).sum(axis=2))
-    return np.stack([middle - half, middle + half], axis=1)
+    way = cameras[len(times) // 2].rotation @ (middle[-1] - middle[0])
+    parts = [bounds([part]) for part in moved(shapes.parts, shapes.to_world)]
+    return Body(middle, high - low, seen, way, np.array(parts))
 
 
 def find_unheld(

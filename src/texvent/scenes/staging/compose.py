@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -69,8 +69,6 @@ class ComposedScene:
     """Instance id → noun."""
     not_shown: tuple[str, ...] = ()
     """What the scene cannot do, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
-    object_of: Mapping[int, int] = field(default_factory=dict)
-    """Instance id → index of the description's object that it is a copy of."""
     has_highlights: bool = False
     """Whether light above white is kept; see `scene.Environment`."""
 
@@ -150,7 +148,6 @@ def compose_scene(
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items = _scatter_all(description, view, actors, nouns, seed)
     names = {one.instance: one.noun.name for one in actors}
-    object_of = {one.instance: one.object_index for one in actors}
     animated_environment = build_environment(
         description, place=ground, road=view.road, distance_m=camera_path.framing.distance_m,
         room_m=camera_path.room_m,
@@ -165,7 +162,7 @@ def compose_scene(
     still = assemble([item.place() for item in items])
     return ComposedScene(
         tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
-        tuple(dict.fromkeys(missing)), object_of,
+        tuple(dict.fromkeys(missing)),
     )  # fmt: skip
 
 
