@@ -66,8 +66,11 @@ def kick(subject: Actor, thing: Actor, duration_s: float) -> tuple[Actor, Actor]
     path = Performed(Stationary(home.position, home.yaw), activity, contact_s=contact_s)
     subject = moving(subject, path)
     tip, heading = subject.anchor("right foot", contact_s)[:, 3], heading_of(home.yaw)
-    middle = np.array([tip[0], tip[1], home.position[2] + 0.5 * thing.model.height])
-    spot = middle + 0.5 * thing.model.length * heading
+    radius, low = 0.5 * thing.model.length, home.position[2]
+    inset = 0.0
+    if abs(thing.model.length - thing.model.height) < 0.1 * radius:
+        inset = radius - math.sqrt(max(radius**2 - (radius - min(tip[2], radius)) ** 2, 0.0))
+    spot = np.array([tip[0], tip[1], low + 0.5 * thing.model.height]) + (radius - inset) * heading
     flight = _fly_off("kick", thing, _at(thing, spot, home.yaw), home, (contact_s, duration_s))
     rolling = math.hypot(*flight.velocity_m_s[:2]) / max(0.5 * thing.model.height, 0.05)
     return subject, moving(thing, replace(flight, tumble_rad_s=rolling))

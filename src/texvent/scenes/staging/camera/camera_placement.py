@@ -37,8 +37,8 @@ from texvent.scenes.staging.camera.subject import (
 _SKY_LIFT = 0.2
 """How far the camera looks above what matters outdoors, in half image heights."""
 _TRACKING_LENGTHS, _NEAR_LENGTHS = 3.0, 0.3
-"""An object that covers more of its own lengths in the clip is followed from the side: usually, and
-in a close or medium shot."""
+"""Lengths of its own from which on an object is followed: usually, and in a close or medium shot.
+"""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
 """Moves that can lose the subject."""
 _VISIBLE_SHARE, _CHECKS, _TRIES = 0.97, 41, 10

@@ -35,16 +35,12 @@ from texvent.scenes.staging.trajectories.trajectory import (
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTS})
 """What bodies without hands do in their place."""
-_LARGEST_AFLOAT_M = 2.5
-"""What is larger bobs no more than that: a moon, a cloud."""
 ORBIT_SIZES = 1.3
 """Radius of a circle around nothing, in sizes of who goes along it."""
 _BOB_HZ, _WEAVE_HZ, _WEAVE_RAD, _SWAY_RAD = 0.4, 0.68, 0.08, 0.14
 """Up and down of what flies or floats, swaying of a fish about its heading, of what leans."""
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
 """Who goes up and down a street on the ground goes to and fro."""
-_FLAT = 0.3
-"""Length of what is flat, as a share of its width and height."""
 
 
 def choose_trajectory(
@@ -108,12 +104,10 @@ def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
     """To and fro, or up and down: what stands on the ground rises from it."""
     kind, direction, rate = plan.motion.kind, plan.motion.direction, plan.motion.rate_hz
     reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
-    is_flat = model.length < _FLAT * min(model.width, model.height)
     is_vertical = direction == "up and down" and kind not in _ON_GROUND
-    yaw = TO_CAMERA if is_flat and is_vertical else plan.yaw
     period_s = 1.0 / rate if rate else max(plan.duration_s, 1.0)
     place = _raised(home, reach) if is_vertical else home
-    path = Shuttle(place, yaw, reach, period_s, activity_of(kind), is_vertical)
+    path = Shuttle(place, plan.yaw, reach, period_s, activity_of(kind), is_vertical)
     return Facing(path) if plan.is_facing else path
 
 
@@ -123,9 +117,8 @@ def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> 
     path: Trajectory = steady(
         start, plan.yaw, plan.speed_m_s, climb=plan.climb, activity=activity_of(kind)
     )
-    is_flat = model.length < _FLAT * min(model.width, model.height)
-    if plan.is_facing or (is_flat and kind in ("fly", "slide")):
-        path = Facing(path, TO_CAMERA + 0.35 * (kind == "fly"))
+    if plan.is_facing:
+        path = Facing(path)
     if kind in ("fly", "sail", "paddle"):
         return Oscillating(path, (Wave("z", 0.04 * model.height, _BOB_HZ, phase),))
     if kind == "swim":
@@ -141,8 +134,7 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
         usual = 2.0 * math.pi * (-SPIN_RATE_HZ if is_clockwise else SPIN_RATE_HZ)
         return _spin(plan, model, home, usual, phase)
     if kind in ("hover", "float"):
-        span = max(model.length, model.width, model.height)
-        bob_m = 0.12 * min(span, _LARGEST_AFLOAT_M) * pace
+        bob_m = 0.12 * min(max(model.length, model.width, model.height), 2.5) * pace
         return hover(Stationary(home, plan.yaw, "move"), bob_m, phase)
     if kind == "sway":
         lean = Wave("roll", _SWAY_RAD, plan.motion.rate_hz or 0.5 * pace)

@@ -168,11 +168,10 @@ class Facing:
     """A board or a flat shape that shows its front to the camera all along a path."""
 
     path: Trajectory
-    yaw: float = TO_CAMERA
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        return replace(self.path.at(time_s), yaw=self.yaw, pitch=0.0, roll=0.0)
+        return replace(self.path.at(time_s), yaw=TO_CAMERA, pitch=0.0, roll=0.0)
 
 
 @dataclass(frozen=True)
