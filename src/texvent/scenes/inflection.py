@@ -26,12 +26,7 @@ def list_plurals(noun: str) -> tuple[str, ...]:
     Example:
         >>> list_plurals("traffic cone"), list_plurals("bus"), list_plurals("snow goose")
         (('traffic cones',), ('buses', 'busses'), ('snow geese', 'snow gooses'))
-        >>> list_plurals("bird of prey")
-        ('birds of prey',)
     """
-    head, of, rest = noun.partition(" of ")
-    if of:
-        return tuple(f"{plural}{of}{rest}" for plural in list_plurals(head))
     first, last = noun[: noun.rfind(" ") + 1], noun.split()[-1]
     is_plural = last.endswith("s") and not last.endswith(_SINGULAR)
     usual = noun if is_plural or last.endswith(_UNCHANGED) else None

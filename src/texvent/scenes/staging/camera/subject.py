@@ -53,12 +53,9 @@ def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor
     """The object the camera is about: as said, or the first that moves or could."""
     target = description.index(description.camera.target)
     asked = [one for one in actors if target is not None and one.object_index == target]
-    able = [one for one in actors if one.is_mover or _is_able(one)]
+    able = [one for one in actors if one.is_mover or
+            (one.noun.speed_m_s > 0.0 and one.noun.habitat != "fixed")]  # fmt: skip
     return [*asked[:1], *able[:1], actors[0]][0]
-
-
-def _is_able(actor: Actor) -> bool:
-    return actor.noun.speed_m_s > 0.0 and actor.noun.habitat != "fixed"
 
 
 def goes_in_depth(description: SceneDescription, main: Actor) -> bool:
@@ -173,7 +170,9 @@ def list_views(
     related = set().union(*tied) - {main.object_index}
     landmarks = {n for r in relations if r.kind in KEPT_TOGETHER for n in r.targets}
     partners = [one for one in near if one.object_index in related - {main.object_index}]
-    others = [one for one in near if not main.is_mover or _goes(one)]
+    # A lighthouse and a swing only work where they are.
+    goes = [one for one in near if one.is_mover and one.noun.habitat != "fixed"]
+    others = goes if main.is_mover else near
     kept = [one for one in partners if one.object_index in landmarks]
     copies = [one for one in actors if one.object_index == main.object_index]
     choices = (near, [*others, *partners], partners, kept)
@@ -181,11 +180,6 @@ def list_views(
         View(_points_of([*copies, *some], scope), fill, goal * least)
         for some, least in zip(choices, _GOALS, strict=True)
     ]
-
-
-def _goes(actor: Actor) -> bool:
-    """Whether it moves from where it is; a lighthouse and a swing only work there."""
-    return actor.is_mover and actor.noun.habitat != "fixed"
 
 
 def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:

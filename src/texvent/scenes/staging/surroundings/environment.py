@@ -121,7 +121,8 @@ def _straight_road(
 def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool) -> RoadLine:
     """The road whose right lane, or whose edge, the first mover keeps to, also where it turns."""
     first = movers[0]
-    lane = _lane_of(movers, lane_m)
+    is_alone = len(movers) == 1 and lane_m > 0.6 * first.model.width
+    lane = lane_m if is_alone else 0.0
     if first.noun.motion != "drive":
         lane = 2.0 * lane_m + _PAVEMENT_M if has_pavement else _ROADSIDE * lane_m
 
@@ -143,12 +144,6 @@ def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool) -> R
     return RoadLine(yaw % math.pi if lane == 0.0 else yaw, (x, y), crossings=tuple(crossings[:1]))
 
 
-def _lane_of(movers: Sequence[Actor], lane_m: float) -> float:
-    """How far the first mover is to the right of the centre line, m."""
-    is_alone = len(movers) == 1 and movers[0].noun.motion == "drive"
-    return lane_m if is_alone and lane_m > 0.6 * movers[0].model.width else 0.0
-
-
 def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
     """The actors, with what is painted across a road turned to it."""
     painted, yaw = nouns_with("across a road"), road.angle + 0.5 * math.pi
@@ -168,7 +163,10 @@ def water_line(place: Place, actors: Sequence[Actor], path: CameraPath) -> RoadL
     angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi
     x, y = float(path.framing.target[0]), float(path.framing.target[1])
     half = place.road_m if place.ground is Ground.RIVER else 0.0
-    swimmers = [one for one in actors if _is_in_water(one)]
+    swimmers = [
+        one for one in actors if one.trajectory.at(0.0).activity in _AFLOAT
+        or (one.noun.habitat == "water" and not isinstance(one.trajectory, Attached))
+    ]  # fmt: skip
     gap = half + _BANK * path.framing.distance_m + _LEAST_BANK_M
     if not actors:
         gap = half
@@ -179,11 +177,6 @@ def water_line(place: Place, actors: Sequence[Actor], path: CameraPath) -> RoadL
     elif swimmers:
         gap = -_NEARER * path.framing.distance_m
     return RoadLine(angle, (x - gap * math.sin(angle), y + gap * math.cos(angle)))
-
-
-def _is_in_water(actor: Actor) -> bool:
-    is_of_water = actor.noun.habitat == "water" and not isinstance(actor.trajectory, Attached)
-    return is_of_water or actor.trajectory.at(0.0).activity in _AFLOAT
 
 
 NO_ROOM_M = 9.0

@@ -225,7 +225,9 @@ def plan_lamps(
     rows = _still_lamps(items, strength)
     focus = np.asarray(framing.target, dtype=np.float64)
     is_dark = strength > 0.0 and place.ground not in _UNLIT
-    if is_dark and not rows and not any(map(_lights_around, lit)):
+    own = np.vstack([np.zeros((0, LAMP_COLUMNS)), *(one.steady_rows(0.0) for one in lit)])
+    is_lit = (own[:, 10] < -1.0) & (own[:, 3:6].max(axis=1, initial=0.0) >= _LIGHTS_A_ROOM)
+    if is_dark and not rows and not is_lit.any():
         rows.append(hidden_lamp(focus, framing.distance_m, strength))
     still = np.array(rows, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
     _choose_casters(lit, still, instant_s, focus)
@@ -242,12 +244,6 @@ def _list_lamps(actor: Actor) -> tuple[tuple[int, float, Lamp], ...]:
         lamp = lamp_of(actor.noun.name, brightest.colour) if brightest.emission > 0.0 else None
         found += [(index, brightest.emission, lamp)] if lamp is not None else []
     return tuple(found)
-
-
-def _lights_around(one: LitActor) -> bool:
-    """Whether an object has a lamp that lights what is around it."""
-    rows = one.steady_rows(0.0)
-    return any(row[10] < -1.0 and row[3:6].max() >= _LIGHTS_A_ROOM for row in rows)
 
 
 def _still_lamps(items: Sequence[SceneryItem], strength: float) -> list[Float64Array]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -151,14 +151,13 @@ class _Scatterer:
         fit = min(max(self._view.distance_m / _USUAL_DISTANCE_M, 0.15), 1.5) if rule.grows else 1.0
         for copy in range(rule.count):
             model = self._build(rule, copy, fit)
-            free = (item for item in self._try_places(rule, model) if self._is_free(item))
-            self.items += list(itertools.islice(free, 1))
-
-    def _try_places(self, rule: Scenery, model: Model) -> Iterator[SceneryItem]:
-        for _ in range(_ATTEMPTS):
-            camera = self._view.cameras[int(self._rng.integers(len(self._view.cameras)))]
-            stand = self._stand_at_wall if rule.where == "walls" else self._stand_around
-            yield stand(rule, model, camera)
+            for _ in range(_ATTEMPTS):
+                camera = self._view.cameras[int(self._rng.integers(len(self._view.cameras)))]
+                stand = self._stand_at_wall if rule.where == "walls" else self._stand_around
+                item = stand(rule, model, camera)
+                if self._is_free(item):
+                    self.items.append(item)
+                    break
 
     def line_route(self, rules: Sequence[Scenery], travel: TravelPlan) -> None:
         """Pieces on both sides of a route, from behind its beginning to beyond its end."""
