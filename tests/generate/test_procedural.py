@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from dataclasses import replace
 from fractions import Fraction
 
 import numpy as np
@@ -15,7 +14,6 @@ from texvent.generate.procedural import (
     ProceduralGenerator,
     ProceduralVideo,
 )
-from texvent.generate.scene_input import list_nouns, understand
 from texvent.scenes.report import PromptReport
 from texvent.sensor import SensorSize
 
@@ -100,27 +98,6 @@ def test_ground_truth_of_a_prompt_names_its_things_and_follows_them() -> None:
     assert 0.0 < car.visibility <= 1.0
     assert truth.flow.shape == (72, 96, 2)
     assert np.nanmedian(truth.flow[on_car, 0]) < np.nanmedian(truth.flow[~on_car, 0])
-
-
-def test_a_film_in_black_and_white_has_the_luminance_of_the_one_in_colour() -> None:
-    config = ProceduralConfig(duration=0.5)
-    grey = ProceduralGenerator(config, size=SMALL).generate("black and white footage of a car")
-    assert PromptReport.of_metadata(grey.metadata).is_faithful
-    pixels = grey.at(200_000).pixels
-    assert np.ptp(pixels, axis=-1).max() == 0.0
-    # The curve of sRGB, by its own formula.
-    plain = replace(grey, is_grey=False).at(200_000).pixels / 255.0
-    light = np.where(plain <= 0.04045, plain / 12.92, ((plain + 0.055) / 1.055) ** 2.4)
-    luminance = light @ np.array([0.2126, 0.7152, 0.0722])
-    coded = np.where(
-        luminance <= 0.0031308, 12.92 * luminance, 1.055 * luminance ** (1 / 2.4) - 0.055
-    )
-    np.testing.assert_allclose(pixels[..., 0], 255.0 * coded, atol=0.01)
-
-
-def test_a_black_and_white_animal_is_no_film_in_black_and_white() -> None:
-    assert not understand("a black and white cat", list_nouns()).camera.is_grey
-    assert understand("a cat in black and white", list_nouns()).camera.is_grey
 
 
 def test_frames_from_one_on_are_those_of_the_whole_video() -> None:

@@ -32,14 +32,19 @@ def test_the_scene_of_a_sentence_gives_its_events():
 def test_what_a_scene_leaves_open_is_decided_and_what_it_says_stays():
     car = SceneObject(noun="car")
     moving = texvent.video(Scene(objects=(car,)), **OPTIONS).metadata["prompt_report"]
-    assert moving["scene"][:2] == ["1 car, drives", "place: road"]
+    motion = '[{ kind = "drive" }]'
+    assert moving["scene"] == [f'objects: noun = "car", motions = {motion}', 'place: name = "road"']
     still = Scene(
         objects=(SceneObject(noun="man", motions=(Motion(kind="stand"),)),),
         place=Place(name="plain"),
         camera=Camera(moves=(CameraMove(kind="pan", direction="left"),)),
     )
     lines = texvent.video(still, **OPTIONS).metadata["prompt_report"]["scene"]
-    assert lines == ["1 man, stands still", "place: plain", "light: day", "camera: pan left"]
+    assert lines == [
+        'objects: noun = "man", motions = [{ kind = "stand" }]',
+        'camera: moves = [{ kind = "pan", direction = "left" }]',
+        'place: name = "plain"',
+    ]
 
 
 def test_events_of_a_scene_are_made_again_from_their_file(tmp_path, capsys):

@@ -112,8 +112,6 @@ class ProceduralVideo(NotebookFrames):
     """Whether light moves that belongs to no surface: beams, the glow of lamps, smoke."""
     transfer: Transfer = Transfer.GAMMA
     """Whether frames are gamma-coded or linear."""
-    is_grey: bool = False
-    """Whether frames are in black and white."""
 
     def __repr__(self) -> str:
         return describe_stream(self)
@@ -228,16 +226,7 @@ class ProceduralVideo(NotebookFrames):
     @property
     def _code(self) -> Callable[[NDArray[np.float64]], NDArray[np.float32]]:
         """Light (1 is white) → levels of a frame."""
-        code = linear_levels if self.transfer is Transfer.LINEAR else encode_srgb
-        if not self.is_grey:
-            return code
-
-        def code_grey(light: NDArray[np.float64]) -> NDArray[np.float32]:
-            from texvent.scenes.raycast.render import grey_light
-
-            return code(grey_light(light))
-
-        return code_grey
+        return linear_levels if self.transfer is Transfer.LINEAR else encode_srgb
 
 
 class ProceduralGenerator:
@@ -300,7 +289,6 @@ class ProceduralGenerator:
             flicker_hz=scene.flicker_hz,
             has_moving_light=scene.has_moving_light,
             transfer=transfer,
-            is_grey=scene.is_grey,
         )
 
     def report(self, prompt: Subject, *, is_staged: bool = True) -> PromptReport:
@@ -343,7 +331,7 @@ class ProceduralGenerator:
             out_of_view=unseen.out_of_view,
             too_small=unseen.too_small,
         )
-        scene = replace(scene, has_highlights=self.config.hdr, is_grey=description.camera.is_grey)
+        scene = replace(scene, has_highlights=self.config.hdr)
         return scene, self._accepted(report), list_files(description, named)
 
     @cached_property

@@ -26,8 +26,6 @@ _RESTING = frozenset({"behind", "front", "beside", "between", "under", "left of"
                       "around"})  # fmt: skip
 """Relations that an object would undo by moving off."""
 _AT_HAND = frozenset({"hold", "wear"})
-_PACES = {"walk": 0.7, "run": 1.0}
-"""Pace of running in place that looks as walking and running do."""
 _GOING = {"stand": "slide", "float": "fly"}
 _AFLOAT = ("sail", "paddle")
 _IN_WATER = ("swim", "surf", *_AFLOAT)
@@ -168,27 +166,19 @@ def _rest_of(
 
 
 def _move_others(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """What is followed or overtaken moves; who runs on a treadmill stays in place."""
+    """What is followed or overtaken, by others or the camera, moves."""
     motions: dict[int, Motion] = {}
-    new: dict[int, SceneObject] = {}
     kinds = [nouns[one.noun] for one in description.objects]
     for one in description.relations:
         target = one.targets[0]
         if one.kind in ("follow", "overtake") and kinds[target].speed_m_s > 0.0:
-            pace = 0.5 if one.kind == "overtake" else 1.0
-            motions[target] = Motion(kinds[target].motion, pace=pace)
-        rider = description.objects[one.subject]
-        is_treadmill = description.objects[target].noun in nouns_with("moves under feet")
-        if one.kind == "on" and is_treadmill and rider.motion and rider.motion.kind in _PACES:
-            pace = rider.motion.pace * _PACES[rider.motion.kind]
-            done = replace(rider.motion, kind="run in place", pace=pace, direction=None)
-            new[one.subject] = replace(rider, motions=(done, *rider.motions[1:]))
+            motions[target] = Motion(kinds[target].motion)
     if any(move.kind == "follow" for move in description.camera.moves):
         movers = [n for n, noun in enumerate(kinds) if noun.speed_m_s > 0.0]
         aim = description.index(description.camera.target)
         for n in movers[:1] if aim is None else {aim}.intersection(movers):
             motions[n] = Motion(kinds[n].motion)
-    return _move(_change(description, new), motions)
+    return _move(description, motions)
 
 
 def _has_motion(description: SceneDescription) -> bool:
@@ -213,7 +203,7 @@ def _set_in_motion(description: SceneDescription, nouns: Mapping[str, Noun]) -> 
         if one.motion is None and usual != "stand" and n not in held:
             note = f"no motion is said of the {one.noun}, so it does what it usually does"
             return _note(_move(description, {n: Motion(usual)}), note)
-    is_seen = description.light.flicker_hz is not None or description.is_timelapse
+    is_seen = description.light.flicker_hz is not None
     if is_seen or description.place.weather in ("rain", "snow"):
         return description
     if description.camera.moves:

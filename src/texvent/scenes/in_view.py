@@ -18,15 +18,15 @@ from texvent.scenes.defaults import NO_PLACE
 from texvent.scenes.description import SceneDescription
 from texvent.scenes.meanings import list_meanings
 from texvent.scenes.models.effects import LAMPS
-from texvent.scenes.models.places import PLACES, Place
+from texvent.scenes.models.places import PLACES
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.raycast.ground_truth import visible_instances
 from texvent.scenes.raycast.render import render
-from texvent.scenes.relation_check import Unheld, bodies_of, find_unheld
-from texvent.scenes.scene import Camera, Ground, Primitives, Scene, Texture, project
+from texvent.scenes.relation_check import Body, Unheld, body_of, find_unheld
+from texvent.scenes.scene import Camera, Ground, Scene, Texture, project
 from texvent.scenes.spec.data import PLACING
-from texvent.scenes.spec.scene import Place as Surroundings
-from texvent.scenes.staging.actors import assemble
+from texvent.scenes.spec.scene import Place
+from texvent.scenes.staging.actors import Actor, assemble
 from texvent.scenes.staging.compose import ComposedScene
 from texvent.scenes.staging.particles.choose import FALLING
 from texvent.scenes.staging.surroundings.environment import RoadLine, build_environment
@@ -42,18 +42,15 @@ LEAST_INSIDE = 0.33
 """Share of an object's extent that is inside the image; of less it is cut off."""
 MOST_COUNTED = 6
 """Copies of an object that are counted one by one; of more, some may hide each other."""
-_SMALL = SensorSize(120, 90)
-"""Size of small pictures."""
-_LEAST_LEVELS, _LEAST_SHARE = 6.0, 0.002
-"""Difference of a pixel, of 255, that is seen; share of the pixels in which it is."""
+_SMALL, _LEAST_LEVELS, _LEAST_SHARE = SensorSize(120, 90), 6.0, 0.002
+"""Size of small pictures; difference of a pixel, of 255, that is seen; share of those that are."""
 _LEAST_CLIP_S = 1.0
 """Length of a clip, s, in which motions get so far that they are judged."""
-_Shots = Sequence[tuple[Primitives, Camera]]
 _FLOORS = (Texture.CONCRETE, Texture.PAVING, Texture.ASPHALT)
 """Grounds that many places have: only their scenery shows which one it is."""
 _TURNS = ("spin", "work", "rotate")
-_INSTANTS = (0.17, 0.43, 0.71, 0.93)
-"""Shares of the clip at which small pictures are compared."""
+_INSTANTS, _LATER_S = (0.17, 0.43, 0.71, 0.93), 0.13
+"""Shares of the clip at which small pictures are compared; time after which rotation shows, s."""
 _SURROUNDINGS = ("colour", "sky", "weather", "clouds", "has_snow", "wave_height")
 """Fields of a place that pictures must show."""
 
@@ -76,34 +73,32 @@ def find_unseen(
 
     An object without a body of its own is part of another one's, as a worn coat is.
     """
-    object_of = scene.object_of
     times = [float(time_s) for time_s in np.linspace(0.0, duration_s, INSTANTS)]
-    pixels = count_pixels(scene, list(object_of), size, times)
-    shots = [(scene.primitives(time_s), scene.camera(time_s)) for time_s in times]
+    cameras = [scene.camera(time_s) for time_s in times]
+    pixels = count_pixels(scene, list(scene.class_names), size, times)
     related = {i for one in description.relations for i in one.targets}
-    outside: list[str] = []
-    small: list[str] = []
+    outside, small, bodies = list[str](), list[str](), list[list[Body]]()
     for index, thing in enumerate(description.objects):
-        ids = [one for one, owner in object_of.items() if owner == index]
-        copies = [pixels[one] for one in ids]
-        most, lost = max(copies, default=0), copies.count(0)
-        if not copies:
+        own = [one for one in scene.actors if one.object_index == index]
+        counts = [pixels[one.instance] for one in own]
+        bodies.append([body_of(one, cameras, times) for one in own if pixels[one.instance]])
+        if not own:
             continue
+        most, lost = max(counts), counts.count(0)
         least = math.inf if index not in related else 0.1 * size.width * size.height
         if most == 0:
             outside.append(thing.noun)
         elif most < LEAST_PIXELS:
             small.append(f"{thing.noun} ({most} pixel{'s' if most > 1 else ''})")
-        elif lost and len(copies) <= max(2 * lost, MOST_COUNTED):
-            outside.append(f"{thing.noun} ({lost} of {len(copies)})")
-        elif most < least and max(_share_inside(shots, size, one) for one in ids) < LEAST_INSIDE:
+        elif lost and len(counts) <= max(2 * lost, MOST_COUNTED):
+            outside.append(f"{thing.noun} ({lost} of {len(counts)})")
+        elif most < least and all(_is_cut_off(one, cameras, times, size) for one in own):
             outside.append(f"{thing.noun} (cut off)")
-    bodies = bodies_of(shots, [one for one, count in pixels.items() if count])
-    unheld = [one for one in find_unheld(description, bodies, object_of)
-              if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
-    unheld += (*_unlit(scene, description, duration_s), *_unshown(scene, description, duration_s))
     lines = (one.partition(" (") for one in (*outside, *small) if " of " not in one)
-    unheld += [Unheld("noun", noun, "") for noun, *_ in lines]
+    unheld = [Unheld("noun", noun, "") for noun, *_ in lines]
+    unheld += [one for one in find_unheld(description, bodies)
+               if duration_s >= _LEAST_CLIP_S or one.value in PLACING]  # fmt: skip
+    unheld += _find_unshown(scene, description, [share * duration_s for share in _INSTANTS])
     return Unseen(
         tuple(dict.fromkeys(outside)), tuple(dict.fromkeys(small)), tuple(dict.fromkeys(unheld))
     )
@@ -112,99 +107,85 @@ def find_unseen(
 def without_words(words: Sequence[str], faults: Sequence[Unheld]) -> tuple[str, ...]:
     """Words of a report, but for those that mean what a picture does not show."""
     lost = {(kind, value) for kind, value, _ in faults}
+    return tuple(
+        word for word in words
+        if not any((kind, value) in lost or (kind, "") in lost
+                   for kind, value in list_meanings(word))
+    )  # fmt: skip
 
-    def is_lost(word: str) -> bool:
-        meant = [*list_meanings(word)]
-        return any(one in lost or (one[0], "") in lost for one in meant)
 
-    return tuple(word for word in words if not is_lost(word))
-
-
-def _unlit(
-    scene: ComposedScene, description: SceneDescription, duration_s: float
+def _find_unshown(
+    scene: ComposedScene, description: SceneDescription, times: Sequence[float]
 ) -> Iterator[Unheld]:
-    """Words of light, sky, ground and weather that leave no trace in the picture."""
-    said, times = description.place, [share * duration_s for share in _INSTANTS]
-    base, place = scene.animated_environment.base, scene.place
-    x, y = map(float, base.road_offset)
-    road = RoadLine(base.road_angle, (x, y), tuple(map(tuple, base.road_crossings)))
-
-    def without(**fields: Any) -> ComposedScene:
-        other = build_environment(
-            replace(description, **fields), place=place, road=road, room_m=scene.camera_path.room_m,
-            distance_m=scene.camera_path.framing.distance_m,
-        )  # fmt: skip
-        return replace(scene, animated_environment=other)
-
-    for name in _SURROUNDINGS:
-        value, usual = getattr(said, name), getattr(Surroundings, name)
-        is_so = name == "has_snow" and place.ground is Ground.SNOW  # by itself
-        if value != usual and value not in FALLING and not is_so:
-            other = without(place=replace(said, **{name: usual}))
-            yield from _unseen(scene, other, times, name, value)
-    if description.light.kind not in (None, "day"):
-        other = without(light=replace(description.light, kind=None))
-        yield from _unseen(scene, other, times, "light", description.light.kind)
-    if description.is_timelapse:
-        yield from _unseen(scene, without(is_timelapse=False), times, "is_timelapse", True)
-    for noun in (one.noun for one in description.objects if one.is_lit and one.noun not in LAMPS):
-        yield Unheld("is_lit", "", f"lights of the {noun}")
-
-
-def _unshown(
-    scene: ComposedScene, description: SceneDescription, duration_s: float
-) -> Iterator[Unheld]:
-    """Effects, spin and a place that leave no trace in the picture."""
-    said, times = description.place, [share * duration_s for share in _INSTANTS]
-    place, staged = scene.place, scene.particles
-    for kind in dict.fromkeys((said.weather, *(one.kind for one in description.effects))):
-        pairs = zip(staged.effects, staged.kinds, strict=True)
-        rest = tuple(effect for effect, own in pairs if own != kind)
-        if len(rest) < len(staged.effects):
-            other = replace(scene, particles=replace(staged, effects=rest))
-            name = "weather" if kind == said.weather else "effect"
-            yield from _unseen(scene, other, times, name, kind)
+    """Words of light, sky, ground, weather, effects, rotation and a place that leave no trace."""
+    place, said = scene.place, description.place
+    for name, value, other in _list_without(scene, description):
+        if not _differs(scene, other, times):
+            is_kind = name in ("light", "weather", "effect")
+            line = name.split("_")[-1] if value is True else f"{name} {value}"
+            line = f"{line.replace('_', ' ')}: no pixel shows it"
+            yield Unheld(name, value if is_kind else "", line)
+    for one in description.objects:
+        if one.is_lit and one.noun not in LAMPS:
+            yield Unheld("is_lit", "", f"lights of the {one.noun}")
+        if one.noun in nouns_with("part of a wall"):
+            yield Unheld("noun", one.noun, f"the {one.noun} in a wall")
     turning = [one for one in description.objects
                if one.motion and one.motion.kind in _TURNS and not one.motions[1:]]  # fmt: skip
-    if turning and not description.camera.is_moving and not _differs(scene, scene, times, 0.13):
+    if turning and not description.camera.is_moving and not _differs(scene, scene, times, _LATER_S):
         line = f"the {turning[0].noun}'s turning: it looks the same from all sides"
         yield Unheld("motion", turning[0].motion.kind if turning[0].motion else "", line)
+    alike = (one for one in PLACES.values() if one.ground is place.ground)
+    is_shared = place.is_room or place.surface in _FLOORS or place is not next(
+        one for one in alike if one.surface is place.surface)  # fmt: skip
     is_said = not any(one.startswith(NO_PLACE) for one in description.notes)
-    is_shared = place.is_room or place.surface in _FLOORS or _is_common(place)
-    for noun in {one.noun for one in description.objects} & nouns_with("part of a building"):
-        if is_said and place.is_room:
-            yield Unheld("noun", noun, f"the {noun} as a part of the room")
     bare = replace(scene, still=assemble([]))
     if is_said and is_shared and place.scenery and not _differs(scene, bare, times, 0.0, 0.02):
         yield Unheld("place", said.name or "", f"{said.name}, of which only the ground is in view")
 
 
-def _unseen(
-    scene: ComposedScene, other: ComposedScene, times: Sequence[float], name: str, value: Any
-) -> Iterator[Unheld]:
-    """A word without which the picture is the same."""
-    if not _differs(scene, other, times):
-        said = name.split("_")[-1] if value is True else f"{name} {value}"
-        is_kind = name in ("light", "weather", "effect")
-        yield Unheld(name, value if is_kind else "", f"{said.replace('_', ' ')}: no pixel shows it")
+def _list_without(
+    scene: ComposedScene, description: SceneDescription
+) -> Iterator[tuple[str, Any, ComposedScene]]:
+    """Kind and value of what is said of surroundings, and the scene without it."""
+    said, base, staged = description.place, scene.animated_environment.base, scene.particles
+    x, y = map(float, base.road_offset)
+    road = RoadLine(base.road_angle, (x, y), tuple(map(tuple, base.road_crossings)))
+
+    def without(**fields: Any) -> ComposedScene:
+        other = build_environment(
+            replace(description, **fields), place=scene.place, road=road,
+            room_m=scene.camera_path.room_m, distance_m=scene.camera_path.framing.distance_m,
+        )  # fmt: skip
+        return replace(scene, animated_environment=other)
+
+    for name in _SURROUNDINGS:
+        value, usual = getattr(said, name), getattr(Place, name)
+        is_so = name == "has_snow" and scene.place.ground is Ground.SNOW  # by itself
+        if value != usual and value not in FALLING and not is_so:
+            yield name, value, without(place=replace(said, **{name: usual}))
+    if description.light.kind not in (None, "day"):
+        yield "light", description.light.kind, without(light=replace(description.light, kind=None))
+    for kind in dict.fromkeys((said.weather, *(one.kind for one in description.effects))):
+        pairs = zip(staged.effects, staged.kinds, strict=True)
+        rest = tuple(effect for effect, own in pairs if own != kind)
+        if len(rest) < len(staged.effects):
+            name = "weather" if kind == said.weather else "effect"
+            yield name, kind, replace(scene, particles=replace(staged, effects=rest))
 
 
-def _is_common(place: Place) -> bool:
-    """Whether a place before it in the table has the same ground."""
-    same = (one for one in PLACES.values() if one.ground is place.ground)
-    return next(one for one in same if one.surface is place.surface) is not place
-
-
-def _share_inside(shots: _Shots, size: SensorSize, instance: int) -> float:
-    """Most that the image holds of an object at one instant: share of the box of its shapes."""
-    most = 0.0
-    for shapes, camera in shots:
-        seen = project(camera, size, shapes.to_world[shapes.instance == instance, :, 3])
+def _is_cut_off(
+    actor: Actor, cameras: Sequence[Camera], times: Sequence[float], size: SensorSize
+) -> bool:
+    """Whether no instant has more than a share of its box in the image."""
+    for time_s, camera in zip(times, cameras, strict=True):
+        seen = project(camera, size, actor.corners(time_s))
         if (seen[:, 2] > 0.0).all():
             box = np.array([seen[:, :2].min(axis=0) - 1.0, seen[:, :2].max(axis=0) + 1.0])
             inside = np.diff(np.clip(box, 0.0, [size.width, size.height]), axis=0)
-            most = max(most, float(np.prod(inside / np.diff(box, axis=0))))
-    return most
+            if float(np.prod(inside / np.diff(box, axis=0))) >= LEAST_INSIDE:
+                return False
+    return True
 
 
 def _differs(

@@ -20,28 +20,13 @@ _SINGULAR = ("ss", "us", "is", "as", "lens")
 """Ends of singular nouns in s; others in s are plurals: "stairs", "headphones"."""
 
 
-def pluralise(noun: str) -> str:
-    """The plural a person would write.
-
-    Example:
-        >>> pluralise("person"), pluralise("tree"), pluralise("pitch lines")
-        ('people', 'trees', 'pitch lines')
-    """
-    return list_plurals(noun)[0]
-
-
 def list_plurals(noun: str) -> tuple[str, ...]:
     """Plurals of a noun of one or more words, the usual one first.
 
     Example:
         >>> list_plurals("traffic cone"), list_plurals("bus"), list_plurals("snow goose")
         (('traffic cones',), ('buses', 'busses'), ('snow geese', 'snow gooses'))
-        >>> list_plurals("bird of prey")
-        ('birds of prey',)
     """
-    head, of, rest = noun.partition(" of ")
-    if of:
-        return tuple(f"{plural}{of}{rest}" for plural in list_plurals(head))
     first, last = noun[: noun.rfind(" ") + 1], noun.split()[-1]
     is_plural = last.endswith("s") and not last.endswith(_SINGULAR)
     usual = noun if is_plural or last.endswith(_UNCHANGED) else None

@@ -9,15 +9,15 @@ import dataclasses
 import http.client
 import json
 import os
-import re
 import urllib.error
 import urllib.request
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, Literal, get_args, get_origin
 
 from texvent.errors import ConfigError, InputError, TexventError, one_line, shown
-from texvent.scenes.meanings import list_meanings
-from texvent.scenes.read.lexicon import lexicon_of
+from texvent.scenes.meanings import list_meanings, meanings_of
+from texvent.scenes.read.draft import is_grammar
+from texvent.scenes.read.lexicon import Token, lexicon_of, split_prompt
 from texvent.scenes.report import PromptReport
 from texvent.scenes.spec import scene as spec
 from texvent.scenes.spec.data import (
@@ -107,10 +107,7 @@ is called by its noun."""
 MOST_ITEMS = {"objects": 8, "motions": 2, "relations": 2, "to": 3, "moves": 2, "effects": 2}
 LONGEST_WORD = 40
 """Characters of a free text."""
-LONGEST_PHRASE = 4
 MOST_COUNT = 20
-_PLAIN = ("articles", "pronouns", "conjunctions", "small")
-"""Kinds of words without a meaning of their own."""
 
 
 def write_scene(
@@ -160,7 +157,8 @@ def model_schema(hint: Any = spec.Scene, name: str = "") -> dict[str, Any]:
 def ground(prompt: str, answer: Mapping[str, Any]) -> tuple[spec.Scene, PromptReport]:
     """The scene of an answer without inventions; errors as `write_scene`."""
     prompt = " ".join(prompt.split())
-    check = _Grounding(prompt, answer)
+    tokens = split_prompt(prompt, lexicon_of(None))
+    check = _Grounding(tokens, answer)
     data = check.table(spec.Scene, answer) or {}
     objects = {one["noun"]: one for one in reversed(data["objects"])}
     data["objects"] = list(reversed(objects.values()))
@@ -169,15 +167,12 @@ def ground(prompt: str, answer: Mapping[str, Any]) -> tuple[spec.Scene, PromptRe
     if not check.used:
         raise InputError(f"nothing of {shown(prompt)} is in the scene that the model wrote")
     added = ", ".join(dict.fromkeys(check.invented))
-    notes = (f"words do not say, so it is left out: {added}",) if added else ()
-    shows = {word for key in check.used for word in check.said[key]}
-    lexicon = lexicon_of(None)
-    words = [one for one in dict.fromkeys(_split(prompt))
-             if not any(sense.kind in _PLAIN for sense in lexicon.get((one,), ()))]  # fmt: skip
+    words = {one.text: check.used.isdisjoint(meanings_of(one.senses)) for one in tokens
+             if not (one.is_sign or is_grammar(one))}  # fmt: skip
     report = PromptReport(
-        shown=tuple(one for one in words if one in shows),
-        not_understood=tuple(one for one in words if one not in shows),
-        notes=notes,
+        shown=tuple(word for word, is_lost in words.items() if not is_lost),
+        not_understood=tuple(word for word, is_lost in words.items() if is_lost),
+        notes=(f"words do not say, so it is left out: {added}",) if added else (),
     )
     return scene_from_data({"prompt": prompt, **data}), report
 
@@ -185,17 +180,11 @@ def ground(prompt: str, answer: Mapping[str, Any]) -> tuple[spec.Scene, PromptRe
 class _Grounding:
     """What the words of a prompt stand for, and what an answer uses of it."""
 
-    def __init__(self, prompt: str, answer: Mapping[str, Any]) -> None:
-        self.said: dict[tuple[str, object], frozenset[str]] = {}
-        """Kind and meaning → the words of the phrases that have it."""
+    def __init__(self, tokens: Sequence[Token], answer: Mapping[str, Any]) -> None:
+        self._said = {key: one for one in tokens for key in meanings_of(one.senses)}
+        """Kind and meaning → the word or phrase that has it."""
         self.used: set[tuple[str, object]] = set()
         self.invented: list[str] = []
-        words = _split(prompt)
-        for length in range(1, LONGEST_PHRASE + 1):
-            for first in range(len(words) - length + 1):
-                phrase = words[first : first + length]
-                for key in list_meanings(" ".join(phrase)):
-                    self.said[key] = self.said.get(key, frozenset()) | frozenset(phrase)
         self._objects = {self._meaning(one.get("noun"), "noun")
                          for one in _tables(answer, "objects")}  # fmt: skip
 
@@ -237,18 +226,15 @@ class _Grounding:
         words = value.split() if isinstance(value, str) else []
         ends = (" ".join(words[first:]) for first in range(len(words)))
         keys = (key for end in ends for key in list_meanings(end))
-        return next((str(key[1]) for key in keys if key[0] == kind and key in self.said), None)
+        return next((str(key[1]) for key in keys if key[0] == kind and key in self._said), None)
 
     def _count(self, noun: str, value: Any) -> int:
         """Copies of an object: several only where its word is a plural or the number is said."""
         number = ("count", float(value) if isinstance(value, int) else 0.0)
-        is_plural = any(one.endswith("s") and one != noun for one in self.said["noun", noun])
-        self.used |= {number} & self.said.keys()
-        return min(max(int(value or 1), 1), MOST_COUNT) if number in self.said or is_plural else 1
-
-
-def _split(text: str) -> list[str]:
-    return re.findall(r"[a-z0-9]+(?:[-'][a-z0-9]+)*", text.casefold())
+        nouns = (one.value for one in self._said["noun", noun].all("noun"))
+        is_plural = any(one.noun == noun and one.is_plural for one in nouns)
+        self.used |= {number} & self._said.keys()
+        return min(max(int(value or 1), 1), MOST_COUNT) if number in self._said or is_plural else 1
 
 
 def _tables(answer: Mapping[str, Any], name: str) -> Iterator[Mapping[str, Any]]:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from texvent.scenes.read.lexicon import Sense, lexicon_of, word_set
+from texvent.scenes.read.lexicon import Senses, lexicon_of, split_prompt
 
 
 def list_meanings(word: str) -> Iterator[tuple[str, object]]:
@@ -14,28 +14,27 @@ def list_meanings(word: str) -> Iterator[tuple[str, object]]:
         >>> [*list_meanings("automobiles")], [*list_meanings("leftwards")]
         ([('noun', 'car')], [('direction', 'left')])
     """
-    if word.isdigit():
-        yield "count", float(word)
-    words = word.casefold().replace("_", " ").replace("-", " ").split()
-    phrase = tuple(one for one in words if one not in word_set("senses", "articles"))
-    for sense in lexicon_of(None).get(phrase, ()):
-        yield from ((kind, one) for kind, one in _meanings(sense) if one is not None)
+    tokens = split_prompt(word.replace("_", " "), lexicon_of(None))
+    return meanings_of(tokens[0].senses if len(tokens) == 1 else ())
 
 
-def _meanings(sense: Sense) -> Iterator[tuple[str, object]]:
-    value = sense.value
-    match sense.kind:
-        case "noun":
-            yield "noun", value.noun
-        case "place" | "effect" | "relation":
-            yield sense.kind, value
-        case "pose":
-            yield "motion", value[1]
-        case "field" | "adverb":
-            yield value
-        case "verb":
-            yield {"camera": "move", "source": "effect"}.get(value.who, "motion"), value.kind
-            yield from (("direction", value.direction), ("relation", value.relation))
-        case "scene":  # such as ("light", "kind", "dusk"), ("place", "weather", "fog")
-            part, field, each = value
-            yield part if field in ("kind", "name") else field, each
+def meanings_of(senses: Senses) -> Iterator[tuple[str, object]]:
+    """The same of the senses of a token."""
+    for sense in senses:
+        value = sense.value
+        match sense.kind:
+            case "noun":
+                yield "noun", value.noun
+            case "place" | "effect" | "relation":
+                yield sense.kind, value
+            case "pose":
+                yield "motion", value[1]
+            case "field" | "adverb":
+                yield value
+            case "verb":
+                yield {"camera": "move", "source": "effect"}.get(value.who, "motion"), value.kind
+                said = (("direction", value.direction), ("relation", value.relation))
+                yield from (one for one in said if one[1] is not None)
+            case "scene":  # such as ("light", "kind", "dusk"), ("place", "weather", "fog")
+                part, field, each = value
+                yield part if field in ("kind", "name") else field, each

@@ -70,12 +70,11 @@ def parts_at(noun: str, act: str, time_s: float) -> list:
     return list(model.parts(Pose(time_s, 0.0, 0.0, act)))
 
 
-@pytest.mark.parametrize("noun", ["dog", "cat", "horse", "cow", "zebra", "rabbit", "elephant"])
+@pytest.mark.parametrize("noun", ["dog", "cat", "horse", "cow", "zebra", "rabbit"])
 def test_a_grazing_mouth_is_low(noun):
     model = NOUNS[noun].build(colour=None, scale=1.0, seed=0)
     pose = Pose(0.2, 0.0, 0.0, "graze")
-    place = "trunk" if noun == "elephant" else "mouth"
-    lowest = min(model.anchor(place, Pose(t, 0.0, 0.0, "graze"))[2, 3] for t in (0.2, 0.4, 0.6))
+    lowest = min(model.anchor("mouth", Pose(t, 0.0, 0.0, "graze"))[2, 3] for t in (0.2, 0.4, 0.6))
     assert lowest < 0.3 * model.height
     assert model.anchor("crown", pose)[2, 3] > model.anchor("mouth", pose)[2, 3]
 

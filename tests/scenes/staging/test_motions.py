@@ -20,15 +20,13 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
     hover,
 )
 from texvent.scenes.staging.trajectories.phases import build_path, schedule
-from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath
+from texvent.scenes.staging.trajectories.steered_path import Piece, SteeredPath, steady
 from texvent.scenes.staging.trajectories.trajectory import (
     Attached,
     BodyState,
-    Circle,
     Rolling,
     Shuttle,
     Stationary,
-    Straight,
 )
 
 KINDS = ("drive", "walk", "run", "fly", "turn", "reverse", "spin", "rise", "sink",
@@ -128,16 +126,16 @@ def test_the_velocity_is_the_speed_along_the_heading(path, time_s):
     assert abs(signed) == pytest.approx(middle.speed_m_s, abs=1e-2)
 
 
-STRAIGHT = Straight((1.0, 2.0, 0.0), math.pi, 4.0, 1.0)
+STRAIGHT = steady((5.0, 2.0, 0.0), math.pi, 4.0)
 TRAJECTORIES = {
     "rest": Stationary((1.0, 2.0, 0.0)),
     "straight": STRAIGHT,
     "weaving": Oscillating(
-        Straight((0.0, 0.0, 2.0), 0.3, 1.0, 1.0, climb=0.4), (Wave("yaw", 0.1, 0.7, 0.3),)
+        steady((0.0, 0.0, 2.0), 0.3, 1.0, climb=0.4), (Wave("yaw", 0.1, 0.7, 0.3),)
     ),
-    "rolling": Rolling(Straight((0.0, 0.0, 0.0), 0.0, 2.0, 1.0), 0.25, 0.25),
+    "rolling": Rolling(steady((0.0, 0.0, 0.0), 0.0, 2.0), 0.25),
     "shuttle": Shuttle((0.0, 0.0, 0.0), 0.5, 1.5, 2.0),
-    "circle": Circle((0.0, 0.0, 1.0), 2.0, -1.5, 0.4),
+    "circle": steady((2.0, 0.0, 1.0), -0.5 * math.pi, 3.0, turn_rad_s=-1.5),
     "spin": Spin((0.0, 0.0, 0.0), 3.0),
     "axle": Spin((0.0, 0.0, 0.0), 3.0, axis="pitch", pivot_m=0.5),
     "bounce": Flight(BodyState((0.0, 0.0, 1.5)), (0.5, 0.0, 0.0)),

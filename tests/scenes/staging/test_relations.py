@@ -15,7 +15,6 @@ from texvent.scenes.raycast.render import render
 from texvent.scenes.scene import Ground
 from texvent.scenes.spec.scene import Motion, SceneObject
 from texvent.scenes.staging.surroundings.environment import RoadLine
-from texvent.scenes.staging.surroundings.scenery import under_snow
 from texvent.sensor import SensorSize
 
 TIMES = np.linspace(0.0, 2.0, 9)
@@ -126,10 +125,6 @@ def test_a_name_belongs_to_one_place_and_scenery_has_models():
     assert len(names) == len(set(names))
     assert all(one.names for one in PLACES.values())
     assert {one.noun for place in PLACES.values() for one in place.scenery} <= set(NOUNS)
-    for place in ("park", "grass"):
-        frozen = {rule.noun for rule in under_snow(PLACES[place].scenery)}
-        assert frozen
-        assert not {"flower", "tree", "bush"} & frozen
 
 
 @pytest.mark.parametrize(("noun", "is_wet"), [("dog", False), ("boat", True)])

@@ -1,8 +1,7 @@
 """Which models a folder holds, and what they are called: by file names, or by an index.
 
 Any other `.toml` file has nouns as lists of parts; see docs/nouns.md.
-An index is `assets.toml` in the folder, a table for each file, or the catalogue
-`PluginFurnitureCatalog.properties` of Sweet Home 3D's libraries.
+An index is `assets.toml` in the folder, a table for each file.
 """
 
 from __future__ import annotations
@@ -19,7 +18,6 @@ from texvent.scenes.models.parts import read_nouns
 
 ENDINGS = (".glb", ".obj", ".ply")
 INDEX_NAME = "assets.toml"
-CATALOGUE_NAME = "PluginFurnitureCatalog.properties"
 AXES = ("x", "-x", "y", "-y", "z", "-z")
 HABITATS = ("ground", "air", "water", "fixed")
 MOST_FILES = 20_000
@@ -43,8 +41,6 @@ class Asset:
     """Longest side in metres."""
     scale: float | None = None
     """Metres per unit of the file."""
-    size: tuple[float, float, float] | None = None
-    """Width, depth and height in metres, if the model is to be stretched to them."""
     up: str | None = None
     """Axis of the file that points up; None: y, for PLY z."""
     forward: str | None = None
@@ -59,7 +55,7 @@ class Asset:
     """Where it usually is, such as "indoor"; None: as the embedded noun of that name."""
 
 
-_KEYS = tuple(field.name for field in fields(Asset) if field.name not in ("path", "size"))
+_KEYS = tuple(field.name for field in fields(Asset) if field.name != "path")
 
 
 def read_folder(folder: Path) -> tuple[Asset, ...]:
@@ -79,8 +75,6 @@ def read_folder(folder: Path) -> tuple[Asset, ...]:
     if len(files) > MOST_FILES:
         raise InputError(f"{folder} holds {len(files)} models; {MOST_FILES} are the most")
     found = {path: Asset(path, name_of(path)) for path in files}
-    for catalogue in sorted(folder.rglob(CATALOGUE_NAME)):
-        found.update(_read_catalogue(catalogue, found))
     for index in sorted(folder.rglob(INDEX_NAME)):
         found.update(_read_index(index, found))
     parts = [Asset(path, one.name, one.synonyms) for path in lists for one in read_nouns(path)]
@@ -137,23 +131,3 @@ def _checked(where: str, key: str, value: Any) -> Any:
         options = f"one of {', '.join(allowed)}" if allowed else "a word"
         raise FileFormatError(f"{where}: {key} is {options}, not {shown(value)}")
     return value.lower()
-
-
-def _read_catalogue(catalogue: Path, known: Mapping[Path, Asset]) -> dict[Path, Asset]:
-    """Assets of a catalogue of Sweet Home 3D: sizes are given in centimetres."""
-    text = catalogue.read_text(encoding="latin-1")
-    entries: dict[str, dict[str, str]] = {}
-    for key, number, value in re.findall(r"^(\w+)#(\d+)=(.*)$", text, re.MULTILINE):
-        entries.setdefault(number, {})[key] = value.strip()
-    described = {}
-    for entry in entries.values():
-        path = catalogue.parent / entry.get("model", "").lstrip("/")
-        try:
-            sides = [float(entry[key]) / 100.0 for key in ("width", "depth", "height")]
-        except (KeyError, ValueError):
-            continue
-        if path in known and "modelRotation" not in entry and min(sides) > 0.0:
-            noun = re.sub(r"[^a-z ]+", " ", entry.get("name", "").lower()).strip()
-            size = (sides[0], sides[1], sides[2])
-            described[path] = Asset(path, " ".join(noun.split()) or known[path].noun, size=size)
-    return described

@@ -71,11 +71,10 @@ def load_model(
     used = mesh.vertices[np.unique(mesh.triangles)]
     places = (used @ to_file[:, :3].T + to_file[:, 3]) @ turn.T
     low, high = places.min(axis=0), places.max(axis=0)
-    factors = scale * _scale(asset, high - low)
-    extents = (high - low) * factors
-    middle = 0.5 * (low + high) * factors
-    foot = middle[2] if is_centred else low[2] * factors[2]
-    to_body = factors[:, None] * turn @ to_file
+    factor = scale * _scale(asset, high - low)
+    extents, middle = (high - low) * factor, 0.5 * (low + high) * factor
+    foot = middle[2] if is_centred else low[2] * factor
+    to_body = factor * turn @ to_file
     to_body[:, 3] -= [middle[0], middle[1], foot]
     length, width, height = (max(float(extent), 1e-3) for extent in extents)
     shown = mesh if colour is None else painted(mesh, colour)
@@ -111,29 +110,26 @@ def _axis(name: str) -> Float64Array:
     return np.asarray(sign * np.eye(3)["xyz".index(name[-1])])
 
 
-def _scale(asset: Asset, extents: Float64Array) -> Float64Array:
-    """[3] factors along length, width and height: as the catalogue or the index says, or usual."""
+def _scale(asset: Asset, extents: Float64Array) -> float:
+    """Metres per unit of the file: as the index says, or usual."""
     sides = np.maximum(extents, 1e-9)
-    if asset.size is not None:
-        width, depth, height = asset.size
-        return np.array([depth, width, height]) / sides
     if asset.scale is not None:
-        return np.full(3, asset.scale)
+        return asset.scale
     if asset.height is not None:
-        return np.full(3, asset.height / sides[2])
+        return float(asset.height / sides[2])
     if asset.length is not None:
-        return np.full(3, asset.length / sides.max())
+        return float(asset.length / sides.max())
     if asset.path.suffix.lower() == ".glb":
-        return np.ones(3)  # metres, as glTF says
+        return 1.0  # metres, as glTF says
     usual = usual_noun(asset.noun)
     if usual is not None:
         model = usual.build(colour=None, scale=1.0, seed=0)
         longest = max(model.length, model.width, model.height)
-        return np.full(3, longest / sides.max())
+        return float(longest / sides.max())
     unit = 1.0
     for above, metres in _UNITS:
         unit = metres if sides.max() > above else unit
-    return np.full(3, unit)
+    return unit
 
 
 def usual_noun(name: str) -> Noun | None:

@@ -19,7 +19,6 @@ _ON_BOX: dict[str, Point] = {
     "head": (0.36, 0.0, 0.85), "neck": (0.30, 0.0, 0.70),
     "torso": (0.0, 0.0, 0.50), "seat": (0.0, 0.0, 0.30),
     "right foot": (0.40, -0.20, 0.05), "left foot": (0.40, 0.20, 0.05), "ground": (0.0, 0.0, 0.0),
-    "trunk": (0.46, 0.0, 0.72), "tail": (-0.48, 0.0, 0.50), "top": (0.0, 0.0, 1.0),
 }  # fmt: skip
 """Place → share of length, width and height of a box that stands on the ground."""
 
@@ -29,7 +28,7 @@ def locate(model: Model, name: str, pose: Pose) -> Affine:
 
     Args:
         model: any model.
-        name: see `people.figure.locate_anchor`; also "tail" and "top".
+        name: see `people.figure.locate_anchor`.
         pose: of the model.
 
     Returns:

@@ -85,9 +85,9 @@ class SceneDraft:
     """Effects, each with the index of its source."""
     absent: list[str] = field(default_factory=list)
     parts: dict[str, dict[str, Any]] = field(
-        default_factory=lambda: {"camera": {}, "light": {}, "place": {}, "scene": {}}
+        default_factory=lambda: {"camera": {}, "light": {}, "place": {}}
     )
-    """Fields of the camera, the light, the place, and the whole scene."""
+    """Fields of the camera, the light and the place."""
     _fates: dict[int, str] = field(default_factory=dict)
     """Number of a token → "lost", "shown", or the noun that it is shown as."""
 
@@ -198,6 +198,5 @@ class SceneDraft:
         camera = {"moves": self.moves, **self.parts["camera"]}
         return scene_from_data(
             {"prompt": prompt, "objects": self.things, "effects": self.effects, "camera": camera,
-             "light": self.parts["light"], "place": self.parts["place"], "absent": self.absent,
-             **self.parts["scene"]}
+             "light": self.parts["light"], "place": self.parts["place"], "absent": self.absent}
         )  # fmt: skip

@@ -54,18 +54,19 @@ def _fields(table: Mapping[str, Any]) -> str:
 
 
 def _field(name: str, value: Any) -> str:
-    line = f"{name} = {_inline(value)}\n"
+    line = f"{name} = {inline_text(value)}\n"
     if len(line) <= LONGEST_LINE or not isinstance(value, list):
         return line
-    items = "".join(f"    {_inline(one)},\n" for one in value)
+    items = "".join(f"    {inline_text(one)},\n" for one in value)
     return f"{name} = [\n{items}]\n"
 
 
-def _inline(value: Any) -> str:
+def inline_text(value: Any) -> str:
+    """A value of TOML on one line."""
     if isinstance(value, Mapping):
-        return f"{{ {', '.join(f'{name} = {_inline(one)}' for name, one in value.items())} }}"
+        return f"{{ {', '.join(f'{name} = {inline_text(one)}' for name, one in value.items())} }}"
     if isinstance(value, list):
-        return f"[{', '.join(map(_inline, value))}]"
+        return f"[{', '.join(map(inline_text, value))}]"
     # JSON and TOML write booleans, numbers and text alike, but for one control character.
     return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
 

@@ -201,8 +201,6 @@ class Camera:
     """Size of the subject in the image; left out: all objects fit."""
     target: str | None = None
     """Id of the object that the camera looks at or follows; left out: the first one."""
-    is_grey: bool = False
-    """Whether the image is black and white."""
     position_m: tuple[Coordinate, Coordinate, Metres] | None = None
     """Position x, y, z, m, given with `look_at_m`; moves go through it at mid clip."""
     look_at_m: tuple[Coordinate, Coordinate, Coordinate] | None = None
@@ -296,8 +294,6 @@ class Scene:
     """Surroundings."""
     absent: tuple[Annotated[str, Word("noun")], ...] = ()
     """Nouns that no scenery may show."""
-    is_timelapse: bool = False
-    """Whether clouds and sun move much faster than in life."""
 
 
 def object_ids(scene: Scene) -> tuple[str, ...]:

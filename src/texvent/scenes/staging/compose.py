@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -38,12 +38,7 @@ from texvent.scenes.staging.surroundings.environment import (
 )
 from texvent.scenes.staging.surroundings.lamps import LampPlan, plan_lamps
 from texvent.scenes.staging.surroundings.lighting import choose_lighting
-from texvent.scenes.staging.surroundings.scenery import (
-    SceneryItem,
-    ViewClearance,
-    scatter,
-    under_snow,
-)
+from texvent.scenes.staging.surroundings.scenery import SceneryItem, ViewClearance, scatter
 from texvent.scenes.staging.trajectories.phases import left_out
 from texvent.sensor import SensorSize
 
@@ -74,11 +69,8 @@ class ComposedScene:
     """Instance id → noun."""
     not_shown: tuple[str, ...] = ()
     """What the scene cannot do, such as "the man's jump after 5 s (the clip ends at 2 s)"."""
-    object_of: Mapping[int, int] = field(default_factory=dict)
-    """Instance id → index of the description's object that it is a copy of."""
     has_highlights: bool = False
     """Whether light above white is kept; see `scene.Environment`."""
-    is_grey: bool = False  # filmed in black and white
 
     def primitives(self, time_s: float) -> Primitives:
         """All shapes at that instant: actors, then scenery, then weather."""
@@ -156,7 +148,6 @@ def compose_scene(
     view = view if travel is None else replace(view, road=travel.road, travel=travel)
     items = _scatter_all(description, view, actors, nouns, seed)
     names = {one.instance: one.noun.name for one in actors}
-    object_of = {one.instance: one.object_index for one in actors}
     animated_environment = build_environment(
         description, place=ground, road=view.road, distance_m=camera_path.framing.distance_m,
         room_m=camera_path.room_m,
@@ -171,7 +162,7 @@ def compose_scene(
     still = assemble([item.place() for item in items])
     return ComposedScene(
         tuple(actors), still, particles, camera_path, ground, animated_environment, lamps, names,
-        tuple(dict.fromkeys(missing)), object_of,
+        tuple(dict.fromkeys(missing)),
     )  # fmt: skip
 
 
@@ -219,7 +210,6 @@ def _scatter_all(
     ]
     for backdrop in surroundings.backdrops:
         rules.extend(PLACES[backdrop].scenery)
-    rules = under_snow(rules) if surroundings.has_snow else rules
     return scatter(rules, view, actors, unsaid, rng=seeded(seed, "scenery", place))
 
 

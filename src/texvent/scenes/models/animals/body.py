@@ -15,7 +15,6 @@ from texvent.scenes.models.animals.acts import STANDING, act_stance, lowered
 from texvent.scenes.models.animals.anatomy import (
     NOSE,
     bob,
-    draw_head,
     draw_leg,
     draw_neck_and_head,
     draw_tail,
@@ -103,14 +102,10 @@ class _Body:
         return parts
 
     def anchor(self, name: str, pose: Pose) -> Affine | None:
-        """Axes at "mouth", "neck", "crown", "face", "head", and "trunk" of an elephant."""
+        """Axes at "mouth", "neck", "crown", "face" and "head"."""
         head = len(draw_torso(self.build, self.coat)) + 2
         if name in _ON_SKULL:
             return _on_skull(self.parts(pose)[head].to_body, _ON_SKULL[name])
-        if name == "trunk" and self.build.trunk_length > 0.0:
-            face = len(draw_head(self.build, self.coat, (0.0, 0.0, 0.0)))
-            tip_of_trunk = self.parts(pose)[head + face - 1].to_body
-            return np.column_stack([np.eye(3), tip_of_trunk[:, 3] + tip_of_trunk[:, 2]])
         if name not in ("mouth", "neck"):
             return None
         at, ahead = (head + NOSE, 0.1 * self.build.head[0]) if name == "mouth" else (head - 1, 0.0)

@@ -97,7 +97,9 @@ def _upright(holder: Actor, anchor: str, time_s: float) -> Float64Array:
 def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     """Both, the thing in the hands of who holds it; who sits keeps them where they are."""
     doing = subject.trajectory.at(0.0).activity
-    way = place_in_hold(choose_style(target), subject, target)
+    named = (style for style in _STYLES if target.noun.name in nouns_with(style))
+    by_size = "in both arms" if target.size_m > _LARGE_M else "held upright"
+    way = place_in_hold(next(named, by_size), subject, target)
     if is_person(subject) and doing in _HANDS_FREE:
         subject = replace(subject, trajectory=Performed(subject.trajectory, None, way.grips))
     activity = "move" if target.noun.name in nouns_with("moves in the hand") else "stand"
@@ -119,12 +121,6 @@ def wear(subject: Actor, target: Actor) -> tuple[Actor, Actor | None]:
 def carried(target: Actor, held: Trajectory, holder: Actor) -> Actor:
     """The thing on a trajectory that its holder gives it."""
     return replace(target, trajectory=held, is_mover=holder.is_mover, lead_m=0.0)
-
-
-def choose_style(thing: Actor) -> str:
-    """How a thing is held: as the traits say, else by its size."""
-    named = (style for style in _STYLES if thing.noun.name in nouns_with(style))
-    return next(named, "in both arms" if thing.size_m > _LARGE_M else "held upright")
 
 
 def place_in_hold(style: str, holder: Actor, thing: Actor) -> Hold:

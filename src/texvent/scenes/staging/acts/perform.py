@@ -18,39 +18,18 @@ from texvent.scenes.staging.acts.holding import hides_riders
 
 SINGLE = frozenset({"kick", "throw", "collide"})
 """Acts with one instant of contact."""
-ACTS = SINGLE | {"hold", "wear", "push", "ride"}
-"""Relations that are acts of the subject on its first target."""
-
-
-class Cast:
-    """The actors by object, so that an act can replace them."""
-
-    def __init__(self, actors: list[Actor]) -> None:
-        self._actors: list[Actor | None] = list(actors)
-
-    def copies(self, index: int) -> list[int]:
-        """Positions of the copies of an object."""
-        return [
-            number
-            for number, actor in enumerate(self._actors)
-            if actor is not None and actor.object_index == index
-        ]
-
-    def get(self, number: int) -> Actor:
-        """The actor at a position."""
-        actor = self._actors[number]
-        if actor is None:
-            raise KeyError(number)
-        return actor
-
-    def put(self, number: int, actor: Actor | None) -> None:
-        """Replace an actor; None takes it off the scene."""
-        self._actors[number] = actor
-
-    def actors(self) -> list[Actor]:
-        """Those that are left, numbered anew."""
-        left = [actor for actor in self._actors if actor is not None]
-        return [replace(actor, instance=number) for number, actor in enumerate(left, start=1)]
+_Act = Callable[[Actor, Actor, float], tuple[Actor | None, Actor | None]]
+ACTS: Mapping[str, _Act] = {
+    "push": lambda who, what, _: holding.push(who, what),
+    "ride": lambda who, what, _: holding.board(who, what),
+    "kick": striking.kick,
+    "throw": striking.throw,
+    "collide": striking.collide,
+    "hold": lambda who, what, _: holding.hold(who, what),
+    "wear": lambda who, what, _: holding.wear(who, what),
+}
+"""Relations that are acts of the subject on its first target → the bodies as they leave them. What
+moves bodies comes before what hangs on them."""
 
 
 _IDLE = frozenset({"stand", "sit", "sail", "drive"})
@@ -158,12 +137,8 @@ def _choose_way(objects: Sequence[SceneObject], pair: tuple[int, int], seed: int
     return "left" if seeded(seed, "act", pair[0]).random() < 0.5 else "right"
 
 
-_ORDER = ("push", "ride", "kick", "throw", "collide", "hold", "wear")
-"""What moves bodies comes before what hangs on them."""
-
-
 def perform_acts(
-    description: SceneDescription, actors: list[Actor], duration_s: float
+    description: SceneDescription, actors: Sequence[Actor], duration_s: float
 ) -> list[Actor]:
     """The actors with every act's bodies bound together.
 
@@ -173,21 +148,28 @@ def perform_acts(
         duration_s: length of the clip, s.
 
     Returns:
-        The actors in the same order, without those whose part a model plays itself: the rider of
-        a bicycle, and what that rider has.
+        The actors in the same order, numbered anew, without those whose part a model plays itself:
+        the rider of a bicycle, and what that rider has; a piano that comes with an activity.
     """
-    cast = Cast(actors)
+    cast = dict(enumerate(actors))
     acts = [one for one in description.relations if one.kind in ACTS and one.targets]
-    for kind in _ORDER:
-        for relation in (one for one in acts if one.kind == kind):
-            _perform(cast, relation, duration_s)
-    _take_off_doubles(cast, actors)
-    return cast.actors()
+    for relation in sorted(acts, key=lambda one: list(ACTS).index(one.kind)):
+        _perform(cast, relation, duration_s)
+    for person in list(cast.values()):
+        nouns = {noun for prop in person.props if prop.anchor == "ground" or prop.is_own
+                 for noun in prop.nouns}  # fmt: skip
+        for number, thing in list(cast.items()):
+            if thing.noun.name in nouns and thing.object_index != person.object_index:
+                del cast[number]
+    return [replace(actor, instance=number) for number, actor in enumerate(cast.values(), start=1)]
 
 
-def _perform(cast: Cast, relation: Relation, duration_s: float) -> None:
+def _perform(cast: dict[int, Actor], relation: Relation, duration_s: float) -> None:
     """An act of each subject on a target of its own."""
-    subjects, targets = cast.copies(relation.subject), cast.copies(relation.targets[0])
+    subjects, targets = (
+        [number for number, actor in cast.items() if actor.object_index == index]
+        for index in (relation.subject, relation.targets[0])
+    )
     if relation.kind == "ride":
         pairs = zip(subjects, targets, strict=False)
     elif relation.kind == "collide":
@@ -195,33 +177,13 @@ def _perform(cast: Cast, relation: Relation, duration_s: float) -> None:
         pairs = zip(met[::2], met[1::2], strict=False)
     else:
         for target in targets if not subjects else ():
-            cast.put(target, None)
+            del cast[target]
         pairs = zip(itertools.cycle(subjects), targets, strict=False)
     for one, other in pairs:
         if one != other:
-            bodies = _ACTS[relation.kind](cast.get(one), cast.get(other), duration_s)
+            bodies = ACTS[relation.kind](cast[one], cast[other], duration_s)
             for number, body in zip((one, other), bodies, strict=True):
-                cast.put(number, body)
-
-
-_Act = Callable[[Actor, Actor, float], tuple[Actor | None, Actor | None]]
-_ACTS: Mapping[str, _Act] = {
-    "push": lambda who, what, _: holding.push(who, what),
-    "ride": lambda who, what, _: holding.board(who, what),
-    "hold": lambda who, what, _: holding.hold(who, what),
-    "wear": lambda who, what, _: holding.wear(who, what),
-    "kick": striking.kick,
-    "throw": striking.throw,
-    "collide": striking.collide,
-}
-"""Act → the bodies as it leaves them: who acts, and on what."""
-
-
-def _take_off_doubles(cast: Cast, actors: Sequence[Actor]) -> None:
-    """A piano, a desk or a board that comes with an activity is not shown twice."""
-    for person in cast.actors():
-        nouns = {noun for prop in person.props if prop.anchor == "ground" or prop.is_own
-                 for noun in prop.nouns}  # fmt: skip
-        for number, thing in enumerate(actors):
-            if thing.noun.name in nouns and thing.object_index != person.object_index:
-                cast.put(number, None)
+                if body is None:
+                    del cast[number]
+                else:
+                    cast[number] = body

@@ -33,13 +33,9 @@ _ROAM_RAD_S = np.array([4.9, 3.7, 6.1])
 """Angular frequencies of its way aside, along and up."""
 _HIGH_WIDTHS = 1.3
 """Width of the picture of a camera that travels, in heights above the ground."""
-STEP_M = 0.02
-"""Amplitude of the bob of a camera that walks."""
 LOWEST_M = 0.25
 """The camera stays at least this high above the ground."""
 MOST_PITCH_RAD = 1.5
-EASE = 0.2
-"""Share of a move in which it starts or stops, where it does so within the clip."""
 USUAL_S = 2.0
 """Length of a move that goes its usual way; shorter ones go less far."""
 _STEPS = 64
@@ -50,7 +46,7 @@ _NEGATIVE = ("left", "down", "out", "counter-clockwise")
 class MoveChannels:
     """Progress of all moves of a shot; each a smooth function of time.
 
-    Moves of one phase happen together, and phases follow each other and share the clip evenly.
+    Moves of one phase happen together; phases follow each other and share the clip evenly.
     """
 
     def __init__(self, moves: tuple[CameraMove, ...], duration_s: float = USUAL_S) -> None:
@@ -73,10 +69,9 @@ class MoveChannels:
     def _reach(self, move: CameraMove, time_s: float) -> float:
         """How far one move has gone, in usual amounts."""
         span = self._duration_s / self._phases
-        rise, fall = EASE * (move.phase > 0), EASE * (move.phase < self._phases - 1)
         amount = min(max(math.sqrt(span / USUAL_S), 0.5), 1.3) * move.pace
         amount *= -1.0 if move.direction in _NEGATIVE else 1.0
-        return amount * _eased(time_s / span - move.phase, rise, fall)
+        return amount * min(max(time_s / span - move.phase, 0.0), 1.0)
 
     @cached_property
     def _ranges(self) -> dict[str, tuple[float, float]]:
@@ -84,21 +79,6 @@ class MoveChannels:
         times = [self._duration_s * step / _STEPS for step in range(_STEPS + 1)]
         sums = {move.kind: [self._sum(move.kind, time) for time in times] for move in self.moves}
         return {kind: (min(values), max(values)) for kind, values in sums.items()}
-
-
-def _eased(u: float, rise: float, fall: float) -> float:
-    """Progress 0..1 over 0 <= u <= 1; it eases over such shares of it, else goes on evenly."""
-    rate = 1.0 / (1.0 - 0.5 * (rise + fall))
-    if rise and u < rise:
-        return rate * rise * _area(max(u, 0.0) / rise)
-    if fall and u > 1.0 - fall:
-        return 1.0 - rate * fall * _area(max(1.0 - u, 0.0) / fall)
-    return rate * (u - 0.5 * rise)
-
-
-def _area(v: float) -> float:
-    """Integral of 3v² - 2v³ from 0."""
-    return v * v * v - 0.5 * v**4
 
 
 @dataclass(frozen=True)
@@ -110,8 +90,6 @@ class Journey:
     height_m: float
     pitch_rad: float
     """Below the horizon."""
-    step_m: float = 0.0
-    """Length of a step, m; 0 = it rolls or flies."""
 
 
 @dataclass(frozen=True)
@@ -246,10 +224,7 @@ def _ride(journey: Journey, time_s: float) -> tuple[Float64Array, Float64Array, 
     """Position and target of a camera that looks where it heads, m, and how it rolls, rad."""
     state = journey.route.at(time_s)
     x, y, z = state.position
-    bob = 0.0
-    if journey.step_m > 0.0:
-        bob = STEP_M * math.sin(2.0 * math.pi * state.distance_m / journey.step_m)
-    position = np.array([x, y, z + journey.height_m + bob])
+    position = np.array([x, y, z + journey.height_m])
     return position, position - direction(state.yaw - 0.5 * math.pi, journey.pitch_rad), -state.roll
 
 

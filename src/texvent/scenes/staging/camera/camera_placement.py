@@ -37,8 +37,8 @@ from texvent.scenes.staging.camera.subject import (
 _SKY_LIFT = 0.2
 """How far the camera looks above what matters outdoors, in half image heights."""
 _TRACKING_LENGTHS, _NEAR_LENGTHS = 3.0, 0.3
-"""An object that covers more of its own lengths in the clip is followed from the side: usually, and
-in a close or medium shot."""
+"""Lengths of its own from which on an object is followed: usually, and in a close or medium shot.
+"""
 _LEAVING = frozenset({"pan", "tilt", "truck", "pedestal", "zoom", "dolly"})
 """Moves that can lose the subject."""
 _VISIBLE_SHARE, _CHECKS, _TRIES = 0.97, 41, 10
@@ -131,12 +131,8 @@ def _watch(shooting: _Shooting) -> CameraPath:
 
 
 def _keep_in_view(path: CameraPath, main: Actor, shooting: _Shooting) -> CameraPath:
-    """The path with smaller moves if the subject would leave the picture, and clear of bodies."""
+    """The path with smaller moves if the subject would leave the picture."""
     for _ in range(_TRIES):
-        if _runs_into(path, shooting):
-            framing = replace(path.framing, distance_m=1.2 * path.framing.distance_m)
-            path = replace(path, framing=framing)
-            continue
         if _is_visible(path, main, shooting.aspect):
             break
         damped = tuple(
@@ -154,18 +150,6 @@ def _is_visible(path: CameraPath, main: Actor, aspect: float) -> bool:
     seen = np.array([image_of(path.at(float(t)), main.middle(float(t))) for t in times])
     is_inside = np.all(np.abs(seen[:, :2]) < half, axis=1) & (seen[:, 2] > 0.0)
     return bool(is_inside.mean() >= _VISIBLE_SHARE)
-
-
-def _runs_into(path: CameraPath, shooting: _Shooting) -> bool:
-    """Whether the camera comes into the box of an object."""
-    for time in map(float, shooting.times):
-        position = path.at(time).position
-        for actor in shooting.actors:
-            corners, near = actor.corners(time), 0.05 * actor.size_m
-            is_above = position > corners.min(axis=0) - near
-            if np.all(is_above & (position < corners.max(axis=0) + near)):
-                return True
-    return False
 
 
 def _look_around(shooting: _Shooting) -> CameraPath:

@@ -32,8 +32,6 @@ class Means(NamedTuple):
     speed_m_s: float
     height_m: float
     pitch_rad: float
-    step_m: float = 0.0
-    """Length of a step; 0 = it rolls, flies or swims."""
     is_on_road: bool = False
     """Whether it keeps to its lane."""
 
@@ -41,8 +39,8 @@ class Means(NamedTuple):
 _MEANS: dict[str, Means] = {
     "drive": Means(9.0, 1.35, 0.03, is_on_road=True),
     "cycle": Means(5.0, 1.6, 0.06, is_on_road=True),
-    "walk": Means(1.5, 1.65, 0.04, 0.75),
-    "run": Means(3.4, 1.6, 0.04, 1.1),
+    "walk": Means(1.5, 1.65, 0.04),
+    "run": Means(3.4, 1.6, 0.04),
     "fly": Means(8.0, 9.0, 0.22),
     "sail": Means(4.0, 2.2, 0.06),
     "swim": Means(1.0, 1.4, 0.0),
@@ -107,7 +105,7 @@ def plan_travel(description: SceneDescription, place: str, duration_s: float) ->
     if description.place.road == "crossing":
         crossing = (-lane, route.start[1] + 0.6 * length + 4.0, NORTH + 0.5 * math.pi)
         road = replace(road, crossings=(crossing,))
-    return TravelPlan(Journey(route, height, pitch, means.step_m), length, clear, road)
+    return TravelPlan(Journey(route, height, pitch), length, clear, road)
 
 
 def _lay_route(
@@ -122,6 +120,6 @@ def _lay_route(
         way = -speed if is_back else speed if moves else 0.0
         pieces.append(Piece(span, way, ramp_s=ramp))
     route = SteeredPath((0.0, 0.0, 0.0), NORTH, tuple(pieces), pieces[0].speed_m_s)
-    ways = [route.distance_at(float(time)) for time in np.linspace(0.0, duration_s, 33)]
+    ways = [route.at(float(time)).distance_m for time in np.linspace(0.0, duration_s, 33)]
     start = (0.0, -0.5 * (min(ways) + max(ways)), 0.0)
     return replace(route, start=start), max(ways) - min(ways)

@@ -9,8 +9,7 @@ from typing import NamedTuple
 import numpy as np
 
 from texvent.scenes.description import SceneDescription
-from texvent.scenes.models.anchors import has_places
-from texvent.scenes.models.people.activities import HAND_NOUNS, PERSON_NOUNS
+from texvent.scenes.models.people.activities import DONE_SEATED, HAND_NOUNS, PERSON_NOUNS
 from texvent.scenes.models.places import is_room
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.spec.scene import CameraMove
@@ -42,36 +41,21 @@ _UPPER = {"close": 0.62, "medium": 0.42}
 """Framing → share of a person's height below which the image may end."""
 _FOREARM = 0.28
 """Share of a hand with its forearm below which the image may end: it comes from outside."""
-_RESTS = 0.05
-"""How far, in its heights, the lower body of a person on the spot may move."""
-_BELOW = ("left foot", "right foot", "seat")
-_OF_WHOLE_BODY = frozenset(
-    {"sit", "kneel", "crouch", "squat", "lie", "push-up", "dribble", "sweep", "row", "surf"}
-)
-"""Activities of which the legs, or what is at the feet, tell."""
 ELEVATIONS = {"aerial": 0.80, "top": 1.45, "low": 0.02, "first person": 0.05}
 """View → elevation of the camera, rad."""
 _PLACE_ELEVATIONS = {"sky": -0.42, "space": -0.1, "underwater": 0.04}
 _ROOM_ELEVATION = 0.24
-_FLAT, _FLAT_MOST_M, _FLAT_ELEVATION = 0.3, 3.0, 0.85
-"""What stays in place, is flatter than this share of its length and not longer than that, is looked
-down upon."""
-_ELONGATED, _ALONG_IT = 4.5, 0.75
-"""What is so many times as long as high is seen at an angle to its side, from nearer its front."""
-_HERD, _HERD_ELEVATION = 6, 0.3
-"""From so many copies on the camera stands higher, so that those behind are seen too."""
+_ELONGATED, _LEAST_M, _ALONG_IT = 4.5, 3.0, 0.75
+"""What is so many times as long as high, and longer than that, is seen at an angle to its side."""
 
 
 def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor:
     """The object the camera is about: as said, or the first that moves or could."""
     target = description.index(description.camera.target)
     asked = [one for one in actors if target is not None and one.object_index == target]
-    able = [one for one in actors if one.is_mover or _is_able(one)]
+    able = [one for one in actors if one.is_mover or
+            (one.noun.speed_m_s > 0.0 and one.noun.habitat != "fixed")]  # fmt: skip
     return [*asked[:1], *able[:1], actors[0]][0]
-
-
-def _is_able(actor: Actor) -> bool:
-    return actor.noun.speed_m_s > 0.0 and actor.noun.habitat != "fixed"
 
 
 def goes_in_depth(description: SceneDescription, main: Actor) -> bool:
@@ -81,15 +65,11 @@ def goes_in_depth(description: SceneDescription, main: Actor) -> bool:
 
 
 def acts_with_arms(actor: Actor, times: Float64Array) -> bool:
-    """Whether it is a hand that stays, or a person who acts on the spot with arms and head."""
+    """Whether it is a hand that stays, or a person who acts with arms and head all along."""
     if actor.noun.name in HAND_NOUNS:
         return isinstance(actor.trajectory, Stationary)
-    if actor.noun.name not in PERSON_NOUNS or not has_places(actor.model) or not actor.is_mover:
-        return False
-    if actor.pose(float(times[0])).activity in _OF_WHOLE_BODY:
-        return False
-    places = np.array([[actor.anchor(one, float(t))[:, 3] for one in _BELOW] for t in times])
-    return float(np.ptp(places, axis=0).max()) < _RESTS * actor.model.height
+    activities = {actor.pose(float(time)).activity for time in times}
+    return actor.noun.name in PERSON_NOUNS and activities <= DONE_SEATED
 
 
 def choose_angles(
@@ -114,18 +94,12 @@ def choose_angles(
     elevation = ELEVATIONS.get(description.camera.view or "")
     if elevation is None:
         elevation = _choose_elevation(main, place, is_in_depth)
-        if description.objects[main.object_index].count >= _HERD and elevation > 0.0:
-            elevation = max(elevation, _HERD_ELEVATION)
     return azimuth, elevation
 
 
 def _choose_elevation(main: Actor, place: str, is_in_depth: bool) -> float:
     """Height of the camera above what it looks at, radians."""
     model = main.model
-    widest = max(model.length, model.width)
-    is_flat = widest < _FLAT_MOST_M and model.height < _FLAT * widest
-    if is_flat and not main.is_mover and main.noun.habitat in ("fixed", "ground"):
-        return _FLAT_ELEVATION
     if place in _PLACE_ELEVATIONS:
         return _PLACE_ELEVATIONS[place]
     if is_room(place):
@@ -142,7 +116,7 @@ def _choose_elevation(main: Actor, place: str, is_in_depth: bool) -> float:
 def _is_elongated(main: Actor) -> bool:
     """Whether it is a train or a ship: all of it from the side would be a thin line."""
     model = main.model
-    is_large = model.length > _FLAT_MOST_M and main.noun.motion in ("drive", "sail")
+    is_large = model.length > _LEAST_M and main.noun.motion in ("drive", "sail")
     return is_large and model.length > _ELONGATED * model.height
 
 
@@ -196,7 +170,9 @@ def list_views(
     related = set().union(*tied) - {main.object_index}
     landmarks = {n for r in relations if r.kind in KEPT_TOGETHER for n in r.targets}
     partners = [one for one in near if one.object_index in related - {main.object_index}]
-    others = [one for one in near if not main.is_mover or _goes(one)]
+    # A lighthouse and a swing only work where they are.
+    goes = [one for one in near if one.is_mover and one.noun.habitat != "fixed"]
+    others = goes if main.is_mover else near
     kept = [one for one in partners if one.object_index in landmarks]
     copies = [one for one in actors if one.object_index == main.object_index]
     choices = (near, [*others, *partners], partners, kept)
@@ -204,11 +180,6 @@ def list_views(
         View(_points_of([*copies, *some], scope), fill, goal * least)
         for some, least in zip(choices, _GOALS, strict=True)
     ]
-
-
-def _goes(actor: Actor) -> bool:
-    """Whether it moves from where it is; a lighthouse and a swing only work there."""
-    return actor.is_mover and actor.noun.habitat != "fixed"
 
 
 def _points_of(actors: Sequence[Actor], scope: _Scope) -> Float64Array:

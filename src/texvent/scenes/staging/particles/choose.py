@@ -82,12 +82,6 @@ def _fitted(style: EmitterStyle, kind: str, actor: Actor | None) -> EmitterStyle
     return replace(style, light=0.0) if noun in LAMPS else style
 
 
-def _bulk(actor: Actor) -> float:
-    """Size of an object, m: the side of a cube as large as the box around it."""
-    model = actor.model
-    return float(np.cbrt(model.length * model.width * model.height))
-
-
 def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
     """Where an effect comes from."""
     words = EFFECTS[kind]
@@ -96,7 +90,8 @@ def _source(kind: str, actor: Actor | None, setting: Setting) -> Source:
         target = np.array(setting.camera.framing.target, dtype=np.float64)
         target[2] = target[2] + height if height else 0.0
         return Source(float(size), target + behind * setting.away)
-    bulk, model, noun = _bulk(actor), actor.model, actor.noun.name
+    model, noun = actor.model, actor.noun.name
+    bulk = float(np.cbrt(model.length * model.width * model.height))
     known = (trait_value(trait, noun) for trait in words.anchor_traits)
     x, y, z = next((one for one in known if one is not None), words.anchor)
     height = z * model.height - actor.foot_m

@@ -25,7 +25,7 @@ from texvent.scenes.staging.particles.effect import (
     many_shapes,
     tumbling,
 )
-from texvent.scenes.staging.surroundings.lighting import wave_level
+from texvent.scenes.staging.surroundings.lighting import point_lamp, wave_level
 
 GRAVITY = 9.81
 GENERATIONS = 16
@@ -34,8 +34,6 @@ _FLAME_HZ = 6.0
 _FLAME_LIGHT = np.array([1.0, 0.5, 0.16])
 _EDDY, _EDDY_HZ = 1.6, 0.16
 """Size and rate of eddies, in units of an effect."""
-_NEAREST = 0.3
-"""Least distance of a flake to the camera, as a share of that to what it looks at."""
 _LONG_S = 1e4
 """Life of what has no end."""
 
@@ -139,18 +137,10 @@ class Emitter:
         if style.body == "drop":
             maps = along(flown.places, flown.heading, half)
             return many_shapes(maps, Shape.ELLIPSOID, self.colours[which], glow)
-        half = np.maximum(half * self._clear(flown.places, time_s), TINY_M)
         rate = style.turns * math.sqrt(GRAVITY / max(self.source.size_m, 0.02))
         starts, turned = flown.draws[:, [0, 2]], rate * flown.age_s[:, None]
         angles = 6.0 * starts + 6.6 * (starts - 0.5) * turned
         return many_shapes(tumbling(flown.places, angles, half), Shape.BOX, self.colours[which])
-
-    def _clear(self, places: Float64Array, time_s: float) -> Float64Array:
-        """[n, 1] share of its size that each flake is shown with: 0 right before the camera."""
-        camera = self.setting.camera
-        away = np.linalg.norm(places - camera.at(time_s).position, axis=1)[:, None]
-        nearest_m = _NEAREST * camera.framing.distance_m
-        return np.asarray(np.clip(away / nearest_m - 1.0, 0.0, 1.0))
 
     def puffs(self, time_s: float) -> Float64Array:
         """[k, 19] its puffs at that instant; those just born or about to go are thin."""
@@ -176,18 +166,16 @@ class Emitter:
         style, size = self.style, self.source.size_m
         if style.light == 0.0 or time_s < self.start_s:
             return np.zeros((0, LAMP_COLUMNS))
-        row = np.zeros((1, LAMP_COLUMNS))
-        row[0, :3] = self.source.at(np.array([time_s]))[0] + [0.0, 0.0, 0.6 * size]
+        place = self.source.at(np.array([time_s]))[0] + [0.0, 0.0, 0.6 * size]
         level, hue = wave_level("flame", _FLAME_HZ * time_s, phase=0.37), _FLAME_LIGHT
         if style.salvos:
             age, draws = self.lives.at(time_s)
             age_s = max(float(age[0]), 0.0) * self.lives.life_s
             level = min(age_s / 0.02, 1.0) * math.exp(-age_s / (0.35 * math.sqrt(size / GRAVITY)))
-            row[0, :3] += self._offsets(draws)[0]
+            place += self._offsets(draws)[0]
             hue = self.colours[int(draws[0, 6] * len(self.colours))]
-        row[0, 3:6] = level * style.light * size * size * hue
-        row[0, 6], row[0, 10:12], row[0, 12] = 12.0 * size, -2.0, 0.4 * size
-        return row
+        light = level * style.light * size * size * hue
+        return point_lamp(place, light, 12.0 * size, 0.4 * size)[None]
 
     def _fly(self, time_s: float) -> _Flown:
         """All particles at an instant."""

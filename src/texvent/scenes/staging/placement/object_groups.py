@@ -17,11 +17,11 @@ from texvent.scenes.models.people.outfit import CLOTHES, HOLDS, Prop, list_props
 from texvent.scenes.models.people.person import dress
 from texvent.scenes.models.people.posture import SEAT
 from texvent.scenes.models.protocol import Model, Noun, Pose
-from texvent.scenes.models.shapes import bounds, moved
+from texvent.scenes.models.shapes import moved
 from texvent.scenes.models.tables import nouns_with
 from texvent.scenes.scene import Float64Array
 from texvent.scenes.spec.scene import SceneObject
-from texvent.scenes.staging.actors import is_centred, size_of
+from texvent.scenes.staging.actors import is_centred, lowest_point, size_of
 from texvent.scenes.staging.trajectories.choose_trajectory import ORBIT_SIZES
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.steered_path import sample_places
@@ -70,9 +70,7 @@ class ObjectGroup:
     @property
     def origin_m(self) -> float:
         """Height of its origin above what it rests on."""
-        if not is_centred(self.noun):
-            return 0.0
-        return -float(bounds(self.models[0].parts(Pose(0.0, 0.0, 0.0, "sit")))[0][2])
+        return -lowest_point(self.models[0]) if is_centred(self.noun) else 0.0
 
     def to_world(self, x: float, y: float, z: float) -> Float64Array:
         """[3] a place in its body coordinates, where its middle is, in the world, m."""
@@ -88,11 +86,6 @@ class ObjectGroup:
         """[3] half extents of all copies where they stand, without their way, m."""
         plan = replace(self.plan, motion=STANDING, path=None)
         return half_extents_over_clip(self.models, self.offsets, plan)
-
-    def go(self, **changes: float) -> None:
-        """Change heading (`yaw`) and speed (`speed_m_s`)."""
-        self.plan = replace(self.plan, **changes)  # type: ignore[arg-type]
-        self.fit()
 
 
 def half_extents_over_clip(
@@ -141,16 +134,18 @@ def match_pace(group: ObjectGroup, partner: ObjectGroup, kind: str) -> None:
     What follows goes behind the partner, which is placed already; what is overtaken or passed goes
     the same way, slower, unless the scene says how it goes.
     """
-    motion = group.plan.motion
-    if not (partner.plan.is_path and group.plan.is_path):
+    motion, other = group.plan.motion, partner.plan
+    if not (other.is_path and group.plan.is_path):
         return
     if kind in ("follow", "with"):
-        if kind == "follow" and partner.plan.motion.speed_m_s is None:
-            partner.go(speed_m_s=max(partner.plan.speed_m_s, group.plan.speed_m_s))
-        group.plan = replace(partner.plan, motion=motion)
-        group.fit()
+        if kind == "follow" and other.motion.speed_m_s is None:
+            other = replace(other, speed_m_s=max(other.speed_m_s, group.plan.speed_m_s))
+        partner.plan, group.plan = other, replace(other, motion=motion)
+        partner.fit()
     elif motion.direction is None and motion.speed_m_s is None:
-        group.go(yaw=partner.plan.yaw, speed_m_s=OVERTAKEN * partner.plan.speed_m_s)
+        speed = OVERTAKEN * other.speed_m_s
+        group.plan = replace(group.plan, yaw=other.yaw, speed_m_s=speed)
+    group.fit()
 
 
 _RESTING = frozenset({"stand", "sit", "lie", "slide"})

@@ -107,7 +107,9 @@ class ObjectPlacer:
         motions = scene_object.motions or (STANDING,)
         plan = plan_motion(motions, noun, models[0], self._duration_s, rng)
         if scene_object.heading_deg is not None:
-            plan = plan.turned(math.radians(scene_object.heading_deg))
+            yaw = math.radians(scene_object.heading_deg)
+            path = plan.path and replace(plan.path, yaw=yaw)
+            plan = replace(plan, yaw=yaw, path=path)
         offsets = stagger(models, plan, noun, rng)
         half = half_extents_over_clip(models, offsets, plan)
         return ObjectGroup(index, scene_object, noun, models, plan, offsets, half)

@@ -121,7 +121,8 @@ def _straight_road(
 def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool) -> RoadLine:
     """The road whose right lane, or whose edge, the first mover keeps to, also where it turns."""
     first = movers[0]
-    lane = _lane_of(movers, lane_m)
+    is_alone = len(movers) == 1 and lane_m > 0.6 * first.model.width
+    lane = lane_m if is_alone else 0.0
     if first.noun.motion != "drive":
         lane = 2.0 * lane_m + _PAVEMENT_M if has_pavement else _ROADSIDE * lane_m
 
@@ -143,12 +144,6 @@ def _road_of(movers: Sequence[Actor], lane_m: float, *, has_pavement: bool) -> R
     return RoadLine(yaw % math.pi if lane == 0.0 else yaw, (x, y), crossings=tuple(crossings[:1]))
 
 
-def _lane_of(movers: Sequence[Actor], lane_m: float) -> float:
-    """How far the first mover is to the right of the centre line, m."""
-    is_alone = len(movers) == 1 and movers[0].noun.motion == "drive"
-    return lane_m if is_alone and lane_m > 0.6 * movers[0].model.width else 0.0
-
-
 def lay_across(actors: Sequence[Actor], road: RoadLine) -> list[Actor]:
     """The actors, with what is painted across a road turned to it."""
     painted, yaw = nouns_with("across a road"), road.angle + 0.5 * math.pi
@@ -168,7 +163,10 @@ def water_line(place: Place, actors: Sequence[Actor], path: CameraPath) -> RoadL
     angle = math.atan2(float(forward[1]), float(forward[0])) - 0.5 * math.pi
     x, y = float(path.framing.target[0]), float(path.framing.target[1])
     half = place.road_m if place.ground is Ground.RIVER else 0.0
-    swimmers = [one for one in actors if _is_in_water(one)]
+    swimmers = [
+        one for one in actors if one.trajectory.at(0.0).activity in _AFLOAT
+        or (one.noun.habitat == "water" and not isinstance(one.trajectory, Attached))
+    ]  # fmt: skip
     gap = half + _BANK * path.framing.distance_m + _LEAST_BANK_M
     if not actors:
         gap = half
@@ -181,13 +179,6 @@ def water_line(place: Place, actors: Sequence[Actor], path: CameraPath) -> RoadL
     return RoadLine(angle, (x - gap * math.sin(angle), y + gap * math.cos(angle)))
 
 
-def _is_in_water(actor: Actor) -> bool:
-    is_of_water = actor.noun.habitat == "water" and not isinstance(actor.trajectory, Attached)
-    return is_of_water or actor.trajectory.at(0.0).activity in _AFLOAT
-
-
-TIMELAPSE = 60.0
-"""How much faster the sky goes in a time lapse."""
 NO_ROOM_M = 9.0
 """Half the side of a room where there is none, m; nothing shows it."""
 _BLACK: Colour = (0.0, 0.0, 0.0)
@@ -216,15 +207,13 @@ class AnimatedEnvironment:
     flicker_hz: float | None
     wave: str = "sine"
     """As `Light.wave`."""
-    time_scale: float = 1.0
-    """How much faster than in life clouds and waves go."""
 
     def at(self, time_s: float) -> Environment:
         """The surroundings at that instant."""
         factor = np.float32(self.flicker(time_s))
         return replace(
             self.base,
-            time_s=self.time_scale * time_s,
+            time_s=time_s,
             sun_colour=self.base.sun_colour * factor,
             ambient=self.base.ambient * factor,
         )
@@ -301,10 +290,7 @@ def build_environment(
         wall_colour=place.wall_colour,
         road_crossings=np.array(road.crossings, dtype=np.float64).reshape(-1, 3),
     )
-    return AnimatedEnvironment(
-        base, description.light.flicker_hz, description.light.wave,
-        TIMELAPSE if description.is_timelapse else 1.0,
-    )  # fmt: skip
+    return AnimatedEnvironment(base, description.light.flicker_hz, description.light.wave)
 
 
 def _ground_under(description: SceneDescription, place: Place) -> Ground:
@@ -329,7 +315,6 @@ def _cloud_share(description: SceneDescription, place: Place, lighting: Lighting
     said = description.place
     usual = 0.0 if place.is_backdrop and said.sky is None else lighting.clouds
     least = [usual if said.clouds is None else said.clouds]
-    least += [0.5] * description.is_timelapse
     least += [0.8] * (said.weather in ("rain", "snow"))
     return max(least)
 

@@ -21,14 +21,13 @@ from texvent.scenes.staging.camera.framing import Framing
 from texvent.scenes.staging.surroundings.lighting import (
     FLAME_SHARES,
     hidden_lamp,
+    point_lamp,
     wave_level,
 )
 from texvent.scenes.staging.surroundings.scenery import SceneryItem
 
 MAINS_HZ = 20.0
 """From this frequency on, lamps on mains beat as a sine instead of going on and off."""
-_FLICKERING = 2.6
-"""How much more a flame flickers that is said to."""
 _UNLIT = (Ground.NONE, Ground.UNDERWATER, Ground.SEA)
 """Grounds of places without lamps out of sight."""
 _LIGHTS_A_ROOM, _DIMMEST_CASTER, _FAINTEST = 0.1, 0.5, 0.004
@@ -96,10 +95,7 @@ class LitActor:
         wave = "square" if lamp.wave == "sine" and rate < MAINS_HZ else lamp.wave
         # Two candles do not flicker in step.
         phase = fraction(self.actor.instance, "flame")
-        level = wave_level(wave, rate * time_s, phase=phase)
-        if wave == "flame" and self.blink_hz is not None:
-            level = max(1.0 + _FLICKERING * (level - 1.0), 0.05)
-        return full * level
+        return full * wave_level(wave, rate * time_s, phase=phase)
 
     def glow(self, placed: PlacedModel, time_s: float) -> PlacedModel:
         """The object with its glowing parts as bright as its lamps are at that instant."""
@@ -140,10 +136,12 @@ def lamp_row(
     The glowing part is in body coordinates; `level` is light as a share of its usual light, the
     instant turns beams that turn.
     """
-    row = np.zeros(LAMP_COLUMNS)
+    light = level * lamp.intensity * np.array(part.colour) / max(max(part.colour), 1e-9)
+    reach = min(math.sqrt(lamp.intensity / _FAINTEST), _FARTHEST_M)
     half = np.sort(np.linalg.norm(part.to_body[:, :3], axis=0))
-    centre = part.to_body[:, 3].copy()
-    row[10] = row[11] = -2.0
+    is_long = half[2] > _LONG * half[1]
+    radius = half[1] if lamp.is_panel else 0.5 * half[2] if is_long else half[0]
+    row, centre = point_lamp(np.zeros(3), light, reach, radius), part.to_body[:, 3].copy()
     if lamp.direction is not None:
         beam = np.array(lamp.direction) / np.linalg.norm(lamp.direction)
         angle = 2.0 * math.pi * lamp.turns_hz * time_s
@@ -155,23 +153,17 @@ def lamp_row(
         row[10] = math.cos(dark * (1.0 - lamp.soft_share))
         row[11] = math.cos(dark)
     row[:3] = to_world[:, :3] @ centre + to_world[:, 3]
-    row[3:6] = level * lamp.intensity * np.array(part.colour) / max(max(part.colour), 1e-9)
-    row[6] = min(math.sqrt(lamp.intensity / _FAINTEST), _FARTHEST_M)
-    is_long = half[2] > _LONG * half[1]
-    row[12] = half[1] if lamp.is_panel else 0.5 * half[2] if is_long else half[0]
     row[14] = float(lamp.glows and not lamp.is_panel and not is_long)
     return row
 
 
 def scene_lamp_row(lamp: SceneLamp, time_s: float) -> Float64Array:
     """A lamp at a position that the scene gives: its period is exactly 1 / frequency_hz."""
-    row = np.zeros(LAMP_COLUMNS)
     light = lamp.strength * np.array(rgb_of(lamp.colour or "#ffffff", "light"))
-    row[:3] = lamp.position_m
-    row[3:6] = light * wave_level(lamp.wave, (lamp.frequency_hz or 0.0) * time_s)
-    row[6] = math.sqrt(max(light.max(), 1e-9) / _FAINTEST)
-    row[10] = row[11] = -2.0
-    row[12], row[13] = _SCENE_LAMP_M, float(lamp.has_shadows)
+    reach = math.sqrt(max(light.max(), 1e-9) / _FAINTEST)
+    level = wave_level(lamp.wave, (lamp.frequency_hz or 0.0) * time_s)
+    row = point_lamp(lamp.position_m, level * light, reach, _SCENE_LAMP_M)
+    row[13] = float(lamp.has_shadows)
     return row
 
 
@@ -233,7 +225,9 @@ def plan_lamps(
     rows = _still_lamps(items, strength)
     focus = np.asarray(framing.target, dtype=np.float64)
     is_dark = strength > 0.0 and place.ground not in _UNLIT
-    if is_dark and not rows and not any(map(_lights_around, lit)):
+    own = np.vstack([np.zeros((0, LAMP_COLUMNS)), *(one.steady_rows(0.0) for one in lit)])
+    is_lit = (own[:, 10] < -1.0) & (own[:, 3:6].max(axis=1, initial=0.0) >= _LIGHTS_A_ROOM)
+    if is_dark and not rows and not is_lit.any():
         rows.append(hidden_lamp(focus, framing.distance_m, strength))
     still = np.array(rows, dtype=np.float64).reshape(-1, LAMP_COLUMNS)
     _choose_casters(lit, still, instant_s, focus)
@@ -250,12 +244,6 @@ def _list_lamps(actor: Actor) -> tuple[tuple[int, float, Lamp], ...]:
         lamp = lamp_of(actor.noun.name, brightest.colour) if brightest.emission > 0.0 else None
         found += [(index, brightest.emission, lamp)] if lamp is not None else []
     return tuple(found)
-
-
-def _lights_around(one: LitActor) -> bool:
-    """Whether an object has a lamp that lights what is around it."""
-    rows = one.steady_rows(0.0)
-    return any(row[10] < -1.0 and row[3:6].max() >= _LIGHTS_A_ROOM for row in rows)
 
 
 def _still_lamps(items: Sequence[SceneryItem], strength: float) -> list[Float64Array]:

@@ -6,6 +6,7 @@ import math
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from texvent.scenes.models.places import Place
 from texvent.scenes.scene import LAMP_COLUMNS, Colour, Float64Array, Ground
@@ -101,11 +102,16 @@ def hidden_lamp(target: Float64Array, reach_m: float, strength: float) -> Float6
 
     It stands off the target [3] by shares of `reach_m`.
     """
+    place = target + reach_m * _LAMP_OFFSET
+    height = max(float(place[2]), 0.7)
+    return point_lamp(place, 1.1 * strength * height**2 * np.array(_WARM), 5.0 * height, 0.3)
+
+
+def point_lamp(place: ArrayLike, light: ArrayLike, reach_m: float, radius_m: float) -> Float64Array:
+    """[15] a lamp that shines to all sides, as in `Environment.lamps`, without shadows or glow."""
     row = np.zeros(LAMP_COLUMNS)
-    row[:3] = target + reach_m * _LAMP_OFFSET
-    height = max(float(row[2]), 0.7)
-    row[3:6] = 1.1 * strength * height**2 * np.array(_WARM)
-    row[6], row[10], row[11], row[12] = 5.0 * height, -2.0, -2.0, 0.3
+    row[:3], row[3:6], row[6] = place, light, reach_m
+    row[10:12], row[12] = -2.0, radius_m
     return row
 
 

@@ -8,8 +8,8 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -82,14 +82,6 @@ class SceneryItem:
         return PlacedModel(parts, state.to_world(), 0)
 
 
-def under_snow(rules: Iterable[Scenery]) -> list[Scenery]:
-    """The same where snow lies: nothing blooms, and evergreens stand for trees in leaf."""
-    (evergreen,) = nouns_with("evergreen")
-    rules = [one for one in rules if one.noun not in nouns_with("in bloom")]
-    leafy = nouns_with("in leaf")
-    return [replace(one, noun=evergreen) if one.noun in leafy else one for one in rules]
-
-
 def scatter(
     rules: Sequence[Scenery],
     view: ViewClearance,
@@ -159,14 +151,13 @@ class _Scatterer:
         fit = min(max(self._view.distance_m / _USUAL_DISTANCE_M, 0.15), 1.5) if rule.grows else 1.0
         for copy in range(rule.count):
             model = self._build(rule, copy, fit)
-            free = (item for item in self._try_places(rule, model) if self._is_free(item))
-            self.items += list(itertools.islice(free, 1))
-
-    def _try_places(self, rule: Scenery, model: Model) -> Iterator[SceneryItem]:
-        for _ in range(_ATTEMPTS):
-            camera = self._view.cameras[int(self._rng.integers(len(self._view.cameras)))]
-            stand = self._stand_at_wall if rule.where == "walls" else self._stand_around
-            yield stand(rule, model, camera)
+            for _ in range(_ATTEMPTS):
+                camera = self._view.cameras[int(self._rng.integers(len(self._view.cameras)))]
+                stand = self._stand_at_wall if rule.where == "walls" else self._stand_around
+                item = stand(rule, model, camera)
+                if self._is_free(item):
+                    self.items.append(item)
+                    break
 
     def line_route(self, rules: Sequence[Scenery], travel: TravelPlan) -> None:
         """Pieces on both sides of a route, from behind its beginning to beyond its end."""
@@ -224,16 +215,12 @@ class _Scatterer:
         return SceneryItem(rule, model, (float(x), float(y)), yaw)
 
     def _draw_reach(self, rule: Scenery, camera: Camera) -> float:
-        """Metres from the camera, no further than the top of the image shows."""
+        """Metres from the camera."""
         near, far = rule.reach
         if rule.where == "far":
             return float(self._rng.uniform(near, far))
         pitch = math.asin(min(max(-float(camera.rotation[2, 2]), -1.0), 1.0))
         flat = self._view.distance_m * math.cos(pitch)
-        top = pitch - math.atan(0.33 / camera.focal)
-        if top > 0.02:
-            seen = float(camera.position[2]) / math.tan(top) / max(flat, 1e-6) - 1.0
-            near, far = (min(near, 0.1 - 0.8 * seen, seen), seen) if far > seen else (near, far)
         return flat * (1.0 + float(self._rng.uniform(near, far)))
 
     def _stand_at_wall(self, rule: Scenery, model: Model, camera: Camera) -> SceneryItem:

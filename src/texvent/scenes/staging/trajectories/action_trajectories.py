@@ -37,12 +37,11 @@ class Spin:
     axis: Axis = "yaw"
     pivot_m: float = 0.0
     """Height of the axis above the body's origin, m, unless it is the vertical."""
-    activity: str = "move"
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         turn = (self.rate_rad_s + 0.5 * self.gain_rad_s2 * time_s) * time_s
-        state = BodyState(self.home, self.yaw, activity=self.activity, pivot_m=self.pivot_m)
+        state = BodyState(self.home, self.yaw, pivot_m=self.pivot_m)
         if self.axis == "yaw":
             return replace(state, yaw=self.yaw + turn)
         return replace(state, pitch=turn) if self.axis == "pitch" else replace(state, roll=turn)

@@ -20,18 +20,14 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
 )
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.phases import NO_FLOOR_M, PATH_KINDS, activity_of
-from texvent.scenes.staging.trajectories.steered_path import (
-    SteeredPath,
-)
+from texvent.scenes.staging.trajectories.steered_path import SteeredPath, steady
 from texvent.scenes.staging.trajectories.trajectory import (
     TO_CAMERA,
     BodyState,
-    Circle,
     Facing,
     Rolling,
     Shuttle,
     Stationary,
-    Straight,
     Trajectory,
     Vector,
     ahead,
@@ -39,16 +35,12 @@ from texvent.scenes.staging.trajectories.trajectory import (
 
 _STAYING = frozenset({"stand", "sit", "lie", "hang", *ANIMAL_ACTS})
 """What bodies without hands do in their place."""
-_LARGEST_AFLOAT_M = 2.5
-"""What is larger bobs no more than that: a moon, a cloud."""
 ORBIT_SIZES = 1.3
 """Radius of a circle around nothing, in sizes of who goes along it."""
 _BOB_HZ, _WEAVE_HZ, _WEAVE_RAD, _SWAY_RAD = 0.4, 0.68, 0.08, 0.14
 """Up and down of what flies or floats, swaying of a fish about its heading, of what leans."""
 _ON_GROUND = frozenset({"walk", "run", "crawl", "drive", "roll", "slide"})
 """Who goes up and down a street on the ground goes to and fro."""
-_FLAT = 0.3
-"""Length of what is flat, as a share of its width and height."""
 
 
 def choose_trajectory(
@@ -69,7 +61,7 @@ def choose_trajectory(
     if plan.path is not None:
         path: Trajectory = _shift_path(plan.path, model, home)
         if plan.radius_m:
-            path = Rolling(path, plan.radius_m, plan.radius_m)
+            path = Rolling(path, plan.radius_m)
         return Facing(path) if plan.is_facing else path
     if plan.gesture is not None:
         return Stationary(home, plan.yaw, plan.gesture, plan.motion.pace)
@@ -101,7 +93,10 @@ def orbit(plan: MotionPlan, centre: Vector, radius_m: float, share: float) -> Tr
     rate = 2.0 * math.pi / max(plan.duration_s, 2.0) * plan.motion.pace
     rate *= -1.0 if plan.motion.direction in ("right", "clockwise") else 1.0
     activity = "run" if plan.motion.kind == "run" else "move"
-    circle = Circle(centre, radius_m, rate, 2.0 * math.pi * share, activity)
+    begin, (x, y, z) = 2.0 * math.pi * share, centre
+    start = (x + radius_m * math.cos(begin), y + radius_m * math.sin(begin), z)
+    yaw = begin + math.copysign(0.5 * math.pi, rate)
+    circle = steady(start, yaw, abs(rate) * radius_m, turn_rad_s=rate, activity=activity)
     return Facing(circle) if plan.is_facing else circle
 
 
@@ -109,29 +104,26 @@ def _go_and_return(plan: MotionPlan, model: Model, home: Vector) -> Trajectory:
     """To and fro, or up and down: what stands on the ground rises from it."""
     kind, direction, rate = plan.motion.kind, plan.motion.direction, plan.motion.rate_hz
     reach = max(0.3 * plan.speed_m_s * plan.duration_s, 0.4 * model.height)
-    is_flat = model.length < _FLAT * min(model.width, model.height)
     is_vertical = direction == "up and down" and kind not in _ON_GROUND
-    yaw = TO_CAMERA if is_flat and is_vertical else plan.yaw
     period_s = 1.0 / rate if rate else max(plan.duration_s, 1.0)
     place = _raised(home, reach) if is_vertical else home
-    path = Shuttle(place, yaw, reach, period_s, activity_of(kind), is_vertical)
+    path = Shuttle(place, plan.yaw, reach, period_s, activity_of(kind), is_vertical)
     return Facing(path) if plan.is_facing else path
 
 
 def _follow_path(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
-    kind, mid_s = plan.motion.kind, 0.5 * plan.duration_s
+    kind, half_m = plan.motion.kind, 0.5 * plan.duration_s * plan.speed_m_s
+    start = ahead(home, plan.yaw, -half_m, home[2] - plan.climb * half_m)
+    path: Trajectory = steady(
+        start, plan.yaw, plan.speed_m_s, climb=plan.climb, activity=activity_of(kind)
+    )
     if plan.is_facing:
-        home = _raised(home, plan.climb * plan.speed_m_s * mid_s)
-    doing = activity_of(kind)
-    path: Trajectory = Straight(home, plan.yaw, plan.speed_m_s, mid_s, doing, climb=plan.climb)
-    is_flat = model.length < _FLAT * min(model.width, model.height)
-    if plan.is_facing or (is_flat and kind in ("fly", "slide")):
-        path = Facing(path, TO_CAMERA + 0.35 * (kind == "fly"))
+        path = Facing(path)
     if kind in ("fly", "sail", "paddle"):
         return Oscillating(path, (Wave("z", 0.04 * model.height, _BOB_HZ, phase),))
     if kind == "swim":
         return Oscillating(path, (Wave("yaw", _WEAVE_RAD, _WEAVE_HZ, phase),))
-    return Rolling(path, plan.radius_m, plan.radius_m) if plan.radius_m else path
+    return Rolling(path, plan.radius_m) if plan.radius_m else path
 
 
 def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) -> Trajectory:
@@ -142,8 +134,7 @@ def _act_in_place(plan: MotionPlan, model: Model, home: Vector, phase: float) ->
         usual = 2.0 * math.pi * (-SPIN_RATE_HZ if is_clockwise else SPIN_RATE_HZ)
         return _spin(plan, model, home, usual, phase)
     if kind in ("hover", "float"):
-        span = max(model.length, model.width, model.height)
-        bob_m = 0.12 * min(span, _LARGEST_AFLOAT_M) * pace
+        bob_m = 0.12 * min(max(model.length, model.width, model.height), 2.5) * pace
         return hover(Stationary(home, plan.yaw, "move"), bob_m, phase)
     if kind == "sway":
         lean = Wave("roll", _SWAY_RAD, plan.motion.rate_hz or 0.5 * pace)

@@ -67,11 +67,6 @@ class MotionPlan:
         is_straight = self.motion.direction not in ("to and fro", "up and down")
         return self.path is None and self.motion.kind in PATH_KINDS and is_straight
 
-    def turned(self, yaw: float) -> MotionPlan:
-        """The same plan with another heading, radians from x towards y."""
-        path = None if self.path is None else replace(self.path, yaw=yaw)
-        return replace(self, yaw=yaw, path=path)
-
     @property
     def travel_m(self) -> float:
         """Metres covered in the clip along the heading."""

@@ -112,11 +112,6 @@ class SteeredPath:
             act_s=act_s,
         )
 
-    def distance_at(self, time_s: float) -> float:
-        """Way covered since t = 0, forwards less backwards, m."""
-        knot, piece, elapsed = self._find(time_s)
-        return knot.distance_m + _integral(knot.rates[0], piece.speed_m_s, _ramp(piece), elapsed)
-
     def _find(self, time_s: float) -> tuple[_Knot, Piece, float]:
         """The piece that holds an instant: its beginning, itself, and time in it."""
         knots = self._knots
@@ -143,6 +138,15 @@ class SteeredPath:
             knot.time_s + elapsed, (x, y, max(z, self.floor_m)), knot.heading + turned,
             knot.distance_m + way, (speed, turn, climb, pitch),
         )  # fmt: skip
+
+
+def steady(
+    start: Vector, yaw: float, speed_m_s: float, *, turn_rad_s: float = 0.0, climb: float = 0.0,
+    activity: str = "move",
+) -> SteeredPath:  # fmt: skip
+    """A straight line or a circle at constant speed; `climb` is metres up per metre along."""
+    piece = Piece(1.0, speed_m_s, turn_rad_s, climb * speed_m_s, ramp_s=0.0, activity=activity)
+    return SteeredPath(start, yaw, (piece,), speed_m_s, turn_rad_s, 0.0, -math.inf)
 
 
 def _ramp(piece: Piece) -> float:

@@ -99,39 +99,11 @@ class Stationary:
     tempo: float = 1.0
     gain_per_s: float = 0.0
     """By how much the tempo grows each second."""
-    pivot_m: float = 0.0
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         mean = self.tempo + 0.5 * self.gain_per_s * time_s
-        return BodyState(
-            self.home, self.yaw, activity=self.activity, tempo=mean, pivot_m=self.pivot_m
-        )
-
-
-@dataclass(frozen=True)
-class Straight:
-    """Moves along its heading at constant speed; at its home at `mid_s`."""
-
-    home: Vector
-    yaw: float
-    speed_m_s: float
-    mid_s: float
-    activity: str = "move"
-    climb: float = 0.0
-    """Metres up per metre along."""
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        along = self.speed_m_s * (time_s - self.mid_s)
-        return BodyState(
-            ahead(self.home, self.yaw, along, self.home[2] + along * self.climb),
-            self.yaw,
-            -math.atan(self.climb),
-            distance_m=self.speed_m_s * time_s,
-            speed_m_s=self.speed_m_s,
-            activity=self.activity,
-        )
+        return BodyState(self.home, self.yaw, activity=self.activity, tempo=mean)
 
 
 @dataclass(frozen=True)
@@ -140,13 +112,12 @@ class Rolling:
 
     path: Trajectory
     radius_m: float
-    pivot_m: float
-    """Height of its middle above the body's origin."""
+    """Also the height of its middle above the body's origin."""
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
         state = self.path.at(time_s)
-        return replace(state, pitch=state.distance_m / self.radius_m, pivot_m=self.pivot_m)
+        return replace(state, pitch=state.distance_m / self.radius_m, pivot_m=self.radius_m)
 
 
 @dataclass(frozen=True)
@@ -193,41 +164,14 @@ def _sine_path(angle: float) -> float:
 
 
 @dataclass(frozen=True)
-class Circle:
-    """Goes round a centre at constant speed, facing along its path."""
-
-    centre: Vector
-    radius_m: float
-    rate_rad_s: float
-    """Positive = anticlockwise seen from above."""
-    phase: float = 0.0
-    activity: str = "move"
-
-    def at(self, time_s: float) -> BodyState:
-        """State at that instant."""
-        angle = self.phase + self.rate_rad_s * time_s
-        turn = math.copysign(math.pi / 2.0, self.rate_rad_s)
-        x, y, z = self.centre
-        speed = abs(self.rate_rad_s) * self.radius_m
-        return BodyState(
-            (x + self.radius_m * math.cos(angle), y + self.radius_m * math.sin(angle), z),
-            angle + turn,
-            distance_m=speed * time_s,
-            speed_m_s=speed,
-            activity=self.activity,
-        )
-
-
-@dataclass(frozen=True)
 class Facing:
     """A board or a flat shape that shows its front to the camera all along a path."""
 
     path: Trajectory
-    yaw: float = TO_CAMERA
 
     def at(self, time_s: float) -> BodyState:
         """State at that instant."""
-        return replace(self.path.at(time_s), yaw=self.yaw, pitch=0.0, roll=0.0)
+        return replace(self.path.at(time_s), yaw=TO_CAMERA, pitch=0.0, roll=0.0)
 
 
 @dataclass(frozen=True)
