@@ -155,14 +155,15 @@ class TruthSource:
         needed = ON_FRAMES if isinstance(video, InstancesStream) else {*ON_FRAMES, "events"}
         if not needed & set(self.parts):
             return Snapshot(t_us, camera=self._camera(t_us))
-        truth = video.ground_truth(t_us, t_us if next_us is None else next_us)
+        to_us = next_us if "flow" in self.parts else None
+        truth = video.ground_truth(t_us, t_us if to_us is None else to_us)
         back = None
         if "flow-back" in self.parts and previous_us is not None:
             past = video.ground_truth(t_us, previous_us)
             back = Flow(past.flow, previous_us, past.occluded)
         return Snapshot(
             t_us,
-            flow=None if next_us is None else Flow(truth.flow, next_us, truth.occluded),
+            flow=None if to_us is None else Flow(truth.flow, to_us, truth.occluded),
             flow_back=back,
             depth=truth.depth,
             instance=truth.instance,

@@ -85,17 +85,19 @@ def ground_truth(scene: Scene, t0_s: float, t1_s: float, size: SensorSize) -> Gr
     Args:
         scene: the scene.
         t0_s: instant whose pixels are described, s.
-        t1_s: instant that flow leads to, s.
+        t1_s: instant that flow leads to, s; at t0 nothing moves or is hidden.
         size: image size, pixels.
     """
     world, shapes = world_and_shapes(scene, t0_s, size, shadows=False)
     seen = cast_centres(world, size)
     instances = _instances(shapes, seen.number)
-    place = move_to(scene, (t0_s, t1_s), size, seen)
-    in_front = place[:, 2] > 0.0
-    flow = np.where(in_front[:, None], place[:, :2] - seen.points, np.nan)
-    hidden = _hidden(world_at(scene, t1_s, size, shadows=False), place, size)
     shape = size.shape
+    flow, hidden = np.zeros((*shape, 2)), np.zeros(shape, dtype=np.bool_)
+    if t1_s != t0_s:
+        place = move_to(scene, (t0_s, t1_s), size, seen)
+        in_front = place[:, 2] > 0.0
+        flow = np.where(in_front[:, None], place[:, :2] - seen.points, np.nan)
+        hidden = _hidden(world_at(scene, t1_s, size, shadows=False), place, size)
     return GroundTruth(
         depth=seen.depth.astype(np.float32).reshape(shape),
         instance=instances.reshape(shape),
