@@ -17,7 +17,8 @@ import pytest
 
 import texvent
 from texvent.web.job import Job
-from texvent.web.server import CALL_BYTES, PageServer, page_html
+from texvent.web.job_page import PageServer, page_html
+from texvent.web.server import CALL_BYTES
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 SCENE = {"generator": "procedural", "duration": "0.1", "sensor": "48x36", "seed": "3"}

@@ -2,7 +2,7 @@
 
 from selenium.webdriver.support.wait import WebDriverWait
 
-from texvent.web.server import PageServer
+from texvent.web.job_page import PageServer
 
 WAIT_S = 300
 
