@@ -67,9 +67,7 @@ class LiveEvents:
         overwrite: whether recordings may replace files.
     """
 
-    def __init__(
-        self, source: FrameStream, settings: Settings, *, overwrite: bool = False
-    ) -> None:
+    def __init__(self, source: FrameStream, settings: Settings, *, overwrite: bool = False) -> None:
         self.frames = NewestFrames(source)
         self._overwrite = overwrite
         self._settings = self._working = settings
