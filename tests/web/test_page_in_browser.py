@@ -2,13 +2,13 @@
 
 from selenium.webdriver.support.wait import WebDriverWait
 
-from texvent.web.job_page import PageServer
+from texvent.web.job_page import JobServer
 
 WAIT_S = 300
 
 
 def test_a_prompt_gives_a_preview_and_a_viewer_and_a_mistake_one_line(browser, requests_made):
-    with PageServer() as page:
+    with JobServer() as page:
         browser.get(page.address)
         status = browser.find_element("id", "status")
         for name, value in (("duration", "0.1"), ("seed", "3")):

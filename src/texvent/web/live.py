@@ -1,30 +1,34 @@
-"""Live events: the newest frame of a camera simulated, ready to be drawn, and recorded."""
+"""Live events: an event camera steps through the newest frames of a source; drawn and recorded."""
 
 from __future__ import annotations
 
+import contextlib
+import itertools
+import sys
 import threading
 import time
 from collections import deque
-from contextlib import closing
-from dataclasses import dataclass, field, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
 from texvent.errors import ConfigError, InputError, OutputError, TexventError
+from texvent.event_camera import EventCamera
 from texvent.events import EventStream
 from texvent.io.block_writer import BlockWriter
 from texvent.io.files import open_writer
-from texvent.run.prepare import prepare_video
 from texvent.settings.provenance import describe_run
-from texvent.settings.resolution import Settings, apply_options, resolve
 from texvent.simulate.model_options import contrast_threshold_of
-from texvent.video import MICROSECONDS, Frame, FrameStream
+from texvent.video import Frame, FrameStream
 from texvent.web.newest_frames import NewestFrames
 
 MEASURED_FRAMES = 300
 """Drawn frames over which latency is measured, the latest."""
+COMPILING_STEPS = 2
+"""First steps of an event camera, which do not count: kernels are compiled."""
 
 
 class Shown(NamedTuple):
@@ -33,12 +37,11 @@ class Shown(NamedTuple):
     number: int
     frame: Frame
     events: EventStream
-    arrived_s: float | None
-    """When the frame arrived, s of `time.perf_counter`; None while kernels are compiled."""
+    arrived_s: float
+    """When the frame arrived, s of `time.perf_counter`."""
 
 
-@dataclass
-class Recording:
+class Recording(NamedTuple):
     """An event file that is being written; its times begin at 0."""
 
     path: Path
@@ -46,16 +49,8 @@ class Recording:
     start_us: int
     dropped: int
     """Frames that were dropped before it began."""
-    changes: list[dict[str, Any]] = field(default_factory=list)
-    """Simulator and threshold that it did not begin with, and from when on."""
-    events: int = 0
-    seconds: float = 0.0
-
-    def append(self, frame: Frame, events: EventStream) -> None:
-        """Add the events that end at a frame."""
-        self.writer.append(replace(events, t=events.t - self.start_us))
-        self.events += len(events)
-        self.seconds = (frame.t_us - self.start_us) / MICROSECONDS
+    changes: list[dict[str, Any]]
+    """Models that it did not begin with, and from when on."""
 
 
 class LiveEvents:
@@ -63,197 +58,140 @@ class LiveEvents:
 
     Args:
         source: the frames.
-        settings: all options; simulator and contrast threshold may be changed later.
-        overwrite: whether recordings may replace files.
+        options: of `EventCamera`.
+
+    Raises:
+        ConfigError, InputError: as `EventCamera`.
     """
 
-    def __init__(self, source: FrameStream, settings: Settings, *, overwrite: bool = False) -> None:
-        self.frames = NewestFrames(source)
-        self._overwrite = overwrite
-        self._settings = self._working = settings
-        self._error: TexventError | None = None
-        self._latest: Shown | None = None
-        self._arrivals: dict[int, float] = {}
+    def __init__(self, source: FrameStream, options: Mapping[str, Any]) -> None:
+        self._source, self._options = source, options
+        self._camera = EventCamera(source.size, **options)
+        self._steps = self._arrived = self._dropped = 0
+        self._numbers = itertools.count(1)
+        self._shown: Shown | None = None
         self._latencies_ms: deque[float] = deque(maxlen=MEASURED_FRAMES)
-        self._is_ready = False
-        self._arrived = self._dropped = 0
         self._recording: Recording | None = None
-        self._recorded = ""
+        self._error: BaseException | None = None
         self._changed = threading.Condition(threading.RLock())
+        self._frames = NewestFrames(source)
         self._thread = threading.Thread(target=self._run, daemon=True)
-
-    def start(self) -> None:
-        """Begin."""
-        self.frames.start()
         self._thread.start()
 
     def close(self) -> None:
         """End; a recording is completed."""
-        self.frames.close()
-        if self._thread.is_alive():
-            self._thread.join()
-        self.stop_recording()
+        self._frames.close()
+        self._thread.join()
 
     def wait(self, number: int, timeout_s: float) -> Shown | None:
         """The latest frame, once it is another than `number`; None if none comes in time."""
 
         def newer() -> Shown | None:
-            latest = self._latest
-            return None if latest is None or latest.number == number else latest
+            return self._shown if self._shown and self._shown.number != number else None
 
         with self._changed:
-            shown = self._changed.wait_for(newer, timeout_s)
-            if shown is not None and shown.arrived_s is not None:
-                if len(self._arrivals) > MEASURED_FRAMES:  # of pages that went
-                    self._arrivals.clear()
-                self._arrivals[shown.number] = shown.arrived_s
-        return shown
+            return self._changed.wait_for(newer, timeout_s)
 
-    def note_drawn(self, number: int) -> None:
-        """Measure the latency of a frame that a page has drawn."""
-        arrived_s = self._arrivals.pop(number, None)
-        if arrived_s is not None:
+    def note_drawn(self, arrived_s: float) -> None:
+        """Measure the latency of a frame that a page has drawn just now."""
+        if self._steps > COMPILING_STEPS + 1:
             self._latencies_ms.append((time.perf_counter() - arrived_s) * 1e3)
 
     def change(self, simulator: str, contrast_threshold: float | None) -> None:
-        """Use another simulator, at its defaults, or threshold, from the next frame on.
+        """Use another model from the next frame on; without a threshold, its own.
 
         Raises:
-            ConfigError: there is no such simulator, or it does not allow the threshold.
+            ConfigError, InputError: as `EventCamera`.
         """
-        settings = self._settings
-        if simulator != settings.run.simulator:
-            other = resolve("simulate", {"simulator": simulator})
-            run = replace(settings.run, simulator=simulator, preset=other.run.preset)
-            settings = replace(settings, run=run, simulate=other.simulate)
-        if contrast_threshold is not None:
-            options = {"contrast_threshold": contrast_threshold}
-            settings = apply_options(settings, options, where="the page")
+        model = {"simulator": simulator, "contrast_threshold": contrast_threshold}
+        camera = EventCamera(self._source.size, **{**self._options, **model})
         with self._changed:
-            self._settings, self._error = settings, None
+            self._camera, self._steps, self._error = camera, 0, None
+            if self._recording is not None and self._shown is not None:
+                since_us = self._shown.frame.t_us - self._recording.start_us
+                self._recording.changes.append({"t_us": since_us, **self._model()})
 
-    def record(self, path: Path, format: str | None = None) -> None:
+    def record(self, path: Path, format: str) -> None:
         """Begin to record the events to a file.
 
         Raises:
             ConfigError, OutputError: as `open_writer`.
-            InputError: a recording runs already, or the source has ended.
+            InputError: a recording runs already, or no frame comes.
         """
         with self._changed:
             if self._recording is not None:
                 raise InputError(f"{self._recording.path} is being recorded; stop it first")
-            if self.frames.is_over:
-                raise InputError("the source has ended; there is nothing to record")
-            facts = describe_run(self._settings, prompt=None, source=self.frames.metadata)
-            writer = open_writer(
-                path,
-                size=self.frames.size,
-                metadata=facts,
-                format=format,
-                overwrite=self._overwrite,
-            )
-            start_us = 0 if self._latest is None else self._latest.frame.t_us
-            self._recording = Recording(path, writer.__enter__(), start_us, self.frames.dropped)
-            self._error, self._recorded = None, ""
+            if self._frames.is_over or self._shown is None:
+                raise InputError("no frame comes; there is nothing to record")
+            facts = describe_run(self._camera.settings, prompt=None, source=self._source.metadata)
+            writer = open_writer(path, size=self._camera.size, metadata=facts, format=format)
+            start_us, dropped = self._shown.frame.t_us, self._frames.dropped
+            self._recording = Recording(path, writer.__enter__(), start_us, dropped, [])
 
-    def stop_recording(self, failure: Exception | None = None) -> None:
-        """Complete the recording, if there is one; after a failure its file is dropped."""
+    def stop_recording(self) -> None:
+        """Complete the recording, if there is one; its file is dropped while an error is handled.
+
+        Raises:
+            OutputError: it cannot be completed.
+        """
         with self._changed:
             recording, self._recording = self._recording, None
-            if recording is None:
-                return
-            lost, changes = self.frames.dropped - recording.dropped, recording.changes
-            try:
-                if failure is None and (lost or changes):
-                    facts = {"frames_dropped": lost, "changes": changes}
+            if recording is not None:
+                lost = self._frames.dropped - recording.dropped
+                if lost or recording.changes:
+                    facts = {"frames_dropped": lost, "changes": recording.changes}
                     recording.writer.add_metadata({"live": facts})
-                recording.writer.__exit__(failure and type(failure), failure, None)
-            except (TexventError, OSError) as error:
-                failure = error
-            if failure is None:
-                self._recorded = f"{recording.path} ({recording.events:,} events)"
-            else:
-                self._error = OutputError(f"{recording.path} was dropped: {failure}")
+                recording.writer.__exit__(*sys.exc_info())
 
     def describe(self) -> dict[str, Any]:
         """State, JSON-ready."""
         with self._changed:
-            frames, recording = self.frames, self._recording
-            error, latencies = self._error or frames.error, list(self._latencies_ms)
-            text = self._recorded and f"recorded {self._recorded}"
-            if recording is not None:
-                text = f"recording {recording.path}: {recording.seconds:.1f} s"
-                text += f", {recording.events:,} events"
-            state = "running" if self._is_ready else "starting"
+            frames, recording, latencies = self._frames, self._recording, [*self._latencies_ms]
+            state = "running" if self._steps > COMPILING_STEPS else "starting"
             return {
+                **self._model(),
                 "state": "ended" if frames.is_over else state,
-                "error": str(error) if error else "",
-                "simulator": self._settings.run.simulator,
-                "threshold": _threshold(self._settings),
+                "error": str(self._error or frames.error or ""),
                 "frames": frames.arrived - self._arrived,
                 "dropped": frames.dropped - self._dropped,
                 "latency_ms": np.percentile(latencies, (50, 95)).tolist() if latencies else [],
-                "is_recording": recording is not None,
-                "recording": text,
+                "recording": recording and str(recording.path),
             }
+
+    def _model(self) -> dict[str, Any]:
+        settings, threshold = self._camera.settings, None
+        with contextlib.suppress(ConfigError):  # some have none
+            threshold = round(contrast_threshold_of(settings.simulate), 4)
+        return {"simulator": settings.run.simulator, "contrast_threshold": threshold}
 
     def _run(self) -> None:
-        while not self.frames.is_over:
-            settings = self._settings
-            try:
-                self._simulate(settings)
-            except TexventError as error:
-                with self._changed:
-                    self._error = error
-                    if settings is self._working:
-                        self.frames.close()
-                    elif settings is self._settings:
-                        self._settings = self._working
-        self.stop_recording()
-
-    def _simulate(self, settings: Settings) -> None:
-        """Simulate frames until the settings change or there are no more."""
-        simulation = prepare_video(self.frames, settings)
-        shown, packets = 0, [EventStream.empty(self.frames.size)]
-        with closing(simulation.steps()) as steps:
-            for frame, packet in steps:
-                packets.append(packet)
-                if frame.is_source:
-                    with self._changed:
-                        self._show(frame, EventStream.concat(packets), settings, shown)
-                        if self._settings is not settings:
-                            return
-                    shown, packets = shown + 1, packets[:1]
-
-    def _show(self, frame: Frame, events: EventStream, settings: Settings, shown: int) -> None:
-        """Publish and record a frame; `shown` frames came before it with these settings."""
-        number = 1 if self._latest is None else self._latest.number + 1
-        arrived_s, self._is_ready = self.frames.arrival_s(frame.t_us), shown > 0
-        if shown < 2:  # kernels are compiled for the first pair
-            arrived_s, self._arrived, self._dropped = None, self.frames.arrived, self.frames.dropped
-            self._latencies_ms.clear()
-        self._latest = Shown(number, frame, events, arrived_s)
-        self._changed.notify_all()
-        recording, is_change = self._recording, settings is not self._working
-        self._working = settings
-        if recording is None:
-            return
-        if is_change:
-            fact = {
-                "t_us": frame.t_us - recording.start_us,
-                "simulator": settings.run.simulator,
-                "contrast_threshold": _threshold(settings),
-            }
-            recording.changes.append(fact)
         try:
-            recording.append(frame, events)
-        except (TexventError, OSError) as error:
-            self.stop_recording(error)
+            while (arrival := self._frames.take()) is not None:
+                camera, (frame, arrived_s) = self._camera, arrival
+                events = camera.step(frame.pixels, frame.t_us)
+                with self._changed:
+                    if camera is self._camera:
+                        self._show(Shown(next(self._numbers), frame, events, arrived_s))
+        except TexventError as error:
+            self._error = error
+        self._frames.close()
+        try:
+            self.stop_recording()
+        except OutputError as error:
+            self._error = error
 
-
-def _threshold(settings: Settings) -> float | None:
-    """Contrast threshold; None of a model that has none."""
-    try:
-        return round(contrast_threshold_of(settings.simulate), 4)
-    except ConfigError:
-        return None
+    def _show(self, shown: Shown) -> None:
+        self._shown = shown
+        self._changed.notify_all()
+        self._steps += 1
+        if self._steps <= COMPILING_STEPS:
+            self._arrived, self._dropped = self._frames.arrived, self._frames.dropped
+            self._latencies_ms.clear()
+        if self._recording is not None:
+            try:
+                since_start = shown.events.t - self._recording.start_us
+                self._recording.writer.append(replace(shown.events, t=since_start))
+            except (TexventError, OSError) as error:
+                self._error = error
+                with contextlib.suppress(OutputError):
+                    self.stop_recording()

@@ -10,12 +10,11 @@ import json
 import sys
 import threading
 import urllib.parse
-from abc import ABC, abstractmethod
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from http import HTTPStatus
 from http.server import BaseHTTPRequestHandler, ThreadingHTTPServer
 from importlib import resources
-from typing import Any, NamedTuple, Self
+from typing import Any, NamedTuple, Self, TypeAlias
 
 from texvent.errors import InputError, TexventError
 
@@ -36,6 +35,9 @@ POLICY = (
 NOTHING_POLICY = "default-src 'none'"
 
 
+HTML = "text/html; charset=utf-8"
+
+
 class Answer(NamedTuple):
     """Answer to a request."""
 
@@ -45,22 +47,27 @@ class Answer(NamedTuple):
     """What a browser may do with it (Content-Security-Policy)."""
 
 
-class LocalServer(ABC):
-    """A page and what its script asks for.
+Gets: TypeAlias = Mapping[str, Callable[[Mapping[str, str]], Answer | None]]
+Posts: TypeAlias = Mapping[str, Callable[[Mapping[str, Any]], None]]
+
+
+class PageServer:
+    """A page, served at once and until it is closed.
+
+    Args:
+        text: the page, HTML.
+        gets: path → its answer, given the query; None where there is nothing.
+        posts: path → action, given the values that the page's script sends; a `TexventError` is
+            what the script is told.
+        port: TCP port; 0: any free one.
 
     Raises:
         InputError: the port is taken.
     """
 
-    is_over = False
-    """Whether the page needs no server any more."""
-
-    def __init__(self, *, port: int = 0) -> None:
-        """Listen at once.
-
-        Args:
-            port: TCP port; 0: any free one.
-        """
+    def __init__(self, text: str, gets: Gets, posts: Posts, *, port: int = 0) -> None:
+        self.gets: Gets = {"/": lambda query: Answer(text, HTML, POLICY), **gets}
+        self.posts = posts
         try:
             self._server = _Server((HOST, port), _Handler)
         except OSError as error:
@@ -70,17 +77,9 @@ class LocalServer(ABC):
         self.address = f"http://{HOST}:{self._server.server_port}/"
         threading.Thread(target=self._server.serve_forever, daemon=True).start()
 
-    @abstractmethod
-    def get(self, path: str, query: Mapping[str, str]) -> Answer | None:
-        """Answer to GET of "/" or another path; None where there is nothing."""
-
-    @abstractmethod
-    def post(self, path: str, values: Mapping[str, Any]) -> bool:
-        """Do what the page's script asks for; False where there is no such action.
-
-        Raises:
-            TexventError: it cannot be done.
-        """
+    def is_over(self) -> bool:
+        """Whether the page needs no server any more."""
+        return False
 
     def close(self) -> None:
         """Stop the server."""
@@ -110,8 +109,8 @@ class _Handler(BaseHTTPRequestHandler):
     """Longest silence of a connection, s."""
 
     @property
-    def page(self) -> LocalServer:
-        page: LocalServer = self.server.page  # type: ignore[attr-defined]
+    def page(self) -> PageServer:
+        page: PageServer = self.server.page  # type: ignore[attr-defined]
         return page
 
     def do_GET(self) -> None:
@@ -119,7 +118,8 @@ class _Handler(BaseHTTPRequestHandler):
         if self._is_refused():
             return
         path, _, query = self.path.partition("?")
-        answer = self.page.get(path, dict(urllib.parse.parse_qsl(query)))
+        get = self.page.gets.get(path)
+        answer = None if get is None else get(dict(urllib.parse.parse_qsl(query)))
         if answer is None:
             self._refuse(HTTPStatus.NOT_FOUND, "there is no such page")
         else:
@@ -129,17 +129,20 @@ class _Handler(BaseHTTPRequestHandler):
         """An action."""
         if self._is_refused():
             return
+        action = self.page.posts.get(self.path.partition("?")[0])
+        if action is None:
+            self._refuse(HTTPStatus.NOT_FOUND, "there is no such action")
+            return
         try:
-            is_done = self.page.post(self.path.partition("?")[0], self._json())
+            action(self._json())
         except _RequestError as error:
             self._refuse(error.status, str(error))
         except TexventError as error:
             self._refuse(HTTPStatus.BAD_REQUEST, str(error))
+        except (KeyError, TypeError) as error:
+            self._refuse(HTTPStatus.BAD_REQUEST, f"a value is missing or unfit: {error}")
         else:
-            if is_done:
-                self._send(Answer("{}"))
-            else:
-                self._refuse(HTTPStatus.NOT_FOUND, "there is no such page")
+            self._send(Answer("{}"))
 
     def _is_refused(self) -> bool:
         """Refuse a request that names another host or comes from another page."""
@@ -205,8 +208,3 @@ def page_text(name: str, choices: Mapping[str, Any]) -> str:
     template, style = (folder.joinpath(one).read_text("utf-8") for one in (name, "style.css"))
     names = json.dumps(choices).replace("<", "\\u003c")
     return template.replace("{{style}}", style).replace("{{choices}}", names)
-
-
-def html_answer(text: str) -> Answer:
-    """The page itself as an answer."""
-    return Answer(text, "text/html; charset=utf-8", POLICY)

@@ -13,8 +13,8 @@ from typing import ClassVar
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
-from texvent.web.job_page import PageServer
-from texvent.web.server import LocalServer
+from texvent.web.job_page import JobServer
+from texvent.web.server import PageServer
 
 DESCRIPTION = """Open the web page: type a prompt or the path of a video, look at the events,
 download them. Only this machine can reach the page."""
@@ -43,10 +43,10 @@ def run(arguments: Sequence[str]) -> int:
     (options,) = parse_configs(
         arguments, {"page": PageOptions()}, prog="texvent app", description=DESCRIPTION
     )
-    return serve(PageServer(port=options.port), options)
+    return serve(JobServer(port=options.port), options)
 
 
-def serve(server: LocalServer, options: PageOptions) -> int:
+def serve(server: PageServer, options: PageOptions) -> int:
     """Show a page until Ctrl-C, SIGTERM, or the page needs it no more; returns the exit code."""
     stop = threading.Event()
     before = signal.signal(signal.SIGTERM, lambda number, frame: stop.set())
@@ -59,7 +59,7 @@ def serve(server: LocalServer, options: PageOptions) -> int:
                 webbrowser.open(server.address)
             try:
                 # In turns: on Windows Ctrl-C does not end a wait.
-                while not (server.is_over or stop.wait(WAIT_S)):
+                while not (server.is_over() or stop.wait(WAIT_S)):
                     pass
             except KeyboardInterrupt:
                 stop.set()
