@@ -18,8 +18,10 @@ from texvent.view.drawing.palettes import PALETTES
 from texvent.web.live import LiveEvents, Shown
 from texvent.web.server import Answer, PageServer, page_text
 
-WAIT_S, GRACE_S = 1.0, 2.0
-"""How long a request waits for the next frame, and a page that was closed may be opened again."""
+WAIT_S = 1.0
+"""How long a request waits for the next frame."""
+GRACE_S, SILENCE_S = 2.0, 60.0
+"""How long a page may ask for nothing after it said that it closes, and at any time."""
 PICTURE_WIDTH = 960
 """Widest picture of the camera, pixels."""
 
@@ -52,8 +54,8 @@ class LiveServer(PageServer):
 
     def is_over(self) -> bool:
         """Whether the page was closed, and not opened again."""
-        last_s = max(self._left_s, self._asked_s)
-        return self._left_s > 0.0 and time.monotonic() - last_s > GRACE_S
+        silence_s = time.monotonic() - max(self._left_s, self._asked_s)
+        return self._asked_s > 0.0 and silence_s > (GRACE_S if self._left_s else SILENCE_S)
 
     def close(self) -> None:
         """Complete the recording and stop the server."""
