@@ -22,7 +22,8 @@ from texvent.io.block_writer import BlockWriter
 from texvent.io.files import open_writer
 from texvent.settings.provenance import describe_run
 from texvent.simulate.model_options import contrast_threshold_of
-from texvent.video import Frame, FrameStream
+from texvent.transfer import Transfer
+from texvent.video import Frame, FrameStream, transfer_of
 from texvent.web.newest_frames import NewestFrames
 
 MEASURED_FRAMES = 300
@@ -49,8 +50,6 @@ class Recording(NamedTuple):
     start_us: int
     dropped: int
     """Frames that were dropped before it began."""
-    changes: list[dict[str, Any]]
-    """Models that it did not begin with, and from when on."""
 
 
 class LiveEvents:
@@ -65,6 +64,8 @@ class LiveEvents:
     """
 
     def __init__(self, source: FrameStream, options: Mapping[str, Any]) -> None:
+        if transfer_of(source) is Transfer.LINEAR:
+            options = {**options, "transfer": "linear"}
         self._source, self._options = source, options
         self._camera = EventCamera(source.size, **options)
         self._steps = self._arrived = self._dropped = 0
@@ -72,18 +73,25 @@ class LiveEvents:
         self._shown: Shown | None = None
         self._latencies_ms: deque[float] = deque(maxlen=MEASURED_FRAMES)
         self._recording: Recording | None = None
-        self._error: BaseException | None = None
+        self._error: Exception | None = None
         self._changed = threading.Condition(threading.RLock())
         self._frames = NewestFrames(source)
         self._thread = threading.Thread(target=self._run, daemon=True)
         self._thread.start()
 
     def close(self) -> None:
-        """End; a recording is completed."""
+        """End; a recording is completed.
+
+        Raises:
+            TexventError: why it could not be, or why the events ended before.
+        """
         self._frames.close()
         self._thread.join()
+        error = self._error or self._frames.error
+        if error is not None:
+            raise error
 
-    def wait(self, number: int, timeout_s: float) -> Shown | None:
+    def wait(self, number: float, timeout_s: float) -> Shown | None:
         """The latest frame, once it is another than `number`; None if none comes in time."""
 
         def newer() -> Shown | None:
@@ -101,15 +109,14 @@ class LiveEvents:
         """Use another model from the next frame on; without a threshold, its own.
 
         Raises:
-            ConfigError, InputError: as `EventCamera`.
+            ConfigError: as `EventCamera`.
+            InputError: as `EventCamera`; or a recording runs, which is of one model.
         """
         model = {"simulator": simulator, "contrast_threshold": contrast_threshold}
         camera = EventCamera(self._source.size, **{**self._options, **model})
         with self._changed:
+            self._refuse_recording()
             self._camera, self._steps, self._error = camera, 0, None
-            if self._recording is not None and self._shown is not None:
-                since_us = self._shown.frame.t_us - self._recording.start_us
-                self._recording.changes.append({"t_us": since_us, **self._model()})
 
     def record(self, path: Path, format: str) -> None:
         """Begin to record the events to a file.
@@ -119,14 +126,19 @@ class LiveEvents:
             InputError: a recording runs already, or no frame comes.
         """
         with self._changed:
-            if self._recording is not None:
-                raise InputError(f"{self._recording.path} is being recorded; stop it first")
+            self._refuse_recording()
             if self._frames.is_over or self._shown is None:
                 raise InputError("no frame comes; there is nothing to record")
+            if path.exists():
+                raise OutputError(f"{path} exists already; choose another name")
             facts = describe_run(self._camera.settings, prompt=None, source=self._source.metadata)
             writer = open_writer(path, size=self._camera.size, metadata=facts, format=format)
             start_us, dropped = self._shown.frame.t_us, self._frames.dropped
-            self._recording = Recording(path, writer.__enter__(), start_us, dropped, [])
+            self._recording = Recording(path, writer.__enter__(), start_us, dropped)
+
+    def _refuse_recording(self) -> None:
+        if self._recording is not None:
+            raise InputError(f"{self._recording.path} is being recorded; stop it first")
 
     def stop_recording(self) -> None:
         """Complete the recording, if there is one; its file is dropped while an error is handled.
@@ -138,9 +150,8 @@ class LiveEvents:
             recording, self._recording = self._recording, None
             if recording is not None:
                 lost = self._frames.dropped - recording.dropped
-                if lost or recording.changes:
-                    facts = {"frames_dropped": lost, "changes": recording.changes}
-                    recording.writer.add_metadata({"live": facts})
+                if lost:
+                    recording.writer.add_metadata({"frames_dropped": lost})
                 recording.writer.__exit__(*sys.exc_info())
 
     def describe(self) -> dict[str, Any]:
@@ -148,21 +159,19 @@ class LiveEvents:
         with self._changed:
             frames, recording, latencies = self._frames, self._recording, [*self._latencies_ms]
             state = "running" if self._steps > COMPILING_STEPS else "starting"
+            settings, threshold = self._camera.settings, None
+            with contextlib.suppress(ConfigError):  # some models have none
+                threshold = round(contrast_threshold_of(settings.simulate), 4)
             return {
-                **self._model(),
                 "state": "ended" if frames.is_over else state,
                 "error": str(self._error or frames.error or ""),
+                "simulator": settings.run.simulator,
+                "contrast_threshold": threshold,
                 "frames": frames.arrived - self._arrived,
                 "dropped": frames.dropped - self._dropped,
                 "latency_ms": np.percentile(latencies, (50, 95)).tolist() if latencies else [],
                 "recording": recording and str(recording.path),
             }
-
-    def _model(self) -> dict[str, Any]:
-        settings, threshold = self._camera.settings, None
-        with contextlib.suppress(ConfigError):  # some have none
-            threshold = round(contrast_threshold_of(settings.simulate), 4)
-        return {"simulator": settings.run.simulator, "contrast_threshold": threshold}
 
     def _run(self) -> None:
         try:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import json
 import time
 from collections.abc import Mapping
@@ -58,9 +59,9 @@ class LiveServer(PageServer):
         return self._asked_s > 0.0 and silence_s > (GRACE_S if self._left_s else SILENCE_S)
 
     def close(self) -> None:
-        """Complete the recording and stop the server."""
-        self._live.close()
+        """Stop the server and complete the recording; errors as `LiveEvents.close`."""
         super().close()
+        self._live.close()
 
     def _leave(self, values: Mapping[str, Any]) -> None:
         self._left_s = time.monotonic()
@@ -70,14 +71,17 @@ class LiveServer(PageServer):
         self._asked_s = time.monotonic()
         if self._asked_s - self._left_s > GRACE_S:
             self._left_s = 0.0  # it was loaded again, or is open twice
-        try:
-            drawn, arrived_s = int(query["drawn"]), float(query["arrived"])
-        except (KeyError, ValueError):
-            drawn = 0
-        else:
+        arrived_s = _number(query, "arrived")
+        if arrived_s:
             self._live.note_drawn(arrived_s)
-        frame = self._live.wait(drawn, WAIT_S)
+        frame = self._live.wait(_number(query, "drawn"), WAIT_S)
         return Answer(json.dumps({**self._live.describe(), **(_pictures(frame) if frame else {})}))
+
+
+def _number(query: Mapping[str, str], name: str) -> float:
+    with contextlib.suppress(ValueError):
+        return float(query.get(name, ""))
+    return 0.0
 
 
 def _pictures(one: Shown) -> dict[str, Any]:

@@ -55,10 +55,10 @@ class NewestFrames:
             self._changed.notify_all()
 
     def _read(self) -> None:
-        shift_us = 0
+        begun_s, shift_us = time.perf_counter(), 0
         try:
             while not self._stop.is_set():
-                shift_us += self._play(shift_us)
+                shift_us += self._play(begun_s, shift_us)
                 if self._source.is_live:
                     break
         except TexventError as error:
@@ -66,13 +66,13 @@ class NewestFrames:
         finally:
             self._end()
 
-    def _play(self, shift_us: int) -> int:
+    def _play(self, begun_s: float, shift_us: int) -> int:
         """Read the source once; returns how long it lasts, its last frame included, µs."""
-        begun_s, first_us, last_us, interval_us = time.perf_counter(), None, 0, 0
+        first_us, last_us, interval_us = None, 0, 0
         for frame in self._source:
             first_us = frame.t_us if first_us is None else first_us
             if not self._source.is_live:
-                due_s = begun_s + (frame.t_us - first_us) / MICROSECONDS
+                due_s = begun_s + (frame.t_us - first_us + shift_us) / MICROSECONDS
                 self._stop.wait(max(0.0, due_s - time.perf_counter()))
             if self._stop.is_set():
                 break
