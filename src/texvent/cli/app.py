@@ -44,7 +44,7 @@ COMMANDS = {
     ),
     "live": (
         "texvent.cli.simulation.live",
-        "A camera or video beside its events in the browser, recorded at will.",
+        "A camera or video beside its events in the browser.",
     ),
     "info": (
         "texvent.cli.event_files.info",
