@@ -38,30 +38,26 @@ def test_a_prompt_gives_a_preview_and_a_viewer_and_a_mistake_one_line(browser, r
         assert "PROMPT must not be empty" in status.text
 
 
-def test_the_live_page_shows_latency_records_and_says_that_it_closes(
-    browser, requests_made, tmp_path
-):
+def test_the_live_page_shows_latency_records_and_says_that_it_closes(browser, tmp_path):
     live = LiveEvents(open_frames(CLIP, CaptureConfig()), {"simulator": "esim"})
     with LiveServer(live, "clip.mp4") as page:
         browser.get(page.address)
         at, wait = (lambda name: browser.find_element("id", name)), WebDriverWait(browser, WAIT_S)
         wait.until(lambda _: at("median").text.endswith(" ms"))
         assert at("events").get_attribute("naturalWidth") == "320"
-        assert at("simulator").get_attribute("value") == "esim"
         at("file").clear()
         at("file").send_keys(str(tmp_path / "no" / "a.h5"))
         at("record").click()
         wait.until(lambda _: "does not exist" in at("error").text)
-        browser.execute_script("arguments[0].value = arguments[1]", at("file"), str(tmp_path / "a"))
-        browser.execute_script("document.getElementById('format').value = 'npz'")
-        browser.execute_script("document.getElementById('format').onchange()")
+        at("file").clear()
+        at("file").send_keys(str(tmp_path / "a.h5"))
+        at("format").send_keys("npz")
         at("record").click()
         wait.until(lambda _: at("record").text == "Stop")
         assert not at("simulator").is_enabled()
         at("record").click()
         wait.until(lambda _: at("status").text == f"Recorded {tmp_path}/a.npz.")
         assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
-        assert [url for url in requests_made() if not url.startswith(page.address)] == []
         assert not page.is_over()
         browser.get("about:blank")
         wait.until(lambda _: page.is_over())

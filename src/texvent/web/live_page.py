@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent._registry import SIMULATORS
+from texvent.errors import InputError
 from texvent.io.files import extension_of, writable_formats
 from texvent.represent.event_frame import event_frame
 from texvent.view.drawing.canvas import jpeg_bytes, png_bytes, shrink
@@ -51,7 +52,11 @@ class LiveServer(PageServer):
             "/leave": self._leave,
         }
         text = page_text("live_page.html", choices)
-        super().__init__(text, {"/next": self._next}, posts, port=port)
+        try:
+            super().__init__(text, {"/next": self._next}, posts, port=port)
+        except InputError:
+            live.close()
+            raise
 
     def is_over(self) -> bool:
         """Whether the page was closed, and not opened again."""
@@ -92,10 +97,6 @@ def _pictures(one: Shown) -> dict[str, Any]:
         "arrived": one.arrived_s,
         "t_s": one.frame.t_us / 1e6,
         "events": len(one.events),
-        "camera_picture": _data_url("jpeg", camera),
-        "events_picture": _data_url("png", png_bytes(events, level=1)),
+        "camera_jpeg": base64.b64encode(camera).decode(),
+        "events_png": base64.b64encode(png_bytes(events, level=1)).decode(),
     }
-
-
-def _data_url(kind: str, data: bytes) -> str:
-    return f"data:image/{kind};base64,{base64.b64encode(data).decode()}"
