@@ -90,7 +90,7 @@ def test_events_are_those_of_the_event_camera_and_a_recording_holds_them(source,
     with pytest.raises(InputError, match="no events come"):
         live.record(tmp_path / "a.raw", "evt3")
     assert all(step(live, source, number).equals(expected[number]) for number in range(3))
-    with pytest.raises(OutputError, match="exists already; choose another name$"):
+    with pytest.raises(OutputError, match=r"exists already; choose another name$"):
         live.record(tmp_path, "hdf5")
     live.record(tmp_path / "a.raw", "evt3")
     with pytest.raises(InputError, match="is being recorded"):
