@@ -135,20 +135,20 @@ class LiveEvents:
             facts = describe_run(self._camera.settings, prompt=None, source=self._source.metadata)
             writer = open_writer(path, size=self._camera.size, metadata=facts, format=format)
             self._writer, self._recording = writer.__enter__(), path
-            self._start_us, self._lost = self._shown.frame.t_us, 0
+            self._start_us, self._lost, self._error = self._shown.frame.t_us, 0, None
 
     def stop_recording(self) -> None:
-        """Complete the recording, if there is one; its file is dropped while an error is handled.
-
-        Raises:
-            OutputError: it cannot be completed.
-        """
+        """Complete the recording, if there is one; while an error is handled, drop its file."""
         with self._changed:
-            is_recording, self._recording = self._recording is not None, None
-            if is_recording and self._lost:
-                self._writer.add_metadata({"frames_dropped": self._lost})
-            if is_recording:
+            if self._recording is None:
+                return
+            self._recording = None
+            try:
+                if self._lost:
+                    self._writer.add_metadata({"frames_dropped": self._lost})
                 self._writer.__exit__(*sys.exc_info())
+            except (TexventError, OSError) as error:
+                self._error = error
 
     def describe(self) -> dict[str, Any]:
         """State, JSON-ready."""
@@ -182,9 +182,9 @@ class LiveEvents:
         try:
             for frame in self._source if self._source.is_live else self._play():
                 with self._changed:
-                    is_late = self._waiting is not None
-                    self._arrived, self._dropped = self._arrived + 1, self._dropped + is_late
-                    self._lost += is_late
+                    self._arrived += 1
+                    self._dropped += self._waiting is not None
+                    self._lost += self._waiting is not None
                     self._waiting = frame, time.perf_counter()
                     self._changed.notify_all()
                 if self._stop.is_set():
@@ -229,10 +229,7 @@ class LiveEvents:
             self._error = error
         self._stop.set()
         self._end()
-        try:
-            self.stop_recording()
-        except OutputError as error:
-            self._error = error
+        self.stop_recording()
 
     def _show(self, shown: Shown) -> None:
         self._shown = shown
@@ -247,5 +244,4 @@ class LiveEvents:
                 self._writer.append(replace(shown.events, t=since_start))
             except (TexventError, OSError) as error:
                 self._error = error
-                with contextlib.suppress(OutputError):
-                    self.stop_recording()
+                self.stop_recording()
