@@ -1,5 +1,9 @@
-"""Frames given one by one give the events of the whole video."""
+"""Frames given one by one give the events of the whole video; a loop can be closed over them."""
 
+import runpy
+from pathlib import Path
+
+import matplotlib
 import numpy as np
 import pytest
 
@@ -7,6 +11,7 @@ import texvent
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 
+PENDULUM = Path(__file__).parents[1] / "docs" / "examples" / "plot_17_pendulum.py"
 FRAMES = np.random.default_rng(7).integers(0, 256, (4, 12, 16), dtype=np.uint8)
 TIMES = [0, 20_000, 40_000, 70_000]
 
@@ -82,3 +87,12 @@ def test_a_camera_that_ended_takes_no_frame_before_a_reset(end):
         camera.step(FRAMES[1], 20_000)
     camera.reset()
     assert len(camera.step(FRAMES[0], 0)) == 0
+
+
+def test_a_controller_that_sees_only_events_keeps_a_rod_upright():
+    with matplotlib.rc_context({"backend": "agg"}):
+        ran = runpy.run_path(str(PENDULUM))
+    assert len(ran["upright"]) == ran["STEPS"]
+    assert np.abs(ran["upright"]).max() < np.radians(8)
+    assert np.abs(ran["fallen"][-1]) > np.radians(90)
+    assert len(ran["fallen"]) < ran["STEPS"]

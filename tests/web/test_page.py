@@ -16,8 +16,8 @@ from urllib.parse import urlsplit
 import pytest
 
 import texvent
-from texvent.web.job import Job
-from texvent.web.server import CALL_BYTES, PageServer, page_html
+from texvent.web.job_page import Job, JobServer, page_html
+from texvent.web.server import CALL_BYTES
 
 CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 SCENE = {"generator": "procedural", "duration": "0.1", "sensor": "48x36", "seed": "3"}
@@ -25,7 +25,7 @@ SCENE = {"generator": "procedural", "duration": "0.1", "sensor": "48x36", "seed"
 
 @pytest.fixture
 def page():
-    with PageServer() as server:
+    with JobServer() as server:
         yield server
     assert not server.folder.exists()
 

@@ -1,14 +1,21 @@
-"""The script of the page, in a browser."""
+"""The scripts of the pages, in a browser."""
+
+from pathlib import Path
 
 from selenium.webdriver.support.wait import WebDriverWait
 
-from texvent.web.server import PageServer
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
+from texvent.web.job_page import JobServer
+from texvent.web.live import LiveEvents
+from texvent.web.live_page import LiveServer
 
+CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 WAIT_S = 300
 
 
 def test_a_prompt_gives_a_preview_and_a_viewer_and_a_mistake_one_line(browser, requests_made):
-    with PageServer() as page:
+    with JobServer() as page:
         browser.get(page.address)
         status = browser.find_element("id", "status")
         for name, value in (("duration", "0.1"), ("seed", "3")):
@@ -29,3 +36,28 @@ def test_a_prompt_gives_a_preview_and_a_viewer_and_a_mistake_one_line(browser, r
         browser.find_element("id", "make").click()
         wait.until(lambda _: "failed" in status.get_attribute("class"))
         assert "PROMPT must not be empty" in status.text
+
+
+def test_the_live_page_shows_latency_records_and_says_that_it_closes(browser, tmp_path):
+    live = LiveEvents(open_frames(CLIP, CaptureConfig()), {"simulator": "esim"})
+    with LiveServer(live, "clip.mp4") as page:
+        browser.get(page.address)
+        at, wait = (lambda name: browser.find_element("id", name)), WebDriverWait(browser, WAIT_S)
+        wait.until(lambda _: at("median").text.endswith(" ms"))
+        assert at("events").get_attribute("naturalWidth") == "320"
+        at("file").clear()
+        at("file").send_keys(str(tmp_path / "no" / "a.h5"))
+        at("record").click()
+        wait.until(lambda _: "does not exist" in at("error").text)
+        at("file").clear()
+        at("file").send_keys(str(tmp_path / "a.h5"))
+        at("format").send_keys("npz")
+        at("record").click()
+        wait.until(lambda _: at("record").text == "Stop")
+        assert not at("simulator").is_enabled()
+        at("record").click()
+        wait.until(lambda _: at("status").text == f"Recorded {tmp_path}/a.npz.")
+        assert [path.name for path in tmp_path.iterdir()] == ["a.npz"]
+        assert not page.is_over()
+        browser.get("about:blank")
+        wait.until(lambda _: page.is_over())

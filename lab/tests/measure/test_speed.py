@@ -6,9 +6,9 @@ import pytest
 
 from texvent.sensor import SensorSize
 from texvent_lab.bench.document import describe_environment, read_document
-from texvent_lab.measure.speed import kernels, scenes
+from texvent_lab.measure.speed import kernels, runs, scenes
 from texvent_lab.measure.speed.peers import Peer, match_count, measure_duel
-from texvent_lab.measure.speed.runs import measure_run
+from texvent_lab.measure.speed.runs import measure_run, measure_steps
 from texvent_lab.measure.speed.tables import as_markdown
 
 ROOT = Path(__file__).parents[3]
@@ -45,12 +45,17 @@ def test_small_rows_of_every_kind_become_tables(monkeypatch):
     assert duel["peers"][1]["installed"] is False
     run = measure_run(scenes.EXCERPT, "excerpt", interpolate="none", pairs=1)
     assert run["events_per_pair"] > 0
+    monkeypatch.setattr(runs, "STEP_SIZES", (SensorSize(64, 48),))
+    steps = measure_steps(steps=2)
+    assert [row["model"] for row in steps] == ["texvent", "esim", "v2e"]
+    assert all(0 < row["ms_median"] <= row["ms_p95"] for row in steps)
     document = {
         "environment": describe_environment(),
         "load_at_start": 0.5,
         "load_at_end": 0.5,
         "kernels": rows,
         "runs": [run],
+        "steps": steps,
         "peers": [duel],
         "startup": {
             "help_cpu_s": SPREAD,
@@ -63,6 +68,7 @@ def test_small_rows_of_every_kind_become_tables(monkeypatch):
     text = as_markdown(document)
     assert "| texvent | 64x48 | 20.0% | clip |" in text
     assert "| not installed (no module) |" in text
+    assert f"| v2e | 64x48 | {steps[2]['events_per_step']:,.0f} | " in text
 
 
 def test_the_stored_result_has_tables():

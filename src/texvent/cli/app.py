@@ -42,6 +42,10 @@ COMMANDS = {
         "texvent.cli.simulation.web",
         "The web page: prompt or video in, events out.",
     ),
+    "live": (
+        "texvent.cli.simulation.live",
+        "A camera or video beside its events in the browser.",
+    ),
     "info": (
         "texvent.cli.event_files.info",
         "What an event file or video holds, and how it was made.",

@@ -1,1 +1,1 @@
-"""Local web page: prompts and videos in, events out; only this machine can reach it."""
+"""Local web pages, which only this machine can reach: events made, events live."""

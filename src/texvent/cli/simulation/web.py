@@ -13,6 +13,7 @@ from typing import ClassVar
 from texvent.cli.notices import write_out
 from texvent.cli.options import parse_configs
 from texvent.config import check_range
+from texvent.web.job_page import JobServer
 from texvent.web.server import PageServer
 
 DESCRIPTION = """Open the web page: type a prompt or the path of a video, look at the events,
@@ -21,7 +22,7 @@ WAIT_S = 0.5
 
 
 @dataclass(frozen=True, kw_only=True)
-class AppOptions:
+class PageOptions:
     """Where the page is served."""
 
     short_flags: ClassVar[Mapping[str, str]] = {"quiet": "-q"}
@@ -40,20 +41,25 @@ class AppOptions:
 def run(arguments: Sequence[str]) -> int:
     """Serve until Ctrl-C or SIGTERM; returns the exit code."""
     (options,) = parse_configs(
-        arguments, {"page": AppOptions()}, prog="texvent app", description=DESCRIPTION
+        arguments, {"page": PageOptions()}, prog="texvent app", description=DESCRIPTION
     )
+    return serve(JobServer(port=options.port), options)
+
+
+def serve(server: PageServer, options: PageOptions) -> int:
+    """Show a page until Ctrl-C, SIGTERM, or the page needs it no more; returns the exit code."""
     stop = threading.Event()
     before = signal.signal(signal.SIGTERM, lambda number, frame: stop.set())
     try:
-        with PageServer(port=options.port) as page:
+        with server:
             if not options.quiet:
-                write_out(f"{page.address}\npress Ctrl-C to stop\n")
+                write_out(f"{server.address}\npress Ctrl-C to stop\n")
                 sys.stdout.flush()
             if options.browser:
-                webbrowser.open(page.address)
+                webbrowser.open(server.address)
             try:
                 # In turns: on Windows Ctrl-C does not end a wait.
-                while not stop.wait(WAIT_S):
+                while not (server.is_over() or stop.wait(WAIT_S)):
                     pass
             except KeyboardInterrupt:
                 stop.set()

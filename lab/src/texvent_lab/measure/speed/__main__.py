@@ -11,7 +11,7 @@ from typing import Any
 from texvent_lab.bench.document import describe_environment, read_document, write_document
 from texvent_lab.measure.speed.kernels import FULL, QUICK, measure_kernels
 from texvent_lab.measure.speed.peers import run_on_one_core
-from texvent_lab.measure.speed.runs import measure_runs, measure_startup
+from texvent_lab.measure.speed.runs import measure_runs, measure_startup, measure_steps
 from texvent_lab.measure.speed.tables import as_markdown
 
 
@@ -49,6 +49,7 @@ def measure(*, quick: bool, video: Path | None) -> dict[str, Any]:
         "load_at_start": round(load, 2),
         "kernels": measure_kernels(QUICK if quick else FULL),
         "runs": measure_runs(video, pairs=4 if quick else 20),
+        "steps": measure_steps(steps=20 if quick else 100),
         "peers": run_on_one_core(quick=quick, video=video),
         "startup": measure_startup(quick=quick),
         "load_at_end": round(os.getloadavg()[0], 2),

@@ -1,4 +1,4 @@
-"""Whole runs: time per pair of source frames from a video file to an event file, and start-up."""
+"""Whole runs: time per pair of source frames or step of an event camera, and from launch."""
 
 from __future__ import annotations
 
@@ -14,18 +14,22 @@ from pathlib import Path
 from typing import Any
 
 import av
+import numpy as np
 
 from texvent.capture.open import open_frames
+from texvent.event_camera import EventCamera
 from texvent.io.files import open_writer
 from texvent.pipeline import video_to_events
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
-from texvent_lab.measure.speed.scenes import EXCERPT, Bytes, embedded_heavy_clip
-from texvent_lab.measure.speed.timing import quartiles, rounded
+from texvent_lab.measure.speed.scenes import EXCERPT, Bytes, embedded_heavy_clip, to_and_fro
+from texvent_lab.measure.speed.timing import quartiles, rounded, seconds
 
 WARM_UP_PAIRS = 2
 """Pairs that are not timed: kernels load."""
+STEP_SIZES = (SensorSize(346, 260), SensorSize(640, 480))
+STEP_MODELS = ("texvent", "esim", "v2e")
 HD, HD_FPS = SensorSize(1280, 720), Fraction(25)
 CLIP_SIZE, CLIP_FRAMES = SensorSize(640, 360), 50
 """Of the clip of two seconds whose first events are timed."""
@@ -90,6 +94,29 @@ def measure_run(clip: Path, name: str, *, interpolate: str, pairs: int) -> dict[
         "events_per_pair": rounded(events / (len(ends) - 1)),
         "ms_per_pair": rounded((ends[-1] - ends[WARM_UP_PAIRS]) * 1e3 / pairs),
     }
+
+
+def measure_steps(*, steps: int) -> list[dict[str, Any]]:
+    """A row per size and model: latency of `EventCamera.step`, heavy motion, default options."""
+    rows = []
+    for size in STEP_SIZES:
+        clip = embedded_heavy_clip(size).pixels
+        for model in STEP_MODELS:
+            frames, events = to_and_fro(clip), []
+            with EventCamera(size, simulator=model) as camera:
+
+                def step() -> None:
+                    frame = next(frames)  # noqa: B023  (called in this turn)
+                    events.append(len(camera.step(frame.pixels, frame.t_us)))  # noqa: B023
+
+                times = [seconds(step) for _ in range(WARM_UP_PAIRS + 1 + steps)]
+            median, late = np.percentile(times[-steps:], (50, 95)).tolist()
+            rows.append({
+                "model": model, "size": str(size), "steps": steps,
+                "events_per_step": rounded(sum(events[-steps:]) / steps),
+                "ms_median": rounded(median * 1e3), "ms_p95": rounded(late * 1e3),
+            })  # fmt: skip
+    return rows
 
 
 def write_video(path: Path, frames: Bytes) -> Path:

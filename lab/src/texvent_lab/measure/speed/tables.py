@@ -19,6 +19,8 @@ STARTUP = {
 def as_markdown(document: Document) -> str:
     """All tables of a document."""
     parts = [_conditions(document), _kernels(document), _runs(document), _peers(document)]
+    if "steps" in document:  # not in older results
+        parts.append(_steps(document))
     startup = document["startup"]
     rows = [
         (text, _spread(startup[name]) if isinstance(startup[name], dict) else f"{startup[name]:g}")
@@ -66,6 +68,18 @@ def _runs(document: Document) -> str:
     ]  # fmt: skip
     head = ("clip", "size", "interpolate", "events", "ms")
     return f"## Runs, per pair of source frames\n\n{markdown_table(head, rows)}"
+
+
+def _steps(document: Document) -> str:
+    rows = [
+        (
+            row["model"], row["size"], f"{row['events_per_step']:,.0f}", f"{row['ms_median']:g}",
+            f"{row['ms_p95']:g}",
+        )
+        for row in document["steps"]
+    ]  # fmt: skip
+    head = ("model", "size", "events", "ms, median", "ms, 95 %")
+    return f"## Steps of `texvent.EventCamera`\n\n{markdown_table(head, rows)}"
 
 
 def _peers(document: Document) -> str:

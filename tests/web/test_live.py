@@ -1,0 +1,135 @@
+"""Live events: none waits in a queue, recordings are whole, the page asks and leaves."""
+
+from __future__ import annotations
+
+import json
+import queue
+import signal
+import sys
+import time
+import urllib.request
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.cli.running import refused
+
+import texvent
+from texvent.capture.open import open_frames
+from texvent.config import CaptureConfig
+from texvent.errors import InputError, OutputError
+from texvent.sensor import SensorSize
+from texvent.video import Frame
+from texvent.web.live import LiveEvents
+from texvent.web.live_page import LiveServer
+
+CLIP = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
+FRAMES = np.random.default_rng(3).integers(0, 256, (6, 12, 16), dtype=np.uint8)
+
+
+class Fed:
+    """Live source of the frames that a test feeds, 10 ms apart."""
+
+    size, fps, frame_count, is_live, metadata = SensorSize(16, 12), None, None, True, {}
+
+    def __init__(self):
+        self.waiting = queue.Queue()
+
+    def feed(self, *numbers):
+        for number in numbers:
+            self.waiting.put(Frame(FRAMES[number % len(FRAMES)], 10_000 * number))
+
+    def __iter__(self):
+        return iter(self.waiting.get, None)
+
+
+@pytest.fixture
+def source():
+    fed = Fed()
+    yield fed
+    fed.waiting.put(None)  # lets the reading thread end
+
+
+def step(live, source, number):
+    """The events shown for a frame."""
+    source.feed(number)
+    return live.wait(number, 60.0).events
+
+
+def test_frames_that_come_faster_than_they_are_simulated_are_dropped_and_counted(source):
+    live = LiveEvents(source, {"simulator": "esim"})
+    for number in range(4):
+        step(live, source, number)
+    before = live.describe()["frames"]
+    source.feed(*range(4, 1000))
+    source.waiting.put(None)
+    live._threads[0].join()
+    state, last = live.describe(), live.wait(0, 0)
+    assert last.frame.t_us == 9_990_000
+    assert (state["state"], state["frames"] - before) == ("ended", 996)
+    assert state["dropped"] == 996 - (last.number - 4) > 0
+    live.close()
+
+
+def test_a_recording_plays_at_its_own_rate_and_again_with_times_that_run_on():
+    begun, number, times = time.perf_counter(), 0, []
+    live = LiveEvents(open_frames(FRAMES[:3], CaptureConfig(fps=20)), {})
+    while not times or times[-1] < 200_000:
+        shown = live.wait(number, 60.0)
+        number, times = shown.number, [*times, shown.frame.t_us]
+        assert time.perf_counter() - begun >= times[-1] / 1e6
+    live.close()
+    assert times == sorted({*times})
+    assert set(times) <= {*range(0, 60_000_000, 50_000)}
+
+
+def test_events_are_those_of_the_event_camera_and_a_recording_holds_them(source, tmp_path):
+    whole = texvent.EventCamera("16x12", simulator="esim")
+    expected = [whole.step(frame, 10_000 * number) for number, frame in enumerate(FRAMES)]
+    live = LiveEvents(source, {"simulator": "esim"})
+    with pytest.raises(InputError, match="no events come"):
+        live.record(tmp_path / "a.raw", "evt3")
+    assert all(step(live, source, number).equals(expected[number]) for number in range(3))
+    with pytest.raises(OutputError, match=r"exists already; choose another name$"):
+        live.record(tmp_path, "hdf5")
+    live.record(tmp_path / "a.raw", "evt3")
+    with pytest.raises(InputError, match="is being recorded"):
+        live.change("v2e", None)
+    for number in (3, 4):
+        step(live, source, number)
+    live.stop_recording()
+    stored, both = texvent.load(tmp_path / "a.raw"), texvent.EventStream.concat(expected[3:5])
+    assert np.array_equal(np.c_[stored.t + 20_000, stored.x], np.c_[both.t, both.x])
+    live.change("v2e", 0.3)
+    assert len(step(live, source, 5)) == 0  # another camera, its first frame
+    state = live.describe()
+    assert (state["simulator"], state["contrast_threshold"]) == ("v2e", 0.3)
+    live.close()
+    assert [path.name for path in tmp_path.iterdir()] == ["a.raw"]
+
+
+def test_ctrl_c_completes_the_recording(tmp_path, spawn):
+    words = [sys.executable, "-m", "texvent.cli.app", "live", str(CLIP), "--no-browser"]
+    command = spawn(words, stdout=-1, text=True, cwd=tmp_path)
+    address = command.stdout.readline().strip()
+    state = {"state": "starting"}
+    while state["state"] == "starting":
+        state = json.loads(urllib.request.urlopen(f"{address}next", timeout=120).read())
+    body = json.dumps({"file": "a.aedat4", "format": "aedat4"}).encode()
+    urllib.request.urlopen(f"{address}record", body)
+    time.sleep(0.5)
+    command.send_signal(signal.SIGINT)
+    assert command.wait(60) == 0
+    assert len(texvent.load(tmp_path / "a.aedat4")) > 0
+    assert [path.name for path in tmp_path.iterdir()] == ["a.aedat4"]
+
+
+def test_bad_input_is_one_line(capsys, source):
+    assert "no such camera: /dev/video77" in refused(capsys, "live", "/dev/video77")
+    assert "unknown simulator 'nosuch'" in refused(capsys, "live", CLIP, "--simulator", "nosuch")
+    with LiveServer(LiveEvents(source, {}), "camera") as page:
+        source.feed(0)
+        ask = [urllib.request.urlopen(f"{page.address}next?drawn={n}").read() for n in (0, 1)]
+        assert ["number" in json.loads(answer) for answer in ask] == [True, False]
+        port = page.address.rstrip("/").rpartition(":")[2]
+        assert f"port {port}: " in refused(capsys, "live", CLIP, "--port", port)
