@@ -33,6 +33,7 @@ DAMAGE = (OSError, ValueError, TypeError, LookupError, AttributeError, Arithmeti
           RecursionError)  # fmt: skip
 """Readers raise any of these on a damaged file."""
 LARGEST = 1e6
+"""Sides of boxes are below this, px."""
 FARTHEST = 3.0
 """A box that moves by more of its diagonals from frame to frame is that of another object; a car
 that crosses the picture in a quarter of a second moves by less than one."""
