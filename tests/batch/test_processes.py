@@ -10,7 +10,7 @@ import pytest
 PROGRAM = """
 import os, sys, time
 from pathlib import Path
-from texvent.batch.processes import interruptible, processes, start_pool, stop_pools
+from texvent.batch.engines import interruptible, processes, start_pool, stop_pools
 from texvent.io.atomic import hidden_file
 
 def work(folder):
@@ -62,7 +62,7 @@ def is_running(program: Path) -> bool:
 STUBBORN = """
 import signal, sys, time
 from pathlib import Path
-import texvent.batch.processes as pools
+import texvent.batch.engines as pools
 
 def work(begun):
     signal.signal(signal.SIGTERM, signal.SIG_IGN)

