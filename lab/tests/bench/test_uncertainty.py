@@ -1,3 +1,4 @@
+import json
 import math
 
 import numpy as np
@@ -6,9 +7,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra import numpy as arrays
 
+from texvent.cli.app import main
 from texvent.events import EventStream
 from texvent.metrics.compare import load_metric
-from texvent.metrics.uncertainty import (
+from texvent.sensor import SensorSize
+from texvent_lab.bench.uncertainty import (
     LEAST_WINDOWS,
     Verdict,
     average_blocks,
@@ -17,7 +20,6 @@ from texvent.metrics.uncertainty import (
     paired_differences,
     score_windows,
 )
-from texvent.sensor import SensorSize
 
 VALUES = arrays.arrays(np.float64, st.integers(6, 20), elements=st.floats(-5, 5, width=32))
 
@@ -182,3 +184,34 @@ def test_infinite_and_undefined_windows_are_left_out():
     scores = windows_of({"a": TRUTH}, "ef_psnr", "ef_ssim")
     assert np.isnan(scores.values["ef_psnr", "a"]).all()  # equal frames: infinite
     assert scores.mean("ef_ssim", "a").windows == 0  # a side below 11 px
+
+
+@pytest.fixture
+def candidates(tmp_path, monkeypatch):
+    """A truth of 1.2 s, a candidate that is 1 ms late, and one that is 4 ms late."""
+    monkeypatch.chdir(tmp_path)
+    rng = np.random.default_rng(0)
+    size = SensorSize(16, 10)
+    t = np.sort(rng.integers(0, 1_250_000, 6000))
+    t[0] = 0
+    x, y, p = rng.integers(0, 16, 6000), rng.integers(0, 10, 6000), rng.integers(0, 2, 6000)
+    for name, late_us in (("truth", 0), ("near", 1_000), ("far", 4_000)):
+        EventStream(x, y, t + late_us, p, size).save(f"{name}.npz")
+
+
+def test_event_files_are_compared_by_windows_in_words(candidates, capsys):
+    words = ["bench", "closer", "near.npz", "far.npz", "truth.npz", "--metrics", "nearest,ef_ssim"]
+    assert main(words) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "nearest: near.npz is closer than far.npz by" in shown
+    assert "12 windows of 0.1 s" in shown
+    assert "undefined" in shown
+    assert main([*words, "--json", "--window", "0.2"]) == 0
+    document = json.loads(capsys.readouterr().out)
+    nearest = document["differences"][0]
+    assert (nearest["metric"], nearest["closer"]) == ("nearest", "near.npz")
+    means = [document["means"][name]["nearest"] for name in ("near.npz", "far.npz")]
+    assert nearest["mean"] == pytest.approx(np.mean(np.subtract(*(one["values"] for one in means))))
+    assert nearest["high"] < 0
+    assert document["windows"]["starts_us"] == list(range(0, 1_200_000, 200_000))
+    assert all(one["low"] < one["mean"] < one["high"] for one in means)
