@@ -228,7 +228,6 @@ FILTERS = Registry(
     {
         "background-activity": ("texvent.transform.filters.noise_filters:BackgroundActivityFilter"),
         "refractory": "texvent.transform.filters.noise_filters:RefractoryFilter",
-        "event-trail": "texvent.transform.filters.noise_filters:EventTrailFilter",
         "hot-pixels": "texvent.transform.filters.noise_filters:HotPixelFilter",
         "mask": "texvent.transform.filters.noise_filters:MaskFilter",
         "rate-limit": "texvent.transform.filters.noise_filters:RateLimitFilter",
