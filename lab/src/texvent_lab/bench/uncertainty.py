@@ -3,20 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Hashable, Mapping
 from dataclasses import dataclass
-from itertools import combinations
 from statistics import NormalDist
 from typing import Any, NamedTuple, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
-
-from texvent.errors import ConfigError
-from texvent.events import EventStream
-from texvent.metrics.protocol import Better, Metric
-from texvent.runtime.progress import NO_PROGRESS, Progress
-from texvent.video import MICROSECONDS
 
 LEVEL = 0.95
 """Share of repeated experiments whose interval holds the true mean."""
@@ -25,12 +18,6 @@ LEAST_WINDOWS = 6
 """Fewer windows get no interval: five differences of one sign are chance in 1 of 16 cases."""
 DEPENDENT = 1.645
 """Standard errors of a correlation above which neighbouring windows count as dependent."""
-EDGE_US = 50_000
-"""Windows begin at multiples of it and are multiples of it long, as the windows of STPP, µs."""
-SHORTEST_US = 100_000
-"""Default length of a window, µs."""
-MOST_WINDOWS = 50
-"""Longer recordings get longer windows by default."""
 
 Key = TypeVar("Key", bound=Hashable)
 
@@ -198,155 +185,3 @@ def paired_differences(
         key: Mean.of(one, is_in_sequence=is_in_sequence, comparisons=len(columns))
         for key, one in columns.items()
     }
-
-
-class Verdict(NamedTuple):
-    """Comparison of two candidates by one metric."""
-
-    metric: str
-    first: str
-    second: str
-    difference: Mean
-    """First minus second, of values; of metrics that are good near 1, of distances from 1."""
-    better: Better
-    """Whether low or high values are closer."""
-    unit: str
-
-    @property
-    def closer(self) -> str | None:
-        """The candidate that is closer to the reference; None without a significant difference."""
-        return self._ordered[0] if self.difference.is_significant else None
-
-    @property
-    def _ordered(self) -> tuple[str, str]:
-        """The candidate with the better mean, then the other."""
-        is_first = (self.difference.mean > 0) == (self.better == "higher")
-        return (self.first, self.second) if is_first else (self.second, self.first)
-
-    @property
-    def sentence(self) -> str:
-        """A sentence on which of both is closer to the reference.
-
-        Example:
-            >>> found = Mean(0.036, Interval(0.031, 0.042), 8)
-            >>> Verdict("stpp", "A", "B", found, "higher", "").sentence
-            'A is closer than B by 0.036 (95 % interval 0.031 to 0.042, 8 windows)'
-        """
-        difference = self.difference
-        if not difference.is_enough:
-            kind = "windows" if difference.block == 1 else "independent windows"
-            return (
-                f"{self.first} and {self.second}: too few {kind} to compare (n = "
-                f"{difference.windows}; {LEAST_WINDOWS} are needed)"
-            )
-        if difference.is_significant and difference.mean < 0:
-            difference = difference.reversed()
-        largest = max(map(abs, (difference.mean, *difference.interval)))
-        # Two digits that count of the larger end, at least three, at most six.
-        digits = min(max(1 - math.floor(math.log10(largest)), 3), 6) if largest > 0 else 3
-        mean, low, high = (f"{one:.{digits}f}" for one in (difference.mean, *difference.interval))
-        blocks = "windows" if difference.block == 1 else f"blocks of {difference.block} windows"
-        where = f"95 % interval {low} to {high}, {difference.windows} {blocks}"
-        if not difference.is_significant:
-            pair = f"{self.first} and {self.second}"
-            return f"{pair} do not differ significantly (difference {mean}, {where})"
-        closer, other = self._ordered
-        return f"{closer} is closer than {other} by {f'{mean} {self.unit}'.strip()} ({where})"
-
-    def document(self) -> dict[str, Any]:
-        """Plain values, NaN where undefined."""
-        names = {"metric": self.metric, "first": self.first, "second": self.second}
-        verdict = {"closer": self.closer, "sentence": self.sentence}
-        return {**names, **self.difference.document(), **verdict}
-
-
-@dataclass(frozen=True)
-class WindowScores:
-    """Metrics window by window."""
-
-    window_us: int
-    """Length of a window, µs."""
-    starts_us: Sequence[int]
-    """Start of each, µs."""
-    metrics: Sequence[Metric]
-    values: Mapping[tuple[str, str], NDArray[np.float64]]
-    """(metric, candidate) → [n], NaN where undefined or infinite."""
-
-    def mean(self, metric: str, candidate: str) -> Mean:
-        """Mean over the windows, with its interval."""
-        return Mean.of(self.values[metric, candidate], is_in_sequence=True)
-
-    def verdicts(self) -> list[Verdict]:
-        """Every two candidates by every metric; the intervals hold together."""
-        candidates = dict.fromkeys(candidate for _, candidate in self.values)
-        known = {metric.name: metric for metric in self.metrics}
-        columns = {
-            (name, *pair): self._errors(metric, pair[0]) - self._errors(metric, pair[1])
-            for name, metric in known.items()
-            for pair in combinations(candidates, 2)
-        }
-        found = []
-        for key, difference in paired_differences(columns, is_in_sequence=True).items():
-            metric = known[key[0]]
-            better: Better = "higher" if metric.better == "higher" else "lower"
-            found.append(Verdict(*key, difference, better, metric.unit))
-        return found
-
-    def _errors(self, metric: Metric, candidate: str) -> NDArray[np.float64]:
-        values = self.values[metric.name, candidate]
-        return np.abs(values - 1) if metric.better == "one" else values
-
-
-def score_windows(
-    candidates: Mapping[str, EventStream],
-    reference: EventStream,
-    metrics: Sequence[Metric],
-    *,
-    window_us: int | None = None,
-    progress: Progress = NO_PROGRESS,
-) -> WindowScores:
-    """Score every candidate in every whole window of the reference.
-
-    Args:
-        candidates: name → stream to judge, of the reference's sensor.
-        reference: the true stream.
-        metrics: metrics to compute.
-        window_us: length of a window, a multiple of 50,000 µs; default: 100,000, more where the
-            reference has more than 50 of these.
-        progress: receives the number of each window.
-
-    Raises:
-        ConfigError: the length is no such multiple.
-        InputError: the sensors differ in size.
-    """
-    check_window(window_us)
-    start, stop = reference.time_range or (0, 0)
-    if window_us is None:
-        window_us = max(SHORTEST_US, -(-(stop - start) // (MOST_WINDOWS * EDGE_US)) * EDGE_US)
-    starts = range(-(-start // EDGE_US) * EDGE_US, stop - window_us + 1, window_us)
-    values = {
-        (metric.name, name): np.empty(len(starts)) for metric in metrics for name in candidates
-    }
-    for number, first in enumerate(starts):
-        progress.advance("windows", number, len(starts))
-        truth = reference.cut(first, first + window_us)
-        for name, events in candidates.items():
-            part = events.cut(first, first + window_us)
-            for metric in metrics:
-                value = metric(part, truth)
-                # PSNR of equal frames is infinite, which has no mean.
-                values[metric.name, name][number] = value if math.isfinite(value) else math.nan
-    return WindowScores(window_us, list(starts), list(metrics), values)
-
-
-def check_window(window_us: int | None) -> None:
-    """Refuse a length that no windows can have.
-
-    Raises:
-        ConfigError: it is no positive multiple of 50,000 µs.
-    """
-    if window_us is not None and (window_us <= 0 or window_us % EDGE_US):
-        raise ConfigError(
-            f"window is {window_us / MICROSECONDS:g} s; it must be a multiple of "
-            f"{EDGE_US / MICROSECONDS:g} s, the window of stpp"
-        )

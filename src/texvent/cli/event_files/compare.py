@@ -97,9 +97,9 @@ def run(arguments: Sequence[str]) -> int:
 
 
 def _compare(options: CompareOptions) -> Comparison:
-    metrics, left_out = choose_metrics(options)
-    names = candidate_names(options.files[:-1])
-    *judged, reference = read_streams(options)
+    metrics, left_out = _choose_metrics(options)
+    names = _names(options.files[:-1])
+    *judged, reference = _streams(options)
     predicted = dict(zip(names, judged, strict=True))
     with ConsoleProgress() as progress:
         scores = {
@@ -119,7 +119,7 @@ def _compare(options: CompareOptions) -> Comparison:
     )
 
 
-def choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, str]]:
+def _choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, str]]:
     """The chosen metrics, or all; and the requirements of those that are left out, by name."""
     known = dict(describe_metrics())
     if options.rvt_weights is not None:
@@ -138,7 +138,7 @@ def choose_metrics(options: CompareOptions) -> tuple[list[Metric], dict[str, str
     return chosen, left_out
 
 
-def candidate_names(paths: Sequence[Path]) -> list[str]:
+def _names(paths: Sequence[Path]) -> list[str]:
     """Labels of the files in tables: their names, or paths where names are equal.
 
     Raises:
@@ -153,7 +153,7 @@ def candidate_names(paths: Sequence[Path]) -> list[str]:
     return names
 
 
-def read_streams(options: CompareOptions) -> list[EventStream]:
+def _streams(options: CompareOptions) -> list[EventStream]:
     """The recordings, cut to the time asked for.
 
     Raises:
