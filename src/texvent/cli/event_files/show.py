@@ -69,7 +69,6 @@ RENDER = """Render an event file as a video (.mp4, .gif), an image (.png), or an
 page (.html).
 
   texvent render out.h5 -o slow.mp4 --speed 0.1        ten times slower
-  texvent render out.h5 -o sheet.png --panels 9        contact sheet of nine
   texvent render out.h5 -o out.mp4 --overlay both      boxes and optical flow
   texvent render clip.raw -o out.mp4 --video clip.mp4  the video on the left"""
 
@@ -79,7 +78,7 @@ class RenderOptions(ShownEventsOptions):
     """Which events, and where the result goes."""
 
     main_options: ClassVar[tuple[str, ...]] = (
-        "out", "video", "time", "speed", "render_fps", "window", "panels", "overlay",
+        "out", "video", "time", "speed", "render_fps", "window", "overlay",
         "palette", "overwrite",
     )  # fmt: skip
 
