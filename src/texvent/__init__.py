@@ -46,7 +46,6 @@ if TYPE_CHECKING:
     from texvent.run.truth import TruthFolder
     from texvent.sensor import SENSORS, Sensor, SensorSize
     from texvent.simulate.build import check_simulator
-    from texvent.transform.augment import Augment
     from texvent.truth.loading import load_truth
     from texvent.truth.writer import save_truth
     from texvent.video import Frame, FrameStream, Video
@@ -77,7 +76,6 @@ _HOMES = {
     ),
     "run.truth": ("TruthFolder",),
     "simulate.build": ("check_simulator",),
-    "transform.augment": ("Augment",),
     "truth.loading": ("load_truth",),
     "truth.writer": ("save_truth",),
     "sensor": ("SENSORS", "Sensor", "SensorSize"),
@@ -87,7 +85,6 @@ _HOME_OF = {name: module for module, names in _HOMES.items() for name in names}
 
 __all__ = [
     "SENSORS",
-    "Augment",
     "ConfigError",
     "EventCamera",
     "EventPackets",

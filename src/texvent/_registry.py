@@ -228,27 +228,9 @@ FILTERS = Registry(
     {
         "background-activity": ("texvent.transform.filters.noise_filters:BackgroundActivityFilter"),
         "refractory": "texvent.transform.filters.noise_filters:RefractoryFilter",
-        "event-trail": "texvent.transform.filters.noise_filters:EventTrailFilter",
         "hot-pixels": "texvent.transform.filters.noise_filters:HotPixelFilter",
         "mask": "texvent.transform.filters.noise_filters:MaskFilter",
         "rate-limit": "texvent.transform.filters.noise_filters:RateLimitFilter",
-    },
-)
-AUGMENTATIONS = Registry(
-    "augmentation",
-    {
-        "flip-x": "texvent.transform.augment:FlipX",
-        "flip-y": "texvent.transform.augment:FlipY",
-        "rotate": "texvent.transform.augment:Rotate",
-        "shift": "texvent.transform.augment:Shift",
-        "crop": "texvent.transform.augment:Crop",
-        "jitter-space": "texvent.transform.augment:JitterSpace",
-        "jitter-time": "texvent.transform.augment:JitterTime",
-        "flip-polarity": "texvent.transform.augment:FlipPolarity",
-        "reverse-time": "texvent.transform.augment:ReverseTime",
-        "drop-events": "texvent.transform.augment:DropEvents",
-        "drop-time": "texvent.transform.augment:DropTime",
-        "drop-area": "texvent.transform.augment:DropArea",
     },
 )
 REGISTRIES = {
@@ -261,6 +243,5 @@ REGISTRIES = {
         METRICS,
         REPRESENTATIONS,
         FILTERS,
-        AUGMENTATIONS,
     )
 }

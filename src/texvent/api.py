@@ -18,8 +18,7 @@ from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.files import load
 from texvent.io.files import open_events as open
-from texvent.options.keywords import GenerateOptions, SimulateOptions
-from texvent.options.signatures import naming_options
+from texvent.options.keywords import GenerateOptions, SimulateOptions, naming_options
 from texvent.pipeline import Simulation
 from texvent.run.prepare import make_video, prepare_prompt, prepare_source
 from texvent.run.truth import TruthFolder, run_with_truth

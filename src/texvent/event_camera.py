@@ -21,8 +21,7 @@ from texvent.capture.linear_light import decode_light
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
-from texvent.options.keywords import SimulateOptions
-from texvent.options.signatures import naming_options
+from texvent.options.keywords import SimulateOptions, naming_options
 from texvent.pairs.frame_pair import FramePair
 from texvent.pipeline import select_events, video_to_events
 from texvent.run.prepare import check_memory, check_run

@@ -8,7 +8,7 @@ packets give packets that are made as they are read. Each is noted under `edits`
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from typing import TYPE_CHECKING, Any, Literal, NoReturn, Self
+from typing import TYPE_CHECKING, Any, NoReturn, Self
 
 if TYPE_CHECKING:
     from texvent.sensor import SizeLike
@@ -69,20 +69,6 @@ class EventEdits:
         from texvent.transform.edits import resize
 
         return self._edited(resize, size)
-
-    def downsample(self, factor: int, *, how: Literal["all", "mean"] = "all") -> Self:
-        """The events on blocks of factor × factor pixels; see `transform.downsample`.
-
-        Args:
-            factor: pixels of a block along each axis.
-            how: "all" keeps every event; "mean" gives those of pixels that see the mean of a block.
-
-        Raises:
-            ConfigError: factor is below 1, or another `how`.
-        """
-        from texvent.transform.downsample import downsample
-
-        return self._edited(downsample, factor, how=how)
 
     def flip(self, axes: Axes) -> Self:
         """Mirrored: "x" exchanges left and right, "y" top and bottom, "xy" both.

@@ -7,7 +7,6 @@ import texvent
 
 PUBLIC = {
     "SENSORS",
-    "Augment",
     "ConfigError",
     "EventCamera",
     "EventPackets",

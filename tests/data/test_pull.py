@@ -2,8 +2,10 @@
 
 import hashlib
 import io
+import re
 import tarfile
 import zipfile
+from pathlib import PurePosixPath
 from types import SimpleNamespace
 
 import pytest
@@ -11,7 +13,7 @@ import requests
 from pypi_simple import DigestMismatchError, NoSuchProjectError
 
 from texvent.data import catalogue
-from texvent.data.catalogue import Archive, DataFile, DataFolder, DataSet
+from texvent.data.catalogue import DATA_SETS, Archive, DataFile, DataFolder, DataSet
 from texvent.data.pull import find_pulled, pull
 from texvent.errors import FileFormatError, TexventError
 
@@ -198,3 +200,18 @@ def test_an_interrupted_download_leaves_nothing(tmp_path, register):
     with pytest.raises(KeyboardInterrupt):
         pull("toy", folder=tmp_path, client=index)
     assert [path for path in tmp_path.rglob("*") if path.is_file()] == []
+
+
+@pytest.mark.parametrize("name", DATA_SETS)
+def test_every_entry_is_complete_and_safe(name):
+    entry = DATA_SETS[name]
+    digests = [entry.archive.sha256, *(part.sha256 for part in (*entry.files, *entry.folders))]
+    assert all(re.fullmatch(r"[0-9a-f]{64}", digest) for digest in digests)
+    assert len(entry.caveat) > 20
+    for part in (*entry.files, *entry.folders):
+        target = PurePosixPath(part.name)
+        assert not target.is_absolute()
+        assert ".." not in target.parts
+    suffix = {"sdist": ".tar.gz", "wheel": ".whl"}[entry.archive.kind]
+    assert entry.archive.filename.endswith(suffix)
+    assert entry.archive.version in entry.archive.filename

@@ -25,7 +25,7 @@ from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.transform.undistort import read_calibration
-from texvent.truth.labels.reading import read_labels
+from texvent.truth.labels import read_labels
 
 from ..io.test_pixel_mask import write_mask
 from ..metrics.lpips.lpips_files import NARROW, narrow_weights, write_published

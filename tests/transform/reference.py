@@ -44,20 +44,3 @@ def find_rested(
             rested[event] = True
             kept_us[pixel] = t[event]
     return rested
-
-
-def fire_blocks(
-    block: NDArray[np.int64],
-    p: NDArray[np.uint8],
-    pixels: NDArray[np.int64],
-    sums: NDArray[np.int64],
-) -> NDArray[np.int8]:
-    """See the kernel of this name."""
-    fired = np.full(len(block), -1, np.int8)
-    for event in range(len(block)):
-        one = block[event]
-        sums[one] += 1 if p[event] else -1
-        if abs(sums[one]) == pixels[one]:
-            fired[event] = 1 if sums[one] > 0 else 0
-            sums[one] = 0
-    return fired

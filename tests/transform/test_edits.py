@@ -7,17 +7,13 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 from hypothesis import given
-from hypothesis import strategies as st
 
 from texvent.errors import ConfigError
 from texvent.events import EventStream
 from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
-from texvent.transform.downsample import block_pixels
-from texvent.transform.downsample_cpu import fire_blocks
 from texvent.transform.edits import flip_polarity, reverse_time, shift, start_at_zero
 
-from . import reference
 from .recordings import CUTS, SIZE, packets, rows_of, stream, streams
 
 
@@ -31,15 +27,13 @@ def test_edits_by_hand() -> None:
     assert turned.size == SensorSize(6, 8)
     assert rows_of(turned) == [(5, 0, 1, 1), (0, 7, 2, 0), (4, 2, 2, 1)]
     assert rows_of(events.crop(1, 1, 3, 2)) == [(1, 0, 2, 1)]
-    assert rows_of(events.downsample(4)) == [(0, 0, 1, 1), (1, 1, 2, 0), (0, 0, 2, 1)]
+    assert rows_of(events.resize((2, 2))) == [(0, 0, 1, 1), (1, 1, 2, 0), (0, 0, 2, 1)]
     assert rows_of(shift(events, 1, -1)) == [(3, 0, 2, 1)]
 
 
 EDITS: dict[str, tuple[Callable[[EventStream], EventStream], dict[str, object]]] = {
     "crop": (lambda events: events.crop(2, 1, 4, 3), {"crop": "2,1,4,3"}),
     "resize": (lambda events: events.resize((5, 7)), {"resize": "5x7"}),
-    "downsample": (lambda events: events.downsample(3), {"downsample": 3}),
-    "mean": (lambda events: events.downsample(2, how="mean"), {"downsample": 2, "how": "mean"}),
     "flip": (lambda events: events.flip("xy"), {"flip": "xy"}),
     "rotate": (lambda events: events.rotate(90), {"rotate": 90}),
     "filter": (
@@ -101,34 +95,6 @@ def test_reversed_by_hand() -> None:
     assert len(reverse_time(EventStream.empty(SIZE))) == 0
 
 
-def test_a_block_fires_when_the_mean_of_its_pixels_has_changed_by_a_threshold() -> None:
-    # A block of four pixels: three ON and one OFF leave it at 2 of 4.
-    ups = [(0, 0, 1, 1), (1, 0, 2, 1), (0, 1, 3, 1), (1, 1, 4, 0)]
-    events = stream([*ups, (1, 1, 5, 1), (1, 1, 6, 1), (1, 1, 7, 0)])
-    assert rows_of(events.downsample(2, how="mean")) == [(0, 0, 6, 1)]
-    # Blocks at the edge have fewer pixels: of 8x6 by 5, the last is of 3x1.
-    assert block_pixels(SIZE, 5).tolist() == [[25, 15], [5, 3]]
-    edge = stream([(5, 5, 1, 0), (6, 5, 2, 0), (7, 5, 3, 0)])
-    assert rows_of(edge.downsample(5, how="mean")) == [(1, 1, 3, 0)]
-
-
-@pytest.mark.parametrize("how", ["all", "mean"])
-def test_a_factor_may_be_a_float_that_is_whole(how: str) -> None:
-    events = stream([(x, 0, x, 1) for x in range(8)])
-    assert events.downsample(2.0, how=how).equals(events.downsample(2, how=how))
-
-
-@given(streams(), st.integers(1, 9))
-def test_the_compiled_blocks_equal_the_reference(events: EventStream, factor: int) -> None:
-    pixels = block_pixels(SIZE, factor).reshape(-1)
-    placed = events.downsample(factor)
-    block = placed.y.astype(np.int64) * placed.size.width + placed.x
-    sums = np.zeros_like(pixels), np.zeros_like(pixels)
-    expected = reference.fire_blocks(block, events.p, pixels, sums[0])
-    np.testing.assert_array_equal(fire_blocks(block, events.p, pixels, sums[1]), expected)
-    np.testing.assert_array_equal(*sums)
-
-
 def test_labels_go_with_their_events() -> None:
     events = EventStream([0, 1], [0, 0], [1, 2], [1, 0], SIZE, label=np.array([0, 1], np.uint8))
     assert events.crop(1, 0, 2, 2).label.tolist() == [1]
@@ -142,9 +108,3 @@ def test_what_cannot_be_done_is_refused() -> None:
         events.rotate(45)
     with pytest.raises(ConfigError, match="axes is 'z'; give 'x'"):
         events.flip("z")
-    with pytest.raises(ConfigError, match="factor is 0; it must be"):
-        events.downsample(0)
-    with pytest.raises(ConfigError, match=r"factor is 1\.5; it must be a whole number"):
-        events.downsample(1.5)
-    with pytest.raises(ConfigError, match="how is 'sum'; it must be 'all' or 'mean'"):
-        events.downsample(2, how="sum")

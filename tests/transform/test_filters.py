@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 import pytest
 from hypothesis import given
@@ -34,8 +32,6 @@ FILTERS = (
     "rate-limit:rate_hz=2e6,window_us=2",
     "rate-limit:rate_hz=1e6,window_us=7",
     "hot-pixels:factor=1.5,least_events=2",
-    "event-trail:threshold_us=4",
-    "event-trail:mode=trail,threshold_us=4",
 )
 
 
@@ -61,52 +57,6 @@ def test_a_refractory_period_runs_from_the_last_event_that_was_kept() -> None:
     events = stream([(1, 1, t, p) for t, p in ((0, 1), (9, 0), (10, 1), (15, 1), (20, 0))])
     assert events.filter("refractory", period_us=10).t.tolist() == [0, 10, 20]
     assert len(events.filter(RefractoryFilter(period_us=0))) == 5
-
-
-MODES = ("trail", "stc-cut-trail", "stc-keep-trail")
-
-
-def times_kept(events: EventStream, name: str, **options: object) -> list[int]:
-    return events.filter(name, **options).t.tolist()
-
-
-def test_a_burst_ends_with_its_polarity_or_with_a_pause() -> None:
-    on = [(1, 1, t, 1) for t in (0, 3, 12, 13)]
-    off = [(1, 1, t, 0) for t in (14, 23)]
-    elsewhere = [(2, 1, 13, 1)]
-    events = stream([*on, *off, *elsewhere])
-    # Bursts of the pixel: 0 and 3; 12 and 13, because 12 is 9 µs later; 14 alone; 23 alone.
-    expected = {"trail": [0, 12, 13, 14, 23], "stc-cut-trail": [3, 13], "stc-keep-trail": [3, 13]}
-    for mode in MODES:
-        assert times_kept(events, "event-trail", mode=mode, threshold_us=9) == expected[mode]
-    # One µs more, and 0, 3, 12, 13 are one burst, and so are 14 and 23.
-    expected = {"trail": [0, 13, 14], "stc-cut-trail": [3, 23], "stc-keep-trail": [3, 12, 13, 23]}
-    for mode in MODES:
-        assert times_kept(events, "event-trail", mode=mode, threshold_us=10) == expected[mode]
-
-
-def bursts(events: EventStream, threshold_us: int) -> Iterable[list[int]]:
-    """Numbers of the events of each burst: every pixel on its own, from the definition."""
-    for y, x in {(int(y), int(x)) for x, y in zip(events.x, events.y, strict=True)}:
-        burst: list[int] = []
-        for number in np.flatnonzero((events.x == x) & (events.y == y)).tolist():
-            if burst and (
-                events.p[burst[-1]] != events.p[number]
-                or events.t[number] - events.t[burst[-1]] >= threshold_us
-            ):
-                yield burst
-                burst = []
-            burst.append(number)
-        yield burst
-
-
-@given(streams(), st.integers(1, 22))
-def test_each_mode_keeps_its_part_of_every_burst(events: EventStream, threshold_us: int) -> None:
-    parts = {"trail": slice(1), "stc-cut-trail": slice(1, 2), "stc-keep-trail": slice(1, None)}
-    for mode, part in parts.items():
-        numbers = sorted(n for burst in bursts(events, threshold_us) for n in burst[part])
-        kept = events.filter("event-trail", mode=mode, threshold_us=threshold_us)
-        assert rows_of(kept) == [rows_of(events)[number] for number in numbers]
 
 
 def test_a_rate_limit_keeps_the_first_events_of_a_window() -> None:

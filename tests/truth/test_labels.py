@@ -12,7 +12,7 @@ import pytest
 
 from texvent.errors import InputError
 from texvent.sensor import SensorSize
-from texvent.truth.labels.reading import Labels, read_labels
+from texvent.truth.labels import Labels, read_labels
 
 SIZE = SensorSize(40, 20)
 BOXES = ((0, 1, 4.0, 2.0, 8.0, 6.0), (0, 2, 30.0, 10.0, 14.0, 6.0), (2, 1, 8.0, 2.0, 8.0, 10.0))

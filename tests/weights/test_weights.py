@@ -14,8 +14,7 @@ from tests.metrics.lpips.lpips_files import narrow_weights, write_published
 from texvent.data.catalogue import Archive, DataFile
 from texvent.errors import FileFormatError
 from texvent.metrics.lpips import ALEX, Lpips, lpips_distance, read_lpips_weights
-from texvent.weights.fetch import pull_weights
-from texvent.weights.published import LPIPS_ALEX, RIFE, WEIGHTS
+from texvent.weights import LPIPS_ALEX, RIFE, WEIGHTS, pull_weights
 
 RIFE_LAYOUTS = ("4.0", "4.6", "4.25")
 

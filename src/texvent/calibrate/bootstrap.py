@@ -1,7 +1,4 @@
-"""Bootstrap intervals of any estimate: how far it moves if what it was made of is drawn again.
-
-`metrics.uncertainty` has those of a mean of windows.
-"""
+"""Bootstrap intervals of any estimate: how far it moves if what it was made of is drawn again."""
 
 from __future__ import annotations
 
@@ -11,9 +8,9 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.metrics.uncertainty import LEVEL
-
 Float64Array: TypeAlias = NDArray[np.float64]
+LEVEL = 0.95
+"""Share of repeated recordings whose interval holds the true value."""
 RESAMPLES = 200
 
 

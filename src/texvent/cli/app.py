@@ -33,9 +33,12 @@ COMMANDS = {
         "texvent.cli.simulation.rig",
         "Several cameras with lenses, frames and an IMU, from a prompt.",
     ),
-    "render": ("texvent.cli.event_files.render", "A video, image or page of an event file."),
+    "render": (
+        "texvent.cli.event_files.show:run_render",
+        "A video, image or page of an event file.",
+    ),
     "view": (
-        "texvent.cli.event_files.view",
+        "texvent.cli.event_files.show:run_view",
         "Open an event file in the browser: point cloud, playback, rate.",
     ),
     "app": (
@@ -71,13 +74,12 @@ COMMANDS = {
         "Fit the physical model to a recording of frames and events.",
     ),
     "data": (
-        "texvent.cli.setup.data",
+        "texvent.cli.setup.downloads:run_data",
         "Recordings and clips to try things on: list them, fetch them.",
     ),
-    "weights": ("texvent.cli.setup.weights", "Published network weights: list them, fetch them."),
-    "blender": (
-        "texvent.cli.setup.blender",
-        "Where the script is with which Blender renders passes.",
+    "weights": (
+        "texvent.cli.setup.downloads:run_weights",
+        "Published network weights: list them, fetch them.",
     ),
     "generators": (
         "texvent.cli.setup.generators",
@@ -89,7 +91,7 @@ COMMANDS = {
     ),
     "doctor": ("texvent.cli.setup.doctor", "What is installed, what is missing, how to get it."),
 }
-"""Command → its module, which has a function `run(arguments)`, and what it does."""
+"""Command → `module` or `module:function`, without which it is `run`, and what it does."""
 COMMAND_GROUP = "texvent.commands"
 """Entry points of packages with more commands: mappings like `COMMANDS`."""
 OF_THE_LAB = ("align", "bench", "evaluate", "nt-imagenet", "reconstruct", "train")
@@ -172,8 +174,9 @@ def _dispatch(words: list[str]) -> int:
             )
         listed = suggest(words[0], tuple(commands), longest=LONGEST_LISTING)
         raise ConfigError(f"unknown command {shown(words[0][:LONGEST_WORD])}; {listed}")
-    command = importlib.import_module(commands[words[0]][0])
-    code: int = command.run(words[1:])
+    module, _, function = commands[words[0]][0].partition(":")
+    command = getattr(importlib.import_module(module), function or "run")
+    code: int = command(words[1:])
     return code
 
 

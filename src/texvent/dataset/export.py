@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from texvent._registry import suggest
+from texvent.dataset.layouts.boxes import ClassList
 from texvent.dataset.layouts.checks import check_layout, doubts_of, find_classes, find_recipe
-from texvent.dataset.layouts.classes import ClassList
 from texvent.dataset.layouts.coco import COCO
 from texvent.dataset.layouts.dsec_det import DSEC_DET
 from texvent.dataset.layouts.event_files import HDF5, N_CALTECH101, N_IMAGENET

@@ -6,10 +6,11 @@ None means "not given".
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import inspect
+from collections.abc import Callable, Sequence
 from fractions import Fraction
 from pathlib import Path
-from typing import Any, Literal, TypeAlias, TypedDict
+from typing import Any, Literal, TypeAlias, TypedDict, TypeVar
 
 from numpy.typing import NDArray
 
@@ -144,3 +145,40 @@ class GenerateOptions(
     RunOptions, GeneratorOptions, InterpolateOptions, SimulatorOptions, total=False
 ):
     """Options of `texvent.generate`."""
+
+
+AnyFunction = TypeVar("AnyFunction", bound=Callable[..., Any])
+
+
+def naming_options(keywords: type) -> Callable[[AnyFunction], AnyFunction]:
+    """A decorator that puts the keys of a TypedDict into the signature, before `**options`.
+
+    Type checkers read `Unpack[...]` themselves; IPython and `inspect.signature` do not.
+
+    Example:
+        >>> from typing import TypedDict
+        >>> class Options(TypedDict, total=False):
+        ...     seed: int | None
+        >>> @naming_options(Options)
+        ... def run(source, **options): ...
+        >>> inspect.signature(run)
+        <Signature (source, *, seed: 'int | None' = None, **options)>
+    """
+
+    def name(function: AnyFunction) -> AnyFunction:
+        plain = inspect.signature(function)
+        *given, rest = plain.parameters.values()
+        options = [
+            inspect.Parameter(
+                option,
+                inspect.Parameter.KEYWORD_ONLY,
+                default=None,
+                annotation=getattr(hint, "__forward_arg__", hint),
+            )
+            for option, hint in keywords.__annotations__.items()
+        ]
+        shown = plain.replace(parameters=[*given, *options, rest])
+        function.__signature__ = shown  # type: ignore[attr-defined]
+        return function
+
+    return name

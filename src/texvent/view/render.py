@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -14,12 +14,11 @@ from texvent.events import EventStream
 from texvent.io.atomic import atomic_file, check_output
 from texvent.runtime.progress import NO_PROGRESS, Progress
 from texvent.video import MICROSECONDS, FrameStream
-from texvent.view.drawing.canvas import png_bytes
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
 from texvent.view.drawing.panels import Overlay, title_of
 from texvent.view.page.sample import SAMPLE_EVENTS
 from texvent.view.page.writer import PageWriter
-from texvent.view.stills import BusiestWindow, draw_contact_sheet, find_busiest
+from texvent.view.stills import BusiestWindow, find_busiest
 from texvent.view.video.encoder import VIDEO_EXTENSIONS
 from texvent.view.video.writer import VideoWriter
 from texvent.view.windows import (
@@ -47,8 +46,6 @@ class RenderConfig:
     """Speed of the video: 0.1 is ten times slower than the recording."""
     palette: str = DEFAULT_PALETTE
     """Colours of ON and OFF events."""
-    panels: int = 1
-    """Images on a PNG: 1 shows the busiest moment, more show moments evenly spaced."""
     overlay: Overlay = "none"
     """Boxes with class names, optical flow (arrows as long as the motion in 50 ms), or both, for
     scenes that the embedded generator renders again."""
@@ -58,7 +55,6 @@ class RenderConfig:
     def __post_init__(self) -> None:
         get_palette(self.palette)
         check_range("speed", self.speed, 1e-6, 1e6)
-        check_range("panels", self.panels, 1, 100)
         check_range("points", self.points, 1, 20_000_000)
         if self.window is not None and self.events_per_image is not None:
             raise ConfigError("window and events_per_image exclude each other; give one of them")
@@ -116,15 +112,12 @@ def render_events(
         raise ConfigError(
             f"cannot render to {path}; its name must end in {', '.join(RENDER_EXTENSIONS)}"
         )
-    if config.panels > 1 and kind != ".png":
-        raise ConfigError(f"panels is {config.panels}; only .png files have panels, leave it out")
     check_output(path, overwrite=overwrite)
     packets = events if isinstance(events, EventPackets) else _as_packets(events)
     packets = packets.reporting_to(progress)
     source = SourceOverlay(frames, config.overlay, size=packets.size)
     if kind == ".png":
-        draw = _contact_sheet if config.panels > 1 else _still
-        data = draw(packets, config, source)
+        data = _still(packets, config, source)
         with atomic_file(path, overwrite=overwrite) as part:
             part.write_bytes(data)
     elif kind == ".html":
@@ -142,16 +135,6 @@ def _no_events() -> InputError:
     return InputError("the recording, or the part asked for, holds no events to show")
 
 
-def _cut(
-    packets: EventPackets, config: RenderConfig, step_us: Fraction, window_us: int
-) -> Iterator[EventWindow]:
-    """Windows as the config gathers events: by count, or by time (the default)."""
-    size = packets.size
-    if config.events_per_image is not None:
-        return cut_counts(packets, size=size, count=config.events_per_image)
-    return cut_windows(packets, step_us=step_us, window_us=window_us)
-
-
 def _video(
     packets: EventPackets,
     path: Path,
@@ -161,7 +144,11 @@ def _video(
     overwrite: bool,
 ) -> None:
     step_us = config.step_us
-    windows = _cut(packets, config, step_us, config.window_us or max(1, round(step_us)))
+    if config.events_per_image is not None:
+        windows = cut_counts(packets, size=packets.size, count=config.events_per_image)
+    else:
+        window_us = config.window_us or max(1, round(step_us))
+        windows = cut_windows(packets, step_us=step_us, window_us=window_us)
     video = VideoWriter(
         path,
         size=packets.size,
@@ -212,42 +199,6 @@ def _activity(window: EventWindow, config: RenderConfig) -> tuple[int, int]:
     if config.events_per_image is None:
         return window.event_count, 0
     return window.event_count, window.start_us - window.stop_us
-
-
-def _contact_sheet(packets: EventPackets, config: RenderConfig, source: SourceOverlay) -> bytes:
-    """Moments evenly spaced over the recording, in reading order."""
-    extent = packets.time_range
-    if extent is None:
-        raise _no_events()
-    step_us = Fraction(extent[1] - extent[0], config.panels)
-    window_us = config.window_us or min(still_window_us(extent) * 2, max(1, int(step_us)))
-    windows = _evenly_spaced(
-        source.add_frames(_cut(packets, config, step_us, window_us)), config, extent[0], step_us
-    )
-    annotated = (source.add_annotations(window) for window in windows)
-    return png_bytes(
-        draw_contact_sheet(
-            annotated,
-            config.panels,
-            size=packets.size,
-            palette=config.palette,
-            side_by_side=source.frames is not None,
-        )
-    )
-
-
-def _evenly_spaced(
-    windows: Iterator[EventWindow], config: RenderConfig, first_us: int, step_us: Fraction
-) -> Iterator[EventWindow]:
-    """One window per panel: of windows of equal count, the first that reaches its moment."""
-    given = 0
-    for window in windows:
-        if given == config.panels:
-            return
-        due_us = first_us + round(given * step_us)
-        if config.events_per_image is None or window.stop_us > due_us:
-            given += 1
-            yield window
 
 
 def _page(

@@ -1,8 +1,7 @@
-"""Still images: the busiest window, the contact sheet, instants of a scene."""
+"""Still images: the busiest window, instants of a scene."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterable, Sequence
 
 import numpy as np
@@ -11,10 +10,10 @@ from texvent.events import EventStream
 from texvent.represent.event_frame import count_events
 from texvent.sensor import SensorSize
 from texvent.video import RenderableStream
-from texvent.view.drawing.canvas import Image, png_bytes, tile
+from texvent.view.drawing.canvas import png_bytes, tile
 from texvent.view.drawing.event_image import frame_image
 from texvent.view.drawing.palettes import DEFAULT_PALETTE, Palette, get_palette
-from texvent.view.drawing.panels import SURROUND, TARGET_WIDTH, PanelLayout
+from texvent.view.drawing.panels import PanelLayout
 from texvent.view.windows import EventWindow, compose_window, still_window_us
 
 
@@ -107,37 +106,6 @@ def busiest_window_png(events: EventStream, *, title: str) -> bytes | None:
 
 
 GAP = 4
-NARROWEST_PANEL = 360.0
-"""So that the caption of a panel can be read."""
-
-
-def draw_contact_sheet(
-    windows: Iterable[EventWindow],
-    panels: int,
-    *,
-    size: SensorSize,
-    palette: str,
-    side_by_side: bool,
-) -> Image:
-    """The windows in reading order, on a sheet of about 3:2.
-
-    Args:
-        windows: at least one, at most `panels`.
-        panels: how many the sheet is laid out for.
-        size: sensor size, pixels.
-        palette: colours, by name.
-        side_by_side: whether each panel also shows its frame.
-    """
-    across = size.width * (2 if side_by_side else 1)
-    columns = max(1, min(panels, round(math.sqrt(panels * 1.5 * size.height / across))))
-    layout = PanelLayout(
-        size,
-        get_palette(palette),
-        side_by_side=side_by_side,
-        target_width=max(NARROWEST_PANEL, TARGET_WIDTH / columns),
-    )
-    composed = [compose_window(one, layout, title=one.caption, facts="") for one in windows]
-    return tile(composed, columns, SURROUND, gap=GAP)
 
 
 def draw_stills(video: RenderableStream, times_us: Sequence[int]) -> bytes:

@@ -11,12 +11,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-import texvent.capture.motion_vectors
 from texvent.capture.motion_vectors.conventions import CONVENTIONS, to_pixels
 from texvent.capture.motion_vectors.fields import open_fields
 
 PYTHON = os.environ.get("BLENDER_PYTHON")
-SCRIPT = Path(texvent.capture.motion_vectors.__path__[0]) / "blender_script.py"
+SCRIPT = Path(__file__).parents[3] / "configs" / "blender" / "render_passes.py"
 SCENE = """
 import bpy, sys
 bpy.ops.wm.read_factory_settings(use_empty=True)

@@ -91,9 +91,3 @@ def test_simulate_takes_the_folder_that_the_script_makes(tmp_path, capsys):
     assert source["motion_convention"] == "blender"
     assert len(source["motion_fingerprint"]) == 64
     assert len(texvent.load(out)) == len(texvent.simulate(BLENDER, noise="none"))
-
-
-def test_the_script_can_be_found_and_belongs_to_blender(capsys):
-    assert main(["blender"]) == 0
-    path = Path(capsys.readouterr().out.strip())
-    assert "texvent" not in path.read_text().split('"""', 2)[2]  # it imports nothing of ours

@@ -2,7 +2,6 @@
 
 import json
 
-import numpy as np
 import pytest
 from tests.cli.running import refused
 
@@ -86,46 +85,13 @@ def test_mistakes_are_one_clear_line(pair, capsys, words, message):
     assert message in refused(capsys, *words, codes=(2, 3))
 
 
-@pytest.fixture
-def candidates(tmp_path, monkeypatch):
-    """A truth of 1.2 s, a candidate that is 1 ms late, and one that is 4 ms late."""
-    monkeypatch.chdir(tmp_path)
-    rng = np.random.default_rng(0)
-    size = SensorSize(16, 10)
-    t = np.sort(rng.integers(0, 1_250_000, 6000))
-    t[0] = 0
-    x, y, p = rng.integers(0, 16, 6000), rng.integers(0, 10, 6000), rng.integers(0, 2, 6000)
-    for name, late_us in (("truth", 0), ("near", 1_000), ("far", 4_000)):
-        EventStream(x, y, t + late_us, p, size).save(f"{name}.npz")
-
-
-def test_several_candidates_are_compared_by_windows_in_words(candidates, capsys):
-    words = ["compare", "near.npz", "far.npz", "truth.npz", "--metrics", "stpp,nearest"]
-    assert main(words) == 0
-    shown = " ".join(capsys.readouterr().out.split())
-    assert "near.npz far.npz" in shown
-    assert "nearest: near.npz is closer than far.npz by" in shown
-    assert "12 windows of 0.1 s" in shown
+def test_several_files_are_judged_beside_each_other(pair, capsys):
+    words = ["compare", "guess.npz", "late.npz", "truth.npz", "--metrics", "count_ratio,nearest"]
+    EventStream(pair.x, pair.y, pair.t + 1000, pair.p, pair.size).save("late.npz")
     assert main([*words, "--json"]) == 0
     document = json.loads(capsys.readouterr().out)
-    assert [one["predicted"]["path"] for one in document["candidates"]] == ["near.npz", "far.npz"]
-    nearest = document["differences"][1]
-    assert (nearest["metric"], nearest["closer"]) == ("nearest", "near.npz")
-    values = [one["window_means"]["nearest"]["values"] for one in document["candidates"]]
-    assert nearest["mean"] == pytest.approx(np.mean(np.subtract(*values)))
-    assert nearest["high"] < 0
-    assert document["windows"]["starts_us"] == list(range(0, 1_200_000, 100_000))
-
-
-def test_one_candidate_has_intervals_of_its_window_means(candidates, capsys):
-    words = ["compare", "near.npz", "truth.npz", "--metrics", "stpp,ef_ssim"]
+    scores = {one["predicted"]["path"]: one["scores"] for one in document["candidates"]}
+    assert scores["guess.npz"]["count_ratio"] == 0.5
+    assert scores["late.npz"] == {"count_ratio": 1.0, "nearest": 1.0}
     assert main(words) == 0
-    table = capsys.readouterr().out
-    assert "mean of windows" in table
-    assert "undefined" in table
-    assert main([*words, "--json", "--window", "0.2"]) == 0
-    document = json.loads(capsys.readouterr().out)
-    stpp = document["window_means"]["stpp"]
-    assert stpp["windows"] == 6
-    assert stpp["mean"] == pytest.approx(np.mean(stpp["values"]))
-    assert stpp["low"] < stpp["mean"] < stpp["high"]
+    assert "guess.npz late.npz" in " ".join(capsys.readouterr().out.split())

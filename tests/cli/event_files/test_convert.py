@@ -143,9 +143,9 @@ def test_hot_pixels_are_left_out_by_a_mask_or_by_a_filter(
 
 
 def test_events_are_turned_mirrored_and_put_on_larger_pixels(recording: EventStream) -> None:
-    words = ("--downsample", "2", "--rotate", "90", "--flip", "x")
+    words = ("--resize", "173x130", "--rotate", "90", "--flip", "x")
     assert run("convert", "in.h5", "turned.h5", *words, "-q") == 0
     found = load("turned.h5")
     assert found.size == SensorSize(130, 173)
-    assert found.equals(recording.downsample(2).rotate(90).flip("x"))
-    assert found.metadata["edits"] == [{"downsample": 2, "rotate": 90, "flip": "x"}]
+    assert found.equals(recording.resize("173x130").rotate(90).flip("x"))
+    assert found.metadata["edits"] == [{"resize": "173x130", "rotate": 90, "flip": "x"}]

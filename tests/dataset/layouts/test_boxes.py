@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 from tests.dataset.layouts.crossing import CAR, INSTANTS, MAN, crossing_boxes
 
-from texvent.dataset.layouts.boxes import boxes_at
-from texvent.dataset.layouts.classes import ClassList
+from texvent.dataset.layouts.boxes import ClassList, boxes_at
 from texvent.errors import ConfigError
 
 

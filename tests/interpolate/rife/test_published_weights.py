@@ -8,7 +8,7 @@ from texvent.config import InterpolateConfig
 from texvent.data.pull import pull
 from texvent.interpolate.rife.interpolator import RifeInterpolator
 from texvent.video import Frame
-from texvent.weights.fetch import pull_weights
+from texvent.weights import pull_weights
 
 pytestmark = [pytest.mark.network, pytest.mark.torch]
 pytest.importorskip("torch")

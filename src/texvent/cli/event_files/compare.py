@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import json
-import math
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar
@@ -17,7 +16,6 @@ from texvent.cli.event_files.event_file_options import ReadingOptions, parse_tim
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
-from texvent.config import check_range
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
 from texvent.metrics.compare import (
@@ -31,13 +29,11 @@ from texvent.metrics.compare import (
 from texvent.metrics.controls import CONTROLLED, run_controls
 from texvent.metrics.latent_similarity import EventQualityScore, load_eqs
 from texvent.metrics.protocol import Metric
-from texvent.metrics.uncertainty import LEAST_WINDOWS, WindowScores, check_window, score_windows
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.video import MICROSECONDS
 
 DESCRIPTION = """Compare event files of one sensor: one or several to judge, then the true one. Each
-metric says what it does not see, and how sure it is over windows of time; of several files, which
-is closer. docs/metrics.md gives definitions and the self-test."""
+metric says what it does not see. docs/metrics.md gives definitions and the self-test."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -53,8 +49,6 @@ class CompareOptions(ReadingOptions):
     """Names of metrics, separated by commas; default: all whose weights are here."""
     time: str | None = None
     """Compare START,STOP only, in seconds; either may be left out."""
-    window: float | None = None
-    """Windows of this length for intervals, in seconds; default: 0.1, longer above 50 windows."""
     sensor: str | None = None
     """Sensor size, for event formats that do not store it."""
     rvt_weights: Path | None = None
@@ -68,13 +62,6 @@ class CompareOptions(ReadingOptions):
                 f"{self.files[0]} is the only file; give one or several to judge, and last the one "
                 "with the truth"
             )
-        check_range("window", self.window, 1e-6, 1e6)
-        check_window(self.window_us)
-
-    @property
-    def window_us(self) -> int | None:
-        """Length of the windows, µs; None: as long as suits the recording."""
-        return None if self.window is None else round(self.window * MICROSECONDS)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -89,7 +76,6 @@ class Comparison:
     metrics: Sequence[Metric]
     scores: Mapping[str, Mapping[str, float]]
     """Label → metric → value."""
-    windows: WindowScores
     controls: Mapping[str, Mapping[str, float]]
     """Metric → control → value, of the metrics that are not shown without."""
     left_out: Mapping[str, str]
@@ -120,16 +106,12 @@ def _compare(options: CompareOptions) -> Comparison:
             name: compare(events, reference, metrics, progress=progress)
             for name, events in predicted.items()
         }
-        windows = score_windows(
-            predicted, reference, metrics, window_us=options.window_us, progress=progress
-        )
     return Comparison(
         paths=options.files,
         predicted=predicted,
         reference=reference,
         metrics=metrics,
         scores=scores,
-        windows=windows,
         controls={
             one.name: run_controls(one, reference) for one in metrics if one.name in CONTROLLED
         },
@@ -200,43 +182,27 @@ def _document(found: Comparison) -> dict[str, Any]:
         {
             "predicted": {"path": str(path), "events": len(found.predicted[name])},
             "scores": dict(found.scores[name]),
-            "window_means": {
-                metric.name: {
-                    **found.windows.mean(metric.name, name).document(),
-                    "values": found.windows.values[metric.name, name].tolist(),
-                }
-                for metric in found.metrics
-            },
         }
         for path, name in zip(judged, found.predicted, strict=True)
     ]
-    document = {
+    return {
         **(every[0] if len(every) == 1 else {"candidates": every}),
         "reference": {"path": str(reference), "events": len(found.reference)},
         "controls": found.controls,
-        "windows": {"window_us": found.windows.window_us, "starts_us": found.windows.starts_us},
         "left_out": found.left_out,
     }
-    if len(every) > 1:
-        document["differences"] = [one.document() for one in found.windows.verdicts()]
-    return document
 
 
 def _show(console: Console, found: Comparison) -> None:
-    """Values of all candidates, blind spots, then which of two is closer, metric by metric."""
-    is_single = len(found.predicted) == 1
-    titles = ["value", "mean of windows"] if is_single else list(map(escape, found.predicted))
+    """Values of all candidates, blind spots, controls, and what was left out."""
+    titles = ["value"] if len(found.predicted) == 1 else list(map(escape, found.predicted))
     table = Table("metric", *titles, "unit", "good", box=None, pad_edge=False)
     blind = Table("metric", "does not see", box=None, pad_edge=False)
     for metric in found.metrics:
         values = [score_text(one[metric.name]) for one in found.scores.values()]
-        if is_single:
-            values += [_mean_text(found.windows, metric.name, name) for name in found.predicted]
         table.add_row(metric.name, *values, metric.unit, GOOD[metric.better])
         blind.add_row(metric.name, metric.blind_to)
     console.print(table, "", blind, sep="\n")
-    for line in _window_notes(found.windows, is_single=is_single):
-        console.print(f"\n{line}", markup=False)
     for name, values_by_control in found.controls.items():
         controls = Table(f"{name}, controls of the reference", "value", box=None, pad_edge=False)
         for control, value in values_by_control.items():
@@ -244,29 +210,3 @@ def _show(console: Console, found: Comparison) -> None:
         console.print("", controls, sep="\n")
     for name, missing in found.left_out.items():
         console.print(f"\n{name} was left out: {missing}", style="dim", markup=False)
-
-
-def _window_notes(windows: WindowScores, *, is_single: bool) -> Iterator[str]:
-    """Which windows intervals are of, and the differences of several candidates."""
-    count, seconds = len(windows.starts_us), windows.window_us / MICROSECONDS
-    if count < LEAST_WINDOWS:
-        yield (
-            f"no intervals: {count} whole windows of {seconds:g} s are too few, "
-            f"{LEAST_WINDOWS} are needed; --window makes them shorter"
-        )
-    else:
-        yield f"intervals and differences: of the means of {count} windows of {seconds:g} s"
-    if not is_single:
-        yield "\n".join(f"{one.metric}: {one.sentence}" for one in windows.verdicts())
-
-
-def _mean_text(windows: WindowScores, metric: str, candidate: str) -> str:
-    """A mean of windows and its interval; empty where there are too few."""
-    if len(windows.starts_us) < LEAST_WINDOWS:
-        return ""
-    mean = windows.mean(metric, candidate)
-    if math.isnan(mean.mean):
-        return "undefined"
-    if not mean.is_enough:
-        return f"{mean.mean:.4f} (too few)"
-    return f"{mean.mean:.4f} [{mean.interval.low:.4f}, {mean.interval.high:.4f}]"

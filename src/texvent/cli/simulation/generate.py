@@ -3,34 +3,37 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import ClassVar
+from typing import Any, ClassVar
 
 from texvent._registry import GENERATORS
 from texvent.cli.command import read_subject, resolve_command, subject_name
-from texvent.cli.notices import write_out
+from texvent.cli.notices import say, write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.outputs import OutputOptions, default_event_file
-from texvent.cli.run import execute, print_settings
-from texvent.cli.simulation.preview import write_preview
+from texvent.cli.run import describe_scene, execute, print_settings
 from texvent.errors import ConfigError, InputError, warn
+from texvent.generate.procedural import ProceduralGenerator
 from texvent.generate.scene_input import Subject, check_takes
 from texvent.generate.video_models.known_models import warn_low_fps
-from texvent.io.atomic import check_output
+from texvent.io.atomic import atomic_file, check_output
 from texvent.run.prepare import check_run, is_strict, make_scene, make_video, prepare_prompt
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.scenes.spec.files import is_scene_file, save_scene
 from texvent.scenes.spec.scene import Scene
 from texvent.settings.resolution import Settings
 from texvent.truth.layout import check_generator
+from texvent.video import frame_time_us
 
 DESCRIPTION = """Turn a sentence into the events that an event camera would record. The embedded
 generator renders simple 3-D shapes; `texvent generators` lists learned models.
 
   texvent generate "a red car drives left past two trees at dusk" -o out.h5
   texvent generate "a dog runs" --generator wan-1.3b --simulator v2e --seed 3"""
-VIDEO_EXTENSION = ".avi"
+VIDEO_EXTENSION, STILLS_EXTENSION = ".avi", ".png"
+ABOUT_HALF = 0.43
+"""Of the clip. At its half, what repeats every second would look as at the beginning."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -82,7 +85,7 @@ def run(arguments: Sequence[str]) -> int:
     if own.video_only:
         return _write_video(prompt, own, settings, output)
     if own.preview is not None:
-        write_preview(prompt, settings, own.preview, output)
+        _write_preview(prompt, settings, own.preview, output)
         return 0
     check_run(settings)
     files = output.files(subject_name(own.prompt))
@@ -181,3 +184,36 @@ def _write_video(
     if not output.quiet:
         write_out(f"{path}\n")
     return 0
+
+
+def _write_preview(prompt: Subject, settings: Settings, path: Path, output: OutputOptions) -> None:
+    """Write the scene at its beginning, about its middle and its end; say what is shown.
+
+    Raises:
+        ConfigError: the name does not end in .png, or the generator is a learned model.
+        InputError: the prompt cannot be shown.
+        OutputError: the file exists already, or cannot be written.
+    """
+    from texvent.view.stills import draw_stills  # brings OpenCV
+
+    if path.suffix.lower() != STILLS_EXTENSION:
+        raise ConfigError(f"preview is {path}; its name must end in {STILLS_EXTENSION}")
+    if not issubclass(GENERATORS.load(str(settings.generator)), ProceduralGenerator):
+        raise ConfigError(
+            "--preview shows scenes of the embedded generator; a learned model must make its whole "
+            "video first: use --video-only"
+        )
+    check_output(path, overwrite=output.overwrite)
+    settings = replace(settings, source=replace(settings.source, samples=1))  # a draft
+    with ConsoleProgress(is_quiet=output.quiet) as progress:
+        video = make_video(prompt, settings, progress=progress)
+    if not output.quiet:
+        for line in describe_scene(video.metadata, with_words=True):
+            say(line)
+    scene: Any = video
+    end_us = frame_time_us(scene.frame_count - 1, scene.fps)
+    image = draw_stills(scene, (0, round(ABOUT_HALF * end_us), end_us))
+    with atomic_file(path, overwrite=output.overwrite) as part:
+        part.write_bytes(image)
+    if not output.quiet:
+        write_out(f"{path}\n")

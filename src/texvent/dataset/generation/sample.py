@@ -60,7 +60,7 @@ def record_truth(specification: Specification, item: Item, simulation: Simulatio
     Raises:
         TexventError: the labels cannot be read, or the video does not know its truth.
     """
-    from texvent.truth.labels.reading import read_labels  # brings OpenCV
+    from texvent.truth.labels import read_labels  # brings OpenCV
     from texvent.truth.recorder import TruthRecorder  # brings the ray caster
 
     video, place = simulation.video, None

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.shards import SampleRecord
-from texvent.dataset.layouts.classes import ClassList
+from texvent.dataset.layouts.boxes import ClassList
 from texvent.dataset.layouts.layout import Layout
 from texvent.dataset.layouts.samples import folder_name
 from texvent.dataset.reading.stored_dataset import StoredDataset

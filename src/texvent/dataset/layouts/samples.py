@@ -9,10 +9,10 @@ from functools import partial
 
 import numpy as np
 
-from texvent.dataset.generation.clip_frames import clip_frames
 from texvent.dataset.generation.recipe import Recipe, Shard
 from texvent.dataset.generation.shards import SampleRecord
-from texvent.dataset.layouts.classes import ClassList
+from texvent.dataset.layouts.boxes import ClassList
+from texvent.dataset.layouts.frames import clip_frames
 from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
 from texvent.dataset.reading.stored_events import read_events, sample_truth

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
@@ -22,12 +22,13 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.represent.named import load_representation, represent_window
 from texvent.sensor import SensorSize
-from texvent.transform.augment import Augment
 from texvent.truth.clip import ClipTruth
 
 NO_CLASS = -1
 Window: TypeAlias = tuple[int, int]
 """Start (included) and end (excluded), µs."""
+Augmentation: TypeAlias = Callable[[EventStream, np.random.Generator], EventStream]
+"""Gives a changed copy of events, by draws of the generator alone."""
 
 
 def open(
@@ -131,9 +132,10 @@ class StoredSamples:
     """Events per slice, instead of `slice_us`; a sample gives as many whole slices as it has."""
     targets: tuple[str, ...] = ()
     """Ground truth that `make` gives too: boxes, flow, depth."""
-    augment: Augment | None = None
-    """Changes the events of `make`, before they are sliced, by its seed, the epoch and the sample's
-    number."""
+    augment: Augmentation | None = None
+    """Changes the events of `make`, before they are sliced."""
+    augment_seed: int = 0
+    """Decides, with the epoch and the sample's number, what the generator of `augment` draws."""
 
     def __repr__(self) -> str:
         given = f", {self.representation}" if self.representation else ""
@@ -152,7 +154,7 @@ class StoredSamples:
         elif self.representation_options:
             raise ConfigError("representation_options belong to a representation; name it")
         self._refuse_short()
-        check_targets(self.targets, self.index, self.augment)
+        check_targets(self.targets, self.index, has_augment=self.augment is not None)
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -243,7 +245,7 @@ class StoredSamples:
 
         Raises:
             IndexError, FileFormatError: as for `[number]`.
-            InputError: `augment` does not fit the sensor, or leaves too few events for a slice.
+            InputError: `augment` leaves too few events for a slice.
         """
         number = self._checked(number)
         index = self.index
@@ -292,12 +294,21 @@ class StoredSamples:
             slice_events=slice_events,
         )
 
-    def augmented(self, augment: Augment | None) -> StoredSamples:
+    def augmented(self, augment: Augmentation | None, *, seed: int = 0) -> StoredSamples:
         """The same samples, whose events `make` changes; None: unchanged.
 
-        Example: `samples.augmented(Augment(["flip-x", "shift:pixels=5"], seed=1))`.
+        What happens to a sample depends on seed, epoch and number alone, in any order and in any
+        worker.
+
+        Args:
+            augment: function of the events and a generator, such as
+                `lambda events, chance: events.flip("x") if chance.random() < 0.5 else events`.
+            seed: of the generators, 0 or more.
+
+        Raises:
+            ConfigError: the samples have targets, which `augment` would leave behind.
         """
-        return replace(self, augment=augment)
+        return replace(self, augment=augment, augment_seed=seed)
 
     def with_targets(self, *targets: str) -> StoredSamples:
         """The same samples, of which `make` gives ground truth too: boxes, flow, depth.
@@ -347,7 +358,8 @@ class StoredSamples:
     def _slices(self, number: int, epoch: int) -> Iterator[tuple[EventStream, Window]]:
         events = self.events(number)
         if self.augment is not None:
-            events = self.augment(events, number, epoch=epoch)
+            key = np.random.SeedSequence(self.augment_seed, spawn_key=(epoch, number))
+            events = self.augment(events, np.random.default_rng(key))
         if self.slice_events is not None:
             if len(events) < self.slice_events:
                 raise InputError(

@@ -11,18 +11,15 @@ from numpy.typing import NDArray
 from texvent._registry import suggest
 from texvent.dataset.loading.index import MEMBERS, Index
 from texvent.errors import ConfigError, InputError, shown
-from texvent.transform.augment import Augment, DropArea, DropEvents, DropTime, FlipPolarity
 from texvent.truth.boxes import detection_target
 from texvent.truth.clip import ClipTruth
 from texvent.truth.layout import CLIP_FILES
 
 TARGETS = ("boxes", "flow", "depth")
-STILL = (DropArea, DropEvents, DropTime, FlipPolarity)
-"""Augmentations that leave every event where and when it is."""
 
 
-def check_targets(targets: Sequence[str], index: Index, augment: Augment | None) -> None:
-    """Refuse targets that samples do not store, and augmentations that would leave them behind.
+def check_targets(targets: Sequence[str], index: Index, *, has_augment: bool) -> None:
+    """Refuse targets that samples do not store, or that an augmentation would leave behind.
 
     Raises:
         ConfigError, InputError: see above.
@@ -37,13 +34,11 @@ def check_targets(targets: Sequence[str], index: Index, augment: Augment | None)
                 f"{lacking:,} of {len(index):,} samples store no {target}; name {target} in "
                 "`truth` of the specification, and make the data set again"
             )
-    for step in augment.steps if augment is not None and targets else ():
-        if not isinstance(step, STILL):
-            names = ", ".join(one.__name__ for one in STILL)
-            raise ConfigError(
-                f"augment moves events by {type(step).__name__}, and targets stay where they are; "
-                f"take {names}, or move both in the training loop"
-            )
+    if targets and has_augment:
+        raise ConfigError(
+            "augment changes the events, and targets stay where they are; leave one of them out, "
+            "and change both in the training loop"
+        )
 
 
 def targets_of(

@@ -32,7 +32,7 @@ def check_truth(specification: Specification, items: Items, *, is_stored: bool) 
         is_stored: whether videos are stored before they are simulated.
 
     Raises:
-        ConfigError, InputError: see above, and as `texvent.truth.labels.reading.read_labels`.
+        ConfigError, InputError: see above, and as `texvent.truth.labels.read_labels`.
     """
     are_labelled = items.all[0].boxes is not None
     if any((item.boxes is not None) != are_labelled for item in items.all):
@@ -93,7 +93,7 @@ def _names_of_labels(specification: Specification, items: Items) -> tuple[str, .
         ConfigError, InputError: they cannot be used.
     """
     from texvent.capture.open import open_frames  # brings OpenCV
-    from texvent.truth.labels.reading import read_labels
+    from texvent.truth.labels import read_labels
 
     options = extreme_options(specification.options)[0]
     if not specification.classes:

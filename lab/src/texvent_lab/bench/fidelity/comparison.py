@@ -10,8 +10,8 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from texvent.metrics.uncertainty import LEAST_WINDOWS, Mean, paired_differences
 from texvent_lab.bench.summary import summarise
+from texvent_lab.bench.uncertainty import LEAST_WINDOWS, Mean, paired_differences
 
 ALIKE = "≈"
 """Marks a difference that cannot be told from none."""

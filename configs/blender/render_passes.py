@@ -1,7 +1,7 @@
 """Render a .blend with the passes that texvent needs; run by Blender, never imported by texvent.
 
-    blender --background scene.blend --python blender_script.py -- OUT
-    python blender_script.py scene.blend OUT            (a Python with bpy)
+    blender --background scene.blend --python render_passes.py -- OUT
+    python render_passes.py scene.blend OUT            (a Python with bpy)
 
     OUT/frames/000001.exr     Combined: linear light, float32
     OUT/motion/000001.exr     Vector, Depth and Object Index at the centre of every pixel
@@ -51,7 +51,7 @@ def main(words: list[str]) -> None:
 
 
 def _read(words: list[str], is_inside: bool) -> Any:
-    parser = argparse.ArgumentParser(prog="blender_script.py", description=__doc__.split("\n")[0])
+    parser = argparse.ArgumentParser(prog="render_passes.py", description=__doc__.split("\n")[0])
     if not is_inside:
         parser.add_argument("blend", help="the .blend file")
     parser.add_argument("out", help="folder to make")

@@ -1,7 +1,9 @@
-"""Labels of a video: read from any format, checked, and placed on its events."""
+"""Labels of a video: read from COCO, MOT or YOLO files, checked, and placed on its events."""
 
 from __future__ import annotations
 
+import json
+import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
@@ -15,10 +17,75 @@ from texvent.capture.fit_to_sensor import fit_place
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import BOX_RECORD, Label, clip_boxes
-from texvent.truth.labels.coco import read_coco
-from texvent.truth.labels.mot import read_mot
-from texvent.truth.labels.yolo import read_yolo
 from texvent.video import MICROSECONDS, frame_time_us
+
+
+def read_coco(path: Path, size: SensorSize) -> tuple[list[Label], set[int]]:
+    """Labels and labelled frames of COCO JSON, for pictures of a size; see `read_labels`.
+
+    The `frame_id` of an image (from 0, as in COCO-VID) goes before its place. A `track_id` says
+    which object a box is of. Crowds are left out. Source: the COCO object detection format.
+    """
+    facts = json.loads(path.read_text(encoding="utf-8"))
+    names = {one["id"]: str(one["name"]) for one in facts["categories"]}
+    images = facts["images"]
+    frames = {one["id"]: int(one.get("frame_id", place)) for place, one in enumerate(images)}
+    for one in images:
+        labelled = SensorSize(int(one["width"]), int(one["height"]))
+        if labelled != size:
+            raise InputError(
+                f"{path} labels pictures of {labelled!s:.40}, and the video has {size}; give the "
+                "video that was labelled"
+            )
+    labels = []
+    for one in facts["annotations"]:
+        for what, known in (("category_id", names), ("image_id", frames)):
+            if one[what] not in known:
+                raise InputError(f"{path}: {what} {one[what]!r:.40} of a box is not in its lists")
+        if not one.get("iscrowd"):
+            track, name = int(one.get("track_id", 0)), names[one["category_id"]]
+            labels.append(Label(frames[one["image_id"]], track, name, *map(float, one["bbox"])))
+    return labels, set(frames.values())
+
+
+def read_mot(path: Path, size: SensorSize) -> tuple[list[Label], set[int]]:
+    """Labels and labelled frames of MOT text, counted from 1; see `read_labels`.
+
+    A line holds frame, id, left, top, width, height, confidence, class, ... An id or a class of -1
+    is none; a confidence of 0 marks a box that is not to be used. Classes are called by their
+    numbers. Source: Milan et al., MOT16, arXiv:1603.00831, Table 6.
+    """
+    del size  # boxes are in pixels
+    labels, frames = [], set()
+    for line in filter(str.strip, path.read_text(encoding="ascii").splitlines()):
+        frame, track, x, y, w, h, *more = map(float, line.split(","))
+        confidence, kind = (*more, -1.0, -1.0)[:2]
+        frames.add(int(frame) - 1)
+        if confidence != 0:
+            at = int(frame) - 1, max(int(track), 0), str(int(kind))
+            labels.append(Label(*at, x - 1, y - 1, w, h))
+    return labels, frames
+
+
+def read_yolo(path: Path, size: SensorSize) -> tuple[list[Label], set[int]]:
+    """Labels and labelled frames of a YOLO folder, for pictures of a size; see `read_labels`.
+
+    A .txt for each labelled frame has lines `class cx cy w h`, in shares of the picture. The number
+    at the end of its name is that of the frame, from 0 where one is 0, else from 1. Classes are
+    called by their numbers. Source: the label format of Darknet and Ultralytics.
+    """
+    numbered = ((re.search(r"(\d+)\.txt$", one.name), one) for one in sorted(path.iterdir()))
+    files = {int(number[1]): one for number, one in numbered if number is not None}
+    first = min(1, *files, 1)
+    labels = []
+    for number, one in files.items():
+        for line in filter(str.strip, one.read_text(encoding="ascii").splitlines()):
+            kind, cx, cy, w, h = map(float, line.split()[:5])
+            corner = (cx - w / 2) * size.width, (cy - h / 2) * size.height
+            sides = w * size.width, h * size.height
+            labels.append(Label(number - first, 0, str(int(kind)), *corner, *sides))
+    return labels, {number - first for number in files}
+
 
 Reader = Callable[[Path, SensorSize], tuple[list[Label], set[int]]]
 READERS: Mapping[str, tuple[str, Reader]] = MappingProxyType(

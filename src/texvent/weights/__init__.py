@@ -1,1 +1,0 @@
-"""Published network weights: fetched by name, checked, converted to safetensors."""
