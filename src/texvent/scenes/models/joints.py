@@ -178,14 +178,6 @@ def _turn(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> J
     return Joint(lambda pose, seed: turn_about(axis, angle, pivot))
 
 
-def _lie(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
-    """Turned unless it is carried: angle."""
-    angle = _angle(words[0])
-    return Joint(
-        lambda pose, seed: turn_about(axis, 0.0 if pose.activity == "move" else angle, pivot)
-    )
-
-
 def _bow(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
     """Turned down while the mouth is at the ground: angle."""
     reach = _angle(words[0])
@@ -240,7 +232,7 @@ def _sway(axis: str, words: Sequence[str], options: _Options) -> Joint:
 
 
 _ABOUT_PIVOT: Mapping[str, Callable[[str, Point, Sequence[str], _Options], Joint]] = {
-    "spin": _spin, "swing": _swing, "roll": _roll, "turn": _turn, "lie": _lie, "bow": _bow,
+    "spin": _spin, "swing": _swing, "roll": _roll, "turn": _turn, "bow": _bow,
     "pulse": _pulse, "grow": _grow, "vary": _vary,
 }  # fmt: skip
 _ALONG: Mapping[str, Callable[[str, Sequence[str], _Options], Joint]] = {

@@ -103,12 +103,6 @@ class Steps:
     """How fully it steps, 0 to 1."""
 
 
-def steps_at(gait: Gait, pose: Pose, seed: int) -> Steps:
-    """The steps of a gait at one instant; the seed chooses the first."""
-    strides = pose.distance_m / gait.stride + fraction(seed, "step")
-    return Steps(gait, strides, step_amount(pose.activity, pose.speed_m_s, 0.35 * gait.stride))
-
-
 DrawLegs = Callable[[Steps, float], list[ModelPart]]
 """Steps, and how far the body is lifted, m → all legs."""
 
@@ -254,7 +248,9 @@ def read_walk(
     reach, times, late = table.get("bob", (0.0, 0.0, 0.0))
 
     def walk(parts: Sequence[ModelPart], pose: Pose, seed: int) -> list[ModelPart]:
-        steps = steps_at(gait, pose, seed)
+        strides = pose.distance_m / gait.stride + fraction(seed, "step")
+        amount = step_amount(pose.activity, pose.speed_m_s, 0.35 * gait.stride)
+        steps = Steps(gait, strides, amount)
         cycle = 2.0 * math.pi * (times * steps.strides - late)
         rise = steps.amount * reach * (0.5 - 0.5 * math.cos(cycle))
         return [

@@ -208,7 +208,8 @@ def _read_group(how: str, parts: tuple[Placed, ...], named: dict[str, tuple[Join
         elif first == "light":
             light = read_light(rest)
         elif first == "clip":
-            clip = _read_clip(rest)
+            axis, low, high = rest.split()
+            clip = "xyz".index(axis), float(low), float(high)
         elif item == "pair":
             is_paired = True
         elif item == "at rest":
@@ -242,11 +243,6 @@ def _read_clump(
         at = (out * math.cos(angle), across * out * math.sin(angle), up)
         parts.append(ball(toned(material, tint), at, (size, across * size, flat * size)))
     return parts, _Group((), tuple(map(read_joint, table.get("joints", ()))))
-
-
-def _read_clip(text: str) -> tuple[int, float, float]:
-    axis, low, high = text.split()
-    return "xyz".index(axis), float(low), float(high)
 
 
 _SLIVER_M = 5e-5

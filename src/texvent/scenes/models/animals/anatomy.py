@@ -51,11 +51,6 @@ def lowered_head(build: Build, stance: Stance) -> float:
     return 0.1 * stance.head_down if build.trunk_length > 0.0 else stance.head_down
 
 
-def curled_trunk(stance: Stance) -> float:
-    """How far a trunk is curled towards the mouth, 0 to 0.4."""
-    return 0.38 * min(max(0.5 + 7.0 * (stance.head_down - 0.93), 0.0), 1.0)
-
-
 def _bow(build: Build) -> float:
     """How far the trunk bows for the mouth to reach the ground, rad."""
     left = _lowest_nose(build) - 0.04 * build.shoulder - 0.12 * build.head[0]
@@ -164,7 +159,8 @@ def draw_neck_and_head(
         ),
         limb(coat.limbs, mixed(base, top, 0.5), top, 0.9 * thick, side_radius=0.26 * width),
     ]
-    curled = curled_trunk(stance) if stance.head_down else 0.0
+    share = 0.5 + 7.0 * (stance.head_down - 0.93)
+    curled = 0.38 * min(max(share, 0.0), 1.0) if stance.head_down else 0.0
     head = draw_head(build, coat, top, wag, stance, curled)
     head = moved(head, turn_about("y", 0.75 * down, top)) if down else head
     return [*parts, *head, *_mane(build, coat, base, top)]
