@@ -107,17 +107,13 @@ def _split_options(words: Sequence[str]) -> tuple[list[str], _Options]:
     return plain, options
 
 
-def _share_of_turn(word: str) -> float:
-    """Cycles of a number of them, or of an angle such as "90deg"."""
-    return read_number(word, "deg") / 360.0 if word.endswith("deg") else read_number(word)
-
-
 def _cycle(rate: str, options: _Options) -> Cycle:
     """Cycles of a rate, by its "start" and "from"."""
     unit = next((one for one in ("hz", "/m") if rate.endswith(one)), None)
     if unit is None:
         raise ValueError(f"rate {rate!r} needs the unit 'hz' or '/m'")
-    pace, late = read_number(rate, unit), _share_of_turn(options.get("from", ["0"])[0])
+    pace, word = read_number(rate, unit), options.get("from", ["0"])[0]
+    late = read_number(word, "deg") / 360.0 if word.endswith("deg") else read_number(word)
     label, times = [*options.get("start", [""]), "1"][:2]
     most = read_number(times)
 

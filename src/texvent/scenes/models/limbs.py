@@ -226,12 +226,6 @@ class Chain:
         return joints
 
 
-def read_legs(table: Mapping[str, Any]) -> Legs:
-    """Legs from a table of their fields; pairs are lines of six numbers."""
-    rows = (row.split() for row in table["pairs"].splitlines() if row.strip())
-    return Legs(**{**table, "pairs": tuple(tuple(float(one) for one in row) for row in rows)})
-
-
 def read_walk(
     table: Mapping[str, Any], painted: Painted
 ) -> Callable[[Sequence[ModelPart], Pose, int], list[ModelPart]]:
@@ -244,7 +238,10 @@ def read_walk(
         What lifts the parts of the body and adds the legs, at a pose and by the seed.
     """
     gait = Gait(**table["gait"])
-    legs = [read_legs(one).drawn_in(painted) for one in table.get("legs", ())]
+    legs = []
+    for one in table.get("legs", ()):  # pairs are lines of six numbers
+        rows = (map(float, row.split()) for row in one["pairs"].splitlines() if row.strip())
+        legs.append(Legs(**{**one, "pairs": tuple(map(tuple, rows))}).drawn_in(painted))
     reach, times, late = table.get("bob", (0.0, 0.0, 0.0))
 
     def walk(parts: Sequence[ModelPart], pose: Pose, seed: int) -> list[ModelPart]:

@@ -19,9 +19,6 @@ _SCALES: Mapping[str, tuple[float, float]] = {
     "walls": (0.95, 1.1), "under": (1.0, 1.0),
 }  # fmt: skip
 """Usual multiples of its size, of what does not stand around."""
-ROAD_GROUNDS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
-SHORE_GROUNDS = (Ground.RIVER, Ground.LAKE)
-"""Grounds of water beside land."""
 
 
 @dataclass(frozen=True)
@@ -79,12 +76,12 @@ class Place:
     @property
     def has_road(self) -> bool:
         """Whether a road or a street runs through it."""
-        return self.ground in ROAD_GROUNDS
+        return self.ground in (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
 
     @property
     def has_shore(self) -> bool:
         """Whether water lies beside land."""
-        return self.ground in SHORE_GROUNDS
+        return self.ground in (Ground.RIVER, Ground.LAKE)
 
 
 def _place_of(fields: dict[str, Any]) -> Place:

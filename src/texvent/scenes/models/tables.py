@@ -84,13 +84,10 @@ FIRST_OTHER = 2001
 """Numbers of names that are no nouns of the embedded generator begin here."""
 
 
-def _read_class_ids() -> Mapping[str, int]:
-    names: str = read_table("class_ids")["nouns"]
-    numbered = enumerate(names.split(","), start=1)
-    return MappingProxyType({" ".join(name.split()): number for number, name in numbered})
-
-
-CLASS_IDS: Mapping[str, int] = _read_class_ids()
+_NAMES: list[str] = read_table("class_ids")["nouns"].split(",")
+CLASS_IDS: Mapping[str, int] = MappingProxyType(
+    {" ".join(name.split()): number for number, name in enumerate(_NAMES, start=1)}
+)
 """Noun → class id, 1, 2, ..., of nouns that are gone too."""
 
 

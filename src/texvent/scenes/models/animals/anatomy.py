@@ -53,15 +53,11 @@ def lowered_head(build: Build, stance: Stance) -> float:
 
 def _bow(build: Build) -> float:
     """How far the trunk bows for the mouth to reach the ground, rad."""
-    left = _lowest_nose(build) - 0.04 * build.shoulder - 0.12 * build.head[0]
-    return min(max(left / max(0.66 * build.body_size[0], 1e-6), 0.0), 0.34)
-
-
-def _lowest_nose(build: Build) -> float:
-    """Height of the nose with neck and head as low as they go, m."""
-    height = build.body_size[2]
+    length, _, height = build.body_size
     long = (build.neck[0] + 0.2 * height) * math.sin(LOWEST)
-    return build.shoulder - 0.36 * height + long - 0.9 * (build.head[1] + 0.35 * build.head[0])
+    nose = build.shoulder - 0.36 * height + long - 0.9 * (build.head[1] + 0.35 * build.head[0])
+    left = nose - 0.04 * build.shoulder - 0.12 * build.head[0]
+    return min(max(left / max(0.66 * length, 1e-6), 0.0), 0.34)
 
 
 def sit_drop(build: Build) -> float:

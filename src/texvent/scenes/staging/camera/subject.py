@@ -58,12 +58,6 @@ def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor
     return [*asked[:1], *able[:1], actors[0]][0]
 
 
-def goes_in_depth(description: SceneDescription, main: Actor) -> bool:
-    """Whether the scene says that it comes towards the camera or goes away from it."""
-    motion = description.objects[main.object_index].motion
-    return motion is not None and motion.direction in ("towards", "away")
-
-
 def acts_with_arms(actor: Actor, times: Float64Array) -> bool:
     """Whether it is a hand that stays, or a person who acts with arms and head all along."""
     if actor.noun.name in HAND_NOUNS:

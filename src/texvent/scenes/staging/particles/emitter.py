@@ -194,7 +194,9 @@ class Emitter:
         start = self.source.at(born_s) + offset
         flown_s = age_s
         if style.body == "flake":
-            flown_s = np.minimum(age_s, self._landing_s(start[:, 2], velocity[:, 2]))
+            fall = np.maximum(start[:, 2] - self.setting.floor_m - 0.03 * size, 0.0)
+            up, down = velocity[:, 2], max(GRAVITY * style.gravity, 1e-6)
+            flown_s = np.minimum(age_s, (up + np.sqrt(up**2 + 2.0 * down * fall)) / down)
         way, heading = flight(flown_s, velocity, drag_s, pull)
         places = start + way
         if style.curl:
@@ -213,12 +215,6 @@ class Emitter:
         around, out = 2.0 * math.pi * draws[:, 3], style.area * np.sqrt(draws[:, 4])
         spot = np.stack([out * np.cos(around), out * np.sin(around), 0.0 * out], axis=1)
         return self.source.size_m * spot
-
-    def _landing_s(self, above: Float64Array, upward: Float64Array) -> Float64Array:
-        """[n] when flakes come to rest on the ground, s after their birth."""
-        fall = np.maximum(above - self.setting.floor_m - 0.03 * self.source.size_m, 0.0)
-        pull = max(GRAVITY * self.style.gravity, 1e-6)
-        return np.asarray((upward + np.sqrt(upward**2 + 2.0 * pull * fall)) / pull)
 
 
 def _between(ends: tuple[float, float], age: Float64Array) -> Float64Array:
