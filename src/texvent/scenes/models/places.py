@@ -91,15 +91,13 @@ def _place_of(fields: dict[str, Any]) -> Place:
     if walls is not None:
         fields["walls"] = Texture[walls["surface"].upper()]
         fields["wall_colour"] = walls["colour"]
-    fields["scenery"] = tuple(map(_scenery_of, fields.get("scenery", ())))
+    fields["scenery"] = tuple(
+        Scenery(**{"scale": _SCALES.get(row.get("where"), Scenery.scale), **row})
+        for row in fields.get("scenery", ())
+    )
     kind = Ground[ground["kind"].upper().replace(" ", "_")]
     fields.setdefault("light", "room" if kind is Ground.FLOOR else "")
     return Place(ground=kind, colours=ground["colours"], **fields)
-
-
-def _scenery_of(row: Mapping[str, Any]) -> Scenery:
-    scale = _SCALES.get(row.get("where", "around"), Scenery.scale)
-    return Scenery(**{"scale": scale, **row})
 
 
 PLACES: Mapping[str, Place] = MappingProxyType(
