@@ -40,19 +40,12 @@ def _read() -> Mapping[str, Any]:
     """Trait → its nouns, or its nouns with their values."""
     found: dict[str, Any] = {}
     for file in list_data("traits"):
-        traits = read_table(f"traits/{file.name.removesuffix('.toml')}")
-        twice = found.keys() & traits.keys()
-        if twice:
-            raise ValueError(f"{file.name}: {sorted(twice)} are traits of another file too")
-        found |= {name: _by_noun(nouns) for name, nouns in traits.items()}
-    return found
-
-
-def _by_noun(nouns: Any) -> Any:
-    """A table with a row for each noun of its keys."""
-    if not isinstance(nouns, Mapping):
-        return nouns
-    return {noun: value for key, value in nouns.items() for noun in key.split(", ")}
+        found |= read_table(f"traits/{file.name.removesuffix('.toml')}")
+    return {
+        trait: {noun: value for key, value in nouns.items() for noun in key.split(", ")}
+        if isinstance(nouns, Mapping) else nouns
+        for trait, nouns in found.items()
+    }  # fmt: skip
 
 
 @cache

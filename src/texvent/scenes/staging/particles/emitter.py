@@ -34,6 +34,8 @@ _FLAME_HZ = 6.0
 _FLAME_LIGHT = np.array([1.0, 0.5, 0.16])
 _EDDY, _EDDY_HZ = 1.6, 0.16
 """Size and rate of eddies, in units of an effect."""
+_NEAREST = 0.3
+"""Least distance of a flake to the camera, as a share of that to what it looks at."""
 _LONG_S = 1e4
 """Life of what has no end."""
 
@@ -137,10 +139,18 @@ class Emitter:
         if style.body == "drop":
             maps = along(flown.places, flown.heading, half)
             return many_shapes(maps, Shape.ELLIPSOID, self.colours[which], glow)
+        half = np.maximum(half * self._clear(flown.places, time_s), TINY_M)
         rate = style.turns * math.sqrt(GRAVITY / max(self.source.size_m, 0.02))
         starts, turned = flown.draws[:, [0, 2]], rate * flown.age_s[:, None]
         angles = 6.0 * starts + 6.6 * (starts - 0.5) * turned
         return many_shapes(tumbling(flown.places, angles, half), Shape.BOX, self.colours[which])
+
+    def _clear(self, places: Float64Array, time_s: float) -> Float64Array:
+        """[n, 1] share of its size that each flake is shown with: 0 right before the camera."""
+        camera = self.setting.camera
+        away = np.linalg.norm(places - camera.at(time_s).position, axis=1)[:, None]
+        nearest_m = _NEAREST * camera.framing.distance_m
+        return np.asarray(np.clip(away / nearest_m - 1.0, 0.0, 1.0))
 
     def puffs(self, time_s: float) -> Float64Array:
         """[k, 19] its puffs at that instant; those just born or about to go are thin."""
