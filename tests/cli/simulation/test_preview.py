@@ -13,7 +13,7 @@ def test_a_preview_shows_the_scene_and_says_what_is_shown_and_nothing_more(folde
     assert main([*words, "--preview", "scene.png"]) == 0
     said = capsys.readouterr()
     assert said.out == "scene.png\n"
-    assert "scene    1 ball, red, bounces" in said.err
+    assert 'scene    objects: noun = "ball", colour = "red"' in said.err
     assert "warning  prompt words not understood: wug" in said.err
     assert [path.name for path in Path().iterdir()] == ["scene.png"]
     image = cv2.imread("scene.png")
