@@ -29,7 +29,7 @@ def test_a_dry_run_says_what_is_shown_of_the_prompt(capsys):
     words = ["generate", "a red ball bounces", "--sensor", "32x24", "--duration", "0.1"]
     assert main([*words, "--dry-run"]) == 0
     said = capsys.readouterr()
-    assert "scene    1 ball, red, bounces" in said.err
+    assert 'scene    objects: noun = "ball", colour = "red"' in said.err
     assert "about" in said.out
     assert "memory" in said.out
     assert not list(Path().iterdir())

@@ -62,7 +62,6 @@ HELD = {
     "right of": (BALL, SceneObject("cube")),
     "behind": (SceneObject("man"), CAR),
     "front": (SceneObject("dog"), SceneObject("house")),
-    "between": (BALL, SceneObject("cube", count=2)),
     "past": (thing("car", ("drive",)), SceneObject("tree")),
     "through": (thing("train", ("drive",)), SceneObject("tunnel")),
     "towards": (thing("dog", ("walk",)), SceneObject("man")),
@@ -70,7 +69,7 @@ HELD = {
 }
 OTHER = {
     "on": "under", "under": "above", "above": "on", "left of": "right of", "right of": "left of",
-    "behind": "front", "front": "behind", "between": "in", "past": "around", "through": "above",
+    "behind": "front", "front": "behind", "past": "around", "through": "above",
     "towards": "away from", "around": "through",
 }  # fmt: skip
 

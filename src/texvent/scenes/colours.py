@@ -74,11 +74,8 @@ def shade_colour(rgb: Colour, shade: str) -> Colour:
     return (red, green, blue)
 
 
-GREY_LEVELS = {"light": "silver", "pale": "silver", "dark": "black"}
-"""Shade without a colour → the colour that it means: "dark clothes"."""
 SURFACES: Mapping[str, Colour] = {
     **COLOURS,
-    **{shade: COLOURS[name] for shade, name in GREY_LEVELS.items()},
     **{
         f"{shade} {name}": shade_colour(COLOURS[name], shade)
         for shade in SHADES

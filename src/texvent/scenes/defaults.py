@@ -166,19 +166,25 @@ def _rest_of(
 
 
 def _move_others(description: SceneDescription, nouns: Mapping[str, Noun]) -> SceneDescription:
-    """What is followed or overtaken, by others or the camera, moves."""
+    """What is followed or overtaken moves; who runs on what works, as a belt, stays in place."""
     motions: dict[int, Motion] = {}
+    new: dict[int, SceneObject] = {}
     kinds = [nouns[one.noun] for one in description.objects]
     for one in description.relations:
         target = one.targets[0]
         if one.kind in ("follow", "overtake") and kinds[target].speed_m_s > 0.0:
             motions[target] = Motion(kinds[target].motion)
+        rider = description.objects[one.subject]
+        runs = rider.motion is not None and rider.motion.kind in ("walk", "run")
+        if one.kind == "on" and kinds[target].is_working and rider.motion and runs:
+            done = replace(rider.motion, kind="run in place", direction=None)
+            new[one.subject] = replace(rider, motions=(done, *rider.motions[1:]))
     if any(move.kind == "follow" for move in description.camera.moves):
         movers = [n for n, noun in enumerate(kinds) if noun.speed_m_s > 0.0]
         aim = description.index(description.camera.target)
         for n in movers[:1] if aim is None else {aim}.intersection(movers):
             motions[n] = Motion(kinds[n].motion)
-    return _move(description, motions)
+    return _move(_change(description, new), motions)
 
 
 def _has_motion(description: SceneDescription) -> bool:

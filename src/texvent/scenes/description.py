@@ -62,6 +62,7 @@ def report_of(description: SceneDescription) -> PromptReport:
     Its lines are those of a scene file, an object each; `Scene.prompt` is left out.
 
     Example:
+        >>> from texvent.scenes.spec.scene import SceneObject
         >>> car = SceneObject("car", motions=(Motion("drive", "left"),))
         >>> report_of(SceneDescription(objects=(car,))).lines()
         ['objects: noun = "car", motions = [{ kind = "drive", direction = "left" }]']

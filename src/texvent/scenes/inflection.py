@@ -51,18 +51,11 @@ def _list_regular_plurals(noun: str) -> tuple[str, ...]:
     return (f"{noun}s",)
 
 
-def list_finite_forms(verb: str) -> tuple[str, ...]:
-    """Present forms of a verb.
-
-    Example:
-        >>> list_finite_forms("fly"), list_finite_forms("cross")
-        (('fly', 'flies'), ('cross', 'crosses'))
-    """
+def _third_person(verb: str) -> str:
+    """As "flies", "crosses"."""
     if verb.endswith(("s", "x", "z", "ch", "sh", "o")):
-        return (verb, f"{verb}es")
-    if _ends_in_y(verb):
-        return (verb, f"{verb[:-1]}ies")
-    return (verb, f"{verb}s")
+        return f"{verb}es"
+    return f"{verb[:-1]}ies" if _ends_in_y(verb) else f"{verb}s"
 
 
 def _ends_in_y(verb: str) -> bool:
@@ -87,5 +80,5 @@ def list_verb_forms(verb: str, irregular: str = "") -> list[tuple[str, str]]:
         stem += verb[-1]
     past = f"{verb[:-1]}ied" if _ends_in_y(verb) else f"{stem}ed"
     present, *pasts = irregular.split() or (f"{stem}ing", past)
-    forms = [(verb, "base"), (list_finite_forms(verb)[-1], "s"), (present, "ing")]
+    forms = [(verb, "base"), (_third_person(verb), "s"), (present, "ing")]
     return [*forms, *((one, "ed") for one in pasts)]

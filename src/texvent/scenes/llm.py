@@ -11,7 +11,7 @@ import json
 import os
 import urllib.error
 import urllib.request
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any, Literal, get_args, get_origin
 
 from texvent.errors import ConfigError, InputError, TexventError, one_line, shown
@@ -196,7 +196,7 @@ class _Grounding:
             if kind == "count":
                 found[name] = self._count(str(found["noun"]), value)
             elif kind and name in MOST_ITEMS:
-                items = value[: MOST_ITEMS[name]] if isinstance(value, list) else ()
+                items = value if isinstance(value, list) else ()
                 found[name] = [one for each in items if (one := self._keep(each, kind))]
             elif kind:
                 found[name] = self._keep(value, kind)
@@ -237,7 +237,6 @@ class _Grounding:
         return min(max(int(value or 1), 1), MOST_COUNT) if number in self._said or is_plural else 1
 
 
-def _tables(answer: Mapping[str, Any], name: str) -> Iterator[Mapping[str, Any]]:
+def _tables(answer: Mapping[str, Any], name: str) -> Iterable[Mapping[str, Any]]:
     items = answer.get(name)
-    items = items[: MOST_ITEMS[name]] if isinstance(items, list) else ()
-    return (one for one in items if isinstance(one, Mapping))
+    return (one for one in items if isinstance(one, Mapping)) if isinstance(items, list) else ()

@@ -139,7 +139,8 @@ def make_mesh(
         image=np.full(count, -1, np.int32) if image is None else np.asarray(image, np.int32),
         images=tuple(images),
     )
-    return _into_unit_cube(_select(mesh, has_area))
+    names = ("triangles", "normals", "colours", "uv", "image")
+    return _into_unit_cube(replace(mesh, **{name: getattr(mesh, name)[has_area] for name in names}))
 
 
 def _into_unit_cube(mesh: Mesh) -> tuple[Mesh, Float64Array]:
@@ -197,11 +198,6 @@ def recoloured(mesh: Mesh, colour: Colour) -> Mesh:
     plain = tinted(mesh.colours)
     has_image = (mesh.image >= 0)[:, None, None]
     return replace(mesh, colours=np.where(has_image, np.float32(1.0), plain), images=images)
-
-
-def _select(mesh: Mesh, wanted: NDArray[np.bool_]) -> Mesh:
-    names = ("triangles", "normals", "colours", "uv", "image")
-    return replace(mesh, **{name: getattr(mesh, name)[wanted] for name in names})
 
 
 def _unit_or(vectors: Float64Array, otherwise: Float64Array) -> Float32Array:

@@ -25,7 +25,7 @@ _DIRECTED = frozenset({"move", "walk", "run", "drive", "fly", "swim", "sail", "p
 _AXES = {"left": (0, -1), "right": (0, 1), "up": (1, -1), "down": (1, 1), "towards": (2, -1),
          "away": (2, 1)}  # fmt: skip
 """Direction → axis of the camera (right, down, forward) and sign."""
-_LASTING = ("on", "in", "ride")
+_LASTING = ("on", "in")
 """Relations that hold at half of the instants at least; others hold at one."""
 _LEAST_WAY, _MOST_COPIES = 0.1, 0.75
 """Way, in sizes of a body, that is motion; share of a subject's copies in a relation."""
@@ -86,10 +86,8 @@ def find_unheld(
         nouns = {description.objects[n].noun for n in (one.subject, *one.targets)}
         is_flat = one.kind == "on" and nouns <= nouns_with("flat pattern")
         rule = _RULES.get("in" if is_flat else one.kind)
-        if rule is None or one.subject in one.targets or (one.kind == "ride" and not own):
+        if rule is None or one.subject in one.targets:
             continue
-        if one.kind == "between":
-            others = [_around_all(others)] if len(others) > 1 else []
         least = 0.5 if one.kind in _LASTING else 1e-9
         held = [any(np.mean(rule(body, other)) >= least for other in others) for body in own]
         if sum(held) < _MOST_COPIES * len(own) or not own:
@@ -105,13 +103,6 @@ def find_unheld(
             if not any(sign * one.way[axis] > 0.33 * np.linalg.norm(one.way) for one in own):
                 yield Unheld("direction", motion.direction, f"{names[index]} going "
                              f"{motion.direction}")  # fmt: skip
-
-
-def _around_all(bodies: Sequence[Body]) -> Body:
-    """The box around the middles of several bodies."""
-    places = np.array([one.middle for one in bodies])
-    low, high = places.min(axis=0), places.max(axis=0)
-    return bodies[0]._replace(middle=0.5 * (low + high), size=high - low)
 
 
 _Flags = NDArray[np.bool_]
@@ -184,8 +175,6 @@ _RULES: Mapping[str, _Rule] = {
     "on": _is_on, "under": _is_under, "around": _is_around,
     "overtake": _is_passing, "past": lambda one, other: _is_passing(one, other, 0.5),
     "in": lambda one, other: _within(one, other, 3),
-    "ride": lambda one, other: _within(one, other, 2, 0.5),
-    "between": lambda one, other: _within(one, other, 2, 0.5),
     "through": lambda one, other: _is_passing(one, other) & _within(one, other, 2),
     "above": lambda one, other: _within(one, other, 2, 0.5) & (_clears(one, other, 0.4) >= 0.0),
     "behind": lambda one, other: _deeper(one, other, 1),
@@ -196,4 +185,4 @@ _RULES: Mapping[str, _Rule] = {
     "away from": lambda one, other: _recedes(one, other, 1),
     "from": lambda one, other: _recedes(one, other, 1),
 }  # fmt: skip
-"""Kind of relation → whether a body is so to others; "with" and acts have none."""
+"""Kind of relation → whether a body is so to another; "between", "with" and acts have none."""

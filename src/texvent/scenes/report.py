@@ -195,15 +195,11 @@ class ReportTally:
         parts = [f"{self.faithful:,} of {self.prompts:,} {noun} {verb}"]
         for kind, count in self.kinds.items():
             noun = "objects" if kind in _OF_OBJECTS else "words"
-            parts.append(f"{count:,} with {noun} {kind} ({self._few(kind)})")
+            words = [f"{one} ({n:,})" if n > 1 else one for one, n in ranked(self.words[kind])]
+            parts.append(f"{count:,} with {noun} {kind} ({few(words, MOST_COUNTED)})")
         if self.refused:
             parts.append(f"{self.refused:,} refused")
         return "; ".join(parts)
-
-    def _few(self, kind: str) -> str:
-        """The most frequent words of a kind."""
-        counts = ranked(self.words[kind])
-        return few([f"{one} ({n:,})" if n > 1 else one for one, n in counts], MOST_COUNTED)
 
 
 def ranked(counts: Mapping[str, int]) -> list[tuple[str, int]]:

@@ -103,10 +103,10 @@ def test_an_index_names_sizes_and_turns(tmp_path):
     [
         ("not toml", "cannot be read"),
         ('["other.glb"]\nnoun = "x"\n', "no model beside it"),
-        ('["a.glb"]\ncolour = "red"\n', "unknown colour"),
-        ('["a.glb"]\nheight = -1\n', "positive number"),
-        ('["a.glb"]\nup = "w"\n', "one of x"),
-        ('["a.glb"]\nsynonyms = "one"\n', "list of words"),
+        ('["a.glb"]\ncolour = "red"\n', "has no field 'colour'"),
+        ('["a.glb"]\nheight = -1\n', "height is -1"),
+        ('["a.glb"]\nup = "w"\n', "up is 'w'"),
+        ('["a.glb"]\nsynonyms = "one"\n', "must be a list"),
     ],
 )
 def test_a_bad_index_is_one_clear_line(tmp_path, text, message):

@@ -9,17 +9,20 @@ from __future__ import annotations
 import re
 import tomllib
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any, Literal, TypeAlias
 
-from texvent.errors import FileFormatError, InputError, few, shown
+from texvent.errors import ConfigError, FileFormatError, InputError, shown
 from texvent.scenes.models.parts import read_nouns
+from texvent.scenes.models.protocol import Habitat
+from texvent.scenes.spec.data import build_table
+from texvent.scenes.spec.limits import Between
 
 ENDINGS = (".glb", ".obj", ".ply")
 INDEX_NAME = "assets.toml"
-AXES = ("x", "-x", "y", "-y", "z", "-z")
-HABITATS = ("ground", "air", "water", "fixed")
+Axis: TypeAlias = Literal["x", "-x", "y", "-y", "z", "-z"]
+Size: TypeAlias = Annotated[float, Between(1e-9, 1e5)]
 MOST_FILES = 20_000
 _CAMEL = re.compile(r"(?<=[a-z])(?=[A-Z])")
 _NUMBER = re.compile(r"\d+$")
@@ -35,27 +38,24 @@ class Asset:
     """What prompts call it: lower case, singular."""
     synonyms: tuple[str, ...] = ()
     """Other names."""
-    height: float | None = None
+    height: Size | None = None
     """Height in metres; None: see `length` and `scale`."""
-    length: float | None = None
+    length: Size | None = None
     """Longest side in metres."""
-    scale: float | None = None
+    scale: Size | None = None
     """Metres per unit of the file."""
-    up: str | None = None
+    up: Axis | None = None
     """Axis of the file that points up; None: y, for PLY z."""
-    forward: str | None = None
+    forward: Axis | None = None
     """Axis of the file that is its front; None: z, for PLY -y."""
-    habitat: str | None = None
+    habitat: Habitat | None = None
     """"ground", "air", "water" or "fixed"; None: as the embedded noun of that name."""
     motion: str | None = None
     """What it does if the prompt does not say; None: as the embedded noun of that name."""
-    speed: float | None = None
+    speed: Size | None = None
     """Its usual speed, m/s; None: as the embedded noun of that name."""
     place: str | None = None
     """Where it usually is, such as "indoor"; None: as the embedded noun of that name."""
-
-
-_KEYS = tuple(field.name for field in fields(Asset) if field.name != "path")
 
 
 def read_folder(folder: Path) -> tuple[Asset, ...]:
@@ -104,30 +104,11 @@ def _read_index(index: Path, known: Mapping[Path, Asset]) -> dict[Path, Asset]:
 
 def _described(index: Path, name: str, table: Any, bare: Asset) -> Asset:
     """An asset with what its table says."""
-    where = f"{index}, {shown(name)}"
-    if not isinstance(table, dict):
-        raise FileFormatError(f"{where}: a table is wanted, such as noun = 'chair'")
-    unknown = [key for key in table if key not in _KEYS]
-    if unknown:
-        raise FileFormatError(f"{where}: unknown {few(unknown)}; there are {', '.join(_KEYS)}")
-    values: dict[str, Any] = {"noun": bare.noun}
-    for key, value in table.items():
-        values[key] = _checked(where, key, value)
-    return Asset(bare.path, **values)
-
-
-def _checked(where: str, key: str, value: Any) -> Any:
-    if key == "synonyms":
-        if not (isinstance(value, list) and all(isinstance(word, str) for word in value)):
-            raise FileFormatError(f"{where}: synonyms are a list of words, not {shown(value)}")
-        return tuple(word.lower() for word in value)
-    if key in ("height", "length", "scale", "speed"):
-        is_number = isinstance(value, (int, float)) and not isinstance(value, bool)
-        if not (is_number and 0.0 < value < 1e5):
-            raise FileFormatError(f"{where}: {key} is a positive number, not {shown(value)}")
-        return float(value)
-    allowed = {"up": AXES, "forward": AXES, "habitat": HABITATS}.get(key)
-    if not isinstance(value, str) or not value or (allowed and value not in allowed):
-        options = f"one of {', '.join(allowed)}" if allowed else "a word"
-        raise FileFormatError(f"{where}: {key} is {options}, not {shown(value)}")
-    return value.lower()
+    own = {"path": bare.path}
+    said = {"noun": bare.noun, **table, **own} if isinstance(table, dict) else table
+    try:
+        asset: Asset = build_table(Asset, said, f"{index}, {shown(name)}", {})
+    except ConfigError as error:
+        raise FileFormatError(str(error)) from None
+    synonyms = tuple(word.lower() for word in asset.synonyms)
+    return replace(asset, noun=asset.noun.lower(), synonyms=synonyms)

@@ -208,7 +208,7 @@ def _noun(name: str, assets: tuple[Asset, ...]) -> Noun:
     return Noun(
         name,
         _Builder(assets, is_centred),
-        habitat,  # type: ignore[arg-type]
+        habitat,
         0.0 if is_fixed else speed,
         motion,
         tuple(synonyms),

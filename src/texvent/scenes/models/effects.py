@@ -154,12 +154,10 @@ class Lamp:
     """How often its beam turns round the upright axis each second."""
 
 
-def _read_lamps() -> dict[str, tuple[Lamp, ...]]:
-    kinds = {kind: Lamp(**row) for kind, row in frozen(trait_values("lamp kind")).items()}
-    return {noun: tuple(kinds[one] for one in own) for noun, own in trait_values("lamps").items()}
-
-
-LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType(_read_lamps())
+_KINDS = {kind: Lamp(**row) for kind, row in frozen(trait_values("lamp kind")).items()}
+LAMPS: Mapping[str, tuple[Lamp, ...]] = MappingProxyType(
+    {noun: tuple(_KINDS[one] for one in own) for noun, own in trait_values("lamps").items()}
+)
 """Noun → its lamps; a part takes the first whose hue suits its colour."""
 
 

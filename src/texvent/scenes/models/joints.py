@@ -107,17 +107,13 @@ def _split_options(words: Sequence[str]) -> tuple[list[str], _Options]:
     return plain, options
 
 
-def _share_of_turn(word: str) -> float:
-    """Cycles of a number of them, or of an angle such as "90deg"."""
-    return read_number(word, "deg") / 360.0 if word.endswith("deg") else read_number(word)
-
-
 def _cycle(rate: str, options: _Options) -> Cycle:
     """Cycles of a rate, by its "start" and "from"."""
     unit = next((one for one in ("hz", "/m") if rate.endswith(one)), None)
     if unit is None:
         raise ValueError(f"rate {rate!r} needs the unit 'hz' or '/m'")
-    pace, late = read_number(rate, unit), _share_of_turn(options.get("from", ["0"])[0])
+    pace, word = read_number(rate, unit), options.get("from", ["0"])[0]
+    late = read_number(word, "deg") / 360.0 if word.endswith("deg") else read_number(word)
     label, times = [*options.get("start", [""]), "1"][:2]
     most = read_number(times)
 
@@ -178,14 +174,6 @@ def _turn(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> J
     return Joint(lambda pose, seed: turn_about(axis, angle, pivot))
 
 
-def _lie(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
-    """Turned unless it is carried: angle."""
-    angle = _angle(words[0])
-    return Joint(
-        lambda pose, seed: turn_about(axis, 0.0 if pose.activity == "move" else angle, pivot)
-    )
-
-
 def _bow(axis: str, pivot: Point, words: Sequence[str], options: _Options) -> Joint:
     """Turned down while the mouth is at the ground: angle."""
     reach = _angle(words[0])
@@ -240,7 +228,7 @@ def _sway(axis: str, words: Sequence[str], options: _Options) -> Joint:
 
 
 _ABOUT_PIVOT: Mapping[str, Callable[[str, Point, Sequence[str], _Options], Joint]] = {
-    "spin": _spin, "swing": _swing, "roll": _roll, "turn": _turn, "lie": _lie, "bow": _bow,
+    "spin": _spin, "swing": _swing, "roll": _roll, "turn": _turn, "bow": _bow,
     "pulse": _pulse, "grow": _grow, "vary": _vary,
 }  # fmt: skip
 _ALONG: Mapping[str, Callable[[str, Sequence[str], _Options], Joint]] = {

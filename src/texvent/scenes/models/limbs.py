@@ -103,12 +103,6 @@ class Steps:
     """How fully it steps, 0 to 1."""
 
 
-def steps_at(gait: Gait, pose: Pose, seed: int) -> Steps:
-    """The steps of a gait at one instant; the seed chooses the first."""
-    strides = pose.distance_m / gait.stride + fraction(seed, "step")
-    return Steps(gait, strides, step_amount(pose.activity, pose.speed_m_s, 0.35 * gait.stride))
-
-
 DrawLegs = Callable[[Steps, float], list[ModelPart]]
 """Steps, and how far the body is lifted, m → all legs."""
 
@@ -232,12 +226,6 @@ class Chain:
         return joints
 
 
-def read_legs(table: Mapping[str, Any]) -> Legs:
-    """Legs from a table of their fields; pairs are lines of six numbers."""
-    rows = (row.split() for row in table["pairs"].splitlines() if row.strip())
-    return Legs(**{**table, "pairs": tuple(tuple(float(one) for one in row) for row in rows)})
-
-
 def read_walk(
     table: Mapping[str, Any], painted: Painted
 ) -> Callable[[Sequence[ModelPart], Pose, int], list[ModelPart]]:
@@ -250,11 +238,16 @@ def read_walk(
         What lifts the parts of the body and adds the legs, at a pose and by the seed.
     """
     gait = Gait(**table["gait"])
-    legs = [read_legs(one).drawn_in(painted) for one in table.get("legs", ())]
+    legs = []
+    for one in table.get("legs", ()):  # pairs are lines of six numbers
+        rows = (map(float, row.split()) for row in one["pairs"].splitlines() if row.strip())
+        legs.append(Legs(**{**one, "pairs": tuple(map(tuple, rows))}).drawn_in(painted))
     reach, times, late = table.get("bob", (0.0, 0.0, 0.0))
 
     def walk(parts: Sequence[ModelPart], pose: Pose, seed: int) -> list[ModelPart]:
-        steps = steps_at(gait, pose, seed)
+        strides = pose.distance_m / gait.stride + fraction(seed, "step")
+        amount = step_amount(pose.activity, pose.speed_m_s, 0.35 * gait.stride)
+        steps = Steps(gait, strides, amount)
         cycle = 2.0 * math.pi * (times * steps.strides - late)
         rise = steps.amount * reach * (0.5 - 0.5 * math.cos(cycle))
         return [

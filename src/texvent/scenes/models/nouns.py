@@ -27,16 +27,12 @@ MOTIONS = frozenset(
 machine, "stand" rest."""
 
 
-def _read_families() -> dict[str, tuple[Noun, ...]]:
-    """Nouns of the files of `data/bodies` and `data/nouns`, by the files' names."""
-    listed = chain(list_data("bodies"), list_data("nouns"))
-    return {file.name.removesuffix(".toml"): read_nouns(file) for file in listed}
-
-
 FAMILIES: Mapping[str, tuple[Noun, ...]] = MappingProxyType(
-    {"people": (*person.NOUNS, *hand.NOUNS), **_read_families()}
-)
-"""Nouns by family, such as "vehicles"."""
+    {"people": (*person.NOUNS, *hand.NOUNS)}
+    | {file.name.removesuffix(".toml"): read_nouns(file)
+       for file in chain(list_data("bodies"), list_data("nouns"))}
+)  # fmt: skip
+"""Nouns by family, such as "vehicles": people, and the files of `data/bodies` and `data/nouns`."""
 
 NOUNS: Mapping[str, Noun] = MappingProxyType(
     {noun.name: noun for family in FAMILIES.values() for noun in family}

@@ -208,7 +208,8 @@ def _read_group(how: str, parts: tuple[Placed, ...], named: dict[str, tuple[Join
         elif first == "light":
             light = read_light(rest)
         elif first == "clip":
-            clip = _read_clip(rest)
+            axis, low, high = rest.split()
+            clip = "xyz".index(axis), float(low), float(high)
         elif item == "pair":
             is_paired = True
         elif item == "at rest":
@@ -242,11 +243,6 @@ def _read_clump(
         at = (out * math.cos(angle), across * out * math.sin(angle), up)
         parts.append(ball(toned(material, tint), at, (size, across * size, flat * size)))
     return parts, _Group((), tuple(map(read_joint, table.get("joints", ()))))
-
-
-def _read_clip(text: str) -> tuple[int, float, float]:
-    axis, low, high = text.split()
-    return "xyz".index(axis), float(low), float(high)
 
 
 _SLIVER_M = 5e-5
@@ -330,6 +326,8 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
     if habitat not in _HABITATS.values():
         known = ", ".join(dict.fromkeys(_HABITATS.values()))
         raise FileFormatError(f"{where}: habitat must be one of {known} but is {habitat!r}")
+    words = table.get("parts", "").split()
+    mouth = MOUTH_ACTS if "bow" in words else frozenset()
     return Noun(
         name,
         PartsBuilder(where, table),
@@ -339,17 +337,6 @@ def _noun(where: str, name: str, table: Mapping[str, Any]) -> Noun:
         tuple(table.get("names", ())),
         tuple(table.get("plurals", ())),
         place=table.get("place", ""),
-        acts=_acts_of(table),
-        is_working=bool(table.get("works", habitat == "fixed" and _has(table, "moving"))),
+        acts=frozenset(ANIMAL_ACTS) if "build" in table else mouth,
+        is_working=bool(table.get("works", habitat == "fixed" and "moving" in words)),
     )
-
-
-def _acts_of(table: Mapping[str, Any]) -> frozenset[str]:
-    """What an animal does in its place: all on four legs, what the mouth does if it bows."""
-    if "build" in table:
-        return frozenset(ANIMAL_ACTS)
-    return MOUTH_ACTS if _has(table, "bow") else frozenset()
-
-
-def _has(table: Mapping[str, Any], word: str) -> bool:
-    return word in table.get("parts", "").split()

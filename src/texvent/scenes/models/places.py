@@ -19,9 +19,6 @@ _SCALES: Mapping[str, tuple[float, float]] = {
     "walls": (0.95, 1.1), "under": (1.0, 1.0),
 }  # fmt: skip
 """Usual multiples of its size, of what does not stand around."""
-ROAD_GROUNDS = (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
-SHORE_GROUNDS = (Ground.RIVER, Ground.LAKE)
-"""Grounds of water beside land."""
 
 
 @dataclass(frozen=True)
@@ -79,12 +76,12 @@ class Place:
     @property
     def has_road(self) -> bool:
         """Whether a road or a street runs through it."""
-        return self.ground in ROAD_GROUNDS
+        return self.ground in (Ground.ROAD, Ground.DIRT_ROAD, Ground.CITY)
 
     @property
     def has_shore(self) -> bool:
         """Whether water lies beside land."""
-        return self.ground in SHORE_GROUNDS
+        return self.ground in (Ground.RIVER, Ground.LAKE)
 
 
 def _place_of(fields: dict[str, Any]) -> Place:
@@ -94,15 +91,13 @@ def _place_of(fields: dict[str, Any]) -> Place:
     if walls is not None:
         fields["walls"] = Texture[walls["surface"].upper()]
         fields["wall_colour"] = walls["colour"]
-    fields["scenery"] = tuple(map(_scenery_of, fields.get("scenery", ())))
+    fields["scenery"] = tuple(
+        Scenery(**{"scale": _SCALES.get(row.get("where"), Scenery.scale), **row})
+        for row in fields.get("scenery", ())
+    )
     kind = Ground[ground["kind"].upper().replace(" ", "_")]
     fields.setdefault("light", "room" if kind is Ground.FLOOR else "")
     return Place(ground=kind, colours=ground["colours"], **fields)
-
-
-def _scenery_of(row: Mapping[str, Any]) -> Scenery:
-    scale = _SCALES.get(row.get("where", "around"), Scenery.scale)
-    return Scenery(**{"scale": scale, **row})
 
 
 PLACES: Mapping[str, Place] = MappingProxyType(

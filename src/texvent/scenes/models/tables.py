@@ -40,19 +40,12 @@ def _read() -> Mapping[str, Any]:
     """Trait → its nouns, or its nouns with their values."""
     found: dict[str, Any] = {}
     for file in list_data("traits"):
-        traits = read_table(f"traits/{file.name.removesuffix('.toml')}")
-        twice = found.keys() & traits.keys()
-        if twice:
-            raise ValueError(f"{file.name}: {sorted(twice)} are traits of another file too")
-        found |= {name: _by_noun(nouns) for name, nouns in traits.items()}
-    return found
-
-
-def _by_noun(nouns: Any) -> Any:
-    """A table with a row for each noun of its keys."""
-    if not isinstance(nouns, Mapping):
-        return nouns
-    return {noun: value for key, value in nouns.items() for noun in key.split(", ")}
+        found |= read_table(f"traits/{file.name.removesuffix('.toml')}")
+    return {
+        trait: {noun: value for key, value in nouns.items() for noun in key.split(", ")}
+        if isinstance(nouns, Mapping) else nouns
+        for trait, nouns in found.items()
+    }  # fmt: skip
 
 
 @cache
@@ -84,13 +77,10 @@ FIRST_OTHER = 2001
 """Numbers of names that are no nouns of the embedded generator begin here."""
 
 
-def _read_class_ids() -> Mapping[str, int]:
-    names: str = read_table("class_ids")["nouns"]
-    numbered = enumerate(names.split(","), start=1)
-    return MappingProxyType({" ".join(name.split()): number for number, name in numbered})
-
-
-CLASS_IDS: Mapping[str, int] = _read_class_ids()
+_NAMES: list[str] = read_table("class_ids")["nouns"].split(",")
+CLASS_IDS: Mapping[str, int] = MappingProxyType(
+    {" ".join(name.split()): number for number, name in enumerate(_NAMES, start=1)}
+)
 """Noun → class id, 1, 2, ..., of nouns that are gone too."""
 
 

@@ -134,12 +134,12 @@ def _build(hint: Any, value: Any, where: str, words: Vocabulary) -> Any:
             for n, (item, one) in enumerate(zip(items, value, strict=True))
         )
     if dataclasses.is_dataclass(hint):
-        return _build_table(hint, value, where, words)
+        return build_table(hint, value, where, words)
     return convert(value, hint, where)
 
 
-def _build_table(owner: Any, value: Any, where: str, words: Vocabulary) -> Any:
-    """An instance of a dataclass from the table of its fields."""
+def build_table(owner: Any, value: Any, where: str, words: Vocabulary) -> Any:
+    """An instance of a dataclass from the table of its fields; errors as `scene_from_data`."""
     kinds, table = field_types(owner), where or "scene"
     if not isinstance(value, Mapping):
         raise ConfigError(f"{table} is {shown(value)}; it must be a table of fields")

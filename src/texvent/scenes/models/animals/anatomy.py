@@ -51,22 +51,13 @@ def lowered_head(build: Build, stance: Stance) -> float:
     return 0.1 * stance.head_down if build.trunk_length > 0.0 else stance.head_down
 
 
-def curled_trunk(stance: Stance) -> float:
-    """How far a trunk is curled towards the mouth, 0 to 0.4."""
-    return 0.38 * min(max(0.5 + 7.0 * (stance.head_down - 0.93), 0.0), 1.0)
-
-
 def _bow(build: Build) -> float:
     """How far the trunk bows for the mouth to reach the ground, rad."""
-    left = _lowest_nose(build) - 0.04 * build.shoulder - 0.12 * build.head[0]
-    return min(max(left / max(0.66 * build.body_size[0], 1e-6), 0.0), 0.34)
-
-
-def _lowest_nose(build: Build) -> float:
-    """Height of the nose with neck and head as low as they go, m."""
-    height = build.body_size[2]
+    length, _, height = build.body_size
     long = (build.neck[0] + 0.2 * height) * math.sin(LOWEST)
-    return build.shoulder - 0.36 * height + long - 0.9 * (build.head[1] + 0.35 * build.head[0])
+    nose = build.shoulder - 0.36 * height + long - 0.9 * (build.head[1] + 0.35 * build.head[0])
+    left = nose - 0.04 * build.shoulder - 0.12 * build.head[0]
+    return min(max(left / max(0.66 * length, 1e-6), 0.0), 0.34)
 
 
 def sit_drop(build: Build) -> float:
@@ -164,7 +155,8 @@ def draw_neck_and_head(
         ),
         limb(coat.limbs, mixed(base, top, 0.5), top, 0.9 * thick, side_radius=0.26 * width),
     ]
-    curled = curled_trunk(stance) if stance.head_down else 0.0
+    share = 0.5 + 7.0 * (stance.head_down - 0.93)
+    curled = 0.38 * min(max(share, 0.0), 1.0) if stance.head_down else 0.0
     head = draw_head(build, coat, top, wag, stance, curled)
     head = moved(head, turn_about("y", 0.75 * down, top)) if down else head
     return [*parts, *head, *_mane(build, coat, base, top)]

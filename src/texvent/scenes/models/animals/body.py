@@ -105,7 +105,9 @@ class _Body:
         """Axes at "mouth", "neck", "crown", "face" and "head"."""
         head = len(draw_torso(self.build, self.coat)) + 2
         if name in _ON_SKULL:
-            return _on_skull(self.parts(pose)[head].to_body, _ON_SKULL[name])
+            skull = self.parts(pose)[head].to_body
+            turn = skull[:, :3] / np.linalg.norm(skull[:, :3], axis=0)
+            return np.column_stack([turn, skull @ np.array([*_ON_SKULL[name], 1.0])])
         if name not in ("mouth", "neck"):
             return None
         at, ahead = (head + NOSE, 0.1 * self.build.head[0]) if name == "mouth" else (head - 1, 0.0)
@@ -131,12 +133,6 @@ _ON_SKULL: Mapping[str, Point] = MappingProxyType(
     {"crown": (-0.05, 0.0, 0.86), "face": (0.90, 0.0, 0.36), "head": (0.0, 0.0, 0.0)}
 )
 """Places on the head, in half extents of the skull."""
-
-
-def _on_skull(skull: Affine, place: Point) -> Affine:
-    """Axes of the head at a place of the ellipsoid that the skull is."""
-    turn = skull[:, :3] / np.linalg.norm(skull[:, :3], axis=0)
-    return np.column_stack([turn, skull @ np.array([*place, 1.0])])
 
 
 def _above_ground(parts: Sequence[ModelPart]) -> list[ModelPart]:

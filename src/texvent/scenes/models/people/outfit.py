@@ -79,13 +79,12 @@ class Outfit:
 _FIELDS = frozenset(one.name for one in fields(PersonKind))
 
 
-def _read_kind(row: Mapping[str, Any]) -> PersonKind:
-    return PersonKind(**{key: frozen(value) for key, value in row.items() if key in _FIELDS})
-
-
 ADULT = PersonKind()
 KINDS: Mapping[str, PersonKind] = MappingProxyType(
-    {noun: _read_kind(row) for noun, row in read_table("outfits")["people"].items()}
+    {
+        noun: PersonKind(**{key: frozen(one) for key, one in row.items() if key in _FIELDS})
+        for noun, row in read_table("outfits")["people"].items()
+    }
 )
 """Noun → what it wears."""
 CLOTHES: Mapping[str, Mapping[str, Any]] = read_table("outfits")["worn"]

@@ -102,8 +102,7 @@ def hold(subject: Actor, target: Actor) -> tuple[Actor, Actor]:
     way = place_in_hold(next(named, by_size), subject, target)
     if is_person(subject) and doing in _HANDS_FREE:
         subject = replace(subject, trajectory=Performed(subject.trajectory, None, way.grips))
-    activity = "move" if target.noun.name in nouns_with("moves in the hand") else "stand"
-    held = held_at(subject, way.anchor, way.offset, is_upright=way.is_upright, activity=activity)
+    held = held_at(subject, way.anchor, way.offset, is_upright=way.is_upright)
     return subject, carried(target, held, subject)
 
 

@@ -30,7 +30,6 @@ from texvent.scenes.staging.camera.subject import (
     KEPT_TOGETHER,
     choose_angles,
     choose_main,
-    goes_in_depth,
     list_views,
 )
 
@@ -198,7 +197,8 @@ def _plan_moves(
         relation.kind in KEPT_TOGETHER and relation.subject == main.object_index
         for relation in description.relations
     )
-    if has_landmark or goes_in_depth(description, main):
+    motion = description.objects[main.object_index].motion
+    if has_landmark or (motion is not None and motion.direction in ("towards", "away")):
         return ()
     span = max(main.model.length, main.model.height)
     way = float(np.hypot(*(main.middle(duration_s) - main.middle(0.0))[:2]))

@@ -58,12 +58,6 @@ def choose_main(description: SceneDescription, actors: Sequence[Actor]) -> Actor
     return [*asked[:1], *able[:1], actors[0]][0]
 
 
-def goes_in_depth(description: SceneDescription, main: Actor) -> bool:
-    """Whether the scene says that it comes towards the camera or goes away from it."""
-    motion = description.objects[main.object_index].motion
-    return motion is not None and motion.direction in ("towards", "away")
-
-
 def acts_with_arms(actor: Actor, times: Float64Array) -> bool:
     """Whether it is a hand that stays, or a person who acts with arms and head all along."""
     if actor.noun.name in HAND_NOUNS:
@@ -84,10 +78,12 @@ def choose_angles(
     yaw = main.trajectory.at(0.0).yaw
     step = np.subtract(main.trajectory.at(0.5).position, main.trajectory.at(0.0).position)
     is_in_depth = bool(abs(step[1]) > 1.2 * abs(step[0]) and abs(step[1]) > 0.05)
+    length = main.model.length  # all of a train or a ship from the side would be a thin line
+    is_long = length > max(_LEAST_M, _ELONGATED * main.model.height)
     follows = any(move.kind == "follow" for move in moves)
     if is_in_depth:
         azimuth = yaw + math.copysign(0.5, wander) if follows else math.copysign(0.42, wander)
-    elif _is_elongated(main):
+    elif is_long and main.noun.motion in ("drive", "sail"):
         azimuth = math.copysign(_ALONG_IT, math.cos(yaw))
     else:
         azimuth = wander
@@ -111,13 +107,6 @@ def _choose_elevation(main: Actor, place: str, is_in_depth: bool) -> float:
     if model.height < 0.7:
         return 0.24
     return 0.2 if is_in_depth else 0.12
-
-
-def _is_elongated(main: Actor) -> bool:
-    """Whether it is a train or a ship: all of it from the side would be a thin line."""
-    model = main.model
-    is_large = model.length > _LEAST_M and main.noun.motion in ("drive", "sail")
-    return is_large and model.length > _ELONGATED * model.height
 
 
 class View(NamedTuple):

@@ -34,6 +34,8 @@ _FLAME_HZ = 6.0
 _FLAME_LIGHT = np.array([1.0, 0.5, 0.16])
 _EDDY, _EDDY_HZ = 1.6, 0.16
 """Size and rate of eddies, in units of an effect."""
+_NEAREST = 0.3
+"""Least distance of a flake to the camera, as a share of that to what it looks at."""
 _LONG_S = 1e4
 """Life of what has no end."""
 
@@ -137,10 +139,18 @@ class Emitter:
         if style.body == "drop":
             maps = along(flown.places, flown.heading, half)
             return many_shapes(maps, Shape.ELLIPSOID, self.colours[which], glow)
+        half = np.maximum(half * self._clear(flown.places, time_s), TINY_M)
         rate = style.turns * math.sqrt(GRAVITY / max(self.source.size_m, 0.02))
         starts, turned = flown.draws[:, [0, 2]], rate * flown.age_s[:, None]
         angles = 6.0 * starts + 6.6 * (starts - 0.5) * turned
         return many_shapes(tumbling(flown.places, angles, half), Shape.BOX, self.colours[which])
+
+    def _clear(self, places: Float64Array, time_s: float) -> Float64Array:
+        """[n, 1] share of its size that each flake is shown with: 0 right before the camera."""
+        camera = self.setting.camera
+        away = np.linalg.norm(places - camera.at(time_s).position, axis=1)[:, None]
+        nearest_m = _NEAREST * camera.framing.distance_m
+        return np.asarray(np.clip(away / nearest_m - 1.0, 0.0, 1.0))
 
     def puffs(self, time_s: float) -> Float64Array:
         """[k, 19] its puffs at that instant; those just born or about to go are thin."""
@@ -194,7 +204,9 @@ class Emitter:
         start = self.source.at(born_s) + offset
         flown_s = age_s
         if style.body == "flake":
-            flown_s = np.minimum(age_s, self._landing_s(start[:, 2], velocity[:, 2]))
+            fall = np.maximum(start[:, 2] - self.setting.floor_m - 0.03 * size, 0.0)
+            up, down = velocity[:, 2], max(GRAVITY * style.gravity, 1e-6)
+            flown_s = np.minimum(age_s, (up + np.sqrt(up**2 + 2.0 * down * fall)) / down)
         way, heading = flight(flown_s, velocity, drag_s, pull)
         places = start + way
         if style.curl:
@@ -213,12 +225,6 @@ class Emitter:
         around, out = 2.0 * math.pi * draws[:, 3], style.area * np.sqrt(draws[:, 4])
         spot = np.stack([out * np.cos(around), out * np.sin(around), 0.0 * out], axis=1)
         return self.source.size_m * spot
-
-    def _landing_s(self, above: Float64Array, upward: Float64Array) -> Float64Array:
-        """[n] when flakes come to rest on the ground, s after their birth."""
-        fall = np.maximum(above - self.setting.floor_m - 0.03 * self.source.size_m, 0.0)
-        pull = max(GRAVITY * self.style.gravity, 1e-6)
-        return np.asarray((upward + np.sqrt(upward**2 + 2.0 * pull * fall)) / pull)
 
 
 def _between(ends: tuple[float, float], age: Float64Array) -> Float64Array:

@@ -79,6 +79,9 @@ def place_on_targets(
     """
     if kind == "at" and targets[0].noun.name not in nouns_with("table"):
         return place_by_subject(group, "beside", targets[0], height)
+    if kind == "between":  # where `object_placement` has left room
+        x, y, _ = np.mean([target.centre for target in targets], axis=0)
+        return Goal(np.array([x, y, height]), _FIXED if len(targets) == 1 else -_AWAY)
     rest = {"on": rest_on, "in": rest_in, "at": place_at}.get(kind)
     if rest is not None:
         return Goal(rest(group, targets[0], neighbours), _FIXED)
@@ -113,12 +116,6 @@ def _place_under(group: ObjectGroup, targets: Sequence[ObjectGroup], height: flo
     return Goal(_shift(_on_ground(targets[0], height), 0.0, -nearer), _FIXED)
 
 
-def _place_between(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
-    """In the middle, where `object_placement` has left room between them."""
-    x, y, _ = np.mean([target.centre for target in targets], axis=0)
-    return Goal(np.array([x, y, height]), _FIXED if len(targets) == 1 else -_AWAY)
-
-
 def _place_follower(group: ObjectGroup, targets: Sequence[ObjectGroup], height: float) -> Goal:
     """Behind its target, on the same path."""
     target, own = targets[0], group.models[0]
@@ -131,7 +128,6 @@ _PLACE_BY_KIND: Mapping[str, Callable[[ObjectGroup, Sequence[ObjectGroup], float
     "around": _place_around,
     "above": _place_above,
     "under": _place_under,
-    "between": _place_between,
     "follow": _place_follower,
 }
 

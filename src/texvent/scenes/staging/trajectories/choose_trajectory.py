@@ -20,7 +20,7 @@ from texvent.scenes.staging.trajectories.action_trajectories import (
 )
 from texvent.scenes.staging.trajectories.motion_plan import MotionPlan
 from texvent.scenes.staging.trajectories.phases import NO_FLOOR_M, PATH_KINDS, activity_of
-from texvent.scenes.staging.trajectories.steered_path import SteeredPath, steady
+from texvent.scenes.staging.trajectories.steered_path import steady
 from texvent.scenes.staging.trajectories.trajectory import (
     TO_CAMERA,
     BodyState,
@@ -59,7 +59,10 @@ def choose_trajectory(
     """
     kind, direction = plan.motion.kind, plan.motion.direction
     if plan.path is not None:
-        path: Trajectory = _shift_path(plan.path, model, home)
+        x, y, z = np.add(plan.path.start, home)
+        # What flies stays above the ground.
+        floor = home[2] if plan.path.floor_m > NO_FLOOR_M else min(0.5 * model.height, home[2])
+        path: Trajectory = replace(plan.path, start=(x, y, z), floor_m=floor)
         if plan.radius_m:
             path = Rolling(path, plan.radius_m)
         return Facing(path) if plan.is_facing else path
@@ -75,13 +78,6 @@ def choose_trajectory(
     if kind in ("bounce", "fall", "throw"):
         return _fly_freely(plan, model, home)
     return _act_in_place(plan, model, home, phase)
-
-
-def _shift_path(path: SteeredPath, model: Model, home: Vector) -> SteeredPath:
-    """The path about a home; what flies stays above the ground."""
-    x, y, z = path.start
-    floor = home[2] if path.floor_m > NO_FLOOR_M else min(0.5 * model.height, home[2])
-    return replace(path, start=(x + home[0], y + home[1], z + home[2]), floor_m=floor)
 
 
 def _raised(home: Vector, lift_m: float) -> Vector:

@@ -126,7 +126,8 @@ class SteeredPath:
 
     def _advance(self, knot: _Knot, piece: Piece, elapsed: float) -> _Knot:
         """Values that long after the beginning of a piece."""
-        ramp, pairs = _ramp(piece), list(zip(knot.rates, piece.rates, strict=True))
+        ramp = min(piece.ramp_s, piece.duration_s)
+        pairs = list(zip(knot.rates, piece.rates, strict=True))
         way, turned, risen, _ = (_integral(*pair, ramp, elapsed) for pair in pairs)
         speed, turn, climb, pitch = (_blend(*pair, ramp, elapsed) for pair in pairs)
         x, y = _travel(knot, piece, ramp, elapsed)
@@ -147,10 +148,6 @@ def steady(
     """A straight line or a circle at constant speed; `climb` is metres up per metre along."""
     piece = Piece(1.0, speed_m_s, turn_rad_s, climb * speed_m_s, ramp_s=0.0, activity=activity)
     return SteeredPath(start, yaw, (piece,), speed_m_s, turn_rad_s, 0.0, -math.inf)
-
-
-def _ramp(piece: Piece) -> float:
-    return min(piece.ramp_s, piece.duration_s)
 
 
 def _blend(before: float, after: float, ramp: float, elapsed: float) -> float:

@@ -138,6 +138,9 @@ class Shuttle:
         """State at that instant."""
         rate = 2.0 * math.pi / self.period_s
         offset = self.amplitude_m * math.sin(rate * time_s)
+        # The way covered is the integral of |cos|.
+        halves = math.floor(rate * time_s / math.pi + 0.5)
+        way = 2.0 * self.amplitude_m * halves + (offset if halves % 2 == 0 else -offset)
         along, up = (0.0, offset) if self.vertical else (offset, 0.0)
         turned = 0.0
         if self.activity in ("walk", "run") and not self.vertical:
@@ -146,7 +149,7 @@ class Shuttle:
         return BodyState(
             ahead(self.home, self.yaw, along, self.home[2] + up),
             self.yaw + turned,
-            distance_m=self.amplitude_m * _sine_path(rate * time_s),
+            distance_m=way,
             speed_m_s=abs(self.amplitude_m * rate * math.cos(rate * time_s)),
             activity=self.activity,
         )
@@ -154,13 +157,6 @@ class Shuttle:
 
 _TURNING = 0.4
 """Share of its greatest speed below which who goes to and fro turns round."""
-
-
-def _sine_path(angle: float) -> float:
-    """Integral of |cos| from 0: the path of a sine of amplitude 1."""
-    half_turns = math.floor(angle / math.pi + 0.5)
-    sign = 1.0 if half_turns % 2 == 0 else -1.0
-    return 2.0 * half_turns + sign * math.sin(angle)
 
 
 @dataclass(frozen=True)
