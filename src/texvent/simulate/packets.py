@@ -35,25 +35,6 @@ class FrameInterval(NamedTuple):
         return self.duration_us * 1e-6
 
 
-def place_in(interval: FrameInterval, fraction: NDArray[np.float64]) -> NDArray[np.int64]:
-    """Times at fractions 0..1 of an interval, rounded down; never its end.
-
-    Args:
-        interval: the interval.
-        fraction: [n].
-
-    Returns:
-        [n] µs, in `[start_us, stop_us)`.
-
-    Example:
-        >>> interval = FrameInterval(0, 10_000, np.uint64(0))
-        >>> place_in(interval, np.array([0.0, 0.75, 1.0])).tolist()
-        [0, 7500, 9999]
-    """
-    offset = np.floor(fraction * interval.duration_us).astype(np.int64)
-    return np.asarray(np.minimum(interval.start_us + offset, interval.stop_us - 1))
-
-
 class UnsortedEvents(NamedTuple):
     """Events of one interval, a row per event, in any order; never changed."""
 

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from texvent.brightness import balanced_log
 from texvent.events import NOISE, EventStream
-from texvent.simulate.packets import FrameInterval, UnsortedEvents, make_packet, place_in
+from texvent.simulate.packets import FrameInterval, UnsortedEvents, make_packet
 from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.simulate.texvent.noise import draw_noise, draw_voltage_noise
@@ -116,3 +116,9 @@ class TexventPixels:
         if self._config.noise == "random":
             return noise
         return noise.take(~fires.reshape(-1)[pixel])
+
+
+def place_in(interval: FrameInterval, fraction: Float64Array) -> NDArray[np.int64]:
+    """Times at fractions 0..1 of an interval, µs, rounded down; never its end."""
+    offset = np.floor(fraction * interval.duration_us).astype(np.int64)
+    return np.minimum(interval.start_us + offset, interval.stop_us - 1)
