@@ -22,8 +22,6 @@ TASKS = Registry(
     "task",
     {
         "classification": "texvent_lab.train.classification.config:ClassificationConfig",
-        "depth": "texvent_lab.train.depth:DepthConfig",
-        "flow": "texvent_lab.train.flow:FlowConfig",
         "reconstruction": "texvent_lab.train.reconstruction.config:ReconstructionConfig",
     },
 )

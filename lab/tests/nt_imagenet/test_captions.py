@@ -1,4 +1,4 @@
-"""Captions: read, kept one by one, checked."""
+"""Captions: read and checked."""
 
 from __future__ import annotations
 
@@ -6,17 +6,14 @@ from pathlib import Path
 
 import pytest
 
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError
 from texvent_lab.nt_imagenet.captions import (
     CaptionCheck,
-    CaptionStore,
     check_captions,
     find_duplicates,
     normalised,
     read_captions,
 )
-
-FACTS = {"model": "a", "longest": 200}
 
 
 def check(caption: str) -> CaptionCheck:
@@ -34,28 +31,6 @@ def test_captions_are_read_from_tables_and_lines(tmp_path: Path) -> None:
     lines.write_text('{"id": "a", "caption": "x"}\n{"id": "a", "caption": "y"}\n')
     with pytest.raises(FileFormatError, match="line 2 gives a another caption than before"):
         read_captions(lines)
-
-
-def test_a_store_goes_on_after_its_last_whole_line(tmp_path: Path) -> None:
-    store = CaptionStore(tmp_path / "made.jsonl", FACTS)
-    asked: list[str] = []
-
-    def make(id: str) -> str:
-        asked.append(id)
-        if id == "c":
-            raise InputError("c is damaged")
-        return f" caption\n of {id}"
-
-    captions, failures = store.fill(["a", "b", "c"], make)
-    assert captions == {"a": "caption of a", "b": "caption of b"}
-    assert failures == {"c": "c is damaged"}
-    whole = store.path.read_bytes()
-    store.path.write_bytes(whole[:-9])  # killed while b was written
-    assert store.read() == {"a": "caption of a"}
-    assert store.fill(["d", "b", "a"], make)[0] == {
-        "d": "caption of d", "b": "caption of b", "a": "caption of a"}  # fmt: skip
-    assert asked == ["a", "b", "c", "d", "b"]
-    assert list(store.read()) == ["a", "d", "b"]
 
 
 @pytest.mark.parametrize(("words", "is_fine"), [(38, False), (39, True), (124, True), (125, False)])

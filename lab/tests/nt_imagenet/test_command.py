@@ -13,7 +13,7 @@ from texvent.cli.app import main
 from texvent_lab.alignment.recordings import ids_of_clips, list_samples
 from texvent_lab.nt_imagenet.files import read_captioned
 
-from .tiny_data import WNIDS, stream_id, write_imagenet, write_n_imagenet
+from .tiny_data import WNIDS, stream_id, write_n_imagenet
 
 CAPTIONS = {
     1: "a red car drives left",
@@ -29,15 +29,14 @@ def data(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("data")
     counts = {WNIDS[0]: {1: 3_000, 2: 3_100, 4: 3_400}, WNIDS[1]: {3: 3_300, 5: 3_500}}
     write_n_imagenet(folder / "N_Imagenet", counts)
-    write_imagenet(folder / "ImageNet", {})
     lines = [json.dumps({"id": stream_id(n), "caption": one}) for n, one in CAPTIONS.items()]
     (folder / "elsewhere.jsonl").write_text("\n".join([*lines, '{"id": "other", "caption": "x"}']))
     return folder
 
 
 def nt(data: Path, out: Path, *more: str) -> int:
-    words = ["--n-imagenet", str(data / "N_Imagenet"), "--imagenet", str(data / "ImageNet"),
-             "--captions", str(data / "elsewhere.jsonl"), "--class-count", "2", "-q"]  # fmt: skip
+    words = ["--n-imagenet", str(data / "N_Imagenet"), "--class-count", "2", "-q"]
+    words += ["--captions", str(data / "elsewhere.jsonl")]
     return main(["nt-imagenet", *words, "-o", str(out), *more])
 
 

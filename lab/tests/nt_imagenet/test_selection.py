@@ -6,10 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from texvent_lab.nt_imagenet.files import find_image
 from texvent_lab.nt_imagenet.selection import choose_classes, select_streams
 
-from .tiny_data import WNIDS, stream_id, write_imagenet, write_n_imagenet
+from .tiny_data import WNIDS, stream_id, write_n_imagenet
 
 COUNTS = {
     WNIDS[1]: {5: 4_000, 6: 2_999, 7: 3_000},
@@ -50,13 +49,3 @@ def test_a_damaged_file_costs_that_stream_alone(tmp_path: Path) -> None:
     chosen = select_streams(folder, WNIDS[:1])
     assert [one.id for one in chosen.streams] == [stream_id(2)]
     assert list(chosen.unreadable) == [stream_id(1)]
-
-
-@pytest.mark.parametrize("by_class", [True, False])
-def test_images_are_found_by_class_and_all_in_one_folder(tmp_path: Path, by_class: bool) -> None:
-    folder = write_imagenet(tmp_path, {1: WNIDS[0]}, by_class=by_class)
-    for place in (folder, folder / "val"):
-        found = find_image(place, WNIDS[0], stream_id(1))
-        assert found is not None
-        assert found.name == f"{stream_id(1)}.JPEG"
-    assert find_image(folder, WNIDS[0], stream_id(2)) is None

@@ -1,11 +1,10 @@
-"""Tiny copies of N-ImageNet and ImageNet in their real layout."""
+"""Tiny copies of N-ImageNet in its real layout."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
 
-import cv2
 import numpy as np
 
 WNIDS = ("n01440764", "n01443537", "n01484850")
@@ -33,14 +32,4 @@ def write_n_imagenet(folder: Path, counts: Mapping[str, Mapping[int, int]]) -> P
             path = folder / "extracted_val" / wnid / f"{stream_id(number)}.npz"
             write_stream(path, count, number)
     (folder / "val_list.txt").write_text("as in the data set\n")
-    return folder
-
-
-def write_imagenet(folder: Path, wnids: Mapping[int, str], *, by_class: bool = True) -> Path:
-    """Noise as JPEG files."""
-    for number, wnid in wnids.items():
-        place = folder / "val" / (wnid if by_class else "")
-        place.mkdir(parents=True, exist_ok=True)
-        noise = np.random.default_rng(number).integers(0, 255, (24, 32, 3), dtype=np.uint8)
-        (place / f"{stream_id(number)}.JPEG").write_bytes(cv2.imencode(".jpg", noise)[1].tobytes())
     return folder

@@ -44,14 +44,11 @@ if __name__ == "__main__":
     watcher = Kill() if end == "killed" else NoProgress()
     train_from_file(TASKS.load(task), Path(path), Path(folder), Hardware(device="cpu"), watcher)
 """
-CLIPS = 'specification = "tiny.toml", variant = "paper", cache = "cache"'
-WINDOWS = f"data = {{{CLIPS}, slice_us = 20_000, length = 3"
 TRAININGS = {
     "classification": 'data = {folder = "bars"}\n',
-    "reconstruction": f'{WINDOWS}, crop = 16}}\nnetwork.name = "firenet"\n'
+    "reconstruction": 'data = {specification = "tiny.toml", variant = "paper", cache = "cache", '
+    'slice_us = 20_000, length = 3, crop = 16}\nnetwork.name = "firenet"\n'
     "loss = {lpips = 0, l1 = 1}\n",
-    "depth": f"{WINDOWS}}}\nnetwork.width = 2\n",
-    "flow": f"{WINDOWS}}}\nnetwork.width = 2\n",
 }
 SCHEDULE = "schedule = {epochs = 3, batch_size = 1, learning_rate = 0.003}\n"
 

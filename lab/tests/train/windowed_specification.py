@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from texvent_lab.train.sequences import SequenceData
+from texvent_lab.train.reconstruction.sequences import SequenceData
 
 TEXT = """\
 name = "tiny"

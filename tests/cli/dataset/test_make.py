@@ -92,6 +92,13 @@ prompts = ["a red ball bounces", "a wug and a dog run", "qwerty zxcv"]
 """
 
 
+def test_a_trial_is_made_of_sources_that_belong_to_a_split(folder, capsys):
+    text = WUGS.replace(', "a wug and a dog run", "qwerty zxcv"', "") + 'split = "train"\n'
+    (folder / "wugs.toml").write_text(text)
+    assert run("plan", "wugs.toml", "--trial", 1, "--workers", 1) == 0
+    assert "samples  1 made" in capsys.readouterr().out
+
+
 def test_prompts_that_are_not_shown_as_they_say_are_counted_and_fail_the_set(folder, capsys):
     (folder / "wugs.toml").write_text(WUGS)
     wug = "; 1 with words not understood (wug); 1 refused"

@@ -31,7 +31,7 @@ DESCRIPTION = """Reconstruct intensity images from events by a published network
 package brings its weights, or one whose weights you provide (docs/reconstruction.md).
 
   texvent reconstruct out.h5 -o out.mp4
-  texvent reconstruct out.h5 -o frames/ --network e2vid --weights e2vid.pth --fps 100"""
+  texvent reconstruct out.h5 -o frames/ --network e2vid --weights e2vid.pth"""
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -23,7 +23,7 @@ class Padding:
 
     @classmethod
     def centred(cls, shape: Sequence[int], multiple: int) -> Padding:
-        """All around, one more above and left if odd, as the programs of E2VID and E2Depth do.
+        """All around, one more above and left if odd, as the program of E2VID does.
 
         Args:
             shape: (height, width) of the image, px.

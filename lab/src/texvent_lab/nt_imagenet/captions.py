@@ -1,20 +1,16 @@
-"""Captions of N-ImageNet: kept, checked, and compared with each other."""
+"""Captions of N-ImageNet: read, checked, and compared with each other."""
 
 from __future__ import annotations
 
-import json
-import os
 import re
 import unicodedata
 from collections import defaultdict
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from texvent.batch.list_files import read_list
-from texvent.errors import ConfigError, FileFormatError, InputError, one_line
-from texvent.io.atomic import atomic_file
+from texvent.errors import FileFormatError
 
 FEWEST_WORDS, MOST_WORDS = 39, 124
 """Paper, Table 10: text length 39 to 124. The unit is not said; words are likely."""
@@ -82,11 +78,8 @@ def _plain(text: str) -> str:
     return unicodedata.normalize("NFKC", text).casefold().replace("’", "'")
 
 
-FILE = "made_captions.jsonl"
-
-
 def read_captions(path: Path) -> dict[str, str]:
-    """Captions made elsewhere: id → caption.
+    """Captions of a file: id → caption.
 
     Args:
         path: `.csv` or `.jsonl` with `id` (or `name`), ImageNet's name of the image without
@@ -100,87 +93,7 @@ def read_captions(path: Path) -> dict[str, str]:
     for entry in read_list(path):
         if entry.name is None or entry.prompt is None:
             raise FileFormatError(f"{entry.where} needs id and caption")
-        caption = one_paragraph(entry.prompt)
+        caption = " ".join(entry.prompt.split())
         if captions.setdefault(entry.name, caption) != caption:
             raise FileFormatError(f"{entry.where} gives {entry.name} another caption than before")
     return captions
-
-
-def one_paragraph(text: str) -> str:
-    """The text on one line."""
-    return " ".join(text.split())
-
-
-@dataclass(frozen=True)
-class CaptionStore:
-    """A file that grows by one caption at a time.
-
-    Its first line says what makes the captions, so that those of two models are never mixed.
-    """
-
-    path: Path
-    facts: Mapping[str, Any]
-    """What decides a caption: model, instruction ..."""
-
-    def read(self) -> dict[str, str]:
-        """The captions so far; a last line that was cut off is dropped.
-
-        Raises:
-            ConfigError: they were made by something else.
-            FileFormatError: the file is damaged.
-        """
-        try:
-            lines = self.path.read_text(encoding="utf-8", errors="replace").split("\n")[:-1]
-        except FileNotFoundError:
-            return {}
-        except OSError as error:
-            raise InputError(f"cannot read {self.path}: {one_line(error)}") from error
-        try:
-            tables = [json.loads(line) for line in lines]
-            captions = {str(one["id"]): str(one["caption"]) for one in tables[1:]}
-        except (ValueError, TypeError, KeyError) as error:
-            raise FileFormatError(f"{self.path} is damaged ({one_line(error)})") from error
-        if tables and tables[0] != dict(self.facts):
-            raise ConfigError(
-                f"{self.path} holds captions of {tables[0]}, and now {dict(self.facts)} is asked "
-                "for; name another folder with -o"
-            )
-        return captions
-
-    def fill(
-        self, ids: Sequence[str], make: Callable[[str], str]
-    ) -> tuple[dict[str, str], dict[str, str]]:
-        """Make the captions that are missing.
-
-        Args:
-            ids: which are wanted.
-            make: id → caption; may raise `InputError`, which costs that caption alone.
-
-        Returns:
-            All captions of `ids`, and id → why there is none.
-        """
-        captions, failures = self.read(), dict[str, str]()
-        self._rewrite(captions)
-        with self.path.open("a", encoding="utf-8") as file:
-            for id in ids:
-                if id in captions:
-                    continue
-                try:
-                    captions[id] = one_paragraph(make(id))
-                except InputError as error:
-                    failures[id] = str(error)
-                    continue
-                file.write(_line({"id": id, "caption": captions[id]}))
-                file.flush()
-                os.fsync(file.fileno())
-        return {id: captions[id] for id in ids if id in captions}, failures
-
-    def _rewrite(self, captions: Mapping[str, str]) -> None:
-        """Begin the file, or end it after its last whole line."""
-        lines = [dict(self.facts), *({"id": id, "caption": one} for id, one in captions.items())]
-        with atomic_file(self.path, overwrite=True) as part:
-            part.write_text("".join(map(_line, lines)), encoding="utf-8")
-
-
-def _line(table: Mapping[str, Any]) -> str:
-    return json.dumps(table, ensure_ascii=False) + "\n"

@@ -17,28 +17,11 @@ from typing import Any
 from texvent.batch.identity import derived_seed
 from texvent.errors import FileFormatError, OutputError, one_line
 from texvent.io.atomic import atomic_file
-from texvent_lab.nt_imagenet.captions import FILE
 from texvent_lab.nt_imagenet.selection import Stream
-
-FOLDERS = ("", "val", "ILSVRC2012_img_val", "Data/CLS-LOC/val", "ILSVRC/Data/CLS-LOC/val")
-"""Where copies of ImageNet keep the validation images, all in one folder or by class."""
-EXTENSIONS = (".JPEG", ".jpeg", ".jpg", ".png")
-
-
-def find_image(folder: Path, wnid: str, id: str) -> Path | None:
-    """The image of a stream, or None."""
-    for inside in FOLDERS:
-        for place in (folder / inside / wnid, folder / inside):
-            for extension in EXTENSIONS:
-                path = place / f"{id}{extension}"
-                if path.is_file():
-                    return path
-    return None
-
 
 CAPTIONS, STREAMS = "captions.jsonl", "streams.csv"
 REPORT, SPECIFICATION = "report.json", "specification.toml"
-OWN = frozenset({CAPTIONS, STREAMS, REPORT, SPECIFICATION, FILE})
+OWN = frozenset({CAPTIONS, STREAMS, REPORT, SPECIFICATION})
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -33,15 +33,15 @@ class Report:
     """Id → why it has no caption."""
     left_out: Sequence[str] = ()
     """Ids whose caption failed a check that leaves it out."""
-    made_by: Mapping[str, Any] = field(default_factory=dict)
-    """Model or file of the captions."""
+    captions_file: str = ""
+    """Where the captions are from."""
 
     @property
     def facts(self) -> dict[str, Any]:
         """Plain values, ready for JSON."""
         return {
             "texvent_version": full_version(),
-            "made_by": dict(self.made_by),
+            "captions_file": self.captions_file,
             "streams": self._stream_facts(),
             "captions": self._caption_facts(),
             "left_out": list(self.left_out),

@@ -1,11 +1,17 @@
-"""Pauses, noise and hot pixels, against slow references and their stated shares."""
+"""Crops, mirrors, pauses, noise and hot pixels, against slow references and their stated shares."""
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from texvent_lab.train.reconstruction.losses import add_hot_pixels, add_noise, draw_pauses
+from texvent_lab.train.reconstruction.augmentation import (
+    add_hot_pixels,
+    add_noise,
+    crop_randomly,
+    draw_pauses,
+    flip_randomly,
+)
 
 
 def test_pauses_are_as_frequent_and_as_long_as_stated():
@@ -52,3 +58,33 @@ def test_hot_pixels_stay_the_same_in_all_bins_of_all_windows(max_fraction, seed)
     expected = slow_hot_pixels(voxels, 0.5, max_fraction, seed)
     np.testing.assert_allclose(found, expected, rtol=0, atol=1e-6)
     assert not voxels.any()
+
+
+@given(st.integers(1, 9), st.integers(1, 9), st.data())
+def test_a_crop_is_the_same_square_of_every_map(height, width, data):
+    side = data.draw(st.integers(1, min(height, width)))
+    seed = data.draw(st.integers(0, 100))
+    whole = {"place": np.arange(height * width).reshape(1, height, width)}
+    cut = crop_randomly(whole, side, np.random.default_rng(seed))
+    top, left = divmod(int(cut["place"][0, 0, 0]), width)
+    assert cut["place"].shape == (1, side, side)
+    square = whole["place"][..., top : top + side, left : left + side]
+    np.testing.assert_array_equal(cut["place"], square)
+
+
+def test_a_mirror_turns_maps_and_displacements_round_in_all_four_ways():
+    image = np.array([[[[1, 2, 3], [4, 5, 6]]]], np.float32)
+    flow = np.concatenate([image, 10 * image], axis=1)
+    expected = {
+        (1, 1): ([[1, 2, 3], [4, 5, 6]], [1, 10]),
+        (-1, 1): ([[3, 2, 1], [6, 5, 4]], [-3, 30]),
+        (1, -1): ([[4, 5, 6], [1, 2, 3]], [4, -40]),
+        (-1, -1): ([[6, 5, 4], [3, 2, 1]], [-6, -60]),
+    }
+    seen = set()
+    for seed in range(20):
+        turned = flip_randomly({"image": image, "flow": flow}, np.random.default_rng(seed))
+        mirrored, corner = turned["image"][0, 0].tolist(), turned["flow"][0, :, 0, 0].tolist()
+        (way,) = (way for way, one in expected.items() if one == (mirrored, corner))
+        seen.add(way)
+    assert seen == set(expected)

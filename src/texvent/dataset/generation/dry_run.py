@@ -68,8 +68,9 @@ def try_samples(
     chance = random.Random(recipe.specification.seed)
     drawn = chance.sample(items, min(max(clips, processes), len(items)))
     chosen = tuple(dataclasses.replace(item, split=None) for item in drawn)
+    sources = tuple(dataclasses.replace(one, split=None) for one in recipe.specification.sources)
     specification = dataclasses.replace(
-        recipe.specification, samples_per_shard=1, repeats=1, splits={"trial": 1.0}
+        recipe.specification, sources=sources, samples_per_shard=1, repeats=1, splits={"trial": 1.0}
     )
     # The first round compiles the kernels in every process; videos of a model are made once.
     rounds = [chosen] if recipe.stores_videos else [chosen[:processes], chosen]

@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING, Literal
 
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
+from texvent_lab.train.reconstruction.sequences import SequenceData
 from texvent_lab.train.schedule import Schedule, TrainingConfig
-from texvent_lab.train.sequences import SequenceData
 
 if TYPE_CHECKING:
     from texvent_lab.train.task import Task

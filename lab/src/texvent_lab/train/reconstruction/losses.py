@@ -1,4 +1,4 @@
-"""Losses of reconstructed sequences, and the augmentation of their windows."""
+"""Losses of reconstructed sequences."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ from collections.abc import Callable
 from typing import Any, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.extending import require
 from texvent.metrics.image_measures import CONTRAST, LUMINANCE, RADIUS_PX, gaussian_window
@@ -14,55 +13,6 @@ from texvent.metrics.lpips import LEAST_SIDE, Lpips, LpipsWeights
 from texvent.networks.weight_files import Tensor
 from texvent_lab.train.reconstruction.config import ReconstructionLoss
 from texvent_lab.train.schedule import EXTRA
-
-Voxels = NDArray[np.float32]
-"""[windows, bins, H, W]."""
-
-
-def draw_pauses(
-    count: int, *, begin: float, stay: float, chance: np.random.Generator
-) -> NDArray[np.bool_]:
-    """Which windows of a sequence are pauses, [count]; the first is none.
-
-    Args:
-        count: windows.
-        begin: probability of a pause after a window that is none.
-        stay: probability of a pause after a pause.
-        chance: of this sequence in this epoch.
-    """
-    is_pause = np.zeros(count, np.bool_)
-    for number, drawn in enumerate(chance.random(count)):
-        if number:
-            is_pause[number] = drawn < (stay if is_pause[number - 1] else begin)
-    return is_pause
-
-
-def add_noise(voxels: Voxels, *, deviation: float, chance: np.random.Generator) -> Voxels:
-    """Normal noise in every voxel but those of the first window."""
-    noise = chance.standard_normal(voxels.shape, np.float32) * np.float32(deviation)
-    noise[:1] = 0
-    return np.asarray(voxels + noise)
-
-
-def add_hot_pixels(
-    voxels: Voxels, *, deviation: float, max_fraction: float, chance: np.random.Generator
-) -> Voxels:
-    """Some pixels, to which a normal number each is added in all bins of all windows.
-
-    Args:
-        voxels: of a sequence.
-        deviation: of these numbers.
-        max_fraction: the largest share of pixels; the share is uniform from 0 on.
-        chance: of this sequence in this epoch.
-    """
-    height, width = voxels.shape[-2:]
-    count = int(chance.uniform(0, max_fraction) * height * width)
-    offset = np.zeros((height, width), np.float32)
-    places = chance.integers(height, size=count), chance.integers(width, size=count)
-    # A pixel that is drawn twice gets the sum.
-    np.add.at(offset, places, chance.standard_normal(count, np.float32) * np.float32(deviation))
-    return np.asarray(voxels + offset)
-
 
 LEAST_SUM = 1e-5
 """Added to what the difference of two images is divided by."""

@@ -23,17 +23,19 @@ from texvent_lab.reconstruct.image_measures import load_measures
 from texvent_lab.reconstruct.reconstructor import Intensity, Reconstructor
 from texvent_lab.reconstruct.recurrent_network import PublishedNetwork, RecurrentNetwork
 from texvent_lab.registries import RECONSTRUCTORS
-from texvent_lab.train.reconstruction.config import ReconstructionAugmentation, ReconstructionConfig
-from texvent_lab.train.reconstruction.losses import (
-    SequenceLoss,
+from texvent_lab.train.reconstruction.augmentation import (
+    FLOW,
     add_hot_pixels,
     add_noise,
+    crop_randomly,
     draw_pauses,
+    flip_randomly,
 )
+from texvent_lab.train.reconstruction.config import ReconstructionAugmentation, ReconstructionConfig
+from texvent_lab.train.reconstruction.losses import SequenceLoss
+from texvent_lab.train.reconstruction.sequences import WindowedClips
 from texvent_lab.train.schedule import EXTRA
-from texvent_lab.train.sequences import WindowedClips
 from texvent_lab.train.task import Batches, Score
-from texvent_lab.train.truth import FLOW, crop_randomly, flip_randomly
 
 
 def new_network(published: PublishedNetwork, seed: int) -> RecurrentNetwork:

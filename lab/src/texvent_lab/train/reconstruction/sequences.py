@@ -21,7 +21,7 @@ from texvent.io.atomic import atomic_file
 from texvent.io.hdf5.storage import open_hdf5
 from texvent.runtime.cache_folder import cache_folder, make_folder
 from texvent.sensor import SensorSize
-from texvent_lab.train.simulated_clips import SimulatedClips
+from texvent_lab.train.reconstruction.simulated_clips import SimulatedClips
 
 
 @dataclass(frozen=True, kw_only=True)

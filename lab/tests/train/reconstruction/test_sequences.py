@@ -11,10 +11,10 @@ import pytest
 
 from texvent.dataset.samples import record_clip, target_of
 from texvent.errors import ConfigError, InputError
-from texvent_lab.train.sequences import SequenceData, WindowedClips
-from texvent_lab.train.simulated_clips import SimulatedClips
+from texvent_lab.train.reconstruction.sequences import SequenceData, WindowedClips
+from texvent_lab.train.reconstruction.simulated_clips import SimulatedClips
 
-from .windowed_specification import SLICE_US, TEXT, write_sequence_data, write_specification
+from ..windowed_specification import SLICE_US, TEXT, write_sequence_data, write_specification
 
 TARGETS = ("frame", "flow", "depth")
 

@@ -9,7 +9,7 @@ import pytest
 import texvent.dataset
 from texvent.errors import ConfigError
 from texvent.events import EventStream
-from texvent_lab.train.simulated_clips import SimulatedClips
+from texvent_lab.train.reconstruction.simulated_clips import SimulatedClips
 
 SPECIFICATION = """\
 name = "tiny"
