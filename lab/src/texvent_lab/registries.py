@@ -24,6 +24,7 @@ TASKS = Registry(
     {
         "classification": "texvent_lab.train.classification.config:ClassificationConfig",
         "depth": "texvent_lab.train.depth:DepthConfig",
+        "detection": "texvent_lab.bench.detection.config:DetectionConfig",
         "flow": "texvent_lab.train.flow:FlowConfig",
         "reconstruction": "texvent_lab.train.reconstruction.config:ReconstructionConfig",
     },
