@@ -3,6 +3,7 @@
 VENV := .venv
 TORCH_VENV := .venv-torch
 DATASET_VENV := .venv-dataset
+DETECT_VENV := .venv-detect
 DOCS_VENV := .venv-docs
 NEWEST_VENV := .venv-newest
 GPL_VENV := .venv-gpl
@@ -43,7 +44,7 @@ COMPILE := $(AUDIT_VENV)/bin/uv pip compile --quiet --universal --python-version
 # Tests start many processes: without compiled modules each would compile texvent anew.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help demo test nightly coverage test-newest fuzz test-torch test-dataset test-docs test-gpl test-llm docs linkcheck dist lint lint-workflows licences sbom requirements format clean
+.PHONY: help demo test nightly coverage test-newest fuzz test-torch test-dataset test-detect test-docs test-gpl test-llm docs linkcheck dist lint lint-workflows licences sbom requirements format clean
 
 help:
 	@echo "make demo    events, film, picture and page from a sentence, in $(dir $(DEMO_OUT))"
@@ -54,6 +55,7 @@ help:
 	@echo "make fuzz    thousands of damaged inputs for every reader, and a table of what became of them"
 	@echo "make test-torch   the tests that need torch, in $(TORCH_VENV)"
 	@echo "make test-dataset the tests of Ray, of data sets in other libraries, of Parquet and blosc, in $(DATASET_VENV)"
+	@echo "make test-detect  layouts for detectors, loaded by evlib, in $(DETECT_VENV)"
 	@echo "make test-docs     the snippets of README.md and docs/, displays and progress bars in a kernel, in $(DOCS_VENV)"
 	@echo "make test-gpl     the tests with readers under the GPL, in $(GPL_VENV)"
 	@echo "make test-llm     scenes by a real language model behind a llama.cpp server, in $(LLM_VENV)"
@@ -100,6 +102,9 @@ test-dataset: $(DATASET_VENV)/.dataset
 	$(DATASET_VENV)/bin/python -m pytest -q -m dataset tests/dataset
 	$(DATASET_VENV)/bin/python -m pytest -q -k "parquet or blosc" tests/io
 
+test-detect: $(DETECT_VENV)/.detect
+	$(DETECT_VENV)/bin/python -m pytest -q -m detect
+
 test-docs: $(DOCS_VENV)/.docs-test
 	$(DOCS_VENV)/bin/python -m pytest -q -m docs tests/notebooks tests/contract
 
@@ -142,7 +147,7 @@ format: $(VENV)/.dev
 
 licences: $(AUDIT_VENV)/.audit $(VENV)/.dev
 	$(AUDIT_VENV)/bin/reuse lint --quiet || { $(AUDIT_VENV)/bin/reuse lint; exit 1; }
-	$(AUDIT_VENV)/bin/python -m tools.licences $(sort $(VENV) $(filter-out $(NEWEST_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV),$(wildcard .venv*)))
+	$(AUDIT_VENV)/bin/python -m tools.licences $(sort $(VENV) $(filter-out $(NEWEST_VENV) $(DETECT_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV),$(wildcard .venv*)))
 
 sbom: $(AUDIT_VENV)/.audit
 	rm -rf $(SBOM_VENV)
@@ -161,10 +166,10 @@ requirements: $(AUDIT_VENV)/.audit
 	printf '%s\n' $(AUDIT_TOOLS) | $(COMPILE) -o requirements/audit.txt -
 
 clean:
-	rm -rf $(VENV) $(NEWEST_VENV) $(TORCH_VENV) $(DATASET_VENV) $(DOCS_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
+	rm -rf $(VENV) $(NEWEST_VENV) $(TORCH_VENV) $(DATASET_VENV) $(DETECT_VENV) $(DOCS_VENV) $(GPL_VENV) $(LLM_VENV) $(AUDIT_VENV) $(SBOM_VENV) $(RELEASE_VENV) docs/_build .mypy_cache .ruff_cache .pytest_cache .hypothesis .import_linter_cache demo-output
 
 # One rule makes every environment.
-$(VENV)/bin/python $(NEWEST_VENV)/bin/python $(TORCH_VENV)/bin/python $(DATASET_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(LLM_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
+$(VENV)/bin/python $(NEWEST_VENV)/bin/python $(TORCH_VENV)/bin/python $(DATASET_VENV)/bin/python $(DETECT_VENV)/bin/python $(DOCS_VENV)/bin/python $(GPL_VENV)/bin/python $(LLM_VENV)/bin/python $(AUDIT_VENV)/bin/python $(RELEASE_VENV)/bin/python:
 	@test -n "$(PYTHON)" || { echo "error: texvent needs Python 3.11 or newer; none was found. Install one, or name it: make PYTHON=/path/to/python3"; exit 2; }
 	$(PYTHON) -m venv $(patsubst %/bin/python,%,$@)
 
@@ -209,6 +214,13 @@ $(TORCH_VENV)/.torch: $(TORCH_VENV)/bin/python pyproject.toml lab/pyproject.toml
 $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.txt
 	@echo "installing texvent, Ray and loaders of data sets into $(DATASET_VENV) (once; 1.5 GB)"
 	$(DATASET_VENV)/bin/python -m pip install $(PIP_OPTIONS) -e '.[dev,ray,loaders,parquet,blosc]'
+	@touch $@
+
+# Without constraints: torch and torchvision must be of one build, and the registry's are CUDA's, whose
+# NVIDIA packages `make licences` would refuse.
+$(DETECT_VENV)/.detect: $(DETECT_VENV)/bin/python pyproject.toml lab/pyproject.toml
+	@echo "installing texvent, evlib, torch and torchvision into $(DETECT_VENV) (once; several GB)"
+	$(DETECT_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-compile -e '.[dev,detect]' -e lab
 	@touch $@
 
 $(DOCS_VENV)/.docs: $(DOCS_VENV)/bin/python pyproject.toml lab/pyproject.toml constraints.txt

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
@@ -11,7 +12,8 @@ from tests.dataset.conftest import assert_same, make_set, samples_of
 
 import texvent
 from texvent.cli.app import main
-from texvent.dataset.export import LAYOUTS, export, folder_name
+from texvent.dataset.export import LAYOUTS, export
+from texvent.dataset.layouts.samples import folder_name
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import ConfigError, InputError, OutputError
 
@@ -39,7 +41,7 @@ def test_hdf5_holds_everything_and_is_made_again_from_itself(
     cars: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     out = tmp_path / "H"
-    words = ["dataset", "export", str(cars), "--format", "hdf5", "--variant", "paper"]
+    words = ["dataset", "export", str(cars), "--layout", "hdf5", "--variant", "paper"]
     assert main([*words, "-o", str(out)]) == 0
     for key, (split, label, events) in samples_of(cars).items():
         path = out / split / f"{key}.h5"
@@ -86,7 +88,7 @@ def test_a_second_run_goes_on_and_another_export_is_refused(cars: Path, tmp_path
         export(made, "hdf5", out, variant="esim")
     with pytest.raises(InputError, match=r"has 2 variants \(paper, esim\)"):
         export(made, "hdf5", tmp_path / "other")
-    with pytest.raises(ConfigError, match=f"unknown format 'zarr'; allowed: {', '.join(LAYOUTS)}"):
+    with pytest.raises(ConfigError, match=f"unknown layout 'zarr'; allowed: {', '.join(LAYOUTS)}"):
         export(made, "zarr", tmp_path / "other")
 
 
@@ -110,3 +112,61 @@ def test_classes_become_folder_names() -> None:
     assert re.fullmatch(r"[\w.-]+", folder_name("fire truck / red"))
     with pytest.raises(InputError, match="cannot name a folder"):
         folder_name("///")
+
+
+@pytest.fixture(scope="module")
+def traffic(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Three clips with boxes, in one of which nothing is in view that drives."""
+    return make_set(
+        tmp_path_factory.mktemp("traffic") / "traffic",
+        splits={"train": 0.67, "valid": 0.33},
+        sources=[{"prompts": ["a red taxi drives left past a man", "a bus stops"]},
+                 {"prompts": ["a tree"], "split": "train"}],
+        options={"duration": 0.15, "sensor": "64x48"},
+        variants={"paper": {}},
+        truth=["boxes"],
+    )  # fmt: skip
+
+
+def test_layouts_with_boxes_from_the_command_line(
+    traffic: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    samples = [one for shard in StoredDataset.open(traffic).shards() for one in shard.samples]
+    splits = {one.key: split for one, split in zip(samples, ("train", "train", "val"), strict=True)}
+    shown = {one.key for one in samples if set(one.boxes or {}) & {"taxi", "bus"}}
+    words = ["dataset", "export", str(traffic), "--classes", "car,bus", "--layout"]
+    for name in ("gen1", "rvt", "dsec-det", "coco", "coco"):
+        assert main([*words, name, "-o", str(tmp_path / name)]) == 0
+    told = capsys.readouterr().out
+    assert "classes of boxes, in the order of their numbers: car, bus" in told
+    assert "note: boxes of other classes are left out: man (4), tree (4)" in told
+    assert f"{tmp_path}/coco: 3 samples as coco (3 were there)" in told
+    assert "note: 1 samples show no box and are left out; its readers want one" in told
+    for key, split in splits.items():
+        assert (tmp_path / "rvt" / split / key).is_dir() == (key in shown)
+        folder = tmp_path / "dsec-det/train" / key
+        times = np.genfromtxt(folder / "images/timestamps.txt", dtype="int64")
+        tracks = np.load(folder / "object_detections/left/tracks.npy")
+        boxes = np.load(tmp_path / "gen1" / split / f"{key}_bbox.npy")
+        assert len(list((folder / "images/left/distorted").iterdir())) == len(times) == 4
+        assert set(tracks["t"].tolist()) == (set(times.tolist()) if key in shown else set())
+        assert tracks["class_id"].tolist() == boxes["class_id"].tolist()
+        assert texvent.load(tmp_path / "gen1" / split / f"{key}_td.dat").size == (64, 48)
+    found = json.loads((tmp_path / "coco/val/annotations.json").read_text())
+    assert len(found["images"]) == 2
+    assert not [one for one in tmp_path.rglob("*") if one.name.startswith(".texvent")]
+
+
+def test_what_a_layout_cannot_hold_is_refused_at_the_door(
+    cars: Path, traffic: Path, tmp_path: Path
+) -> None:
+    out, boxes, none = tmp_path / "out", StoredDataset.open(traffic), StoredDataset.open(cars)
+    with pytest.raises(InputError, match=r'has none; write truth = \["boxes"\] into the specif'):
+        export(none, "rvt", out, variant="paper")
+    with pytest.raises(InputError, match=r"gen1 has no class for bus, tree; choose with --classes"):
+        export(boxes, "gen1", out)
+    with pytest.raises(InputError, match="no box is of the classes 'train'; boxes are of bus, man"):
+        export(boxes, "rvt", out, classes="train")
+    with pytest.raises(ConfigError, match="classes are those of boxes, and layout hdf5 holds none"):
+        export(boxes, "hdf5", out, classes="car")
+    assert not out.exists()

@@ -48,7 +48,7 @@ def fit_motion(motion: Motion, size: SensorSize, fit: str) -> Motion:
     old = next((SensorSize(one.shape[1], one.shape[0]) for one in fields if one is not None), size)
     if old == size:
         return motion
-    scale = _scale(old, size, fit)
+    scale = fit_place(old, size, fit)[0].astype(np.float32)
 
     def fitted(field: NDArray[Any] | None, bar: float) -> Any:
         return None if field is None else _fit_nearest(field, old, size, fit, bar)
@@ -64,14 +64,23 @@ def fit_motion(motion: Motion, size: SensorSize, fit: str) -> Motion:
     )
 
 
-def _scale(old: SensorSize, size: SensorSize, fit: str) -> NDArray[np.float32]:
-    """Pixels of the fitted frame per pixel of the old one, (x, y)."""
-    before, after = old, size
+def fit_place(
+    old: SensorSize, size: SensorSize, fit: str
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """Where points of a frame are in the fitted one: `point · scale + shift`, (x, y) px each.
+
+    Example:
+        >>> [part.tolist() for part in fit_place(SensorSize(8, 4), SensorSize(2, 2), "cover")]
+        [[0.5, 0.5], [-1.0, 0.0]]
+    """
+    left, top, before, after = 0, 0, old, size
     if fit == "cover":
-        _, _, before = _cover_window(old, size)
+        left, top, before = _cover_window(old, size)
     elif fit == "contain":
         after = _inside(old, size)
-    return np.array([after.width / before.width, after.height / before.height], np.float32)
+    scale = np.array(after, np.float64) / np.array(before)
+    bars = (np.array(size) - np.array(after)) // 2
+    return scale, bars - np.array([left, top]) * scale
 
 
 def _fit_nearest(

@@ -7,7 +7,6 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias, get_args
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent._registry import suggest
 from texvent.api import Source
@@ -18,11 +17,13 @@ from texvent.events import EventStream
 from texvent.pipeline import Simulation
 from texvent.represent.named import represent_window
 from texvent.run.prepare import prepare_prompt, prepare_source
+from texvent.scenes.models.tables import class_ids_of
 from texvent.settings.resolution import Settings, resolve
 from texvent.simulate.random.draws import frame_key
+from texvent.truth.boxes import box_records, detection_target
 from texvent.video import Frame, FrameStream, RenderableStream
 
-Target: TypeAlias = Literal["frame", "flow", "depth", "instance"]
+Target: TypeAlias = Literal["frame", "flow", "depth", "instance", "boxes"]
 Window: TypeAlias = tuple[int, int]
 """Start (included) and end (excluded), µs."""
 
@@ -85,7 +86,7 @@ def _drawn(frame: Frame) -> Frame:
     return frame
 
 
-def target_of(clip: SlicedClip, target: Target, window: Window) -> NDArray[Any]:
+def target_of(clip: SlicedClip, target: Target, window: Window) -> Any:
     """Ground truth of a window; `SimulatedSamples.make` describes each target.
 
     Raises:
@@ -105,6 +106,10 @@ def target_of(clip: SlicedClip, target: Target, window: Window) -> NDArray[Any]:
     truth = describe(start if target == "flow" else stop, stop)
     if target == "flow":
         return np.moveaxis(truth.flow, -1, 0)
+    if target == "boxes":
+        ids = class_ids_of(box.class_name for box in truth.boxes)
+        class_ids = [ids[box.class_name] for box in truth.boxes]
+        return detection_target(box_records(stop, truth.boxes, class_ids))
     return np.asarray(truth.depth if target == "depth" else truth.instance)
 
 
@@ -196,6 +201,8 @@ class SimulatedSamples:
               start, [2, H, W] float32; NaN where it ends behind the camera.
             * `depth`: metres at the end of the slice, [H, W] float32; inf for the sky.
             * `instance`: id of the object seen at the end of the slice, [H, W] int32.
+            * `boxes`: at the end of the slice, as `texvent.truth.boxes.detection_target` gives them,
+              a tuple over slices; labels are the class ids of nouns.
             * `stop_us`: end of the slice, µs, int64.
             * `source`: index of the prompt or video.
             * `number`, `seed`: of the sample.

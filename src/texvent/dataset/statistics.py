@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -19,6 +19,7 @@ from texvent.dataset.generation.shards import (
 )
 from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
 from texvent.scenes.report import PromptReport, ReportTally, ranked
+from texvent.truth.boxes import SIZE_CLASSES
 
 QUANTILES = (0.05, 0.5, 0.95)
 MOST_REASONS = 10
@@ -48,6 +49,16 @@ class Statistics:
     reasons: Counter[str] = field(default_factory=Counter)
     """Reasons of filtering and failure, numbers left out."""
     warnings: Counter[str] = field(default_factory=Counter)
+    boxes: Counter[str] = field(default_factory=Counter)
+    """Class → boxes."""
+    box_sizes: Counter[str] = field(default_factory=Counter)
+    """COCO's size class, by area → boxes."""
+    tracks: int = 0
+    """Objects with boxes, of all samples."""
+    with_truth: int = 0
+    """Samples that store boxes."""
+    without_boxes: int = 0
+    """Those of them that have none."""
     reports: ReportTally = field(default_factory=ReportTally)
     """Understood and other words of prompts; each clip counts once over all variants."""
     reported: set[str] = field(default_factory=set)
@@ -88,6 +99,16 @@ class Statistics:
             self.sensors[f"{sample.width}x{sample.height}"] += 1
             if sample.label is not None:
                 self.classes[sample.label] += 1
+            if sample.boxes is not None:
+                self._add_boxes(sample.boxes, sample.tracks)
+
+    def _add_boxes(self, boxes: Mapping[str, Sequence[int]], tracks: int) -> None:
+        self.with_truth += 1
+        self.without_boxes += not boxes
+        self.tracks += tracks
+        for name, counts in boxes.items():
+            self.boxes[name] += sum(counts)
+            self.box_sizes.update(dict(zip(SIZE_CLASSES, counts, strict=True)))
 
     def _add_report(self, sample: SampleRecord) -> None:
         if sample.prompt_report is None:
@@ -137,10 +158,22 @@ class Statistics:
             "events_per_second": quantiles(self.rates),
             "sensors": dict(sorted(self.sensors.items())),
             "classes": dict(sorted(self.classes.items())),
+            **self._box_tables,
             "reasons": dict(self.reasons.most_common(MOST_REASONS)),
             "warnings": dict(self.warnings.most_common(MOST_REASONS)),
             "prompts": (self.prompts or ReportTally()).tables,
             "texvent_versions": dict(sorted(self.versions.items())),
+        }
+
+    @property
+    def _box_tables(self) -> dict[str, Any]:
+        if not self.with_truth:
+            return {}
+        return {
+            "boxes": dict(sorted(self.boxes.items())),
+            "boxes_by_size": {name: self.box_sizes[name] for name in SIZE_CLASSES},
+            "tracks": self.tracks,
+            "samples_without_boxes": self.without_boxes / self.with_truth,
         }
 
 
@@ -252,6 +285,20 @@ def summary_lines(statistics: Statistics) -> list[str]:
     for reason, count in ranked(statistics.reasons)[:MOST_REASONS]:
         kind, _, why = reason.partition(": ")
         lines.append(f"{kind:8} {count:,}: {why}")
+    if statistics.with_truth:
+        lines += _box_lines(statistics)
     if statistics.prompts is not None:
         lines.append(f"prompts  {statistics.prompts.line('clips')}")
     return lines
+
+
+def _box_lines(statistics: Statistics) -> list[str]:
+    classes = "; ".join(f"{name} {count:,}" for name, count in ranked(statistics.boxes))
+    sizes = ", ".join(f"{statistics.box_sizes[name]:,} {name}" for name in SIZE_CLASSES)
+    share = statistics.without_boxes / statistics.with_truth
+    return [
+        f"boxes    {sum(statistics.boxes.values()):,} of {statistics.tracks:,} objects: "
+        f"{classes or 'none'}",
+        f"sizes    {sizes} (COCO's, by area: below 32² and 96² px)",
+        f"no box   in {100 * share:.0f} % of samples",
+    ]

@@ -11,7 +11,7 @@ from functools import partial
 from pathlib import Path
 
 from texvent.dataset.generation.recipe import VIDEOS
-from texvent.dataset.generation.sample import COLUMNS
+from texvent.dataset.generation.sample import COLUMNS, count_boxes
 from texvent.dataset.generation.shards import (
     EXTENSION,
     FAILED,
@@ -23,7 +23,7 @@ from texvent.dataset.generation.shards import (
     read_record,
 )
 from texvent.dataset.reading.stored_dataset import SHARD_FILE, StoredDataset, StoredShard
-from texvent.dataset.reading.stored_events import read_events, read_sample_facts
+from texvent.dataset.reading.stored_events import read_events, read_sample_facts, read_truth
 from texvent.dataset.statistics import in_several_splits
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.atomic import is_hidden_part
@@ -132,7 +132,7 @@ def _unsound(shard: StoredShard) -> Iterator[str]:
 
 
 def _check_sample(path: Path, sample: SampleRecord) -> None:
-    """Refuse events out of order or outside of the sensor, and facts that are of another sample.
+    """Refuse unsound events and ground truth, and facts that are of another sample.
 
     Raises:
         FileFormatError: see above.
@@ -152,6 +152,11 @@ def _check_sample(path: Path, sample: SampleRecord) -> None:
                 f"sample {sample.key}: {name} is {shown(facts.get(name))} in the shard, and "
                 f"{shown(getattr(sample, name))} in its record"
             )
+    truth = read_truth(path, sample)
+    truth.check(events.size)
+    counted = count_boxes(truth)
+    if (counted.get("boxes"), counted.get("tracks", 0)) != (sample.boxes, sample.tracks):
+        raise FileFormatError(f"sample {sample.key}: its record counts other boxes than it has")
     caption = read_members(path, sample.members, ("txt",)).get("txt", b"")
     if caption.decode("utf-8", errors="replace") != (sample.prompt or ""):
         raise FileFormatError(f"sample {sample.key}: its caption is not that of its record")

@@ -8,19 +8,20 @@ files `*_bbox.npy` hold one record per box.
 
 from __future__ import annotations
 
-import json
-import shutil
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
-from itertools import count
+from contextlib import contextmanager
 from pathlib import Path
-from typing import IO, Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from texvent.io.arrays.npy_file import growing_array
-from texvent.scenes.raycast.ground_truth import Box
 from texvent.sensor import SensorSize
+from texvent.truth.coco import CocoFile, open_coco
+
+if TYPE_CHECKING:
+    from texvent.scenes.raycast.ground_truth import Box
 
 COCO, PROPHESEE = "coco.json", "bbox.npy"
 BOX_RECORD = np.dtype(
@@ -31,14 +32,60 @@ BOX_RECORD = np.dtype(
 )
 """Time in µs, left, top, width, height in pixels; `track_id` is the instance."""
 
+SMALL_AREA, MEDIUM_AREA = 32**2, 96**2
+"""Areas, px², from which on COCO calls an object medium, and large."""
+SIZE_CLASSES = ("small", "medium", "large")
+
+
+def box_records(t_us: int, boxes: Sequence[Box], class_ids: Sequence[int]) -> NDArray[np.void]:
+    """Records of the boxes of one instant, of `BOX_RECORD`.
+
+    Args:
+        t_us: the instant, µs.
+        boxes: visible objects.
+        class_ids: class of each.
+    """
+    rows = [
+        (t_us, box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0, class_id, box.instance, 1.0)
+        for box, class_id in zip(boxes, class_ids, strict=True)
+    ]
+    return np.array(rows, dtype=BOX_RECORD)
+
+
+def size_classes(boxes: NDArray[np.void]) -> NDArray[np.int64]:
+    """Place of each box in `SIZE_CLASSES`, by its area.
+
+    Example:
+        >>> size_classes(np.array([(0, 0, 0, 32, 32, 3, 1, 1.0)], BOX_RECORD)).tolist()
+        [1]
+    """
+    area: NDArray[np.float32] = boxes["w"] * boxes["h"]
+    return np.searchsorted((SMALL_AREA, MEDIUM_AREA), area, side="right")
+
+
+def detection_target(boxes: NDArray[np.void]) -> dict[str, NDArray[Any]]:
+    """Boxes as detectors take them.
+
+    Args:
+        boxes: [k] records of `BOX_RECORD`.
+
+    Returns:
+        `boxes`: x0, y0, x1, y1 in pixels, [k, 4] float32; `labels`: class ids, `track_ids`, and
+        `times`, µs, [k] int64 each.
+    """
+    x, y, w, h = (boxes[name] for name in "xywh")
+    whole = {"labels": "class_id", "track_ids": "track_id", "times": "t"}
+    return {
+        "boxes": np.stack([x, y, x + w, y + h], axis=1).astype(np.float32),
+        **{name: boxes[column].astype(np.int64) for name, column in whole.items()},
+    }
+
 
 class BoxFiles:
     """Open box files; use `open_boxes`."""
 
-    def __init__(self, size: SensorSize, images: IO[str], annotations: IO[str], append: Any):
-        self._size = size
-        self._images, self._annotations, self._append = images, annotations, append
-        self._numbers = count(1)
+    def __init__(self, size: SensorSize, coco: CocoFile, append: Any) -> None:
+        self._size, self._coco, self._append = size, coco, append
 
     def add(
         self,
@@ -58,31 +105,12 @@ class BoxFiles:
             class_ids: class of each.
             areas: visible pixels of each.
         """
-        image = {
-            "id": index,
-            "file_name": f"{index:06d}.png",
-            "width": self._size.width,
-            "height": self._size.height,
-            "t_us": t_us,
-        }
-        _write_item(self._images, image)
-        records = []
+        self._coco.add_image(index, f"{index:06d}.png", self._size, t_us)
         for box, class_id, area in zip(boxes, class_ids, areas, strict=True):
-            sides = box.x1 - box.x0, box.y1 - box.y0
-            facts = {
-                "id": next(self._numbers),
-                "image_id": index,
-                "category_id": class_id,
-                "bbox": [box.x0, box.y0, *sides],
-                "area": area,
-                "iscrowd": 0,
-                "track_id": box.instance,
-            }
-            if not np.isnan(box.visibility):
-                facts["visibility"] = box.visibility
-            _write_item(self._annotations, facts)
-            records.append((t_us, box.x0, box.y0, *sides, class_id, box.instance, 1.0))
-        self._append(np.array(records, dtype=BOX_RECORD))
+            sides = box.x0, box.y0, box.x1 - box.x0, box.y1 - box.y0
+            more = {} if np.isnan(box.visibility) else {"visibility": box.visibility}
+            self._coco.add_box(class_id, sides, area, track_id=box.instance, **more)
+        self._append(box_records(t_us, boxes, class_ids))
 
 
 @contextmanager
@@ -97,26 +125,8 @@ def open_boxes(
         classes: class id → name, of all objects; read at the end.
         info: facts of the run; COCO's "info".
     """
-    parts = [folder / "images.part", folder / "annotations.part"]
-    with ExitStack() as stack:
-        append = stack.enter_context(growing_array(folder / PROPHESEE, dtype=BOX_RECORD))
-        images, annotations = (
-            stack.enter_context(part.open("w", encoding="ascii")) for part in parts
-        )
-        yield BoxFiles(size, images, annotations, append)
-    categories = [
-        {"id": number, "name": name, "supercategory": "object"} for number, name in classes.items()
-    ]
-    with (folder / COCO).open("w", encoding="ascii") as file:
-        file.write(f'{{"info": {json.dumps(info)},\n"categories": {json.dumps(categories)}')
-        for part in parts:
-            file.write(f',\n"{part.stem}": [\n')
-            with part.open(encoding="ascii") as items:
-                shutil.copyfileobj(items, file)
-            file.write("\n]")
-            part.unlink()
-        file.write("}\n")
-
-
-def _write_item(file: IO[str], facts: Mapping[str, Any]) -> None:
-    file.write((",\n" if file.tell() else "") + json.dumps(facts))
+    with (
+        growing_array(folder / PROPHESEE, dtype=BOX_RECORD) as append,
+        open_coco(folder / COCO, classes=classes, info=info) as coco,
+    ):
+        yield BoxFiles(size, coco, append)

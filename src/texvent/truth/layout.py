@@ -23,6 +23,16 @@ PARTS: Mapping[str, str] = MappingProxyType(
     }
 )
 """Name → what it is."""
+CLIP_FILES: Mapping[str, tuple[str, ...]] = MappingProxyType(
+    {
+        "boxes": ("boxes.npy", "visibility.npy"),
+        "flow": ("flow.npz",),
+        "depth": ("depth.npz",),
+        "ids": ("ids.npz",),
+        "poses": ("poses.npz",),
+    }
+)
+"""Part of the truth of a sample → its files. Archives hold `t`, the times of their rows, µs."""
 ALL = "all"
 
 

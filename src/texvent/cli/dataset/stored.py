@@ -62,8 +62,8 @@ what Hugging Face reads. Nothing is uploaded. Equal shards give equal files.
     "export": f"""Write the samples of a data set in another layout: {", ".join(LAYOUTS)}. What a
 layout cannot hold is said. A stopped export goes on when it is run again.
 
-  texvent dataset export cars --format hdf5 -o cars-h5       one file per sample, with everything
-  texvent dataset export cars --format n-imagenet --variant paper -o N_Imagenet""",
+  texvent dataset export cars --layout hdf5 -o cars-h5       one file per sample, with everything
+  texvent dataset export cars --layout rvt --classes car,pedestrian -o cars-rvt""",
 }
 
 
@@ -267,12 +267,15 @@ class ExportOptions(StoredOptions):
     short_flags: ClassVar[Mapping[str, str]] = {"out": "-o"}
     outputs: ClassVar[tuple[str, ...]] = ("out",)
 
-    format: str = "hdf5"
+    layout: str = "hdf5"
     """Name of the layout."""
     out: Path | None = None
     """Folder to write."""
     variant: str | None = None
     """Which variant; needed where there are several."""
+    classes: str | None = None
+    """Classes of boxes in the order of their numbers, others are left out: car,pedestrian; a name
+    may gather some: vehicle=car+bus. Default: those of the layout, or of the data set."""
 
 
 def run_export(arguments: Sequence[str]) -> int:
@@ -281,9 +284,17 @@ def run_export(arguments: Sequence[str]) -> int:
     if options.out is None:
         raise ConfigError("export needs the folder to write; name it with -o")
     dataset = StoredDataset.open(options.folder)
-    done = export(dataset, options.format, options.out, variant=options.variant)
+    done = export(
+        dataset,
+        options.layout,
+        options.out,
+        variant=options.variant,
+        classes=options.classes,
+    )
     kept = f" ({done.kept:,} were there)" if done.kept else ""
-    write_out(f"{options.out}: {done.samples:,} samples as {options.format}{kept}\n")
+    write_out(f"{options.out}: {done.samples:,} samples as {options.layout}{kept}\n")
+    if done.classes:
+        write_out(f"classes of boxes, in the order of their numbers: {', '.join(done.classes)}\n")
     for doubt in done.doubts:
         write_out(f"note: {doubt}\n")
     return 0

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -18,7 +18,9 @@ from texvent.batch.engines import ENDING_ALL
 from texvent.batch.identity import digest
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.sample import (
+    count_boxes,
     prepare_clip,
+    record_truth,
     sample_members,
     simulate_sample,
     with_seed,
@@ -40,11 +42,14 @@ from texvent.dataset.specification.items import KEY_DIGITS
 from texvent.errors import InputError, TexventError, warnings_to
 from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
 from texvent.io.atomic import atomic_file
-from texvent.pipeline import fit_to_sensor
+from texvent.pipeline import Simulation, fit_to_sensor
 from texvent.run.prepare import make_video, prepare_video
 from texvent.scenes.report import REPORT_KEY
 from texvent.settings.resolution import Settings
 from texvent.video import FrameStream
+
+if TYPE_CHECKING:
+    from texvent.truth.recorder import TruthRecorder
 
 Members = Mapping[str, bytes]
 Make = Callable[[], tuple[Members, dict[str, Any]]]
@@ -146,9 +151,10 @@ class _ShardSamples:
     def __init__(self, recipe: Recipe, folder: Path, shard: Shard, scratch: Path) -> None:
         self._recipe, self._shard, self._scratch = recipe, shard, scratch
         self._labels = {label: number for number, label in enumerate(recipe.items.labels)}
-        self._stored: _StoredVideos | None = None
+        self._stored: StoredVideos | None = None
+        self._recorder: tuple[str, TruthRecorder] | None = None
         if recipe.stores_videos and shard.variant != VIDEOS:
-            self._stored = _StoredVideos(folder, replace(shard, variant=VIDEOS), scratch)
+            self._stored = StoredVideos(folder, replace(shard, variant=VIDEOS), scratch)
 
     def __iter__(self) -> Iterator[tuple[SampleRecord, Make]]:
         for clip in self._recipe.clips_of(self._shard):
@@ -191,7 +197,9 @@ class _ShardSamples:
         else:
             video = fit_to_sensor(self._stored.open(clip), settings)
             simulation = prepare_video(video, settings, prompt=item.prompt)
-        simulated = simulate_sample(simulation, specification.filters)
+        recorder = self._truth_recorder(clip, simulation)
+        on_frame = None if recorder is None else recorder.add
+        simulated = simulate_sample(simulation, specification.filters, on_frame)
         known = {
             "signal_events": simulated.signal_events,
             REPORT_KEY: simulation.provenance.get(REPORT_KEY),
@@ -206,6 +214,8 @@ class _ShardSamples:
             "width": width,
             "height": height,
         }
+        truth = None if recorder is None else recorder.finish()
+        known |= {} if truth is None else count_boxes(truth.read)
         facts = {
             **simulation.provenance,
             **known,
@@ -220,8 +230,16 @@ class _ShardSamples:
             facts,
             class_number=None if item.label is None else self._labels[item.label],
             preview=specification.previews,
+            truth=truth,
         )
         return members, known
+
+    def _truth_recorder(self, clip: Clip, simulation: Simulation) -> TruthRecorder | None:
+        """Recorder of the truth of a clip, one for all of its seeds; None where none is wanted."""
+        specification = self._recipe.specification
+        if specification.truth and (self._recorder is None or self._recorder[0] != clip.key):
+            self._recorder = clip.key, record_truth(specification, clip.item, simulation)
+        return None if self._recorder is None else self._recorder[1]
 
 
 def _record(key: str, clip: Clip, seed: int) -> SampleRecord:
@@ -237,7 +255,7 @@ def _record(key: str, clip: Clip, seed: int) -> SampleRecord:
     )
 
 
-class _StoredVideos:
+class StoredVideos:
     """The videos of a shard of the first stage."""
 
     def __init__(self, folder: Path, shard: Shard, scratch: Path) -> None:

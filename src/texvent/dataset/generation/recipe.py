@@ -19,6 +19,7 @@ from texvent.dataset.specification.clips import Clip, Clips, check_options
 from texvent.dataset.specification.items import Item, Items, read_items
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Specification, Variant, is_range
+from texvent.dataset.specification.truth import check_truth
 from texvent.errors import ConfigError, FileFormatError, InputError, OutputError, one_line
 from texvent.generate.protocol import renders_instants
 from texvent.io.atomic import atomic_file, is_hidden_part
@@ -63,10 +64,12 @@ class Recipe:
 
         Raises:
             InputError: a source does not exist or holds nothing.
-            ConfigError: an option that some run would refuse, or shares that leave a split empty.
+            ConfigError: an option that some run would refuse, truth that no source knows, or shares
+                that leave a split empty.
         """
         recipe = cls(specification, read_items(specification))
         check_options(specification, recipe.command, is_stored=recipe.stores_videos)
+        check_truth(specification, recipe.items, is_stored=recipe.stores_videos)
         recipe.clips  # noqa: B018  (refuses splits that would be empty)
         if VIDEOS in (variant.name for variant in specification.variants):
             raise ConfigError(f"a variant cannot be called {VIDEOS}; that folder holds the videos")

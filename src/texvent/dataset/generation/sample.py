@@ -4,23 +4,35 @@ from __future__ import annotations
 
 import io
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from fractions import Fraction
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.specification.clips import Clip
-from texvent.dataset.specification.specification import Filters
+from texvent.dataset.specification.items import Item
+from texvent.dataset.specification.specification import Filters, Specification
 from texvent.events import SIGNAL, EventStream
 from texvent.pipeline import Simulation, select_events, text_to_video
 from texvent.represent.event_frame import count_events
 from texvent.run.prepare import prepare_source, prepare_video
+from texvent.sensor import as_size
 from texvent.settings.resolution import Settings
+from texvent.truth.boxes import SIZE_CLASSES, detection_target, size_classes
+from texvent.truth.clip import ClipTruth, StoredTruth
+from texvent.truth.labels.reading import read_labels
+from texvent.video import Frame
 from texvent.video_check.checks import evaluate
 from texvent.video_check.measurements import VideoMeasurer
+
+if TYPE_CHECKING:
+    from texvent.truth.recorder import TruthRecorder
+    from texvent.view.drawing.canvas import Image
 
 
 def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings) -> Simulation:
@@ -39,6 +51,29 @@ def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings) -> Simulation:
 def with_seed(settings: Settings, seed: int) -> Settings:
     """The same settings with another seed."""
     return replace(settings, run=replace(settings.run, seed=seed))
+
+
+def record_truth(specification: Specification, item: Item, simulation: Simulation) -> TruthRecorder:
+    """Recorder of the truth that a specification asks for, of the frames of a clip or its labels.
+
+    Raises:
+        TexventError: the labels cannot be read, or the video does not know its truth.
+    """
+    from texvent.truth.labels.placing import PlacedLabels  # brings OpenCV
+    from texvent.truth.recorder import TruthRecorder  # brings the ray caster
+
+    video, labels = simulation.video, None
+    if item.boxes is not None:
+        capture: Any = simulation.settings.source
+        labels = PlacedLabels(
+            labels=read_labels(Path(item.boxes)),
+            picture=as_size(video.metadata.get("size_before_fit", video.size)),
+            fit=capture.fit,
+            rate_hz=None if item.box_rate is None else Fraction(item.box_rate),
+            is_whole=capture.stop is None,
+        )
+    classes = specification.class_of or None
+    return TruthRecorder(video, specification.truth, classes, labels=labels)
 
 
 COLUMNS = ("x", "y", "t", "p")
@@ -60,8 +95,15 @@ class SimulatedClip:
     """Reason why the filters leave it out; None: it is kept."""
 
 
-def simulate_sample(simulation: Simulation, filters: Filters) -> SimulatedClip:
+def simulate_sample(
+    simulation: Simulation, filters: Filters, on_frame: Callable[[Frame], None] | None = None
+) -> SimulatedClip:
     """Run a simulation and apply the filters; one with too many events is stopped there.
+
+    Args:
+        simulation: the run.
+        filters: which samples to leave out.
+        on_frame: called with every dense frame.
 
     Raises:
         TexventError: the video cannot be read or made.
@@ -80,6 +122,8 @@ def simulate_sample(simulation: Simulation, filters: Filters) -> SimulatedClip:
         if filters.max_events is not None and count > filters.max_events:
             left_out = f"more than {filters.max_events:,} events"
             break
+        if on_frame is not None:
+            on_frame(frame)
         if measurer is not None and frame.is_source:
             measurer.add(frame)
     else:
@@ -120,7 +164,12 @@ def event_columns(events: EventStream) -> dict[str, NDArray[Any]]:
 
 
 def sample_members(
-    clip: SimulatedClip, facts: Mapping[str, Any], *, class_number: int | None, preview: bool
+    clip: SimulatedClip,
+    facts: Mapping[str, Any],
+    *,
+    class_number: int | None,
+    preview: bool,
+    truth: StoredTruth | None = None,
 ) -> dict[str, bytes]:
     """The files of a sample: extension → content.
 
@@ -129,15 +178,32 @@ def sample_members(
         facts: all that is known of it, for its `.json`; `prompt` becomes the `.txt`.
         class_number: of its label, or None.
         preview: whether there is an image.
+        truth: of the clip, or None; its facts become part of the `.json`.
     """
     members = {f"{name}.npy": npy_bytes(one) for name, one in event_columns(clip.events).items()}
+    if truth is not None:
+        facts = {**facts, "truth": truth.facts}
     members["json"] = json.dumps(facts, sort_keys=True, ensure_ascii=False).encode()
     members["txt"] = (facts.get("prompt") or "").encode()
     if class_number is not None:
         members["cls"] = str(class_number).encode()
     if preview:
-        members["png"] = preview_png(clip.events)
-    return members
+        members["png"] = preview_png(clip.events, None if truth is None else truth.read)
+    return members if truth is None else {**members, **truth.files}
+
+
+def count_boxes(truth: ClipTruth) -> dict[str, Any]:
+    """Facts of a sample's boxes for its record; none where boxes are not stored."""
+    if "boxes" not in truth.parts:
+        return {}
+    boxes, sizes = truth.boxes, size_classes(truth.boxes)
+    counts = {
+        truth.classes[one]: np.bincount(
+            sizes[boxes["class_id"] == one], minlength=len(SIZE_CLASSES)
+        ).tolist()
+        for one in np.unique(boxes["class_id"]).tolist()
+    }
+    return {"boxes": counts, "tracks": len(set(boxes["track_id"].tolist()) - {0})}
 
 
 def npy_bytes(array: NDArray[Any]) -> bytes:
@@ -147,8 +213,8 @@ def npy_bytes(array: NDArray[Any]) -> bytes:
     return file.getvalue()
 
 
-def preview_png(events: EventStream) -> bytes:
-    """The events of the liveliest 50 ms as an image, small."""
+def preview_png(events: EventStream, truth: ClipTruth | None = None) -> bytes:
+    """The events of the liveliest 50 ms as an image, small, under the boxes nearest to its end."""
     from texvent.view.drawing.canvas import png_bytes, shrink  # brings OpenCV
     from texvent.view.drawing.event_image import draw_events
     from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
@@ -158,4 +224,29 @@ def preview_png(events: EventStream) -> bytes:
         bins = np.bincount((events.t - events.t[0]) // PREVIEW_US)
         start = int(events.t[0]) + int(bins.argmax()) * PREVIEW_US
     counts = count_events(events.cut(start, start + PREVIEW_US))
-    return png_bytes(shrink(draw_events(counts, get_palette(DEFAULT_PALETTE)), PREVIEW_WIDTH))
+    image = shrink(draw_events(counts, get_palette(DEFAULT_PALETTE)), PREVIEW_WIDTH)
+    if truth is not None and "boxes" in truth.parts:
+        image = _with_boxes(image, truth, start + PREVIEW_US, events.size.width)
+    return png_bytes(image)
+
+
+def _with_boxes(image: Image, truth: ClipTruth, t_us: int, width: int) -> Image:
+    """An image of events, at least half as wide as previews are, under the boxes nearest to `t_us`.
+
+    `width` is that of the sensor, pixels.
+    """
+    from texvent.scenes.raycast.ground_truth import Box  # brings Numba
+    from texvent.view.drawing.canvas import enlarge
+    from texvent.view.drawing.panels import Annotations
+
+    image = enlarge(image, max(1, PREVIEW_WIDTH // image.shape[1]), how="blocks")
+    scale, times = image.shape[1] / width, truth.box_times_us
+    near = truth.boxes[truth.boxes["t"] == times[np.abs(times - t_us).argmin()]]
+    target = detection_target(near)
+    corners = np.rint(target["boxes"] * scale).astype(int).tolist()
+    boxes = tuple(
+        Box(0, truth.classes[label], x0, y0, x1, y1, visibility=1.0)
+        for label, (x0, y0, x1, y1) in zip(target["labels"].tolist(), corners, strict=True)
+    )
+    Annotations(boxes).draw(image, 1)
+    return image

@@ -48,6 +48,10 @@ class SampleRecord:
     """Time of the first frame: 0, but for clips cut from a longer video."""
     width: int = 0
     height: int = 0
+    boxes: Mapping[str, Sequence[int]] | None = None
+    """Class → its boxes of each of `truth.boxes.SIZE_CLASSES`; None: boxes are not stored."""
+    tracks: int = 0
+    """Objects that have boxes."""
     members: Mapping[str, tuple[int, int]] = field(default_factory=dict)
     """Extension → position of its content in the shard, and bytes."""
 
@@ -96,8 +100,9 @@ def write_record(shard: Path, record: ShardRecord) -> None:
     """Write the record of a shard, which makes it complete."""
     tables = asdict(record)
     for sample in tables["samples"]:
-        if not sample["is_scene"]:  # which versions before scene files do not know
-            del sample["is_scene"]
+        for name in ("is_scene", "boxes", "tracks"):  # which older versions do not know
+            if sample[name] in (False, None):
+                del sample[name]
     text = json.dumps(tables, ensure_ascii=False, separators=(",", ":"))
     with atomic_file(record_path(shard), overwrite=True) as part:
         part.write_text(text + "\n", encoding="utf-8")

@@ -7,9 +7,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-
 Boxes = NDArray[Any]
 """Records of `texvent.truth.boxes.BOX_RECORD` in time order."""
+LABEL_RECORD = np.dtype(
+    [
+        *[("t", "<u8"), ("x", "<f4"), ("y", "<f4"), ("w", "<f4"), ("h", "<f4")],
+        *[("class_id", "u1"), ("class_confidence", "<f4"), ("track_id", "<u4")],
+    ]
+)
+"""As in the files of Prophesee's data sets."""
 LONGEST_GAP_US = 100_000
 """Boxes are not moved between instants further apart than this."""
 REACH_US = 25_000
@@ -33,6 +39,8 @@ def boxes_at(boxes: Boxes, instants_us: NDArray[np.int64], t_us: int) -> Boxes |
     """
     place = int(np.searchsorted(instants_us, t_us))
     around = instants_us[max(place - 1, 0) : place + 1]
+    if not len(around):
+        return None
     near_us, far_us = sorted(map(int, around[[0, -1]]), key=lambda one: abs(one - t_us))
     found = _labelled(boxes, near_us)
     if far_us != near_us and abs(far_us - near_us) <= LONGEST_GAP_US:
@@ -67,3 +75,11 @@ def clip_boxes(boxes: Boxes, *, width: float, height: float, least_side: float =
         clipped[place] = start
         clipped[side] = np.clip(boxes[place] + boxes[side], 0, limit) - start
     return clipped[(clipped["w"] >= least_side) & (clipped["h"] >= least_side)]
+
+
+def records_of(boxes: Boxes, dtype: np.dtype[np.void]) -> NDArray[np.void]:
+    """The boxes as records of another order or type, by the names of their fields."""
+    records = np.empty(len(boxes), dtype)
+    for name in dtype.names or ():
+        records[name] = boxes[name]
+    return records

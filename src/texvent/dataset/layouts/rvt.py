@@ -27,7 +27,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.layouts.boxes import Boxes, boxes_at, clip_boxes
+from texvent.dataset.layouts.boxes import LABEL_RECORD, Boxes, boxes_at, clip_boxes, records_of
+from texvent.dataset.layouts.layout import USUAL_SPLITS, Layout, LayoutSample
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_folder
@@ -37,12 +38,6 @@ WINDOW_US = 50_000
 REPRESENTATION = f"stacked_histogram_dt={WINDOW_US // 1000}_nbins={BINS}"
 LEAST_SIDE = 5.0
 """Of a box, pixels."""
-LABEL_RECORD = np.dtype(
-    [
-        *[("t", "<u8"), ("x", "<f4"), ("y", "<f4"), ("w", "<f4"), ("h", "<f4")],
-        *[("class_id", "u1"), ("class_confidence", "<f4"), ("track_id", "<u4")],
-    ]
-)
 
 
 def write_rvt(
@@ -105,15 +100,13 @@ def _labelled_frames(
     """Window → its records, of windows with a box."""
     frames = {}
     for window, end_us in enumerate(ends):
-        found = boxes_at(boxes, instants, int(end_us)) if len(instants) else None
+        found = boxes_at(boxes, instants, int(end_us))
         if found is None:
             continue
         width, height = events.size
         kept = clip_boxes(found, width=width - 1, height=height - 1, least_side=LEAST_SIDE)
         if len(kept):
-            frames[window] = np.empty(len(kept), LABEL_RECORD)
-            for name in LABEL_RECORD.names or ():
-                frames[window][name] = kept[name]
+            frames[window] = records_of(kept, LABEL_RECORD)
     return frames
 
 
@@ -132,3 +125,24 @@ def _write_histograms(path: Path, events: EventStream, ends: NDArray[np.int64]) 
         )
         for window, end_us in enumerate(map(int, ends)):
             data[window] = stacked_histogram(events.cut(end_us - WINDOW_US, end_us + 1))
+
+
+def _write(sample: LayoutSample, path: Path) -> bool:
+    return write_rvt(
+        path,
+        sample.read_events(),
+        sample.boxes,
+        start_us=sample.start_us,
+        stop_us=sample.stop_us,
+        instants_us=sample.instants_us,
+    )
+
+
+RVT = Layout(
+    place="{split}/{key}",
+    write=_write,
+    splits=USUAL_SPLITS,
+    lost="captions, events (only their histograms)",
+    has_boxes=True,
+    shortest_us=WINDOW_US,
+)

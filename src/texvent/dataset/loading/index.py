@@ -14,8 +14,11 @@ from texvent._registry import suggest
 from texvent.dataset.generation.shards import MADE, ShardRecord, read_record
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
+from texvent.truth.layout import CLIP_FILES
 
-MEMBERS = ("x.npy", "y.npy", "t.npy", "p.npy", "label.npy", "json", "txt", "cls", "png")
+TRUTH_MEMBERS = tuple(name for names in CLIP_FILES.values() for name in names)
+MEMBERS = ("x.npy", "y.npy", "t.npy", "p.npy", "label.npy", "json", "txt", "cls", "png",
+           *TRUTH_MEMBERS)  # fmt: skip
 ABSENT = (-1, 0)
 Choice = str | Sequence[str] | None
 """A name, several, or None for all."""

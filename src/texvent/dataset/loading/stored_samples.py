@@ -15,13 +15,15 @@ from numpy.typing import ArrayLike, NDArray
 from texvent.config import check_range
 from texvent.dataset.generation.shards import read_members
 from texvent.dataset.loading.index import MEMBERS, Choice, Index, choose, read_index
+from texvent.dataset.loading.targets import check_targets, targets_of
 from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.reading.stored_events import read_columns
+from texvent.dataset.reading.stored_events import read_columns, stored_truth
 from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.represent.named import load_representation, represent_window
 from texvent.sensor import SensorSize
 from texvent.transform.augment import Augment
+from texvent.truth.clip import ClipTruth
 
 NO_CLASS = -1
 Window: TypeAlias = tuple[int, int]
@@ -96,6 +98,8 @@ class StoredSample:
     split: str
     facts: Mapping[str, Any] = field(repr=False)
     """Provenance: prompt, settings, seed, versions."""
+    truth: ClipTruth
+    """Boxes, flow, depth, ids and poses, as far as the data set stores them."""
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -125,6 +129,8 @@ class StoredSamples:
     """As `SimulatedSamples.slice_us`."""
     slice_events: int | None = None
     """Events per slice, instead of `slice_us`; a sample gives as many whole slices as it has."""
+    targets: tuple[str, ...] = ()
+    """Ground truth that `make` gives too: boxes, flow, depth."""
     augment: Augment | None = None
     """Changes the events of `make`, before they are sliced, by its seed, the epoch and the sample's
     number."""
@@ -146,6 +152,7 @@ class StoredSamples:
         elif self.representation_options:
             raise ConfigError("representation_options belong to a representation; name it")
         self._refuse_short()
+        check_targets(self.targets, self.index, self.augment)
 
     def __len__(self) -> int:
         """Number of samples."""
@@ -164,8 +171,8 @@ class StoredSamples:
         """
         number = self._checked(number)
         index, shard = self.index, int(self.index.shard[number])
-        facts = json.loads(self.members(number, ("json",)).get("json", b"{}"))
-        events = self.events(number)
+        truth, events = self.truth(number), self.events(number)
+        facts = self._facts(number)
         return StoredSample(
             key=str(index.key[number]),
             events=events.with_metadata(facts),
@@ -175,7 +182,18 @@ class StoredSamples:
             variant=index.variants[shard],
             split=index.splits[shard],
             facts=facts,
+            truth=truth,
         )
+
+    def truth(self, number: int) -> ClipTruth:
+        """Ground truth of a sample; its arrays are read when they are asked for.
+
+        Raises:
+            IndexError, FileFormatError: as for `[number]`.
+        """
+        number = self._checked(number)
+        key, facts = str(self.index.key[number]), self._facts(number).get("truth", {})
+        return stored_truth(self._shard(number), key, self._places(number), facts)
 
     def events(self, number: int) -> EventStream:
         """The events of a sample, without metadata.
@@ -214,6 +232,11 @@ class StoredSamples:
             * `representation`: see its own function. Without one, `events`: an EventStream, or a
               tuple of them, one for each slice.
             * `stop_us`: end of the slice, µs, int64; 1 µs after its last event with `slice_events`.
+            * `boxes`: `boxes`, `labels`, `track_ids` and `times`, as
+              `texvent.truth.boxes.detection_target` gives them.
+            * `flow`: px from frame to frame, [N − 1, 2, H, W] float32; `depth`: m, [N, H, W].
+              Targets of slices are tuples: what is of an instant after the start of the slice, up
+              to its end; flow counts by its end.
             * `class_number`: place in `labels`; −1 without a class.
             * `caption`: its prompt, "" without one.
             * `key`, `number`, `seed`: of the sample.
@@ -276,12 +299,24 @@ class StoredSamples:
         """
         return replace(self, augment=augment)
 
+    def with_targets(self, *targets: str) -> StoredSamples:
+        """The same samples, of which `make` gives ground truth too: boxes, flow, depth.
+
+        Raises:
+            ConfigError, InputError: samples do not store it, or `augment` would leave it behind.
+        """
+        return replace(self, targets=targets)
+
     @cached_property
     def _class_numbers(self) -> NDArray[np.int64]:
         """Number of each label of the index."""
         numbers = {label: number for number, label in enumerate(self.labels)}
         known = [NO_CLASS if label is None else numbers[label] for label in self.index.labels]
         return np.array(known, np.int64)
+
+    def _facts(self, number: int) -> dict[str, Any]:
+        facts: dict[str, Any] = json.loads(self.members(number, ("json",)).get("json", b"{}"))
+        return facts
 
     def _shard(self, number: int) -> Path:
         return self.folder / self.index.shards[int(self.index.shard[number])]
@@ -297,13 +332,14 @@ class StoredSamples:
         return int(number) % len(self)
 
     def _arrays(self, number: int, epoch: int) -> dict[str, Any]:
-        parts = [self._part(events, window) for events, window in self._slices(number, epoch)]
-        if self.slice_us is None and self.slice_events is None:
-            return parts[0]
-        if self.representation is not None:
-            return stack_windows(parts)
-        stops = np.stack([part["stop_us"] for part in parts])
-        return {"events": tuple(part["events"] for part in parts), "stop_us": stops}
+        slices = list(self._slices(number, epoch))
+        parts = [self._part(events, window) for events, window in slices]
+        is_sliced = self.slice_us is not None or self.slice_events is not None
+        arrays = stack_windows(parts) if is_sliced else parts[0]
+        if self.targets:
+            windows = [window for _, window in slices] if is_sliced else None
+            arrays |= targets_of(self.truth(number), self.targets, windows)
+        return arrays
 
     def _part(self, events: EventStream, window: Window) -> dict[str, Any]:
         stop = {"stop_us": np.int64(window[1])}
@@ -366,5 +402,9 @@ def check_representation(name: str, options: Mapping[str, Any], size: SensorSize
 
 
 def stack_windows(parts: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
-    """Arrays by name of several windows, along a first axis of time."""
-    return {name: np.stack([part[name] for part in parts]) for name in parts[0]}
+    """Arrays by name of several windows, along a first axis of time; others as tuples."""
+    columns = {name: [part[name] for part in parts] for name in parts[0]}
+    return {
+        name: np.stack(one) if isinstance(one[0], np.ndarray | np.generic) else tuple(one)
+        for name, one in columns.items()
+    }

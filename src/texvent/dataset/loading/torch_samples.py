@@ -89,7 +89,8 @@ def collate(samples: Sequence[Mapping[str, Any]]) -> dict[str, Any]:
     """A batch: name → the values of all samples.
 
     Arrays of equal shape become one tensor, others a list of tensors; numbers become a tensor;
-    events an `EventBatch`, those of slices a list of one per sample; texts stay a list.
+    events an `EventBatch`, those of slices a list of one per sample; tables, such as boxes, a list
+    of tables of tensors; other slices a list of lists; texts stay a list.
     """
     return {name: _collated([sample[name] for sample in samples]) for name in samples[0]}
 
@@ -99,7 +100,10 @@ def _collated(values: list[Any]) -> Any:
     if isinstance(first, EventStream):
         return EventBatch.of(values)
     if isinstance(first, tuple):
-        return [EventBatch.of(slices) for slices in values]
+        are_events = isinstance(first[0], EventStream)
+        return [EventBatch.of(one) if are_events else list(map(_tensors, one)) for one in values]
+    if isinstance(first, Mapping):
+        return list(map(_tensors, values))
     if isinstance(first, np.ndarray | np.generic | _torch.Tensor):
         tensors = [_torch.as_tensor(value) for value in values]
         same = all(value.shape == first.shape for value in values)
@@ -107,6 +111,13 @@ def _collated(values: list[Any]) -> Any:
     if isinstance(first, int):
         return _torch.tensor(values)
     return values
+
+
+def _tensors(value: Any) -> Any:
+    """An array, or the arrays of a table, as tensors."""
+    if isinstance(value, Mapping):
+        return {name: _torch.as_tensor(array) for name, array in value.items()}
+    return _torch.as_tensor(value)
 
 
 def _joined(name: str, streams: Sequence[EventStream]) -> Tensor:

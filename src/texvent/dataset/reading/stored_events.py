@@ -15,6 +15,7 @@ from texvent.dataset.generation.shards import SampleRecord, read_members, read_p
 from texvent.errors import FileFormatError, InputError, one_line
 from texvent.events import EventStream
 from texvent.sensor import SensorSize
+from texvent.truth.clip import ClipTruth
 
 COLUMN_MEMBERS = ("x.npy", "y.npy", "t.npy", "p.npy", "label.npy")
 _STORED_TYPES = {"x": np.uint16, "y": np.uint16, "t": np.uint32, "p": np.uint8}
@@ -135,3 +136,26 @@ def read_sample_facts(shard: Path, sample: SampleRecord) -> dict[str, Any]:
     if not isinstance(facts, dict):
         raise FileFormatError(f"{shard}: the facts of sample {sample.key} are no table")
     return facts
+
+
+def read_truth(shard: Path, sample: SampleRecord) -> ClipTruth:
+    """Ground truth of a sample; its arrays are read when they are asked for.
+
+    Raises:
+        FileFormatError: as `read_sample_facts`.
+    """
+    facts = read_sample_facts(shard, sample).get("truth", {})
+    return stored_truth(shard, sample.key, sample.members, facts)
+
+
+def stored_truth(
+    shard: Path, key: str, places: Mapping[str, tuple[int, int]], facts: Mapping[str, Any]
+) -> ClipTruth:
+    """Ground truth of a sample, of which the facts are known; other arguments as `read_columns`."""
+
+    def read_file(name: str) -> bytes:
+        if name not in places:
+            raise FileFormatError(f"sample {key} of {shard} is damaged: it has no {name}")
+        return read_part(shard, *places[name])
+
+    return ClipTruth(facts, read_file, f"sample {key} of {shard}")

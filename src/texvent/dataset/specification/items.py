@@ -44,6 +44,10 @@ class Item:
     """Seed that its list gives."""
     scene: Mapping[str, Any] | None = None
     """Plain values of the scene that is shown; None: that of the prompt."""
+    boxes: str | None = None
+    """Path of the labels of its video."""
+    box_rate: str | None = None
+    """Boxes per second of the label clock, as 30 or 30000/1001."""
 
     @property
     def subject(self) -> str | Scene:
@@ -52,9 +56,9 @@ class Item:
 
     @property
     def facts(self) -> dict[str, Any]:
-        """Plain values; without a scene where there is none, as data sets of old store them."""
-        named = asdict(self)
-        return named if self.scene is not None else {n: v for n, v in named.items() if n != "scene"}
+        """Plain values; without those of later versions where there are none."""
+        later = ("scene", "boxes", "box_rate")
+        return {n: v for n, v in asdict(self).items() if v is not None or n not in later}
 
 
 @dataclass(frozen=True)
@@ -120,7 +124,8 @@ def _items_of(source: SampleSource, specification: Specification) -> Iterator[It
     of_stills = any("camera" in options for options in (specification.options, *variants))
     for entry in _entries(source, of_stills):
         label = entry.label if entry.label is not None else _label(source, entry.video)
-        yield _item(entry.prompt, entry.video, label, source.split, entry.seed, entry.scene)
+        item = _item(entry.prompt, entry.video, label, source.split, entry.seed, entry.scene)
+        yield item if source.boxes is None else _with_boxes(item, source)
 
 
 def _entries(source: SampleSource, of_stills: bool) -> Iterable[ListEntry]:
@@ -149,11 +154,24 @@ def _item(
     return Item(key, prompt, None if video is None else str(video), label, split, seed, data)
 
 
+def _with_boxes(item: Item, source: SampleSource) -> Item:
+    """An item with the labels of its video."""
+    if item.video is None:
+        raise ConfigError("boxes are labels of videos; the list of this source names prompts too")
+    boxes = Path(_filled(str(source.boxes), _video_names(Path(item.video)), "boxes"))
+    rate = None if source.box_rate is None else str(source.box_rate)
+    key = digest([item.key, moved_together(boxes), rate])[:KEY_DIGITS]
+    return replace(item, key=key, boxes=str(boxes), box_rate=rate)
+
+
+def _video_names(video: Path) -> dict[str, str]:
+    return {"folder": video.absolute().parent.name, "name": video.stem}
+
+
 def _label(source: SampleSource, video: Path | None) -> str | None:
     if source.label is None or video is None:
         return source.label
-    names = {"folder": video.absolute().parent.name, "name": video.stem}
-    return _filled(source.label, names, "label")
+    return _filled(source.label, _video_names(video), "label")
 
 
 def _of_template(source: SampleSource, seed: int) -> Iterator[Item]:

@@ -65,6 +65,8 @@ def specification_from(
             "splits": _table(tables.get("splits", {"train": 1.0}), f"{where}: splits"),
             "options": _options(tables.get("options", {}), f"{where}: options"),
             "variants": _variants(tables.get("variants", {}), where),
+            "truth": tables.get("truth", ()),
+            "classes": _classes(tables.get("classes", ())),
             "filters": with_options(
                 Filters(), _options(tables.get("filters", {}), where), where=f"{where}: filters"
             ),
@@ -118,6 +120,14 @@ def _variants(value: Any, where: str) -> tuple[Variant, ...]:
     return tuple(variants)
 
 
+def _classes(value: Any) -> Any:
+    """Classes as a file names them; pairs, as `Specification.tables` has them, become a table."""
+    is_list = isinstance(value, Sequence) and not isinstance(value, str)
+    if is_list and all(isinstance(one, list) and len(one) == 2 for one in value):
+        return {str(noun): name for noun, name in value}
+    return value
+
+
 def _source(value: Any, folder: Path, where: str) -> SampleSource:
     table = _known(value, [*(one.name for one in fields(SampleSource)), "classes"], where)
     table = {name: one for name, one in table.items() if one or isinstance(one, int)}
@@ -138,8 +148,7 @@ def _source(value: Any, folder: Path, where: str) -> SampleSource:
     for name in ("videos", "scene"):
         if name in table:
             table[name] = tuple(str(folder / one) for one in table[name])
-    if "file" in table:
-        table["file"] = folder / table["file"]
+    table |= {name: folder / table[name] for name in ("file", "boxes") if name in table}
     try:
         return SampleSource(**table)
     except ConfigError as error:

@@ -6,14 +6,16 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from fractions import Fraction
 from pathlib import Path
 from typing import Any
 
 from texvent._registry import suggest
 from texvent.batch.identity import derived_seed
-from texvent.config import check_range
+from texvent.config import FPS_RANGE, check_range
 from texvent.errors import ConfigError, shown
 from texvent.options.values import plain
+from texvent.truth.layout import CLIP_FILES
 
 MAX_SHARD = 100_000
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_-]{0,63}")
@@ -58,8 +60,18 @@ class SampleSource:
     the folder of a video."""
     split: str | None = None
     """The split that all of these belong to; None: they are shared out."""
+    boxes: Path | None = None
+    """Labels of the frames of videos, such as "labels/{name}.json": COCO .json, MOT .txt, or a YOLO
+    folder; "{name}" and "{folder}" are those of the video."""
+    box_rate: Fraction | None = None
+    """Boxes per second, interpolated along tracks; None: those of the labelled frames."""
 
     def __post_init__(self) -> None:
+        if self.boxes is not None and not (self.videos or self.file):
+            raise ConfigError("boxes are labels of videos; this source has none")
+        if self.box_rate is not None and self.boxes is None:
+            raise ConfigError("box_rate is that of boxes; this source names none")
+        check_range("box_rate", self.box_rate, *FPS_RANGE)
         given = [name for name in SOURCE_KINDS if getattr(self, name)]
         if len(given) != 1:
             raise ConfigError(
@@ -156,6 +168,11 @@ class Specification:
     """Ways to simulate each video."""
     filters: Filters = field(default_factory=Filters)
     """Filters that leave samples out."""
+    truth: tuple[str, ...] = ()
+    """Ground truth in each sample: boxes, flow, depth, ids, poses."""
+    classes: Sequence[str] | Mapping[str, str] = ()
+    """Objects that have boxes, in the order of their class ids from 0; or object → class, of which
+    several may share one. Empty: all objects, by the class ids of nouns."""
     previews: bool = True
     """Whether each sample has an image to look at."""
     store_videos: bool | None = None
@@ -173,6 +190,7 @@ class Specification:
         names = [variant.name.lower() for variant in self.variants]
         if not names or len(set(names)) < len(names):
             raise ConfigError("variants need names of their own, and at least one is needed")
+        _check_truth_names(self.truth, self.classes)
         for options in (self.options, *(variant.options for variant in self.variants)):
             if "seed" in options:
                 raise ConfigError("every sample has a seed of its own; set seed beside options")
@@ -184,7 +202,16 @@ class Specification:
     def tables(self) -> dict[str, Any]:
         """Plain values, ready for TOML and JSON."""
         tables: dict[str, Any] = plain(self)
-        return tables
+        tables["classes"] = [[*pair] for pair in self.class_of.items()]  # JSON may sort a table
+        return {
+            name: one for name, one in tables.items() if one or name not in ("truth", "classes")
+        }
+
+    @property
+    def class_of(self) -> dict[str, str]:
+        """Object → its class, of the objects that have boxes; empty: all have."""
+        classes = self.classes
+        return dict(classes) if isinstance(classes, Mapping) else {one: one for one in classes}
 
 
 def _check_name(what: str, name: Any) -> None:
@@ -192,6 +219,22 @@ def _check_name(what: str, name: Any) -> None:
         raise ConfigError(
             f"{what} is {shown(name)}; use letters, digits, _ and -, at most 64 of them"
         )
+
+
+def _check_truth_names(truth: tuple[str, ...], classes: Any) -> None:
+    for part in truth:
+        if part not in CLIP_FILES:
+            raise ConfigError(f"truth names {shown(part)}; {suggest(part, tuple(CLIP_FILES))}")
+    names = [*classes, *(classes.values() if isinstance(classes, Mapping) else ())]
+    if isinstance(classes, str) or not all(isinstance(one, str) and one for one in names):
+        raise ConfigError(
+            f"classes is {shown(classes)}; give a list of objects, such as ['car', 'bus'], or a "
+            "table from objects to classes, such as {car = 'vehicle'}"
+        )
+    if not isinstance(classes, Mapping) and len(set(classes)) < len(classes):
+        raise ConfigError(f"classes is {shown(classes)}; name each object once")
+    if classes and "boxes" not in truth:
+        raise ConfigError("classes are those of boxes, and truth does not name boxes")
 
 
 def _check_splits(splits: Mapping[str, float], sources: tuple[SampleSource, ...]) -> None:

@@ -1,0 +1,152 @@
+"""What a layout refuses before anything is written, and what it does not hold."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator
+
+from texvent.dataset.generation.recipe import Recipe, load_recipe
+from texvent.dataset.generation.shards import SampleRecord
+from texvent.dataset.layouts.classes import ClassList
+from texvent.dataset.layouts.layout import Layout
+from texvent.dataset.layouts.samples import folder_name
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.errors import InputError, few, shown
+
+
+def check_layout(dataset: StoredDataset, layout: Layout, name: str, variant: str) -> None:
+    """Refuse a data set that the layout called `name` cannot hold.
+
+    Raises:
+        InputError: shards are missing, there are no classes or no boxes, or samples are too short.
+    """
+    missing = dataset.missing(variant)
+    if missing:
+        raise InputError(
+            f"{len(missing)} shards are missing, such as {missing[0]}; make them first (texvent "
+            "dataset make)"
+        )
+    if layout.needs_classes and not dataset.labels:
+        raise InputError(
+            f"{name} has a folder for each class, and {dataset.name} has no classes; give its "
+            "sources a label, or export to hdf5"
+        )
+    _check_labels(dataset, layout)
+    for sample in _samples(dataset, variant):
+        if layout.has_boxes and sample.boxes is None:
+            raise InputError(
+                f"layout {name} holds boxes, and sample {sample.key} has none; write truth = "
+                '["boxes"] into the specification and make the data set again'
+            )
+        if sample.duration_us < layout.shortest_us:
+            raise InputError(
+                f"layout {name} has windows of {layout.shortest_us} µs, and sample {sample.key} "
+                f"lasts {sample.duration_us} µs; make longer clips"
+            )
+
+
+def _samples(dataset: StoredDataset, variant: str) -> Iterator[SampleRecord]:
+    return (sample for shard in dataset.shards(variant) for sample in shard.samples)
+
+
+def _check_labels(dataset: StoredDataset, layout: Layout) -> None:
+    names: dict[str, str] = {}
+    for label in dataset.labels if layout.needs_classes else ():
+        other = names.setdefault(folder_name(label), label)
+        if other != label:
+            raise InputError(
+                f"classes {other!r} and {label!r} would share the folder {folder_name(label)}; "
+                "give one of them another name"
+            )
+
+
+def find_classes(
+    dataset: StoredDataset, layout: Layout, name: str, variant: str, given: str | None
+) -> ClassList:
+    """The classes of an export: those given, the layout's own, or those of the data set.
+
+    Raises:
+        ConfigError: those given cannot be read.
+        InputError: no box is of a class given, or the layout has no class for some boxes.
+    """
+    if not layout.has_boxes:
+        return ClassList.of(())
+    there = _count_boxes(dataset, variant)
+    if given is None and not layout.classes:
+        named = [str(one) for _, one in dataset.specification.get("classes", ())]
+        return ClassList.of(dict.fromkeys(named or sorted(there)))
+    listed = ClassList.parse(given or layout.classes)
+    others = [one for one in there if one not in listed.numbers]
+    if given is None and others:
+        raise InputError(
+            f"layout {name} has no class for {few(sorted(others))}; choose with --classes, which "
+            f'leaves out all others: --classes "{layout.classes}"'
+        )
+    if given is not None and len(others) == len(there):
+        raise InputError(
+            f"no box is of the classes {shown(given)}; boxes are of {few(sorted(there)) or 'none'}"
+        )
+    return listed
+
+
+def _count_boxes(dataset: StoredDataset, variant: str) -> Counter[str]:
+    """Class → its boxes."""
+    counts: Counter[str] = Counter()
+    for sample in _samples(dataset, variant):
+        counts.update({label: sum(sizes) for label, sizes in (sample.boxes or {}).items()})
+    return counts
+
+
+def find_recipe(dataset: StoredDataset, layout: Layout, name: str) -> Recipe | None:
+    """What the frames of the samples can be made of; None where a layout does without them.
+
+    Raises:
+        ConfigError, InputError: the layout needs frames, and this folder cannot give them.
+    """
+    if not layout.takes_frames:
+        return None
+    try:
+        return load_recipe(dataset.folder)
+    except InputError as error:
+        if not layout.has_frames:
+            return None
+        raise type(error)(f"layout {name} holds frames, which are made again: {error}") from error
+
+
+def doubts_of(
+    dataset: StoredDataset,
+    layout: Layout,
+    variant: str,
+    classes: ClassList,
+    *,
+    has_frames: bool,
+) -> tuple[str, ...]:
+    """What the layout does not hold of a variant, and what may surprise its readers."""
+    doubts = [f"it does not hold {layout.lost}"] if layout.lost else []
+    if layout.takes_frames and not has_frames:
+        doubts.append("it does not hold images: this folder cannot make them again")
+    if not layout.keeps_noise_labels and any(
+        "label.npy" in sample.members for sample in _samples(dataset, variant)
+    ):
+        doubts.append("it does not hold which events are noise")
+    splits: dict[str, list[str]] = {}
+    for split in dataset.splits:
+        splits.setdefault(layout.split_of(split), []).append(split)
+    doubts += [
+        f"splits {' and '.join(one)} are written as one" for one in splits.values() if len(one) > 1
+    ]
+    sizes = {(one.width, one.height) for one in _samples(dataset, variant)}
+    if layout.size is not None and sizes - {layout.size}:
+        width, height = layout.size
+        doubts.append(
+            f"its readers may take {width}x{height} pixels for granted, and these are "
+            f"{', '.join(f'{w}x{h}' for w, h in sorted(sizes))}"
+        )
+    others = [
+        f"{label} ({number})"
+        for label, number in sorted(_count_boxes(dataset, variant).items())
+        if layout.has_boxes and label not in classes.numbers
+    ]
+    if others:
+        doubts.append(f"boxes of other classes are left out: {few(others)}")
+    return tuple(doubts)

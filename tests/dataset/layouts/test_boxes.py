@@ -1,0 +1,56 @@
+"""Boxes between labelled instants, by hand."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from tests.dataset.layouts.crossing import CAR, INSTANTS, MAN, crossing_boxes
+
+from texvent.dataset.layouts.boxes import boxes_at, clip_boxes
+from texvent.dataset.layouts.classes import ClassList
+from texvent.errors import ConfigError
+
+
+def places(boxes: np.ndarray) -> list[tuple[float, ...]]:
+    return [tuple(round(float(one[name]), 3) for name in ("x", "y", "w", "h")) for one in boxes]
+
+
+def test_boxes_move_along_their_tracks_and_those_that_come_are_at_the_nearest_place() -> None:
+    boxes = crossing_boxes()
+    assert places(boxes_at(boxes, INSTANTS, 90_000)) == [(5, 10, 20, 15)]
+    assert places(boxes_at(boxes, INSTANTS, 110_000)) == [(7, 10, 20, 15), (40, 20, 8, 20)]
+    assert boxes_at(boxes, INSTANTS, 110_000)["t"].tolist() == [110_000] * 2
+    assert places(boxes_at(boxes, INSTANTS, 80_000)) == [(4, 10, 20, 15)]
+    # Without tracks nothing says which box is which.
+    boxes["track_id"] = 0
+    assert places(boxes_at(boxes, INSTANTS, 150_000)) == [(12, 10, 20, 15), (40, 20, 8, 20)]
+
+
+def test_boxes_are_not_known_far_from_labelled_instants() -> None:
+    boxes = crossing_boxes()
+    rare = np.array([0, 240_000])
+    assert boxes_at(boxes, rare, 120_000) is None
+    assert places(boxes_at(boxes, rare, 220_000)) == [(20, 10, 20, 15), (40, 20, 8, 20)]
+    assert boxes_at(boxes, INSTANTS, 265_001) is None
+    assert boxes_at(boxes, INSTANTS[:0], 0) is None
+    # An instant at which nothing is in view is not one that is unknown.
+    assert len(boxes_at(boxes[boxes["t"] > 0], INSTANTS, 0)) == 0
+
+
+def test_boxes_are_cut_at_the_picture() -> None:
+    first = clip_boxes(crossing_boxes(), width=63, height=24, least_side=5)
+    assert places(first[:1]) == [(0, 10, 16, 14)]
+    assert MAN not in first["class_id"]  # 4 of its rows are left
+
+
+def test_classes_gather_and_the_others_go() -> None:
+    boxes = crossing_boxes()
+    names = {CAR: "taxi", MAN: "man"}
+    listed = ClassList.parse("pedestrian,car")
+    assert listed.renumbered(boxes, names)["class_id"].tolist() == [1, 1, 1, *[1, 0] * 4]
+    only = ClassList.parse("bus, person = man + woman").renumbered(boxes, names)
+    assert set(only["class_id"].tolist()) == {1}
+    assert len(only) == 4
+    for text in ("car,,bus", "car,car", "car=,bus", "a=taxi,b=taxi"):
+        with pytest.raises(ConfigError, match="empty or there twice; give names with commas"):
+            ClassList.parse(text)

@@ -1,0 +1,65 @@
+"""Layouts read back by evlib's data module and its port of Prophesee's tools, and by pycocotools."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from tests.dataset.layouts.crossing import SIZE, crossing, crossing_events
+
+from texvent.dataset.export import LAYOUTS
+from texvent.dataset.layouts.rvt import REPRESENTATION
+
+
+@pytest.mark.detect
+def test_evlib_loads_rvt_sequences_with_the_histograms_that_it_computes(tmp_path: Path) -> None:
+    import evlib
+    import evlib.data as data
+
+    for key in ("a", "b"):
+        LAYOUTS["rvt"].write(crossing(key=key), tmp_path / key)
+    sources = [
+        data.PreprocessedH5Source(tmp_path / key, REPRESENTATION, downsample_by_2=False)
+        for key in ("a", "b")
+    ]
+    windows, labels = sources[0].read_windows(0, 4)
+    assert labels[0].tolist() == [[0, 11, 17.5, 20, 15]]  # class, centre, sides
+    assert labels[2].tolist() == [[0, 21, 17.5, 20, 15], [1, 44, 30, 8, 20]]
+    columns = {name: getattr(crossing_events(), name).astype(np.int64) for name in "txyp"}
+    ends = np.array([50_000, 100_000, 150_000, 200_000])
+    maps = np.arange(SIZE.height), np.arange(SIZE.width)
+    dense = evlib.representations_rs.stacked_histogram_dense(
+        *columns.values(), ends, 50_000, 10, 10, *maps, SIZE.height, SIZE.width
+    )
+    np.testing.assert_array_equal(np.stack([one.numpy() for one in windows]), dense)
+    dataset = data.SequenceRandomDataset(sources, sequence_length=3)
+    batch = data.custom_collate_random([dataset[index] for index in range(len(dataset))])
+    assert batch["ev_repr"][0].shape == (4, 20, *SIZE.shape)
+    assert batch["is_padded_mask"].sum() == 4
+
+
+@pytest.mark.detect
+def test_evlib_reads_and_filters_boxes_of_gen1(tmp_path: Path) -> None:
+    import evlib.data as data
+    from evlib.eval.prophesee.box_filtering import filter_boxes
+
+    LAYOUTS["gen1"].write(crossing(), tmp_path / "abc_td.dat")
+    boxes = data.read_raw_bbox(tmp_path / "abc_bbox.npy")
+    kept = data.apply_filters(boxes, dataset="gen1", split="train", height=48, width=64)
+    assert len(kept) == len(boxes) == 11
+    assert len(filter_boxes(boxes, skip_ts=100_000, min_box_diag=20, min_box_side=10)) == 4
+
+
+@pytest.mark.dataset
+def test_pycocotools_indexes_the_images(tmp_path: Path) -> None:
+    from pycocotools.coco import COCO
+
+    (tmp_path / "train").mkdir()
+    LAYOUTS["coco"].write(crossing(), tmp_path / "train/abc")
+    LAYOUTS["coco"].finish(tmp_path, [crossing()], ("car", "man"))
+    found = COCO(str(tmp_path / "train/annotations.json"))
+    (men,) = {one["category_id"] for one in found.loadAnns(found.getAnnIds(catIds=[2]))}
+    assert (men, found.loadCats([2])[0]["name"], len(found.getImgIds())) == (2, "man", 5)
+    image = found.loadImgs(found.getImgIds(catIds=[2]))[0]
+    assert (tmp_path / "train" / image["file_name"]).is_file()
