@@ -1,0 +1,1 @@
+"""Detections on real events against boxes labelled by hand."""
