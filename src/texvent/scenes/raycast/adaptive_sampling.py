@@ -36,8 +36,8 @@ from texvent.scenes.scene import Colour, Float64Array
 
 _THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
-_NOT_PROBED = -(1 << 41)
-"""Probe value of lattice points that no wanted pixel needs."""
+UNKNOWN = -(1 << 41)
+"""Probe value of lattice points that no wanted pixel needs, and of pixels with several surfaces."""
 _BISECTIONS = 6
 """Steps that place an edge between two probes: to 1/128 pixel with two probes per pixel side."""
 _MAX_EDGES = 4
@@ -274,7 +274,7 @@ def _probe_tile(
     for j in range(wanted.shape[0] * samples + 1):
         for i in range(wanted.shape[1] * samples + 1):
             if not _is_needed(wanted, j, i, samples):
-                probes[j, i] = _NOT_PROBED
+                probes[j, i] = UNKNOWN
                 continue
             x, y = left + i / samples, top + j / samples
             depth, number, face, thin = first_hit(instant, x, y)
@@ -311,8 +311,10 @@ def _probe_shadows(
 
 @jit(error_model="numpy", inner=True)
 def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
-    """Whether all probes in and around one pixel saw the same surface."""
+    """Whether all probes in and around one pixel saw the same surface, and nothing thin."""
     first = probes[top, left]
+    if first == _THIN:
+        return False
     for row in range(top, top + samples + 1):
         for column in range(left, left + samples + 1):
             if probes[row, column] != first:
@@ -337,6 +339,7 @@ def render_rows(
     samples: int,
     pattern: Float64Array,
     wanted: NDArray[np.bool_],
+    codes: NDArray[np.int64],
     image: Float64Array,
 ) -> None:
     """Fill the wanted pixels in some rows of an image.
@@ -347,6 +350,8 @@ def render_rows(
         samples: probes per pixel side.
         pattern: [k, 2] sample positions in [0, 1)² for pixels with something thin.
         wanted: [H, W] which pixels to fill.
+        codes: [H, W] the one surface that fills a pixel and what it is lit by, where that is known;
+            `UNKNOWN` elsewhere. What is found in wanted pixels is written.
         image: [H, W, 3] linear light, 1 is white; these rows are written.
     """
     instant = instants[0]
@@ -360,16 +365,19 @@ def render_rows(
         in_tile = wanted[top:bottom, left:right]
         if not in_tile.any():
             continue
-        _probe_tile(instant, (left, top), in_tile, samples, probes)
+        in_doubt = in_tile & (codes[top:bottom, left:right] == UNKNOWN)
+        _probe_tile(instant, (left, top), in_doubt, samples, probes)
         for row in range(top, bottom):
             for column in range(left, right):
                 if not wanted[row, column]:
                     continue
                 j, i = (row - top) * samples, (column - left) * samples
-                if _any_thin(probes, j, i, samples):
+                if in_doubt[row - top, column - left] and _agree(probes, j, i, samples):
+                    codes[row, column] = probes[j, i]
+                if codes[row, column] != UNKNOWN:
+                    light = _shade(instant, column + 0.5, row + 0.5, codes[row, column])
+                elif _any_thin(probes, j, i, samples):
                     light = _sample_pixel(instant, column, row, pattern, shares)
-                elif _agree(probes, j, i, samples):
-                    light = _shade(instant, column + 0.5, row + 0.5, int(probes[j, i]))
                 else:
                     _probe_shadows(instant, column, row, (j, i), probes, around)
                     light = _split_pixel(instant, column, row, around, shares)
