@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
 from texvent.scenes.raycast.lamps.glow import add_glows
-from texvent.scenes.raycast.lamps.light import ALL_LIGHTS, LIT_BITS, lit_by
+from texvent.scenes.raycast.lamps.light import ALL_LIGHTS, LIT_BITS, SUN, lit_by
 from texvent.scenes.raycast.puffs import through_puffs
 from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.lighting import shade_hit
@@ -163,26 +163,28 @@ def _find_edge(
 
     `low` is where on the line (0..1) that surface is known to be; `probes[1]` is at its end.
     """
-    high = 1.0
-    changed = 0
-    if probes[0] >> LIT_BITS == probes[1] >> LIT_BITS:
-        changed = (probes[0] ^ probes[1]) & ALL_LIGHTS
+    high, surface, beyond = 1.0, probes[0] >> LIT_BITS, probes[1]
+    changed = (probes[0] ^ probes[1]) & ALL_LIGHTS if surface == beyond >> LIT_BITS else 0
+    hit, place = (0.0, 0, 0), ends[1]
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
         x, y = _between(ends[0], ends[1], middle)
         depth, number, face, _ = first_hit(instant, x, y)
-        is_same = surface_code(instant, number, face) == probes[0] >> LIT_BITS
-        if is_same and changed:  # else there is no need to know about shadow
-            lit, _ = lit_by(instant, x, y, (depth, number, face), changed)
-            is_same = lit & changed == probes[0] & changed
-        if is_same:
+        code = surface_code(instant, number, face)
+        reached = probes[0] & changed
+        if code == surface and changed:  # else there is no need to know about shadow
+            reached = lit_by(instant, x, y, (depth, number, face), changed)[0] & changed
+        if code == surface and reached == probes[0] & changed:
             low = middle
         else:
-            high = middle
-    if high == 1.0:
-        return 0.5 * (low + high), probes[1]
-    x, y = _between(ends[0], ends[1], high)
-    return 0.5 * (low + high), _probe(instant, x, y)
+            high, hit, place = middle, (depth, number, face), (x, y)
+            beyond = (code << LIT_BITS) + (probes[1] & ALL_LIGHTS & ~changed) + reached
+    if high < 1.0 and beyond >> LIT_BITS != surface:
+        # Of a surface that goes on, only the sun's shadow is looked for again.
+        wanted = SUN if beyond >> LIT_BITS == probes[1] >> LIT_BITS else ALL_LIGHTS
+        lit, _ = lit_by(instant, place[0], place[1], hit, wanted)
+        beyond = beyond & ~wanted | lit & wanted
+    return 0.5 * (low + high), beyond
 
 
 @jit(error_model="numpy", inner=True)
@@ -290,23 +292,27 @@ def _probe_tile(
 @jit(error_model="numpy", inner=True)
 def _probe_shadows(
     instant: Record,
-    column: int,
-    row: int,
+    left: int,
+    top: int,
     lattice: tuple[int, int],
     probes: NDArray[np.int64],
     around: NDArray[np.int64],
 ) -> None:
-    """Write the probes of a pixel to `around`, and look for shadow where they took it over.
+    """Write the probes of a pixel to `around`, and look for shadow where they took over another.
 
     `probes` are those of the tile, `lattice` the place in them of the pixel's first point.
     """
     last = len(around) - 1
+    around[:] = probes[lattice[0] : lattice[0] + last + 1, lattice[1] : lattice[1] + last + 1]
     for j in range(last + 1):
-        for i in range(last + 1):
-            if (lattice[0] + lattice[1] + i + j) % 2 == 1:
-                around[j, i] = _probe(instant, column + i / last, row + j / last)
-            else:
-                around[j, i] = probes[lattice[0] + j, lattice[1] + i]
+        for i in range((lattice[0] + lattice[1] + j + 1) % 2, last + 1, 2):
+            is_sure = True
+            for row, column in ((j - 1, i), (j + 1, i), (j, i - 1), (j, i + 1)):
+                if 0 <= row <= last and 0 <= column <= last:
+                    differs = around[row, column] ^ around[j, i]
+                    is_sure &= differs == 0 or differs >> LIT_BITS != 0
+            if not is_sure:
+                around[j, i] = _probe(instant, left + i / last, top + j / last)
 
 
 @jit(error_model="numpy", inner=True)
