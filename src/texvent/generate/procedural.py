@@ -8,7 +8,7 @@ comes with exact ground truth.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -24,6 +24,7 @@ from texvent.config import FPS_RANGE, check_range
 from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
 from texvent.generate.scene_input import Subject, describe_subject, list_nouns, nouns_of, understand
 from texvent.options.values import plain
+from texvent.pairs.instants import float_luma
 from texvent.scenes.description import report_of
 from texvent.scenes.report import REPORT_KEY
 from texvent.sensor import SENSORS, SensorSize
@@ -179,17 +180,23 @@ class ProceduralVideo(NotebookFrames):
         """The same video, whose frames carry exact motion vectors and depth."""
         return replace(self, has_motion=True)
 
-    def luma_of(self, t_us: int, wanted: NDArray[np.bool_]) -> NDArray[np.float32]:
-        """Luma of the pixels of [H, W] `wanted` at `t_us`, [k] float32, 0..255 scale."""
-        from texvent.scenes.raycast.render import light_of_rows, world_at
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+        """Frames of luma at times between two frames, each part drawn as often as it changes."""
+        from texvent.scenes.raycast.between import Between, block_speeds
 
-        size, config = self.size, self.config
-        world = world_at(
-            self.scene, t_us / MICROSECONDS, size, shadows=config.shadows, samples=config.samples
-        )
-        rows = (0, size.height)
-        light = light_of_rows(world, rows, size, samples=config.samples, wanted=wanted)[wanted]
-        return np.asarray(luma_bt601(self._code(light)), dtype=np.float32)
+        def luma(light: NDArray[np.float64]) -> NDArray[np.float32]:
+            return np.asarray(luma_bt601(self._code(light)), dtype=np.float32)
+
+        config, speeds = self.config, None
+        forward = None if first.motion is None else first.motion.forward
+        backward = None if second.motion is None else second.motion.backward
+        if forward is not None and backward is not None:
+            speeds = block_speeds(forward, backward)
+        drawing = Between(self.scene, self.size, config.samples, config.shadows, luma)
+        times = [t_us / MICROSECONDS for t_us in (first.t_us, *times_us, second.t_us)]
+        images = drawing.draw((float_luma(first), float_luma(second)), speeds, times)
+        for image, t_us in zip(images, times_us, strict=True):
+            yield Frame(image, t_us, is_source=False, transfer=self.transfer)
 
     def _motion(self, index: int) -> Motion:
         """Motion from a frame to its neighbours."""

@@ -75,8 +75,8 @@ class MotionInterpolator:
         Raises:
             InputError: neither frame has vectors to the other.
         """
-        if self._stream is not None and (self._beats or self._stream.has_moving_light):
-            return _rendered(self._stream, times_us)
+        if self._stream is not None:
+            return self._stream.between(first, second, times_us)
         # Now, not at the first frame: this may run in the prefetch thread.
         pair = MotionPair.of(first, second)
         return self._draw(pair, [position(first, second, t_us) for t_us in times_us], times_us)

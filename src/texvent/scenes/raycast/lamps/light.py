@@ -305,6 +305,8 @@ def lamps_reach(instant: Record, point: Vector, normal: Vector, wanted: int) -> 
 
 ALL_LIGHTS = (1 << LIT_BITS) - 1
 """All bits of a probe that tell what light reaches a surface."""
+SUN = 1
+"""The sun's bit."""
 
 
 @jit(error_model="numpy", inner=True)
