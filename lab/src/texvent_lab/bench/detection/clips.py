@@ -110,8 +110,10 @@ def _read(source_type: Any, path: Path) -> Clip:
 
 
 def _as_boxes(rows: NDArray[np.void] | None) -> NDArray[np.void]:
-    boxes = np.zeros(0 if rows is None else len(rows), BOX_RECORD)
-    for name in BOX_RECORD.names if rows is not None else ():
+    if rows is None:
+        return np.zeros(0, BOX_RECORD)
+    boxes = np.zeros(len(rows), BOX_RECORD)
+    for name in BOX_RECORD.names or ():
         boxes[name] = rows[name]
     return boxes
 

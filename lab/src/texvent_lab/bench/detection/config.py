@@ -34,10 +34,6 @@ class DetectionData:
     seen."""
 
     def __post_init__(self) -> None:
-        if self.folder is None:
-            raise ConfigError(
-                "data.folder is missing; name a folder that texvent dataset export --layout rvt wrote"
-            )
         check_range("passes", self.passes, 1, 10_000)
         check_range("windows", self.windows, 1, 1000)
 
@@ -46,7 +42,7 @@ SCHEDULE = Schedule(
     epochs=30,
     batch_size=8,
     optimizer="adamw",
-    learning_rate=1e-3,
+    learning_rate=5e-4,
     weight_decay=1e-2,
     clip_gradient=1.0,
     decay="cosine",
@@ -66,4 +62,8 @@ class DetectionConfig(TrainingConfig):
         """See `TrainingConfig`."""
         from texvent_lab.bench.detection.task import DetectionTask
 
+        if self.data.folder is None:
+            raise ConfigError(
+                "data.folder is missing; name what texvent dataset export --layout rvt wrote"
+            )
         return DetectionTask(self)

@@ -118,10 +118,9 @@ class DetectionTask:
             if rows:
                 chosen.append({stage: one[rows] for stage, one in features.items()})
                 boxes += [targets(clips[n], window, bool(flips[n])) for n in rows]
-        joined = {stage: torch.cat([one[stage] for one in chosen]).float() for stage in chosen[0]}
-        with torch.autocast(device.type, enabled=False), cached_memory():
-            _, losses = network.forward_detect(joined, _padded(boxes).to(device))
-        return losses["loss"]
+        joined = {stage: torch.cat([one[stage] for one in chosen]) for stage in chosen[0]}
+        with cached_memory():
+            return run_head(network, joined, _padded(boxes).to(device))[1]["loss"]
 
     def validate(
         self, network: Any, device: Any, *, workers: int
@@ -136,7 +135,7 @@ class DetectionTask:
         }, {}
 
     def published(self, network: Any) -> Mapping[str, Any]:
-        """evlib's names."""
+        """Evlib's names."""
         tensors = {name: one.detach().cpu() for name, one in network.state_dict().items()}
         return {STATE: tensors, CLASSES: list(self.classes)}
 
@@ -154,7 +153,7 @@ class DetectionTask:
 
 
 def make_detector(classes: int, size: tuple[int, int], seed: int) -> Any:
-    """evlib's RVT-T with random weights.
+    """Evlib's RVT-T with random weights.
 
     Args:
         classes: number of them.
@@ -186,6 +185,21 @@ def run_backbone(network: Any, histograms: Tensor) -> Iterator[dict[int, Tensor]
         image = pad(histograms[:, window].float(), (0, right, 0, below))
         features, states = network.forward_backbone(image, states)
         yield features
+
+
+def run_head(
+    network: Any, features: Mapping[int, Tensor], targets: Tensor | None = None
+) -> tuple[Tensor, Any]:
+    """Evlib's predictions, and its losses where there are targets, in float32.
+
+    The head keeps the grid of cells that it meets first; sizes and modes of autograd differ here.
+    """
+    torch = require("torch", extra=EXTRA)
+    network.head.output_grids = network.head.output_strides = None
+    inputs = {stage: one.float() for stage, one in features.items()}
+    with torch.autocast(inputs[2].device.type, enabled=False):
+        found: tuple[Tensor, Any] = network.forward_detect(inputs, targets)
+    return found
 
 
 @contextmanager
@@ -252,15 +266,12 @@ def detect_last(network: Any, histograms: Sequence[NDArray[np.uint8]], device: A
 
 
 def _predict(network: Any, histograms: Tensor) -> Iterator[list[Tensor | None]]:
-    """evlib's detections of each clip, window by window."""
+    """Evlib's detections of each clip, window by window."""
     torch = require("torch", extra=EXTRA)
     postprocess = require("evlib.models.yolox_head", extra=EXTRA).postprocess
-    # The head keeps the grid of the first size that it meets.
-    network.head.output_grids = network.head.output_strides = None
     with torch.inference_mode():
         for features in run_backbone(network, histograms):
-            with torch.autocast(histograms.device.type, enabled=False):
-                found, _ = network.forward_detect({n: one.float() for n, one in features.items()})
+            found, _ = run_head(network, features)
             yield postprocess(found, network.num_classes, LEAST_CONFIDENCE, MOST_OVERLAP)
 
 
