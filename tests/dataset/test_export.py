@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import re
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -170,3 +171,17 @@ def test_what_a_layout_cannot_hold_is_refused_at_the_door(
     with pytest.raises(ConfigError, match="classes are those of boxes, and layout hdf5 holds none"):
         export(boxes, "hdf5", out, classes="car")
     assert not out.exists()
+
+
+def test_frames_that_cannot_be_made_again_are_said(traffic: Path, tmp_path: Path) -> None:
+    copy = shutil.copytree(traffic, tmp_path / "copy")
+    (copy / "items.jsonl").unlink()
+    made = StoredDataset.open(copy)
+    with pytest.raises(InputError, match=r"layout timelens holds frames.* has no items\.jsonl"):
+        export(made, "timelens", tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+    done = export(made, "dsec-det", tmp_path / "out", classes="car")
+    assert "it does not hold images" in done.doubts[0]
+    folder = next((tmp_path / "out/train").iterdir())
+    times = np.genfromtxt(folder / "images/timestamps.txt", dtype="int64")
+    assert times.tolist() == [0, 41_667, 83_333, 125_000]

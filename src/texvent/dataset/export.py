@@ -91,7 +91,7 @@ def export(
     if classes is not None and not chosen.has_boxes:
         raise ConfigError(f"classes are those of boxes, and layout {layout} holds none")
     listed = find_classes(dataset, chosen, layout, variant, classes)
-    recipe = find_recipe(dataset, chosen, layout)
+    recipe, no_frames = find_recipe(dataset, chosen, layout)
     _begin(dataset, layout, folder, variant, listed)
     samples = Samples(dataset, chosen, variant, listed, recipe)
     written, kept, empty = 0, 0, 0
@@ -106,7 +106,7 @@ def export(
                 continue
         written += 1
     chosen.finish(folder, (one for one in samples if (folder / one.place).exists()), listed.names)
-    doubts = doubts_of(dataset, chosen, variant, listed, has_frames=recipe is not None)
+    doubts = (*no_frames, *doubts_of(dataset, chosen, variant, listed))
     if empty:
         doubts += (f"{empty} samples show no box and are left out; its readers want one",)
     return Exports(written, kept, listed.names, doubts)

@@ -14,7 +14,7 @@ import numpy as np
 from texvent.dataset.generation.sample import PREVIEW_US, preview_png
 from texvent.dataset.generation.shards import SampleRecord
 from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
-from texvent.dataset.reading.stored_events import read_events, read_truth
+from texvent.dataset.reading.stored_events import read_events, sample_truth
 from texvent.errors import InputError, shown
 from texvent.io.atomic import atomic_file
 from texvent.video import MICROSECONDS
@@ -84,7 +84,8 @@ def write_sample_page(
 def _card(sample: ChosenSample) -> str:
     shard, record = sample
     events = read_events(shard.path, record)
-    image = base64.b64encode(preview_png(events, read_truth(shard.path, record))).decode("ascii")
+    truth = sample_truth(shard.path, record.key, record.members)
+    image = base64.b64encode(preview_png(events, truth)).decode("ascii")
     seconds = record.duration_us / MICROSECONDS
     on_share = float(np.mean(events.p)) if len(events) else 0.0
     facts = [

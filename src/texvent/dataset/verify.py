@@ -23,7 +23,7 @@ from texvent.dataset.generation.shards import (
     read_record,
 )
 from texvent.dataset.reading.stored_dataset import SHARD_FILE, StoredDataset, StoredShard
-from texvent.dataset.reading.stored_events import read_events, read_sample_facts, read_truth
+from texvent.dataset.reading.stored_events import read_events, read_sample_facts, sample_truth
 from texvent.dataset.statistics import in_several_splits
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.atomic import is_hidden_part
@@ -152,7 +152,7 @@ def _check_sample(path: Path, sample: SampleRecord) -> None:
                 f"sample {sample.key}: {name} is {shown(facts.get(name))} in the shard, and "
                 f"{shown(getattr(sample, name))} in its record"
             )
-    truth = read_truth(path, sample)
+    truth = sample_truth(path, sample.key, sample.members)
     truth.check(events.size)
     counted = count_boxes(truth)
     if (counted.get("boxes"), counted.get("tracks", 0)) != (sample.boxes, sample.tracks):

@@ -11,7 +11,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,6 +50,34 @@ def box_records(t_us: int, boxes: Sequence[Box], class_ids: Sequence[int]) -> ND
         for box, class_id in zip(boxes, class_ids, strict=True)
     ]
     return np.array(rows, dtype=BOX_RECORD)
+
+
+class Label(NamedTuple):
+    """A box of a labelled frame of a video."""
+
+    frame: int
+    """Number of the frame, from 0."""
+    track: int
+    """Number of the object; 0: not known."""
+    name: str
+    """Class."""
+    x: float
+    y: float
+    w: float
+    h: float
+
+    def record(self, class_id: int) -> tuple[float, ...]:
+        """A record of `BOX_RECORD`, with the number of the frame as its time."""
+        return (self.frame, *self[3:], class_id, self.track, 1.0)
+
+
+def clip_boxes(boxes: NDArray[np.void], size: SensorSize) -> NDArray[np.bool_]:
+    """Cut boxes at the edges of the picture, in place; whether something is left of each."""
+    for start, side, whole in (("x", "w", size.width), ("y", "h", size.height)):
+        end = np.clip(boxes[start] + boxes[side], 0, whole)
+        boxes[start] = np.clip(boxes[start], 0, whole)
+        boxes[side] = end - boxes[start]
+    return np.asarray((boxes["w"] > 0) & (boxes["h"] > 0))
 
 
 def size_classes(boxes: NDArray[np.void]) -> NDArray[np.int64]:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from tests.dataset.layouts.crossing import CAR, INSTANTS, MAN, crossing_boxes
 
-from texvent.dataset.layouts.boxes import boxes_at, clip_boxes
+from texvent.dataset.layouts.boxes import boxes_at
 from texvent.dataset.layouts.classes import ClassList
 from texvent.errors import ConfigError
 
@@ -35,12 +35,6 @@ def test_boxes_are_not_known_far_from_labelled_instants() -> None:
     assert boxes_at(boxes, INSTANTS[:0], 0) is None
     # An instant at which nothing is in view is not one that is unknown.
     assert len(boxes_at(boxes[boxes["t"] > 0], INSTANTS, 0)) == 0
-
-
-def test_boxes_are_cut_at_the_picture() -> None:
-    first = clip_boxes(crossing_boxes(), width=63, height=24, least_side=5)
-    assert places(first[:1]) == [(0, 10, 16, 14)]
-    assert MAN not in first["class_id"]  # 4 of its rows are left
 
 
 def test_classes_gather_and_the_others_go() -> None:

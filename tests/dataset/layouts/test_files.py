@@ -36,6 +36,12 @@ def test_rvt_holds_what_its_loader_asserts(tmp_path: Path) -> None:
     found = labels[["t", "x", "w", "class_id", "track_id"]].tolist()
     assert found[:2] == [(50_000, 1, 20, 0, 7), (100_000, 6, 20, 0, 7)]
     assert found[2:4] == [(150_000, 11, 20, 0, 7), (150_000, 40, 8, 1, 9)]
+    # At the edge, the last pixels are the end; less than 5 px are no box.
+    edge = crossing_boxes()
+    edge["x"], edge["w"] = np.where(edge["track_id"] == 7, 50, 59), 40
+    LAYOUTS["rvt"].write(crossing(boxes=edge), tmp_path / "edge")
+    with np.load(tmp_path / "edge/labels_v2/labels.npz") as stored:
+        assert set(stored["labels"][["x", "w", "track_id"]].tolist()) == {(50, 13, 7)}
     events = crossing_events()
     with h5py.File(place / "event_representations.h5") as file:
         assert file["data"].dtype == np.uint8

@@ -1,4 +1,4 @@
-"""Layouts read back by evlib's data module and its port of Prophesee's tools, and by pycocotools."""
+"""Layouts read back by evlib, which has Prophesee's tools too, and by pycocotools."""
 
 from __future__ import annotations
 
@@ -6,8 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from tests.dataset.conftest import make_set
 from tests.dataset.layouts.crossing import SIZE, crossing, crossing_events
 
+from texvent.cli.app import main
 from texvent.dataset.export import LAYOUTS
 from texvent.dataset.layouts.rvt import REPRESENTATION
 
@@ -37,6 +39,27 @@ def test_evlib_loads_rvt_sequences_with_the_histograms_that_it_computes(tmp_path
     batch = data.custom_collate_random([dataset[index] for index in range(len(dataset))])
     assert batch["ev_repr"][0].shape == (4, 20, *SIZE.shape)
     assert batch["is_padded_mask"].sum() == 4
+
+
+@pytest.mark.detect
+def test_evlib_streams_a_data_set_that_was_made_and_exported(tmp_path: Path) -> None:
+    import evlib.data as data
+
+    prompts = [f"a {noun} drives left" for noun in ("car", "bus", "taxi")]
+    options = {"duration": 0.3, "sensor": "64x48"}
+    tables = {"options": options, "variants": {"paper": {}}, "truth": ["boxes"]}
+    made = make_set(tmp_path / "made", sources=[{"prompts": prompts}], **tables)
+    words = ["dataset", "export", str(made), "--layout", "rvt", "--classes", "bus,car"]
+    assert main([*words, "-o", str(tmp_path / "rvt")]) == 0
+    sources = [
+        data.PreprocessedH5Source(one, REPRESENTATION, downsample_by_2=False)
+        for one in sorted((tmp_path / "rvt").glob("*/*"))
+    ]
+    (batch,) = map(data.custom_collate_stream, data.SequenceStreamDataset(sources, 5, batch_size=3))
+    assert len(batch["ev_repr"]) == 5  # the last frame is at 292 ms
+    assert all(one.sum() > 0 for one in batch["ev_repr"])
+    classes = [[int(box[0]) for box in one] for one in batch["objlabels_seq"][3]]
+    assert sorted(classes) == [[0], [1], [1]]
 
 
 @pytest.mark.detect

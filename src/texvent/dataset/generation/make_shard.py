@@ -46,6 +46,7 @@ from texvent.pipeline import Simulation, fit_to_sensor
 from texvent.run.prepare import make_video, prepare_video
 from texvent.scenes.report import REPORT_KEY
 from texvent.settings.resolution import Settings
+from texvent.truth.clip import ClipTruth
 from texvent.video import FrameStream
 
 if TYPE_CHECKING:
@@ -214,8 +215,7 @@ class _ShardSamples:
             "width": width,
             "height": height,
         }
-        truth = None if recorder is None else recorder.finish()
-        known |= {} if truth is None else count_boxes(truth.read)
+        truth = {} if recorder is None else recorder.finish()
         facts = {
             **simulation.provenance,
             **known,
@@ -224,6 +224,7 @@ class _ShardSamples:
             "split": clip.split,
             "variant": self._shard.variant,
             "label": item.label,
+            **({} if recorder is None else {"truth": recorder.facts}),
         }
         members = sample_members(
             simulated,
@@ -232,7 +233,7 @@ class _ShardSamples:
             preview=specification.previews,
             truth=truth,
         )
-        return members, known
+        return members, {**known, **count_boxes(ClipTruth(members.__getitem__, key))}
 
     def _truth_recorder(self, clip: Clip, simulation: Simulation) -> TruthRecorder | None:
         """Recorder of the truth of a clip, one for all of its seeds; None where none is wanted."""

@@ -7,7 +7,9 @@ import json
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import partial
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -24,15 +26,14 @@ from texvent.run.prepare import prepare_source, prepare_video
 from texvent.sensor import as_size
 from texvent.settings.resolution import Settings
 from texvent.truth.boxes import SIZE_CLASSES, detection_target, size_classes
-from texvent.truth.clip import ClipTruth, StoredTruth
-from texvent.truth.labels.reading import read_labels
+from texvent.truth.clip import ClipTruth
 from texvent.video import Frame
 from texvent.video_check.checks import evaluate
 from texvent.video_check.measurements import VideoMeasurer
 
 if TYPE_CHECKING:
+    from texvent.scenes.raycast.ground_truth import Box
     from texvent.truth.recorder import TruthRecorder
-    from texvent.view.drawing.canvas import Image
 
 
 def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings) -> Simulation:
@@ -59,21 +60,17 @@ def record_truth(specification: Specification, item: Item, simulation: Simulatio
     Raises:
         TexventError: the labels cannot be read, or the video does not know its truth.
     """
-    from texvent.truth.labels.placing import PlacedLabels  # brings OpenCV
+    from texvent.truth.labels.reading import read_labels  # brings OpenCV
     from texvent.truth.recorder import TruthRecorder  # brings the ray caster
 
-    video, labels = simulation.video, None
+    video, place = simulation.video, None
     if item.boxes is not None:
         capture: Any = simulation.settings.source
-        labels = PlacedLabels(
-            labels=read_labels(Path(item.boxes)),
-            picture=as_size(video.metadata.get("size_before_fit", video.size)),
-            fit=capture.fit,
-            rate_hz=None if item.box_rate is None else Fraction(item.box_rate),
-            is_whole=capture.stop is None,
-        )
-    classes = specification.class_of or None
-    return TruthRecorder(video, specification.truth, classes, labels=labels)
+        size = as_size(video.metadata.get("size_before_fit", video.size))
+        rate_hz = None if item.box_rate is None else Fraction(item.box_rate)
+        labels, is_whole = read_labels(Path(item.boxes), size), capture.stop is None
+        place = partial(labels.place, fit=capture.fit, rate_hz=rate_hz, is_whole=is_whole)
+    return TruthRecorder(video, specification.truth, specification.class_of, place_labels=place)
 
 
 COLUMNS = ("x", "y", "t", "p")
@@ -169,7 +166,7 @@ def sample_members(
     *,
     class_number: int | None,
     preview: bool,
-    truth: StoredTruth | None = None,
+    truth: Mapping[str, bytes] = MappingProxyType({}),
 ) -> dict[str, bytes]:
     """The files of a sample: extension → content.
 
@@ -178,18 +175,17 @@ def sample_members(
         facts: all that is known of it, for its `.json`; `prompt` becomes the `.txt`.
         class_number: of its label, or None.
         preview: whether there is an image.
-        truth: of the clip, or None; its facts become part of the `.json`.
+        truth: files of the truth of the clip, whose facts are among `facts`.
     """
     members = {f"{name}.npy": npy_bytes(one) for name, one in event_columns(clip.events).items()}
-    if truth is not None:
-        facts = {**facts, "truth": truth.facts}
     members["json"] = json.dumps(facts, sort_keys=True, ensure_ascii=False).encode()
     members["txt"] = (facts.get("prompt") or "").encode()
     if class_number is not None:
         members["cls"] = str(class_number).encode()
     if preview:
-        members["png"] = preview_png(clip.events, None if truth is None else truth.read)
-    return members if truth is None else {**members, **truth.files}
+        known = ClipTruth({**members, **truth}.__getitem__, "the clip")
+        members["png"] = preview_png(clip.events, known)
+    return {**members, **truth}
 
 
 def count_boxes(truth: ClipTruth) -> dict[str, Any]:
@@ -197,12 +193,10 @@ def count_boxes(truth: ClipTruth) -> dict[str, Any]:
     if "boxes" not in truth.parts:
         return {}
     boxes, sizes = truth.boxes, size_classes(truth.boxes)
-    counts = {
-        truth.classes[one]: np.bincount(
-            sizes[boxes["class_id"] == one], minlength=len(SIZE_CLASSES)
-        ).tolist()
-        for one in np.unique(boxes["class_id"]).tolist()
-    }
+    counts = {}
+    for one in np.unique(boxes["class_id"]).tolist():
+        own = sizes[boxes["class_id"] == one]
+        counts[truth.classes[one]] = np.bincount(own, minlength=len(SIZE_CLASSES)).tolist()
     return {"boxes": counts, "tracks": len(set(boxes["track_id"].tolist()) - {0})}
 
 
@@ -213,40 +207,35 @@ def npy_bytes(array: NDArray[Any]) -> bytes:
     return file.getvalue()
 
 
-def preview_png(events: EventStream, truth: ClipTruth | None = None) -> bytes:
+def preview_png(events: EventStream, truth: ClipTruth) -> bytes:
     """The events of the liveliest 50 ms as an image, small, under the boxes nearest to its end."""
-    from texvent.view.drawing.canvas import png_bytes, shrink  # brings OpenCV
+    from texvent.view.drawing.canvas import enlarge, png_bytes, shrink  # brings OpenCV
     from texvent.view.drawing.event_image import draw_events
     from texvent.view.drawing.palettes import DEFAULT_PALETTE, get_palette
+    from texvent.view.drawing.panels import Annotations
 
     start = 0
     if len(events):
         bins = np.bincount((events.t - events.t[0]) // PREVIEW_US)
         start = int(events.t[0]) + int(bins.argmax()) * PREVIEW_US
     counts = count_events(events.cut(start, start + PREVIEW_US))
-    image = shrink(draw_events(counts, get_palette(DEFAULT_PALETTE)), PREVIEW_WIDTH)
-    if truth is not None and "boxes" in truth.parts:
-        image = _with_boxes(image, truth, start + PREVIEW_US, events.size.width)
-    return png_bytes(image)
+    image = draw_events(counts, get_palette(DEFAULT_PALETTE))
+    if "boxes" in truth.parts:
+        factor = max(1, PREVIEW_WIDTH // events.size.width)
+        image = enlarge(image, factor, how="blocks")
+        Annotations(_boxes_near(truth, start + PREVIEW_US)).draw(image, factor)
+    return png_bytes(shrink(image, PREVIEW_WIDTH))
 
 
-def _with_boxes(image: Image, truth: ClipTruth, t_us: int, width: int) -> Image:
-    """An image of events, at least half as wide as previews are, under the boxes nearest to `t_us`.
-
-    `width` is that of the sensor, pixels.
-    """
+def _boxes_near(truth: ClipTruth, t_us: int) -> tuple[Box, ...]:
+    """Boxes at the time nearest to an instant, µs, of those at which they are known."""
     from texvent.scenes.raycast.ground_truth import Box  # brings Numba
-    from texvent.view.drawing.canvas import enlarge
-    from texvent.view.drawing.panels import Annotations
 
-    image = enlarge(image, max(1, PREVIEW_WIDTH // image.shape[1]), how="blocks")
-    scale, times = image.shape[1] / width, truth.box_times_us
+    times = truth.box_times_us
     near = truth.boxes[truth.boxes["t"] == times[np.abs(times - t_us).argmin()]]
     target = detection_target(near)
-    corners = np.rint(target["boxes"] * scale).astype(int).tolist()
-    boxes = tuple(
+    corners = np.rint(target["boxes"]).astype(int).tolist()
+    return tuple(
         Box(0, truth.classes[label], x0, y0, x1, y1, visibility=1.0)
         for label, (x0, y0, x1, y1) in zip(target["labels"].tolist(), corners, strict=True)
     )
-    Annotations(boxes).draw(image, 1)
-    return image

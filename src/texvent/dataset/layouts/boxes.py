@@ -1,4 +1,4 @@
-"""Boxes as a layout wants them: at its instants, inside the picture, numbered by its classes."""
+"""Boxes as a layout wants them: at its instants, and as its records."""
 
 from __future__ import annotations
 
@@ -65,16 +65,6 @@ def _moved(near: Boxes, far: Boxes, share: float) -> Boxes:
     for side in ("x", "y", "w", "h"):
         near[side][own] += share * (far[side][others] - near[side][own])
     return near
-
-
-def clip_boxes(boxes: Boxes, *, width: float, height: float, least_side: float = 1.0) -> Boxes:
-    """The parts of boxes inside 0..width, 0..height; those with a side below `least_side` go."""
-    clipped = boxes.copy()
-    for place, side, limit in (("x", "w", width), ("y", "h", height)):
-        start = np.clip(boxes[place], 0, limit)
-        clipped[place] = start
-        clipped[side] = np.clip(boxes[place] + boxes[side], 0, limit) - start
-    return clipped[(clipped["w"] >= least_side) & (clipped["h"] >= least_side)]
 
 
 def records_of(boxes: Boxes, dtype: np.dtype[np.void]) -> NDArray[np.void]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator
+from pathlib import Path
 
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.shards import SampleRecord
@@ -12,6 +13,9 @@ from texvent.dataset.layouts.layout import Layout
 from texvent.dataset.layouts.samples import folder_name
 from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.errors import InputError, few, shown
+
+MOST_CLASSES = 255
+"""Their numbers are stored in 8 bits."""
 
 
 def check_layout(dataset: StoredDataset, layout: Layout, name: str, variant: str) -> None:
@@ -74,14 +78,17 @@ def find_classes(
     there = _count_boxes(dataset, variant)
     if given is None and not layout.classes:
         named = [str(one) for _, one in dataset.specification.get("classes", ())]
-        return ClassList.of(dict.fromkeys(named or sorted(there)))
-    listed = ClassList.parse(given or layout.classes)
+        listed = ClassList.of(dict.fromkeys(named or sorted(there)))
+    else:
+        listed = ClassList.parse(layout.classes if given is None else given)
     others = [one for one in there if one not in listed.numbers]
-    if given is None and others:
+    if given is None and layout.classes and others:
         raise InputError(
             f"layout {name} has no class for {few(sorted(others))}; choose with --classes, which "
             f'leaves out all others: --classes "{layout.classes}"'
         )
+    if len(listed.names) > MOST_CLASSES:
+        raise InputError(f"{len(listed.names)} classes; layouts hold {MOST_CLASSES}")
     if given is not None and len(others) == len(there):
         raise InputError(
             f"no box is of the classes {shown(given)}; boxes are of {few(sorted(there)) or 'none'}"
@@ -97,34 +104,33 @@ def _count_boxes(dataset: StoredDataset, variant: str) -> Counter[str]:
     return counts
 
 
-def find_recipe(dataset: StoredDataset, layout: Layout, name: str) -> Recipe | None:
-    """What the frames of the samples can be made of; None where a layout does without them.
+def find_recipe(
+    dataset: StoredDataset, layout: Layout, name: str
+) -> tuple[Recipe | None, tuple[str, ...]]:
+    """What the frames of the samples can be made of, or None and why, if that is to be said.
 
     Raises:
-        ConfigError, InputError: the layout needs frames, and this folder cannot give them.
+        InputError: the layout needs frames, and this folder cannot give them.
     """
     if not layout.takes_frames:
-        return None
+        return None, ()
     try:
-        return load_recipe(dataset.folder)
+        recipe = load_recipe(dataset.folder)
+        for item in recipe.items.all:
+            if item.video is not None and not Path(item.video).exists():
+                raise InputError(f"its video {item.video} is not there")
     except InputError as error:
         if not layout.has_frames:
-            return None
-        raise type(error)(f"layout {name} holds frames, which are made again: {error}") from error
+            return None, (f"it does not hold images: {error}",)
+        raise InputError(f"layout {name} holds frames, which are made again: {error}") from error
+    return recipe, ()
 
 
 def doubts_of(
-    dataset: StoredDataset,
-    layout: Layout,
-    variant: str,
-    classes: ClassList,
-    *,
-    has_frames: bool,
+    dataset: StoredDataset, layout: Layout, variant: str, classes: ClassList
 ) -> tuple[str, ...]:
     """What the layout does not hold of a variant, and what may surprise its readers."""
     doubts = [f"it does not hold {layout.lost}"] if layout.lost else []
-    if layout.takes_frames and not has_frames:
-        doubts.append("it does not hold images: this folder cannot make them again")
     if not layout.keeps_noise_labels and any(
         "label.npy" in sample.members for sample in _samples(dataset, variant)
     ):

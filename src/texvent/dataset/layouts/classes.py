@@ -47,8 +47,8 @@ class ClassList:
             ConfigError: a name or class is empty, or there twice.
 
         Example:
-            >>> ClassList.parse("car,van,heavy=bus+truck").numbers
-            {'car': 0, 'van': 1, 'bus': 2, 'truck': 2, 'suv': 0, 'taxi': 0, ...}
+            >>> ClassList.parse("car=car+taxi,rider").numbers
+            {'car': 0, 'taxi': 0, 'rider': 1, 'cyclist': 1, 'motorcyclist': 1}
         """
         names: list[str] = []
         usual: list[str] = []

@@ -2,16 +2,16 @@
 
     train|test/KEY/events/left/events.h5             events/x, y u2, t u4, p u1; ms_to_idx; t_offset
     train|test/KEY/images/timestamps.txt             µs, of the images
-    train|test/KEY/images/left/distorted/000000.png  images, where the data set stores its frames
+    train|test/KEY/images/left/distorted/000000.png  images
     train|test/KEY/object_detections/left/tracks.npy boxes: records t (µs), x, y, h, w (px),
                                                      class_id, class_confidence, track_id
     train_val_test_split.yaml                        sequences of each split; those of val lie in
                                                      train
 
 Its readers find the boxes of an image by its time, so boxes are given at the times of the images,
-or of the labelled instants where there are no images. `ms_to_idx` spans all of them: entry m is the
-first event at or after m ms from `t_offset`, which is the first image. A sequence without boxes has
-a file without records.
+or of the labelled instants where frames cannot be made again. `ms_to_idx` spans all of them: entry
+m is the first event at or after m ms from `t_offset`, which is the first image or event. A sequence
+without boxes has a file without records.
 
 Source: D. Gehrig, D. Scaramuzza, "Low-latency automotive vision with event cameras", Nature 2024,
 and its description of files; M. Gehrig et al., "DSEC: a stereo event camera dataset for driving

@@ -5,7 +5,8 @@
                                    class_confidence, track_id
 
 Both differ in their classes and in the sensor that readers expect. Small boxes stay: Prophesee's
-evaluation leaves them out itself. A sample without boxes has a file without records.
+evaluation leaves them out itself, with all boxes of a recording's first .5 s. A sample without
+boxes has a file without records.
 
 Source: Prophesee's automotive dataset toolbox; P. de Tournemire et al., "A large scale event-based
 detection dataset for automotive", 2020; E. Perot et al., "Learning to detect objects with a 1

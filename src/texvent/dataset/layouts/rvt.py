@@ -27,12 +27,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.dataset.layouts.boxes import LABEL_RECORD, Boxes, boxes_at, clip_boxes, records_of
+from texvent.dataset.layouts.boxes import LABEL_RECORD, Boxes, boxes_at, records_of
 from texvent.dataset.layouts.layout import USUAL_SPLITS, Layout, LayoutSample
 from texvent.errors import InputError
 from texvent.events import EventStream
 from texvent.io.atomic import atomic_folder
 from texvent.represent.histogram import BINS, stacked_histogram
+from texvent.sensor import SensorSize
+from texvent.truth.boxes import clip_boxes
 
 WINDOW_US = 50_000
 REPRESENTATION = f"stacked_histogram_dt={WINDOW_US // 1000}_nbins={BINS}"
@@ -99,12 +101,13 @@ def _labelled_frames(
 ) -> dict[int, NDArray[np.void]]:
     """Window → its records, of windows with a box."""
     frames = {}
+    last = SensorSize(events.size.width - 1, events.size.height - 1)
     for window, end_us in enumerate(ends):
         found = boxes_at(boxes, instants, int(end_us))
         if found is None:
             continue
-        width, height = events.size
-        kept = clip_boxes(found, width=width - 1, height=height - 1, least_side=LEAST_SIDE)
+        clip_boxes(found, last)
+        kept = found[(found["w"] >= LEAST_SIDE) & (found["h"] >= LEAST_SIDE)]
         if len(kept):
             frames[window] = records_of(kept, LABEL_RECORD)
     return frames

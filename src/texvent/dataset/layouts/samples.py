@@ -12,11 +12,10 @@ import numpy as np
 from texvent.dataset.generation.clip_frames import clip_frames
 from texvent.dataset.generation.recipe import Recipe, Shard
 from texvent.dataset.generation.shards import SampleRecord
-from texvent.dataset.layouts.boxes import clip_boxes
 from texvent.dataset.layouts.classes import ClassList
 from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
-from texvent.dataset.reading.stored_events import read_events, read_truth
+from texvent.dataset.reading.stored_events import read_events, sample_truth
 from texvent.errors import InputError, shown
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import BOX_RECORD
@@ -63,10 +62,9 @@ class Samples:
         size = SensorSize(sample.width, sample.height)
         boxes, instants = np.empty(0, BOX_RECORD), np.empty(0, np.int64)
         if layout.has_boxes:
-            truth = read_truth(shard.path, sample)
+            truth = sample_truth(shard.path, sample.key, sample.members)
             boxes, instants = truth.boxes, truth.box_times_us
             boxes = self.classes.renumbered(boxes, truth.classes)
-            boxes = clip_boxes(boxes, width=size.width, height=size.height)
         frames = None
         if self.recipe is not None:
             place_of = Shard(record.variant, record.split, int(record.name.rpartition("-")[2]))

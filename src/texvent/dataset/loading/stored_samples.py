@@ -17,7 +17,7 @@ from texvent.dataset.generation.shards import read_members
 from texvent.dataset.loading.index import MEMBERS, Choice, Index, choose, read_index
 from texvent.dataset.loading.targets import check_targets, targets_of
 from texvent.dataset.reading.stored_dataset import StoredDataset
-from texvent.dataset.reading.stored_events import read_columns, stored_truth
+from texvent.dataset.reading.stored_events import read_columns, sample_truth
 from texvent.errors import ConfigError, InputError, shown
 from texvent.events import EventStream
 from texvent.represent.named import load_representation, represent_window
@@ -171,8 +171,8 @@ class StoredSamples:
         """
         number = self._checked(number)
         index, shard = self.index, int(self.index.shard[number])
-        truth, events = self.truth(number), self.events(number)
-        facts = self._facts(number)
+        facts = json.loads(self.members(number, ("json",)).get("json", b"{}"))
+        events = self.events(number)
         return StoredSample(
             key=str(index.key[number]),
             events=events.with_metadata(facts),
@@ -182,7 +182,7 @@ class StoredSamples:
             variant=index.variants[shard],
             split=index.splits[shard],
             facts=facts,
-            truth=truth,
+            truth=self.truth(number),
         )
 
     def truth(self, number: int) -> ClipTruth:
@@ -192,8 +192,8 @@ class StoredSamples:
             IndexError, FileFormatError: as for `[number]`.
         """
         number = self._checked(number)
-        key, facts = str(self.index.key[number]), self._facts(number).get("truth", {})
-        return stored_truth(self._shard(number), key, self._places(number), facts)
+        key = str(self.index.key[number])
+        return sample_truth(self._shard(number), key, self._places(number))
 
     def events(self, number: int) -> EventStream:
         """The events of a sample, without metadata.
@@ -313,10 +313,6 @@ class StoredSamples:
         numbers = {label: number for number, label in enumerate(self.labels)}
         known = [NO_CLASS if label is None else numbers[label] for label in self.index.labels]
         return np.array(known, np.int64)
-
-    def _facts(self, number: int) -> dict[str, Any]:
-        facts: dict[str, Any] = json.loads(self.members(number, ("json",)).get("json", b"{}"))
-        return facts
 
     def _shard(self, number: int) -> Path:
         return self.folder / self.index.shards[int(self.index.shard[number])]

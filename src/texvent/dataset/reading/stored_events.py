@@ -138,24 +138,10 @@ def read_sample_facts(shard: Path, sample: SampleRecord) -> dict[str, Any]:
     return facts
 
 
-def read_truth(shard: Path, sample: SampleRecord) -> ClipTruth:
-    """Ground truth of a sample; its arrays are read when they are asked for.
-
-    Raises:
-        FileFormatError: as `read_sample_facts`.
-    """
-    facts = read_sample_facts(shard, sample).get("truth", {})
-    return stored_truth(shard, sample.key, sample.members, facts)
-
-
-def stored_truth(
-    shard: Path, key: str, places: Mapping[str, tuple[int, int]], facts: Mapping[str, Any]
-) -> ClipTruth:
-    """Ground truth of a sample, of which the facts are known; other arguments as `read_columns`."""
+def sample_truth(shard: Path, key: str, places: Mapping[str, tuple[int, int]]) -> ClipTruth:
+    """Ground truth of a sample, read when it is asked for; arguments as `read_columns`."""
 
     def read_file(name: str) -> bytes:
-        if name not in places:
-            raise FileFormatError(f"sample {key} of {shard} is damaged: it has no {name}")
         return read_part(shard, *places[name])
 
-    return ClipTruth(facts, read_file, f"sample {key} of {shard}")
+    return ClipTruth(read_file, f"sample {key} of {shard}")

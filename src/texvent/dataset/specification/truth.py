@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable
 from pathlib import Path
-
-import numpy as np
+from typing import Any
 
 from texvent._registry import GENERATORS, suggest
 from texvent.dataset.specification.items import Items
-from texvent.dataset.specification.specification import Specification
-from texvent.errors import ConfigError, shown
+from texvent.dataset.specification.specification import Specification, extreme_options
+from texvent.errors import ConfigError, InputError, shown
 from texvent.generate.scene_input import list_nouns
-from texvent.truth.labels.reading import read_labels
+from texvent.settings.resolution import resolve
 from texvent.truth.layout import check_generator
 
 OPTIONS_OF_VIDEOS = {
@@ -35,86 +34,91 @@ def check_truth(specification: Specification, items: Items, *, is_stored: bool) 
     Raises:
         ConfigError, InputError: see above, and as `texvent.truth.labels.reading.read_labels`.
     """
-    if "boxes" not in specification.truth and any(item.boxes is not None for item in items.all):
-        raise ConfigError("a source has boxes, its labels, and truth does not name boxes")
+    are_labelled = items.all[0].boxes is not None
+    if any((item.boxes is not None) != are_labelled for item in items.all):
+        raise ConfigError("some sources have boxes, labels of their videos; give all some, or none")
+    if are_labelled and "boxes" not in specification.truth:
+        raise ConfigError("sources have boxes, labels of videos, and truth does not name boxes")
     if not specification.truth:
         return
     if items.are_videos:
-        _check_videos(specification, items)
-        return
-    check_generator(str(specification.options.get("generator", next(iter(GENERATORS.builtin)))))
-    if is_stored:
-        raise ConfigError(
-            "truth is known while a scene is rendered, and store_videos simulates from stored "
-            "videos; leave one of them out"
+        _check_videos(specification, are_labelled=are_labelled)
+        known = _names_of_labels(specification, items) if are_labelled else ()
+    else:
+        name = specification.options.get("generator", next(iter(GENERATORS.builtin)))
+        check_generator(str(name))
+        if is_stored:
+            raise ConfigError(
+                "truth is known while a scene is rendered, and store_videos simulates from stored "
+                "videos; leave one of them out"
+            )
+        known = (
+            *list_nouns(specification.options.get("assets")),
+            *_check_models(specification, items),
         )
-    _check_classes(specification, items)
+    for name in specification.class_of:
+        if name not in known:
+            raise ConfigError(
+                f"classes names {shown(name)}, which no source shows; {suggest(name, known)}"
+            )
 
 
-def _check_videos(specification: Specification, items: Items) -> None:
-    truth, options = specification.truth, specification.options
-    labelled = sum(item.boxes is not None for item in items.all)
-    for part in truth:
-        known = OPTIONS_OF_VIDEOS.get(part, ())
-        is_labelled = part == "boxes" and labelled == len(items.all)
-        if not is_labelled and not any(name in options for name in known):
-            remedy = f"give option {' or '.join(known)}" if known else "leave it out"
-            also = ", or each source `boxes`, its labels" if part == "boxes" else ""
+def _check_models(specification: Specification, items: Items) -> Iterable[str]:
+    """Names of models of scene files; refused without classes, because their ids are not fixed."""
+    objects = (one for item in items.all for one in (item.scene or {}).get("objects", ()))
+    own = sorted({str(one["noun"]) for one in objects if one.get("model") is not None})
+    has_own = own or "assets" in specification.options
+    if has_own and "boxes" in specification.truth and not specification.classes:
+        raise ConfigError(
+            "boxes of models of your own need `classes`, such as classes = ['car', 'bus']: the "
+            "class ids of their names differ from clip to clip"
+        )
+    return own
+
+
+def _check_videos(specification: Specification, *, are_labelled: bool) -> None:
+    for part in specification.truth:
+        options = OPTIONS_OF_VIDEOS.get(part, ())
+        is_known = any(name in specification.options for name in options)
+        if not is_known and not (are_labelled and part == "boxes"):
+            remedy = f"give option {' or '.join(options)}" if options else "leave it out"
+            also = ", or sources `boxes`, labels of their videos" if part == "boxes" else ""
             raise ConfigError(f"truth {part} is not known of videos; {remedy}{also}")
-    if labelled:
-        _check_labels(specification, items)
-    elif specification.classes:
-        raise ConfigError("classes are names of objects, and ids that come with frames have none")
 
 
-def _check_labels(specification: Specification, items: Items) -> None:
-    """Read the labels of all videos."""
+def _names_of_labels(specification: Specification, items: Items) -> tuple[str, ...]:
+    """Read the labels of all videos: the names of their classes.
+
+    Raises:
+        ConfigError, InputError: they cannot be used.
+    """
+    from texvent.capture.open import open_frames  # brings OpenCV
+    from texvent.truth.labels.reading import read_labels
+
+    options = extreme_options(specification.options)[0]
     if not specification.classes:
         raise ConfigError(
-            "labels of videos need `classes`, the names of those to keep in training order, such "
+            "boxes of videos need `classes`, the names of those to keep in training order, such "
             "as classes = ['car', 'truck']"
         )
     for name in ("start", "camera"):
-        if name in specification.options:
+        if name in options:
             raise ConfigError(
                 f"boxes are labels of the frames of a whole video, and option {name} shows others; "
                 "leave it out, and cut the video with its labels"
             )
+    capture: Any = resolve("simulate", options).source
     names = dict[str, None]()
     for item in items.all:
-        labels = read_labels(Path(item.boxes or ""))
-        if item.box_rate is not None and not labels.has_tracks:
+        try:
+            size = open_frames(item.video, capture).size
+        except InputError:
+            continue  # which its sample says
+        labels = read_labels(Path(item.boxes or ""), size)
+        if item.box_rate is not None and not labels.boxes["track_id"].all():
             raise ConfigError(
                 f"box_rate interpolates along tracks, and {labels.path} has boxes without one; "
                 "leave box_rate out"
             )
-        names |= dict.fromkeys(labels.names[one] for one in np.unique(labels.boxes["class_id"]))
-    for name in specification.class_of:
-        if name not in names:
-            raise ConfigError(f"classes names {shown(name)}, which no label has; "
-                              f"{suggest(name, tuple(names))}")  # fmt: skip
-
-
-def _check_classes(specification: Specification, items: Items) -> None:
-    assets = specification.options.get("assets")
-    own = set(_own_nouns(items))
-    if not specification.classes:
-        if "boxes" in specification.truth and (own or assets is not None):
-            raise ConfigError(
-                "boxes of models of your own need `classes`, such as classes = ['car', 'bus']: the "
-                "class ids of their names are not the same in every clip"
-            )
-        return
-    known = tuple(dict.fromkeys([*list_nouns(assets), *sorted(own)]))
-    for name in specification.class_of:
-        if name not in known:
-            raise ConfigError(f"classes names {shown(name)}, which no scene shows; "
-                              f"{suggest(name, known)}")  # fmt: skip
-
-
-def _own_nouns(items: Items) -> Iterator[str]:
-    """Names of the objects of scene files that have models of their own."""
-    for item in items.all:
-        for one in (item.scene or {}).get("objects", ()):
-            if one.get("model") is not None:
-                yield str(one["noun"])
+        names |= dict.fromkeys(labels.names)
+    return tuple(names)

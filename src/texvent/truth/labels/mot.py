@@ -1,9 +1,7 @@
-"""MOT text: frame, id, left, top, width, height, confidence, class, visibility; from 1.
+"""MOT text: frame, id, left, top, width, height, confidence, class, ..., counted from 1.
 
-Frames, ids and pixels count from 1; an id of -1 is none. A confidence of 0 marks a box that is not
-to be used. Without a class, boxes are of pedestrians.
-
-Source: the MOTChallenge formats of 2015 and 2016 (Milan et al., MOT16, arXiv:1603.00831, Table 6).
+An id or a class of -1 is none. A confidence of 0 marks a box that is not to be used. Classes are
+called by their numbers. Source: Milan et al., MOT16, arXiv:1603.00831, Table 6.
 """
 
 from __future__ import annotations
@@ -12,45 +10,22 @@ from pathlib import Path
 
 import numpy as np
 
-from texvent.errors import FileFormatError, InputError, one_line
-from texvent.truth.labels.labels import Labels, make_labels
+from texvent.sensor import SensorSize
+from texvent.truth.boxes import Label
 
-CLASSES = (
-    "pedestrian", "person on vehicle", "car", "bicycle", "motorbike", "non motorized vehicle",
-    "static person", "distractor", "occluder", "occluder on the ground", "occluder full",
-    "reflection", "crowd",
-)  # fmt: skip
-"""Names of the classes 1, 2, ..."""
-FEWEST, MOST = 6, 10
-"""Columns; those that are not there are not known."""
+COLUMNS = 8
+"""The last that is read; files of detections end before it."""
 
 
-def read_mot(path: Path) -> Labels:
-    """Labels of a MOT file.
-
-    Raises:
-        FileFormatError: it is no MOT file.
-        InputError: no box, or a class that MOT does not name.
-    """
-    try:
-        table = np.loadtxt(path, delimiter=",", ndmin=2)
-    except (OSError, ValueError) as error:
-        raise FileFormatError(f"{path} cannot be read as MOT text ({one_line(error)})") from error
-    if table.size and not FEWEST <= table.shape[1] <= MOST:
-        raise FileFormatError(
-            f"{path} has {table.shape[1]} columns; MOT's are frame, id, left, top, width, height, "
-            "confidence, class, visibility"
-        )
-    rows: list[tuple[float, ...]] = []
-    for line in table:
-        frame, track, x, y, w, h, score, kind = np.pad(line, (0, MOST), constant_values=-1)[:8]
-        if frame < 1 or frame != int(frame):
-            raise InputError(f"{path} has a frame {frame:g}; MOT counts frames from 1")
-        if kind > len(CLASSES) or kind != int(kind):
-            raise InputError(f"{path} has a class {kind:g}; MOT has those of 1..{len(CLASSES)}")
-        if score == 0:
-            continue
-        place, number = max(int(kind), 1) - 1, max(int(track), 0)
-        confidence = score if 0 < score <= 1 else 1.0
-        rows.append((frame - 1, x - 1, y - 1, w, h, place, number, confidence))
-    return make_labels(path, rows, CLASSES)
+def read_mot(path: Path, size: SensorSize) -> tuple[list[Label], set[int]]:
+    """Labels and labelled frames of a file; see `read_labels`."""
+    del size  # boxes are in pixels
+    labels, frames = [], set()
+    for row in np.loadtxt(path, delimiter=",", ndmin=2):
+        frame, track, x, y, w, h, *more = row.tolist()
+        confidence, kind = (*more, -1.0, -1.0)[:2]
+        frames.add(int(frame) - 1)
+        if confidence != 0:
+            at = int(frame) - 1, max(int(track), 0), str(int(kind))
+            labels.append(Label(*at, x - 1, y - 1, w, h))
+    return labels, frames
