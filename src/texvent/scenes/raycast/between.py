@@ -23,8 +23,6 @@ from texvent.scenes.raycast.reuse import Drawn, Mask, changed_tiles
 from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
 
-BLOCK = 4
-"""Side of the blocks of pixels that share their instants."""
 EVEN = 0.03
 """A level that is foretold to this share of it changes evenly."""
 DARK = 30.0
@@ -139,19 +137,18 @@ class Between:
         for one, other in ((first, middle), (middle, last)):
             tiles = changed_tiles(one, other)
             changed |= True if tiles is None else tiles
-        blocks = changed.repeat(TILE // BLOCK, axis=0).repeat(TILE // BLOCK, axis=1)
-        return blocks[: -(-height // BLOCK), : -(-width // BLOCK)]
+        return changed
 
 
 def _pixels(blocks: Mask, size: SensorSize) -> Mask:
     """[H, W] the pixels of blocks."""
-    wide = blocks.repeat(BLOCK, axis=0).repeat(BLOCK, axis=1)
+    wide = blocks.repeat(TILE, axis=0).repeat(TILE, axis=1)
     return np.ascontiguousarray(wide[: size.height, : size.width])
 
 
 def _any_in_block(pixels: Mask) -> Mask:
     """[rows, columns] of blocks with a true pixel."""
-    rows, columns = (np.arange(0, length, BLOCK) for length in pixels.shape)
+    rows, columns = (np.arange(0, length, TILE) for length in pixels.shape)
     upright = np.logical_or.reduceat(pixels, rows, axis=0)
     return np.asarray(np.logical_or.reduceat(upright, columns, axis=1))
 
@@ -164,7 +161,7 @@ def block_speeds(forward: Float32Array, backward: Float32Array) -> Float32Array:
         backward: [H, W, 2] vectors from the second frame.
     """
     height, width = forward.shape[:2]
-    speeds = np.zeros((-(-height // BLOCK), -(-width // BLOCK)), np.float32)
+    speeds = np.zeros((-(-height // TILE), -(-width // TILE)), np.float32)
     for vectors in (forward, backward):
         spread_speeds(vectors, speeds)
     return speeds
@@ -184,13 +181,13 @@ def spread_speeds(vectors: Float32Array, speeds: Float32Array) -> None:
             dx, dy = vectors[y, x, 0], vectors[y, x, 1]
             length = math.hypot(dx, dy)
             if not math.isfinite(length):
-                speeds[y // BLOCK, x // BLOCK] = math.inf
+                speeds[y // TILE, x // TILE] = math.inf
                 continue
-            steps = 1 + int(length / BLOCK)
+            steps = 1 + int(length / TILE)
             for step in range(steps + 1):
                 column, row = math.floor(x + dx * step / steps), math.floor(y + dy * step / steps)
                 if 0 <= column < width and 0 <= row < height:
-                    block = row // BLOCK, column // BLOCK
+                    block = row // TILE, column // TILE
                     speeds[block] = max(speeds[block], length)
 
 
@@ -214,7 +211,7 @@ def foretell_codes(
     for y in range(height):
         for x in range(width):
             code = before[y, x]
-            way = moved[y // BLOCK, x // BLOCK]
+            way = moved[y // TILE, x // TILE]
             if not wanted[y, x] or code == UNKNOWN or not way <= SURE_PX:
                 continue
             reach = 1 + int(0.5 * way)
