@@ -37,6 +37,7 @@ _THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
 UNKNOWN = -(1 << 41)
 """Probe value of lattice points that no wanted pixel needs, and of pixels with several surfaces."""
+Codes = NDArray[np.int64]
 _BISECTIONS = 6
 """Steps that place an edge between two probes: to 1/128 pixel with two probes per pixel side."""
 _MAX_EDGES = 4
@@ -346,7 +347,7 @@ def render_rows(
     samples: int,
     pattern: Float64Array,
     wanted: NDArray[np.bool_],
-    codes: NDArray[np.int64],
+    codes: Codes,
     image: Float64Array,
 ) -> None:
     """Fill the wanted pixels in some rows of an image.

@@ -17,21 +17,20 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
-from texvent.scenes.raycast.adaptive_sampling import UNKNOWN
+from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes
 from texvent.scenes.raycast.render import light_of_rows, world_and_shapes
 from texvent.scenes.raycast.reuse import Drawn, Mask, changed_tiles
 from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
 
-EVEN = 0.03
+EVEN = 0.02
 """A level that is foretold to this share of it changes evenly."""
 DARK = 30.0
 """Added to levels before they are compared, 0..255 scale."""
-FASTEST_PX = 4.0
+FASTEST_PX = 2.0
 """Blocks that something passes by more than this in an interval are drawn in its middle."""
 SURE_PX = 6.0
 """Motion in an interval, up to which what fills a pixel may follow from its ends."""
-Codes = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +41,7 @@ class Instant:
     """0 is the frame before, then the instants between, then the frame after."""
     luma: Float32Array
     """[H, W] levels."""
-    codes: Codes
+    codes: Codes | None
     """[H, W] what fills whole pixels, as for `render_rows`, where they were drawn."""
 
 
@@ -58,22 +57,17 @@ class Between:
     """Light [k, 3] (1 is white) → levels [k]."""
 
     def draw(
-        self,
-        ends: tuple[Float32Array, Float32Array],
-        speeds: Float32Array | None,
-        times_s: Sequence[float],
+        self, first: Instant, last: Instant, speeds: Float32Array | None, times_s: Sequence[float]
     ) -> Iterator[Float32Array]:
         """Levels [H, W] at the inner times, in their order.
 
         Args:
-            ends: [H, W] levels of both frames.
+            first: the frame before.
+            last: the frame after.
             speeds: [rows, columns] of blocks: how far what passes a block moves from frame to
                 frame, px; None: not known.
             times_s: of the frame before, of the instants, of the frame after.
         """
-        nothing = np.full(self.size.shape, UNKNOWN)
-        first = Instant(0, ends[0], nothing)
-        last = Instant(len(times_s) - 1, ends[1], nothing)
         blocks = self._changing(times_s)
         if speeds is None:
             speeds = np.full(blocks.shape, math.inf, np.float32)
@@ -101,7 +95,8 @@ class Between:
         if blocks.any():
             moved = speeds * np.float32(steps)
             wanted = _pixels(blocks, self.size)
-            foretell_codes(before.codes, after.codes, wanted, moved, codes)
+            if before.codes is not None and after.codes is not None:
+                foretell_codes(before.codes, after.codes, wanted, moved, codes)
             exact = self._luma(times_s[number], wanted, codes)
             uneven = np.zeros(self.size.shape, np.bool_)
             uneven[wanted] = np.abs(exact - luma[wanted]) > EVEN * (exact + np.float32(DARK))

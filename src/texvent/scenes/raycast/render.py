@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from texvent.runtime.threads import run_parts
 from texvent.scenes.raycast.acceleration import Bins, build_world
-from texvent.scenes.raycast.adaptive_sampling import BAND, UNKNOWN, render_rows
+from texvent.scenes.raycast.adaptive_sampling import BAND, UNKNOWN, Codes, render_rows
 from texvent.scenes.raycast.lamps.glow import see_glows
 from texvent.scenes.raycast.lamps.light import list_casters, order_lamps
 from texvent.scenes.raycast.puffs import describe_puffs
@@ -154,7 +154,7 @@ def light_of_rows(
     *,
     samples: int = 2,
     wanted: NDArray[np.bool_] | None = None,
-    codes: NDArray[np.int64] | None = None,
+    codes: Codes | None = None,
 ) -> Float64Array:
     """Some rows of what `render_light` gives.
 
