@@ -94,6 +94,14 @@ class ProceduralConfig:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class SceneFrame(Frame):
+    """A frame of a scene."""
+
+    codes: NDArray[np.int64] | None = None
+    """[H, W] what fills its pixels; see `scenes.raycast.adaptive_sampling.render_rows`."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class ProceduralVideo(NotebookFrames):
     """A rendered scene: a stream of frames that can also be rendered at any instant."""
 
@@ -143,13 +151,13 @@ class ProceduralVideo(NotebookFrames):
         memory = self._make_memory()
         for index in range(first, self.frame_count):
             t_us = frame_time_us(index, self.fps)
-            pixels = memory.render(t_us / MICROSECONDS)
+            pixels, codes = memory.render(t_us / MICROSECONDS)
             motion = self._motion(index) if self.has_motion else None
-            yield Frame(pixels, t_us, motion=motion, transfer=self.transfer)
+            yield SceneFrame(pixels, t_us, motion=motion, transfer=self.transfer, codes=codes)
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
-        pixels = self._memory.render(t_us / MICROSECONDS)
+        pixels, _ = self._memory.render(t_us / MICROSECONDS)
         return Frame(pixels, t_us, is_source=False, transfer=self.transfer)
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
@@ -182,7 +190,7 @@ class ProceduralVideo(NotebookFrames):
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
         """Frames of luma at times between two frames, each part drawn as often as it changes."""
-        from texvent.scenes.raycast.between import Between, block_speeds
+        from texvent.scenes.raycast.between import Between, Instant, block_speeds
 
         def luma(light: NDArray[np.float64]) -> NDArray[np.float32]:
             return np.asarray(luma_bt601(self._code(light)), dtype=np.float32)
@@ -194,7 +202,11 @@ class ProceduralVideo(NotebookFrames):
             speeds = block_speeds(forward, backward)
         drawing = Between(self.scene, self.size, config.samples, config.shadows, luma)
         times = [t_us / MICROSECONDS for t_us in (first.t_us, *times_us, second.t_us)]
-        images = drawing.draw((float_luma(first), float_luma(second)), speeds, times)
+        ends = [
+            Instant(number, float_luma(frame), getattr(frame, "codes", None))
+            for number, frame in ((0, first), (len(times) - 1, second))
+        ]
+        images = drawing.draw(*ends, speeds, times)
         for image, t_us in zip(images, times_us, strict=True):
             yield Frame(image, t_us, is_source=False, transfer=self.transfer)
 

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.scenes.lens import Lens, lens_reach
 from texvent.scenes.raycast.meshes.tree import describe_surfaces, tree_of
 from texvent.scenes.raycast.records import (
@@ -35,7 +36,7 @@ from texvent.scenes.scene import (
 )
 from texvent.sensor import SensorSize
 
-TILE = 16
+TILE = 4
 """Side of a screen tile, pixels."""
 SUN_CELLS = 96
 """Cells along each side of the sun grid."""
@@ -75,18 +76,33 @@ def bin_rectangles(rectangles: IntArray, numbers: IntArray, columns: int, rows: 
         columns: cells across.
         rows: cells down.
     """
-    low = np.maximum(rectangles[:, ::2], 0)
-    high = np.minimum(rectangles[:, 1::2], [columns - 1, rows - 1])
-    extent = np.maximum(high - low + 1, 0)
-    count = extent[:, 0] * extent[:, 1]
-    owner = np.repeat(np.arange(len(numbers)), count)
-    place = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
-    column = low[owner, 0] + place % extent[owner, 0]
-    row = low[owner, 1] + place // extent[owner, 0]
-    cell = row * columns + column
-    order = np.argsort(cell, kind="stable")
-    start = np.searchsorted(cell[order], np.arange(columns * rows + 1))
-    return Bins(start.astype(np.int64), numbers[owner[order]].astype(np.int64), columns, rows)
+    rectangles = np.ascontiguousarray(rectangles, dtype=np.int64)
+    numbers = np.ascontiguousarray(numbers, dtype=np.int64)
+    return Bins(*sort_into_cells(rectangles, numbers, columns, rows), columns, rows)
+
+
+@jit
+def sort_into_cells(
+    rectangles: IntArray, numbers: IntArray, columns: int, rows: int
+) -> tuple[IntArray, IntArray]:
+    """`Bins.start` and `Bins.items` of `bin_rectangles`."""
+    start = np.zeros(columns * rows + 1, np.int64)
+    for first, last, top, bottom in rectangles:
+        for row in range(max(top, 0), min(bottom, rows - 1) + 1):
+            for column in range(max(first, 0), min(last, columns - 1) + 1):
+                start[row * columns + column + 1] += 1
+    for cell in range(columns * rows):
+        start[cell + 1] += start[cell]
+    free = start.copy()
+    items = np.empty(start[-1], np.int64)
+    for index in range(len(rectangles)):
+        first, last, top, bottom = rectangles[index]
+        for row in range(max(top, 0), min(bottom, rows - 1) + 1):
+            for column in range(max(first, 0), min(last, columns - 1) + 1):
+                cell = row * columns + column
+                items[free[cell]] = numbers[index]
+                free[cell] += 1
+    return start, items
 
 
 def screen_bounds(

@@ -16,7 +16,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.acceleration import TILE
 from texvent.scenes.raycast.lamps.glow import add_glows
 from texvent.scenes.raycast.lamps.light import ALL_LIGHTS, LIT_BITS, SUN, lit_by
 from texvent.scenes.raycast.puffs import through_puffs
@@ -38,12 +37,15 @@ _THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
 UNKNOWN = -(1 << 41)
 """Probe value of lattice points that no wanted pixel needs, and of pixels with several surfaces."""
+Codes = NDArray[np.int64]
 _BISECTIONS = 6
 """Steps that place an edge between two probes: to 1/128 pixel with two probes per pixel side."""
 _MAX_EDGES = 4
 """Edges that are placed between two neighbouring probes."""
 _MAX_SURFACES = 64
 """Surfaces that may share a pixel."""
+BAND = 16
+"""Side of the squares of pixels that share a lattice of probes."""
 _SOFT_CLIP_START = 0.75
 """Light above this share of white is compressed instead of cut off."""
 
@@ -345,14 +347,14 @@ def render_rows(
     samples: int,
     pattern: Float64Array,
     wanted: NDArray[np.bool_],
-    codes: NDArray[np.int64],
+    codes: Codes,
     image: Float64Array,
 ) -> None:
     """Fill the wanted pixels in some rows of an image.
 
     Args:
         instants: `World.instant` of the scene.
-        rows: first row and one past the last one; at most `TILE` rows.
+        rows: first row and one past the last one; at most `BAND` rows.
         samples: probes per pixel side.
         pattern: [k, 2] sample positions in [0, 1)² for pixels with something thin.
         wanted: [H, W] which pixels to fill.
@@ -363,11 +365,11 @@ def render_rows(
     instant = instants[0]
     width = image.shape[1]
     top, bottom = rows
-    probes = np.empty((TILE * samples + 1, TILE * samples + 1), dtype=np.int64)
+    probes = np.empty((BAND * samples + 1, BAND * samples + 1), dtype=np.int64)
     shares = np.empty((_MAX_SURFACES, 6), dtype=np.float64)
     around = np.empty((samples + 1, samples + 1), dtype=np.int64)
-    for left in range(0, width, TILE):
-        right = min(left + TILE, width)
+    for left in range(0, width, BAND):
+        right = min(left + BAND, width)
         in_tile = wanted[top:bottom, left:right]
         if not in_tile.any():
             continue

@@ -17,23 +17,20 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
-from texvent.scenes.raycast.adaptive_sampling import UNKNOWN
+from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes
 from texvent.scenes.raycast.render import light_of_rows, world_and_shapes
 from texvent.scenes.raycast.reuse import Drawn, Mask, changed_tiles
 from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
 
-BLOCK = 4
-"""Side of the blocks of pixels that share their instants."""
-EVEN = 0.03
+EVEN = 0.02
 """A level that is foretold to this share of it changes evenly."""
 DARK = 30.0
 """Added to levels before they are compared, 0..255 scale."""
-FASTEST_PX = 4.0
+FASTEST_PX = 2.0
 """Blocks that something passes by more than this in an interval are drawn in its middle."""
 SURE_PX = 6.0
 """Motion in an interval, up to which what fills a pixel may follow from its ends."""
-Codes = NDArray[np.int64]
 
 
 @dataclass(frozen=True, eq=False)
@@ -44,7 +41,7 @@ class Instant:
     """0 is the frame before, then the instants between, then the frame after."""
     luma: Float32Array
     """[H, W] levels."""
-    codes: Codes
+    codes: Codes | None
     """[H, W] what fills whole pixels, as for `render_rows`, where they were drawn."""
 
 
@@ -60,22 +57,17 @@ class Between:
     """Light [k, 3] (1 is white) → levels [k]."""
 
     def draw(
-        self,
-        ends: tuple[Float32Array, Float32Array],
-        speeds: Float32Array | None,
-        times_s: Sequence[float],
+        self, first: Instant, last: Instant, speeds: Float32Array | None, times_s: Sequence[float]
     ) -> Iterator[Float32Array]:
         """Levels [H, W] at the inner times, in their order.
 
         Args:
-            ends: [H, W] levels of both frames.
+            first: the frame before.
+            last: the frame after.
             speeds: [rows, columns] of blocks: how far what passes a block moves from frame to
                 frame, px; None: not known.
             times_s: of the frame before, of the instants, of the frame after.
         """
-        nothing = np.full(self.size.shape, UNKNOWN)
-        first = Instant(0, ends[0], nothing)
-        last = Instant(len(times_s) - 1, ends[1], nothing)
         blocks = self._changing(times_s)
         if speeds is None:
             speeds = np.full(blocks.shape, math.inf, np.float32)
@@ -103,7 +95,8 @@ class Between:
         if blocks.any():
             moved = speeds * np.float32(steps)
             wanted = _pixels(blocks, self.size)
-            foretell_codes(before.codes, after.codes, wanted, moved, codes)
+            if before.codes is not None and after.codes is not None:
+                foretell_codes(before.codes, after.codes, wanted, moved, codes)
             exact = self._luma(times_s[number], wanted, codes)
             uneven = np.zeros(self.size.shape, np.bool_)
             uneven[wanted] = np.abs(exact - luma[wanted]) > EVEN * (exact + np.float32(DARK))
@@ -139,19 +132,18 @@ class Between:
         for one, other in ((first, middle), (middle, last)):
             tiles = changed_tiles(one, other)
             changed |= True if tiles is None else tiles
-        blocks = changed.repeat(TILE // BLOCK, axis=0).repeat(TILE // BLOCK, axis=1)
-        return blocks[: -(-height // BLOCK), : -(-width // BLOCK)]
+        return changed
 
 
 def _pixels(blocks: Mask, size: SensorSize) -> Mask:
     """[H, W] the pixels of blocks."""
-    wide = blocks.repeat(BLOCK, axis=0).repeat(BLOCK, axis=1)
+    wide = blocks.repeat(TILE, axis=0).repeat(TILE, axis=1)
     return np.ascontiguousarray(wide[: size.height, : size.width])
 
 
 def _any_in_block(pixels: Mask) -> Mask:
     """[rows, columns] of blocks with a true pixel."""
-    rows, columns = (np.arange(0, length, BLOCK) for length in pixels.shape)
+    rows, columns = (np.arange(0, length, TILE) for length in pixels.shape)
     upright = np.logical_or.reduceat(pixels, rows, axis=0)
     return np.asarray(np.logical_or.reduceat(upright, columns, axis=1))
 
@@ -164,7 +156,7 @@ def block_speeds(forward: Float32Array, backward: Float32Array) -> Float32Array:
         backward: [H, W, 2] vectors from the second frame.
     """
     height, width = forward.shape[:2]
-    speeds = np.zeros((-(-height // BLOCK), -(-width // BLOCK)), np.float32)
+    speeds = np.zeros((-(-height // TILE), -(-width // TILE)), np.float32)
     for vectors in (forward, backward):
         spread_speeds(vectors, speeds)
     return speeds
@@ -184,13 +176,13 @@ def spread_speeds(vectors: Float32Array, speeds: Float32Array) -> None:
             dx, dy = vectors[y, x, 0], vectors[y, x, 1]
             length = math.hypot(dx, dy)
             if not math.isfinite(length):
-                speeds[y // BLOCK, x // BLOCK] = math.inf
+                speeds[y // TILE, x // TILE] = math.inf
                 continue
-            steps = 1 + int(length / BLOCK)
+            steps = 1 + int(length / TILE)
             for step in range(steps + 1):
                 column, row = math.floor(x + dx * step / steps), math.floor(y + dy * step / steps)
                 if 0 <= column < width and 0 <= row < height:
-                    block = row // BLOCK, column // BLOCK
+                    block = row // TILE, column // TILE
                     speeds[block] = max(speeds[block], length)
 
 
@@ -214,7 +206,7 @@ def foretell_codes(
     for y in range(height):
         for x in range(width):
             code = before[y, x]
-            way = moved[y // BLOCK, x // BLOCK]
+            way = moved[y // TILE, x // TILE]
             if not wanted[y, x] or code == UNKNOWN or not way <= SURE_PX:
                 continue
             reach = 1 + int(0.5 * way)

@@ -101,7 +101,7 @@ def light_through(instant: Record, point: Vector) -> Colour:
     return light
 
 
-LONGITUDES, LATITUDES = 48, 24
+LONGITUDES, LATITUDES = 96, 64
 """Cells of the grid of directions around a lamp: around the vertical, and by the sine of the
 height."""
 MOST_SHADOW_LAMPS = 4
