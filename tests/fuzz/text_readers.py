@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from functools import partial
 from pathlib import Path
 from typing import Any
@@ -24,6 +25,7 @@ from texvent.scenes.staging.compose import compose_scene
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.transform.undistort import read_calibration
+from texvent.truth.labels.reading import read_labels
 
 from ..io.test_pixel_mask import write_mask
 from ..metrics.lpips.lpips_files import NARROW, narrow_weights, write_published
@@ -38,6 +40,18 @@ LISTS = {
     ".txt": "# prompts\na red car drives left\n\na dog runs\n",
     ".csv": 'prompt,video,name,seed\n"a car, red",,one,3\na dog,clip.mp4,two,\n',
     ".jsonl": '{"prompt": "a car", "name": "a", "seed": 7}\n"a dog"\n{"video": "clip.mp4"}\n',
+}
+YOLO = "clip_1.txt"
+"""In a folder of one frame."""
+_COCO: dict[str, Any] = {
+    "images": [{"id": 1, "width": 40, "height": 20}],
+    "categories": [{"id": 3, "name": "car"}],
+    "annotations": [{"image_id": 1, "category_id": 3, "bbox": [4, 2, 8, 6.5], "track_id": 7}],
+}
+LABELS = {
+    "labels.json": json.dumps(_COCO),
+    "labels.txt": "1,1,5,3,8,6.5,1,3,1\n2,1,6,3,8,6,1,3,1\n",
+    YOLO: "2 0.5 0.5 0.2 0.25\n",
 }
 MASK_SIZE = SensorSize(12, 9)
 TEXTS: dict[str, tuple[str, Any]] = {
@@ -93,6 +107,10 @@ def text_readers() -> list[Reader]:
             Reader(f"option {name}", partial(_make_text, "option.txt", text), partial(_read, parse))
             for name, (text, parse) in TEXTS.items()
         ),
+        *(
+            Reader(f"labels {name}", partial(_make_text, name, text), partial(_read_labels, name))
+            for name, text in LABELS.items()
+        ),
         Reader("weights .npz", _make_weights, _read_weights),
         Reader("weights pickle", _make_published, _read_weights),
     ]
@@ -131,6 +149,11 @@ def _make_scene(ending: str, folder: Path) -> Path:
 
 def _read_scene(path: Path) -> str:
     return repr(describe_scene(load_scene(path), list_nouns()))[:1000]
+
+
+def _read_labels(name: str, path: Path) -> str:
+    labels = read_labels(path.parent if name == YOLO else path, SensorSize(40, 20))
+    return digest([labels.boxes.tobytes(), labels.frames, labels.names])
 
 
 def _read_list(path: Path) -> str:

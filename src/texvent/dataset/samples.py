@@ -201,8 +201,8 @@ class SimulatedSamples:
               start, [2, H, W] float32; NaN where it ends behind the camera.
             * `depth`: metres at the end of the slice, [H, W] float32; inf for the sky.
             * `instance`: id of the object seen at the end of the slice, [H, W] int32.
-            * `boxes`: at the end of the slice, as `texvent.truth.boxes.detection_target` gives them,
-              a tuple over slices; labels are the class ids of nouns.
+            * `boxes`: at the end of the slice, as `texvent.truth.boxes.detection_target` gives
+              them, a tuple over slices; labels are the class ids of nouns.
             * `stop_us`: end of the slice, µs, int64.
             * `source`: index of the prompt or video.
             * `number`, `seed`: of the sample.

@@ -43,8 +43,9 @@ class TruthRecorder:
         *,
         place_labels: Callable[..., tuple[NDArray[np.void], NDArray[np.int64]]] | None = None,
     ) -> None:
-        of_frames = [part for part in parts if place_labels is None or part != "boxes"]
-        self._source, self._parts = TruthSource(video, of_frames), parts
+        self._parts = tuple(dict.fromkeys(parts))
+        of_frames = [part for part in self._parts if place_labels is None or part != "boxes"]
+        self._source = TruthSource(video, of_frames)
         self._place_labels = place_labels
         self._names = tuple(dict.fromkeys(classes.values()))
         self._numbers = {noun: self._names.index(name) for noun, name in classes.items()}

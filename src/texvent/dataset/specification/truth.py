@@ -87,7 +87,7 @@ def _check_videos(specification: Specification, *, are_labelled: bool) -> None:
 
 
 def _names_of_labels(specification: Specification, items: Items) -> tuple[str, ...]:
-    """Read the labels of all videos: the names of their classes.
+    """Read the labels of all videos: the names of their classes, all where no video can be opened.
 
     Raises:
         ConfigError, InputError: they cannot be used.
@@ -101,8 +101,9 @@ def _names_of_labels(specification: Specification, items: Items) -> tuple[str, .
             "boxes of videos need `classes`, the names of those to keep in training order, such "
             "as classes = ['car', 'truck']"
         )
+    given = {*options, *(name for one in specification.variants for name in one.options)}
     for name in ("start", "camera"):
-        if name in options:
+        if name in given:
             raise ConfigError(
                 f"boxes are labels of the frames of a whole video, and option {name} shows others; "
                 "leave it out, and cut the video with its labels"
@@ -121,4 +122,4 @@ def _names_of_labels(specification: Specification, items: Items) -> tuple[str, .
                 "leave box_rate out"
             )
         names |= dict.fromkeys(labels.names)
-    return tuple(names)
+    return tuple(names) or tuple(specification.class_of)

@@ -21,10 +21,11 @@ def read_coco(path: Path, size: SensorSize) -> tuple[list[Label], set[int]]:
     images = facts["images"]
     frames = {one["id"]: int(one.get("frame_id", place)) for place, one in enumerate(images)}
     for one in images:
-        if (one["width"], one["height"]) != size:
+        labelled = SensorSize(int(one["width"]), int(one["height"]))
+        if labelled != size:
             raise InputError(
-                f"{path} labels pictures of {one['width']}x{one['height']}, and the video has "
-                f"{size}; give the video that was labelled"
+                f"{path} labels pictures of {labelled!s:.40}, and the video has {size}; give the "
+                "video that was labelled"
             )
     labels = []
     for one in facts["annotations"]:

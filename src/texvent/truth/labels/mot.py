@@ -8,21 +8,16 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import Label
-
-COLUMNS = 8
-"""The last that is read; files of detections end before it."""
 
 
 def read_mot(path: Path, size: SensorSize) -> tuple[list[Label], set[int]]:
     """Labels and labelled frames of a file; see `read_labels`."""
     del size  # boxes are in pixels
     labels, frames = [], set()
-    for row in np.loadtxt(path, delimiter=",", ndmin=2):
-        frame, track, x, y, w, h, *more = row.tolist()
+    for line in filter(str.strip, path.read_text(encoding="ascii").splitlines()):
+        frame, track, x, y, w, h, *more = map(float, line.split(","))
         confidence, kind = (*more, -1.0, -1.0)[:2]
         frames.add(int(frame) - 1)
         if confidence != 0:

@@ -29,6 +29,11 @@ READERS: Mapping[str, tuple[str, Reader]] = MappingProxyType(
     }
 )
 """Extension → name of the format, and its reader: boxes, and frames that were labelled, from 0."""
+DAMAGE = (OSError, ValueError, TypeError, LookupError, AttributeError, ArithmeticError,
+          RecursionError)  # fmt: skip
+"""Readers raise any of these on a damaged file."""
+LARGEST = 1e6
+"""Sides of boxes are below this, px."""
 FARTHEST = 3.0
 """A box that moves by more of its diagonals from frame to frame is that of another object; a car
 that crosses the picture in a quarter of a second moves by less than one."""
@@ -117,25 +122,28 @@ def read_labels(path: Path, size: SensorSize) -> Labels:
         raise FileFormatError(f"{path} is neither COCO (.json) nor MOT (.txt) nor a YOLO folder")
     format, read = READERS[kind]
     try:
-        rows, frames = read(path, size)
+        rows, numbers = read(path, size)
+        names = tuple(sorted({row.name for row in rows}))
+        rows.sort()
+        if not all(abs(side) < LARGEST for row in rows for side in row[3:]):
+            raise ValueError(f"a side of a box is not a number below {LARGEST:g} px")
+        boxes = np.array([row.record(names.index(row.name)) for row in rows], BOX_RECORD)
+        frames = np.array(sorted(numbers), np.int64)
     except InputError:
         raise
-    except (OSError, ValueError, TypeError, KeyError, AttributeError, RecursionError) as error:
+    except DAMAGE as error:
         raise FileFormatError(f"{path} cannot be read as {format} ({one_line(error)})") from error
-    if not rows or min(frames) < 0:
+    if not rows or frames[0] < 0:
         what = "a frame before the first" if rows else "no box"
         raise InputError(f"{path} has {what}; leave its video out, or give it another file")
-    rows.sort()
-    names = tuple(sorted({row.name for row in rows}))
-    boxes = np.array([row.record(names.index(row.name)) for row in rows], BOX_RECORD)
     is_inside = clip_boxes(boxes, size)
     if not is_inside.all():
         raise InputError(
-            f"{path}: {rows[int(np.argmin(is_inside))]} has no part inside the picture, {size}; "
-            "correct or remove it"
+            f"{path}: {rows[int(np.argmin(is_inside))]!r:.300} has no part inside the picture of "
+            f"{size}; correct or remove it"
         )
     _refuse_jumps(path, boxes)
-    return Labels(path, size, boxes, np.array(sorted(frames)), names)
+    return Labels(path, size, boxes, frames, names)
 
 
 def _refuse_jumps(path: Path, boxes: NDArray[np.void]) -> None:
