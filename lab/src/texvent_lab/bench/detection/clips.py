@@ -123,14 +123,14 @@ def mark_resting(windows: Sequence[NDArray[np.void]]) -> list[NDArray[np.void]]:
 
     An object that rests before a standing camera makes no events: no network can find it, and one
     that remembers it is not wrong. What rests follows from the boxes alone, so that all simulators
-    are asked for the same ones.
+    are asked for the same ones. Where no neighbouring window has the object, it counts as moving.
 
     Args:
         windows: boxes at the ends of successive windows.
     """
     marked = []
     for number, boxes in enumerate(windows):
-        neighbour = windows[number - 1 if number else min(1, len(windows) - 1)]
+        neighbour = windows[abs(number - 1)] if len(windows) > 1 else boxes[:0]
         before = {int(one["track_id"]): _edges(one) for one in neighbour}
         found = boxes.copy()
         for box in found:

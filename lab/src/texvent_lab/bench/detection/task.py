@@ -12,7 +12,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -82,6 +82,14 @@ class DetectionTask:
         self.classes = read_classes(self._folder)
         self._validation = read_clips(self._folder, config.data.validation_split)
         self._clips: list[Clip] = []
+
+    @classmethod
+    def of(cls, config: DetectionConfig, classes: Sequence[str], clips: list[Clip]) -> Self:
+        """A task of clips in memory, which it trains on and scores."""
+        task = cls.__new__(cls)
+        task._config, task.classes = config, tuple(classes)
+        task._clips = task._validation = clips
+        return task
 
     def make_network(self) -> Any:
         """See `Task`."""
