@@ -52,9 +52,9 @@ def test_motion_of_frames_is_the_ground_truth():
     [
         ("city driving at night", 0.7),
         ("driving through a forest", 0.8),
-        ("cars drive past houses on a street", 0.3),
-        ("a fan", 0.3),
-        ("a room, the camera turns", 0.9),
+        ("cars drive past houses on a street", 0.25),
+        ("a fan", 0.25),
+        ("a room, the camera turns quickly", 0.8),
     ],
 )
 def test_events_agree_with_those_of_every_instant_rendered(monkeypatch, prompt, most_drawn):
@@ -71,7 +71,7 @@ def test_events_agree_with_those_of_every_instant_rendered(monkeypatch, prompt, 
         options = {"interpolate": interpolate, "fixed_count": 15, "noise": "none"}
         run = Simulation(video=video(prompt), settings=resolve("generate", options))
         streams[interpolate] = run.packets.collect()
-    assert compare(streams["motion"], streams["exact"], ["stpp"])["stpp"] > 0.99
+    assert compare(streams["motion"], streams["exact"], ["stpp"])["stpp"] > 0.97
     instants = 15 * (video(prompt).frame_count - 1)
     assert sum(drawn) < most_drawn * instants
 

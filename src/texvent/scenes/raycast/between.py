@@ -25,8 +25,9 @@ from texvent.sensor import SensorSize
 
 BLOCK = 4
 """Side of the blocks of pixels that share their instants; divides `TILE`."""
-EVEN = 0.02
-"""A level that is foretold to this share of it changes evenly."""
+EVEN, EVEN_S = 0.04, 2e-4
+"""A level that is foretold to this share of it changes evenly; in long intervals, where the same
+error shifts events further, to `EVEN_S` over the interval."""
 DARK = 30.0
 """Added to levels before they are compared, 0..255 scale."""
 FASTEST_PX = 2.0
@@ -101,7 +102,8 @@ class Between:
                 foretell_codes(before.codes, after.codes, wanted, moved, codes)
             exact = self._luma(times_s[number], wanted, codes)
             uneven = np.zeros(self.size.shape, np.bool_)
-            uneven[wanted] = np.abs(exact - luma[wanted]) > EVEN * (exact + np.float32(DARK))
+            limit = np.float32(min(EVEN, EVEN_S / (stop - start)))
+            uneven[wanted] = np.abs(exact - luma[wanted]) > limit * (exact + np.float32(DARK))
             luma[wanted] = exact
             blocks = blocks & (_any_in_block(uneven) | (moved > FASTEST_PX))
         middle = Instant(number, luma, codes)
