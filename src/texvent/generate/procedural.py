@@ -117,8 +117,6 @@ class ProceduralVideo(NotebookFrames):
     """Highest frequency at which any light goes up and down, Hz, or None where all is steady."""
     has_motion: bool = False
     """Whether frames carry exact motion vectors and depth."""
-    has_moving_light: bool = False
-    """Whether light moves that belongs to no surface: beams, the glow of lamps, smoke."""
     transfer: Transfer = Transfer.GAMMA
     """Whether frames are gamma-coded or linear."""
     is_grey: bool = False
@@ -189,7 +187,21 @@ class ProceduralVideo(NotebookFrames):
         return replace(self, has_motion=True)
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
-        """Frames of luma at times between two frames, each part drawn as often as it changes."""
+        """Frames of luma at times between two frames, each part drawn as often as it changes.
+
+        Light that beats is drawn at every instant: two frames and their middle may all show the
+        same moment of its beat.
+        """
+        if self.flicker_hz is not None:
+            images = (float_luma(self.at(t_us)) for t_us in times_us)
+        else:
+            images = self._draw_between(first, second, times_us)
+        for image, t_us in zip(images, times_us, strict=True):
+            yield Frame(image, t_us, is_source=False, transfer=self.transfer)
+
+    def _draw_between(
+        self, first: Frame, second: Frame, times_us: Sequence[int]
+    ) -> Iterator[NDArray[np.float32]]:
         from texvent.scenes.raycast.between import Between, Instant, block_speeds
 
         def luma(light: NDArray[np.float64]) -> NDArray[np.float32]:
@@ -206,9 +218,7 @@ class ProceduralVideo(NotebookFrames):
             Instant(number, float_luma(frame), getattr(frame, "codes", None))
             for number, frame in ((0, first), (len(times) - 1, second))
         ]
-        images = drawing.draw(*ends, speeds, times)
-        for image, t_us in zip(images, times_us, strict=True):
-            yield Frame(image, t_us, is_source=False, transfer=self.transfer)
+        return drawing.draw(ends[0], ends[1], speeds, times)
 
     def _motion(self, index: int) -> Motion:
         """Motion from a frame to its neighbours."""
@@ -317,7 +327,6 @@ class ProceduralGenerator:
             self.config,
             metadata,
             flicker_hz=scene.flicker_hz,
-            has_moving_light=scene.has_moving_light,
             transfer=transfer,
             is_grey=scene.is_grey,
         )

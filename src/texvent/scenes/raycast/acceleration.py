@@ -36,7 +36,7 @@ from texvent.scenes.scene import (
 )
 from texvent.sensor import SensorSize
 
-TILE = 4
+TILE = 16
 """Side of a screen tile, pixels."""
 SUN_CELLS = 96
 """Cells along each side of the sun grid."""

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
+from texvent.scenes.raycast.acceleration import TILE
 from texvent.scenes.raycast.lamps.glow import add_glows
 from texvent.scenes.raycast.lamps.light import ALL_LIGHTS, LIT_BITS, SUN, lit_by
 from texvent.scenes.raycast.puffs import through_puffs
@@ -44,8 +45,6 @@ _MAX_EDGES = 4
 """Edges that are placed between two neighbouring probes."""
 _MAX_SURFACES = 64
 """Surfaces that may share a pixel."""
-BAND = 16
-"""Side of the squares of pixels that share a lattice of probes."""
 _SOFT_CLIP_START = 0.75
 """Light above this share of white is compressed instead of cut off."""
 
@@ -354,7 +353,7 @@ def render_rows(
 
     Args:
         instants: `World.instant` of the scene.
-        rows: first row and one past the last one; at most `BAND` rows.
+        rows: first row and one past the last one; at most `TILE` rows.
         samples: probes per pixel side.
         pattern: [k, 2] sample positions in [0, 1)² for pixels with something thin.
         wanted: [H, W] which pixels to fill.
@@ -365,11 +364,11 @@ def render_rows(
     instant = instants[0]
     width = image.shape[1]
     top, bottom = rows
-    probes = np.empty((BAND * samples + 1, BAND * samples + 1), dtype=np.int64)
+    probes = np.empty((TILE * samples + 1, TILE * samples + 1), dtype=np.int64)
     shares = np.empty((_MAX_SURFACES, 6), dtype=np.float64)
     around = np.empty((samples + 1, samples + 1), dtype=np.int64)
-    for left in range(0, width, BAND):
-        right = min(left + BAND, width)
+    for left in range(0, width, TILE):
+        right = min(left + TILE, width)
         in_tile = wanted[top:bottom, left:right]
         if not in_tile.any():
             continue

@@ -23,8 +23,11 @@ from texvent.scenes.raycast.reuse import Drawn, Mask, changed_tiles
 from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
 
-EVEN = 0.02
-"""A level that is foretold to this share of it changes evenly."""
+BLOCK = 4
+"""Side of the blocks of pixels that share their instants; divides `TILE`."""
+EVEN, EVEN_S = 0.04, 2e-4
+"""A level that is foretold to this share of it changes evenly; in long intervals, where the same
+error shifts events further, to `EVEN_S` over the interval."""
 DARK = 30.0
 """Added to levels before they are compared, 0..255 scale."""
 FASTEST_PX = 2.0
@@ -99,7 +102,8 @@ class Between:
                 foretell_codes(before.codes, after.codes, wanted, moved, codes)
             exact = self._luma(times_s[number], wanted, codes)
             uneven = np.zeros(self.size.shape, np.bool_)
-            uneven[wanted] = np.abs(exact - luma[wanted]) > EVEN * (exact + np.float32(DARK))
+            limit = np.float32(min(EVEN, EVEN_S / (stop - start)))
+            uneven[wanted] = np.abs(exact - luma[wanted]) > limit * (exact + np.float32(DARK))
             luma[wanted] = exact
             blocks = blocks & (_any_in_block(uneven) | (moved > FASTEST_PX))
         middle = Instant(number, luma, codes)
@@ -132,18 +136,19 @@ class Between:
         for one, other in ((first, middle), (middle, last)):
             tiles = changed_tiles(one, other)
             changed |= True if tiles is None else tiles
-        return changed
+        blocks = changed.repeat(TILE // BLOCK, axis=0).repeat(TILE // BLOCK, axis=1)
+        return blocks[: -(-height // BLOCK), : -(-width // BLOCK)]
 
 
 def _pixels(blocks: Mask, size: SensorSize) -> Mask:
     """[H, W] the pixels of blocks."""
-    wide = blocks.repeat(TILE, axis=0).repeat(TILE, axis=1)
+    wide = blocks.repeat(BLOCK, axis=0).repeat(BLOCK, axis=1)
     return np.ascontiguousarray(wide[: size.height, : size.width])
 
 
 def _any_in_block(pixels: Mask) -> Mask:
     """[rows, columns] of blocks with a true pixel."""
-    rows, columns = (np.arange(0, length, TILE) for length in pixels.shape)
+    rows, columns = (np.arange(0, length, BLOCK) for length in pixels.shape)
     upright = np.logical_or.reduceat(pixels, rows, axis=0)
     return np.asarray(np.logical_or.reduceat(upright, columns, axis=1))
 
@@ -156,7 +161,7 @@ def block_speeds(forward: Float32Array, backward: Float32Array) -> Float32Array:
         backward: [H, W, 2] vectors from the second frame.
     """
     height, width = forward.shape[:2]
-    speeds = np.zeros((-(-height // TILE), -(-width // TILE)), np.float32)
+    speeds = np.zeros((-(-height // BLOCK), -(-width // BLOCK)), np.float32)
     for vectors in (forward, backward):
         spread_speeds(vectors, speeds)
     return speeds
@@ -176,13 +181,13 @@ def spread_speeds(vectors: Float32Array, speeds: Float32Array) -> None:
             dx, dy = vectors[y, x, 0], vectors[y, x, 1]
             length = math.hypot(dx, dy)
             if not math.isfinite(length):
-                speeds[y // TILE, x // TILE] = math.inf
+                speeds[y // BLOCK, x // BLOCK] = math.inf
                 continue
-            steps = 1 + int(length / TILE)
+            steps = 1 + int(length / BLOCK)
             for step in range(steps + 1):
                 column, row = math.floor(x + dx * step / steps), math.floor(y + dy * step / steps)
                 if 0 <= column < width and 0 <= row < height:
-                    block = row // TILE, column // TILE
+                    block = row // BLOCK, column // BLOCK
                     speeds[block] = max(speeds[block], length)
 
 
@@ -206,7 +211,7 @@ def foretell_codes(
     for y in range(height):
         for x in range(width):
             code = before[y, x]
-            way = moved[y // TILE, x // TILE]
+            way = moved[y // BLOCK, x // BLOCK]
             if not wanted[y, x] or code == UNKNOWN or not way <= SURE_PX:
                 continue
             reach = 1 + int(0.5 * way)

@@ -10,10 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.threads import run_parts
-from texvent.scenes.raycast.acceleration import Bins, build_world
-from texvent.scenes.raycast.adaptive_sampling import BAND, UNKNOWN, Codes, render_rows
+from texvent.scenes.raycast.acceleration import TILE, Bins, build_world
+from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes, render_rows
 from texvent.scenes.raycast.lamps.glow import see_glows
-from texvent.scenes.raycast.lamps.light import list_casters, order_lamps
+from texvent.scenes.raycast.lamps.light import cover_with_balls, list_casters, order_lamps
 from texvent.scenes.raycast.puffs import describe_puffs
 from texvent.scenes.raycast.records import World
 from texvent.scenes.scene import (
@@ -51,7 +51,10 @@ def light_up(
     instant = world.instant
     lamps, casting = order_lamps(environment.lamps, shadows=shadows)
     inverse = world.shapes["inverse"]
-    grids = [list_casters(lamp, primitives, inverse) for lamp in lamps[:casting]]
+    grids = []
+    if casting:
+        balls = cover_with_balls(primitives)
+        grids = [list_casters(lamp, balls, primitives, inverse) for lamp in lamps[:casting]]
     instant["shadow_lamps"] = casting
     instant["lamp_cells"] = len(world.lists)
     puffs, tiles = describe_puffs(environment.puffs, rays, instant[0])
@@ -176,10 +179,10 @@ def light_of_rows(
     pattern = sample_pattern((4 * samples) ** 2)
 
     def draw(top: int) -> None:
-        band = top, min(top + BAND, last)
+        band = top, min(top + TILE, last)
         render_rows(world.instant, band, samples, pattern, chosen, known, image)
 
-    run_parts(draw, range(first, last, BAND))
+    run_parts(draw, range(first, last, TILE))
     return image[first:]
 
 
