@@ -95,7 +95,11 @@ def test_a_detector_finds_what_it_was_trained_on():
     network = task.make_network().train()
     optimizer = DetectionConfig().schedule.make_optimizer(network)
     learned = torch.tensor([[0, 1]] * 4)
-    batch = {"number": torch.arange(4), "flip": torch.zeros(4, dtype=torch.bool), "learned": learned}
+    batch = {
+        "number": torch.arange(4),
+        "flip": torch.zeros(4, dtype=torch.bool),
+        "learned": learned,
+    }
     for _ in range(40):
         loss = task.loss(network, batch, torch.device("cpu"))
         optimizer.zero_grad()
@@ -130,7 +134,15 @@ def test_arms_are_made_trained_and_tested_and_kept(tmp_path: Path):
     first = document["scores"][0]
     assert first["clips"] == {"train": 4, "val": 2, "test": 2}
     assert first["boxes"] == document["scores"][1]["boxes"] > 0
-    assert set(first["ap50"]) == {"car", "truck", "bus", "motorcycle", "cyclist", "pedestrian", "all"}
+    assert set(first["ap50"]) == {
+        "car",
+        "truck",
+        "bus",
+        "motorcycle",
+        "cyclist",
+        "pedestrian",
+        "all",
+    }
     times = {one: one.stat().st_mtime_ns for one in (tmp_path / "work").rglob("*.pt")}
     run([*words, "-o", str(tmp_path / "two.json")])
     assert times == {one: one.stat().st_mtime_ns for one in times}
