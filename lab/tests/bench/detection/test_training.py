@@ -100,7 +100,7 @@ def test_a_detector_finds_what_it_was_trained_on():
         "flip": torch.zeros(4, dtype=torch.bool),
         "learned": learned,
     }
-    for _ in range(40):
+    for _ in range(80):
         loss = task.loss(network, batch, torch.device("cpu"))
         optimizer.zero_grad()
         loss.backward()

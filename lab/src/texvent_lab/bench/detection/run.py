@@ -22,9 +22,9 @@ from texvent import dataset
 from texvent.config import check_range
 from texvent.data.pull import find_pulled
 from texvent.dataset.export import export
-from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.layouts.rvt import WINDOW_US
 from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.specification.items import read_items
 from texvent.dataset.specification.reading import read_specification
 from texvent.dataset.specification.specification import Specification
 from texvent.errors import ConfigError, TexventError, shown
@@ -167,7 +167,7 @@ def with_count(specification: Specification, clips: int | None) -> Specification
         sources = [dataclasses.replace(one, count=count) for one in specification.sources]
         return dataclasses.replace(specification, sources=tuple(sources))
 
-    return shared(max(1, clips // len(Recipe.of(shared(1)).items.all)))
+    return shared(max(1, clips // len(read_items(shared(1)).all)))
 
 
 def train_and_test(plan: DetectionPlan, hardware: Hardware, arm: str, seed: int) -> ArmScore:
