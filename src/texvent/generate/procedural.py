@@ -192,6 +192,7 @@ class ProceduralVideo(NotebookFrames):
         Light that beats is drawn at every instant: two frames and their middle may all show the
         same moment of its beat.
         """
+        images: Iterator[NDArray[np.float32]]
         if self.flicker_hz is not None:
             images = (float_luma(self.at(t_us)) for t_us in times_us)
         else:
