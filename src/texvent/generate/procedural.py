@@ -206,7 +206,7 @@ class ProceduralVideo(NotebookFrames):
         from texvent.scenes.raycast.between import Between, Instant, block_speeds
 
         def luma(light: NDArray[np.float64]) -> NDArray[np.float32]:
-            return np.asarray(luma_bt601(self._code(light)), dtype=np.float32)
+            return np.asarray(luma_bt601(self._code(light)[None])[0], dtype=np.float32)
 
         config, speeds = self.config, None
         forward = None if first.motion is None else first.motion.forward
