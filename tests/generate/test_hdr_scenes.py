@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.capture.transfer_adaptation import gamma_coded
 from texvent.pipeline import text_to_video
 from texvent.settings.resolution import resolve
 from texvent.transfer import Transfer, decode_srgb

@@ -192,6 +192,7 @@ class ProceduralVideo(NotebookFrames):
         Light that beats is drawn at every instant: two frames and their middle may all show the
         same moment of its beat.
         """
+        images: Iterator[NDArray[np.float32]]
         if self.flicker_hz is not None:
             images = (float_luma(self.at(t_us)) for t_us in times_us)
         else:
@@ -205,7 +206,7 @@ class ProceduralVideo(NotebookFrames):
         from texvent.scenes.raycast.between import Between, Instant, block_speeds
 
         def luma(light: NDArray[np.float64]) -> NDArray[np.float32]:
-            return np.asarray(luma_bt601(self._code(light)), dtype=np.float32)
+            return np.asarray(luma_bt601(self._code(light)[None])[0], dtype=np.float32)
 
         config, speeds = self.config, None
         forward = None if first.motion is None else first.motion.forward

@@ -124,21 +124,30 @@ def screen_bounds(
     basis = np.stack([rays.right, rays.down, rays.corner], axis=1)
     seen = (corners - rays.origin) @ np.linalg.inv(basis).T
     depth = seen[..., 2]
-    first, second = np.triu_indices(len(CUBE), 1)
-    gap = depth[:, second] - depth[:, first]
-    share = np.clip((NEAR_M - depth[:, first]) / np.where(gap == 0.0, np.inf, gap), 0.0, 1.0)
-    cut = seen[:, first] + share[..., None] * (seen[:, second] - seen[:, first])
-    points = np.concatenate([seen, cut], axis=1)
-    front = points[..., 2] >= NEAR_M * (1.0 - 1e-9)
-    place = points[..., :2] / np.where(front, points[..., 2], 1.0)[..., None]
-    low = np.where(front[..., None], place, np.inf).min(axis=1)
-    high = np.where(front[..., None], place, -np.inf).max(axis=1)
+    low, high = _extremes(seen)
+    crossing = (depth.min(axis=1) < NEAR_M) & (depth.max(axis=1) >= NEAR_M)
+    if crossing.any():
+        first, second = np.triu_indices(len(CUBE), 1)
+        ends = seen[crossing]
+        gap = ends[:, second, 2] - ends[:, first, 2]
+        share = (NEAR_M - ends[:, first, 2]) / np.where(gap == 0.0, np.inf, gap)
+        step = np.clip(share, 0.0, 1.0)[..., None] * (ends[:, second] - ends[:, first])
+        points = np.concatenate([ends, ends[:, first] + step], axis=1)
+        low[crossing], high[crossing] = _extremes(points)
     bounds = np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1]], axis=1)
     _tighten_ellipsoids(
         bounds, np.flatnonzero(is_round), to_world, np.linalg.inv(basis).astype(np.float64), rays
     )
     limit = 4.0 * max(size)
     return np.clip(bounds, -limit, limit + max(size)), np.maximum(depth.min(axis=1), 0.0)
+
+
+def _extremes(points: Float64Array) -> tuple[Float64Array, Float64Array]:
+    """Lowest and highest image point, [n, 2], of [n, k, 3] points in front of the camera."""
+    front = points[..., 2] >= NEAR_M * (1.0 - 1e-9)
+    place = points[..., :2] / np.where(front, points[..., 2], 1.0)[..., None]
+    low = np.where(front[..., None], place, np.inf).min(axis=1)
+    return low, np.where(front[..., None], place, -np.inf).max(axis=1)
 
 
 def _tighten_ellipsoids(

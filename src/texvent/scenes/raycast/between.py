@@ -13,7 +13,6 @@ from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE

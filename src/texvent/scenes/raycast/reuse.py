@@ -73,7 +73,7 @@ class FrameMemory:
         self._last: tuple[Drawn, Float32Array, Codes] | None = None
 
     def render(self, time_s: float) -> tuple[Float32Array, Codes]:
-        """The frame at an instant, [H, W, 3], coded; and what fills its pixels: see `render_rows`."""
+        """The frame at an instant, [H, W, 3], coded; and its codes, as of `render_rows`."""
         size, samples = self._size, self._samples
         world, primitives = world_and_shapes(
             self._scene, time_s, size, shadows=self._shadows, samples=samples

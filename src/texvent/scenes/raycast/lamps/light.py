@@ -183,8 +183,9 @@ def list_casters(lamp: Any, balls: Balls, primitives: Primitives, inverse: Float
     rectangles, owner = rectangles[order], owner[order]
     bins = bin_rectangles(rectangles, np.arange(len(owner)), LONGITUDES, LATITUDES)
     shown = owner[bins.items]
-    items = np.stack([numbers[shown], start_mm[shown]], axis=1).ravel()
-    return Bins(2 * bins.start, items, LONGITUDES, LATITUDES)
+    items = np.empty((len(shown), 2), np.int32)
+    items[:, 0], items[:, 1] = numbers[shown], start_mm[shown]
+    return Bins(2 * bins.start, items.ravel(), LONGITUDES, LATITUDES)
 
 
 def in_beam(
