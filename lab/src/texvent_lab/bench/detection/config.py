@@ -60,10 +60,10 @@ class DetectionConfig(TrainingConfig):
 
     def make_task(self) -> Task:
         """See `TrainingConfig`."""
-        from texvent_lab.bench.detection.task import DetectionTask
-
         if self.data.folder is None:
             raise ConfigError(
                 "data.folder is missing; name what texvent dataset export --layout rvt wrote"
             )
+        from texvent_lab.bench.detection.task import DetectionTask  # brings torch
+
         return DetectionTask(self)

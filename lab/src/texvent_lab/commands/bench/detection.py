@@ -18,7 +18,7 @@ Detectors (evlib's RVT-T) learn road users from the events of each variant of a 
 tested on unseen clips and on a recorded street (texvent data pull davis346).
 Needs texvent-lab[detection].
 
-  texvent bench detection configs/detection/traffic.toml --work w --clips 60 --epochs 4 -o d.json
+  texvent bench detection traffic.toml --work w --clips 60 --epochs 4 -o d.json
 
 Clips, networks and scores are kept in --work, so a run that was stopped goes on."""
 
