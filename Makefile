@@ -222,7 +222,7 @@ $(DATASET_VENV)/.dataset: $(DATASET_VENV)/bin/python pyproject.toml constraints.
 # NVIDIA packages `make licences` would refuse.
 $(DETECT_VENV)/.detect: $(DETECT_VENV)/bin/python pyproject.toml lab/pyproject.toml
 	@echo "installing texvent, evlib, torch and torchvision into $(DETECT_VENV) (once; several GB)"
-	$(DETECT_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-compile -e '.[dev,detect]' -e lab
+	$(DETECT_VENV)/bin/python -m pip install --quiet --disable-pip-version-check --no-compile -e '.[dev,detect]' -e 'lab[detection]'
 	@touch $@
 
 $(DOCS_VENV)/.docs: $(DOCS_VENV)/bin/python pyproject.toml lab/pyproject.toml constraints.txt

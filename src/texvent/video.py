@@ -197,20 +197,12 @@ class RenderableStream(FrameStream, Protocol):
 class MovingStream(RenderableStream, Protocol):
     """A renderable stream that also knows how everything in it moves."""
 
-    @property
-    def has_moving_light(self) -> bool:
-        """Whether light moves that belongs to no surface, such as beams and smoke.
-
-        `Frame.motion` does not tell where it goes: frames between others must be rendered.
-        """
-        ...
-
     def with_motion(self) -> MovingStream:
         """The same stream, whose source frames carry `Frame.motion`."""
         ...
 
-    def luma_of(self, t_us: int, wanted: NDArray[np.bool_]) -> NDArray[np.float32]:
-        """Luma of some pixels of the frame at `t_us`: [k] for the k true ones of [H, W]."""
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+        """The frames at `times_us` between two of its frames, [H, W] float32 luma, in order."""
         ...
 
 

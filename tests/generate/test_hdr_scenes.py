@@ -4,7 +4,6 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.capture.transfer_adaptation import gamma_coded
 from texvent.pipeline import text_to_video
 from texvent.settings.resolution import resolve
 from texvent.transfer import Transfer, decode_srgb
@@ -34,15 +33,6 @@ def test_lamps_are_brighter_than_white_and_the_rest_is_as_before():
     # In a preview both look alike.
     shown = frame_image(coded).astype(int) - frame_image(light)
     assert np.abs(shown)[is_plain].mean() < 2
-
-
-def test_single_pixels_are_those_of_the_frame():
-    for video in (video_of(hdr=True), gamma_coded(video_of(hdr=True))):
-        frame = video.at(50_000)
-        assert frame.transfer is transfer_of(video)
-        wanted = np.zeros((48, 64), np.bool_)
-        wanted[20:30, 10:50] = True
-        assert video.luma_of(50_000, wanted) == pytest.approx(frame.luma[wanted], rel=1e-6)
 
 
 @pytest.mark.parametrize("simulator", ["texvent", "physical"])

@@ -22,6 +22,7 @@ TASKS = Registry(
     "task",
     {
         "classification": "texvent_lab.train.classification.config:ClassificationConfig",
+        "detection": "texvent_lab.bench.detection.config:DetectionConfig",
         "reconstruction": "texvent_lab.train.reconstruction.config:ReconstructionConfig",
     },
 )

@@ -8,7 +8,7 @@ comes with exact ground truth.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
 from functools import cached_property
@@ -24,6 +24,7 @@ from texvent.config import FPS_RANGE, check_range
 from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
 from texvent.generate.scene_input import Subject, describe_subject, list_nouns, nouns_of, understand
 from texvent.options.values import plain
+from texvent.pairs.instants import float_luma
 from texvent.scenes.description import report_of
 from texvent.scenes.report import REPORT_KEY
 from texvent.sensor import SENSORS, SensorSize
@@ -93,6 +94,14 @@ class ProceduralConfig:
 
 
 @dataclass(frozen=True, eq=False, repr=False)
+class SceneFrame(Frame):
+    """A frame of a scene."""
+
+    codes: NDArray[np.int64] | None = None
+    """[H, W] what fills its pixels; see `scenes.raycast.adaptive_sampling.render_rows`."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
 class ProceduralVideo(NotebookFrames):
     """A rendered scene: a stream of frames that can also be rendered at any instant."""
 
@@ -108,8 +117,6 @@ class ProceduralVideo(NotebookFrames):
     """Highest frequency at which any light goes up and down, Hz, or None where all is steady."""
     has_motion: bool = False
     """Whether frames carry exact motion vectors and depth."""
-    has_moving_light: bool = False
-    """Whether light moves that belongs to no surface: beams, the glow of lamps, smoke."""
     transfer: Transfer = Transfer.GAMMA
     """Whether frames are gamma-coded or linear."""
 
@@ -140,13 +147,13 @@ class ProceduralVideo(NotebookFrames):
         memory = self._make_memory()
         for index in range(first, self.frame_count):
             t_us = frame_time_us(index, self.fps)
-            pixels = memory.render(t_us / MICROSECONDS)
+            pixels, codes = memory.render(t_us / MICROSECONDS)
             motion = self._motion(index) if self.has_motion else None
-            yield Frame(pixels, t_us, motion=motion, transfer=self.transfer)
+            yield SceneFrame(pixels, t_us, motion=motion, transfer=self.transfer, codes=codes)
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
-        pixels = self._memory.render(t_us / MICROSECONDS)
+        pixels, _ = self._memory.render(t_us / MICROSECONDS)
         return Frame(pixels, t_us, is_source=False, transfer=self.transfer)
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
@@ -177,17 +184,40 @@ class ProceduralVideo(NotebookFrames):
         """The same video, whose frames carry exact motion vectors and depth."""
         return replace(self, has_motion=True)
 
-    def luma_of(self, t_us: int, wanted: NDArray[np.bool_]) -> NDArray[np.float32]:
-        """Luma of the pixels of [H, W] `wanted` at `t_us`, [k] float32, 0..255 scale."""
-        from texvent.scenes.raycast.render import light_of_rows, world_at
+    def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
+        """Frames of luma at times between two frames, each part drawn as often as it changes.
 
-        size, config = self.size, self.config
-        world = world_at(
-            self.scene, t_us / MICROSECONDS, size, shadows=config.shadows, samples=config.samples
-        )
-        rows = (0, size.height)
-        light = light_of_rows(world, rows, size, samples=config.samples, wanted=wanted)[wanted]
-        return np.asarray(luma_bt601(self._code(light)), dtype=np.float32)
+        Light that beats is drawn at every instant: two frames and their middle may all show the
+        same moment of its beat.
+        """
+        images: Iterator[NDArray[np.float32]]
+        if self.flicker_hz is not None:
+            images = (float_luma(self.at(t_us)) for t_us in times_us)
+        else:
+            images = self._draw_between(first, second, times_us)
+        for image, t_us in zip(images, times_us, strict=True):
+            yield Frame(image, t_us, is_source=False, transfer=self.transfer)
+
+    def _draw_between(
+        self, first: Frame, second: Frame, times_us: Sequence[int]
+    ) -> Iterator[NDArray[np.float32]]:
+        from texvent.scenes.raycast.between import Between, Instant, block_speeds
+
+        def luma(light: NDArray[np.float64]) -> NDArray[np.float32]:
+            return np.asarray(luma_bt601(self._code(light)[None])[0], dtype=np.float32)
+
+        config, speeds = self.config, None
+        forward = None if first.motion is None else first.motion.forward
+        backward = None if second.motion is None else second.motion.backward
+        if forward is not None and backward is not None:
+            speeds = block_speeds(forward, backward)
+        drawing = Between(self.scene, self.size, config.samples, config.shadows, luma)
+        times = [t_us / MICROSECONDS for t_us in (first.t_us, *times_us, second.t_us)]
+        ends = [
+            Instant(number, float_luma(frame), getattr(frame, "codes", None))
+            for number, frame in ((0, first), (len(times) - 1, second))
+        ]
+        return drawing.draw(ends[0], ends[1], speeds, times)
 
     def _motion(self, index: int) -> Motion:
         """Motion from a frame to its neighbours."""
@@ -287,7 +317,6 @@ class ProceduralGenerator:
             self.config,
             metadata,
             flicker_hz=scene.flicker_hz,
-            has_moving_light=scene.has_moving_light,
             transfer=transfer,
         )
 

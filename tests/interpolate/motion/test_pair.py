@@ -21,7 +21,6 @@ from tests.interpolate.motion.scenes import (
     views,
 )
 
-from texvent.interpolate.motion.draw_cpu import FOLLOWED, MIXED
 from texvent.interpolate.motion.interpolator import MotionPair
 from texvent.video import Frame, Motion
 
@@ -41,7 +40,7 @@ def both_at(
     first: Frame, second: Frame, place: float, pixels: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
     """Levels of the chosen pixels, [n, 2] of x and y, by the kernels and by the reference."""
-    image, _ = MotionPair.of(first, second).draw(place)
+    image = MotionPair.of(first, second).draw(place)
     one, two = views(first, second)
     expected = [level_at(one, two, place, x, y) for x, y in pixels.tolist()]
     return image[pixels[:, 1], pixels[:, 0]], np.array(expected)
@@ -85,15 +84,14 @@ def test_an_edge_moves_by_parts_of_a_pixel():
     """The bar starts at 4 and moves 2.5 px: its edges cross pixels smoothly, nothing smears."""
     pair = MotionPair.of(*bar_pair())
     for place in (0.1, 0.2, 0.5, 0.8):
-        image, kind = pair.draw(place)
+        image = pair.draw(place)
         left = 4.0 + 2.5 * place
         assert np.abs(image - bar_frame(left, left + 4.0)).max() < 6.0
-        assert (kind == MIXED).any()
 
 
 def test_what_the_nearer_thing_reveals_comes_from_the_frame_that_shows_it():
     first, second = bar_pair(start=4.0, step=6.0, wide=3.0)
-    image, _ = MotionPair.of(first, second).draw(0.5)
+    image = MotionPair.of(first, second).draw(0.5)
     assert image[:, 4] == pytest.approx(160.0, abs=0.5)  # covered at first, free by now
     assert image[:, 8] == pytest.approx(40.0, abs=0.5)  # the bar is here, in neither frame
     assert image[:, 12] == pytest.approx(160.0, abs=0.5)  # covered in the end, not yet
@@ -105,7 +103,7 @@ def test_without_depth_the_faster_thing_is_nearer():
         Frame(one.pixels, one.t_us, motion=Motion(one.motion.forward, one.motion.backward))
         for one in (first, second)
     ]
-    image, _ = MotionPair.of(*bare).draw(0.5)
+    image = MotionPair.of(*bare).draw(0.5)
     assert image[:, 8] == pytest.approx(40.0, abs=1.0)
     assert image[:, 4] == pytest.approx(160.0, abs=1.0)
 
@@ -115,7 +113,7 @@ def test_of_two_vectors_that_arrive_at_a_pixel_the_nearer_one_is_turned_round(mi
     first, second = bar_pair(start=4.0, step=6.0, wide=3.0)
     one = first if missing == "forward" else second
     one = replace(one, motion=replace(one.motion, **{missing: None}))
-    image, _ = MotionPair.of(*((one, second) if one.t_us == 0 else (first, one))).draw(0.5)
+    image = MotionPair.of(*((one, second) if one.t_us == 0 else (first, one))).draw(0.5)
     # The bar has left its place in the other frame.
     assert image[:, 5 if missing == "forward" else 11] == pytest.approx(160.0, abs=0.5)
     assert image[:, 8] == pytest.approx(40.0, abs=0.5)
@@ -137,7 +135,7 @@ def test_paths_are_curved_with_vectors_to_both_neighbours():
         )
         for index in (0, 1)
     ]
-    image, _ = MotionPair.of(*frames).draw(0.5)
+    image = MotionPair.of(*frames).draw(0.5)
     assert np.abs(image - texture(2.25))[3:-3, 5:-4].max() < 0.6
 
 
@@ -149,7 +147,7 @@ def test_a_bounce_between_frames_is_followed_straight():
     pair = MotionPair.of(
         Frame(first.pixels, 0, motion=bounced), Frame(second.pixels, 1000, motion=going_on)
     )
-    image, _ = pair.draw(0.5)
+    image = pair.draw(0.5)
     assert np.abs(image - texture(1.5))[3:-3, 4:-4].max() < 0.5
 
 
@@ -157,15 +155,13 @@ def test_frames_at_rest_are_mixed_in_place():
     flat = Motion(forward=field(0, 0), backward=field(0, 0), depth=FLAT)
     dark = Frame(np.full((HEIGHT, WIDTH), 50, np.float32), 0, motion=flat)
     light = Frame(np.full((HEIGHT, WIDTH), 90, np.float32), 1000, motion=flat)
-    image, kind = MotionPair.of(dark, light).draw(0.25)
+    image = MotionPair.of(dark, light).draw(0.25)
     assert image == pytest.approx(60.0)
-    assert (kind == MIXED).all()
-    same, kind = MotionPair.of(dark, dark).draw(0.25)
+    same = MotionPair.of(dark, dark).draw(0.25)
     assert (same == 50).all()
-    assert (kind == FOLLOWED).all()
 
 
-def test_where_no_path_leads_both_frames_are_mixed_and_nothing_is_known():
+def test_where_no_path_leads_both_frames_are_mixed():
     first, second = moving_texture(2.0, 0.0)
     forward, backward = first.motion.forward.copy(), second.motion.backward.copy()
     forward[3:8, 3:9] = backward[3:8, 3:9] = np.nan
@@ -173,9 +169,8 @@ def test_where_no_path_leads_both_frames_are_mixed_and_nothing_is_known():
         Frame(first.pixels, 0, motion=Motion(forward=forward, depth=FLAT)),
         Frame(second.pixels, 1000, motion=Motion(backward=backward, depth=FLAT)),
     )
-    image, kind = MotionPair.of(*frames).draw(0.5)
+    image = MotionPair.of(*frames).draw(0.5)
     assert image[5, 6] == pytest.approx((first.luma[5, 6] + second.luma[5, 6]) / 2, abs=0.01)
-    assert kind[5, 6] == MIXED
 
 
 @settings(max_examples=25)
@@ -189,7 +184,7 @@ def test_levels_stay_within_those_of_the_frames(x, y, place, depth):
     first, second = moving_texture(x, y)
     first.motion.depth[3:6, 3:6] = depth
     try:
-        image, _ = MotionPair.of(first, second).draw(place)
+        image = MotionPair.of(first, second).draw(place)
     finally:
         first.motion.depth[3:6, 3:6] = BACKGROUND_M
     assert np.isfinite(image).all()

@@ -26,7 +26,7 @@ def share_changed(scene, *times: float) -> float:
     memory = FrameMemory(scene, SIZE, samples=2, shadows=True)
     for time_s in times:
         whole = render(scene, time_s, SIZE)
-        np.testing.assert_array_equal(memory.render(time_s), whole)
+        np.testing.assert_array_equal(memory.render(time_s)[0], whole)
     tiles = changed_tiles(drawn(scene, times[-2]), drawn(scene, times[-1]))
     return 1.0 if tiles is None else float(tiles.mean())
 

@@ -221,6 +221,7 @@ def train(
     _take_up(state, network, optimizer)
     while not _is_over(state, schedule):
         started = time.perf_counter()
+        _decay(optimizer, schedule, state.epochs)
         loss = _train_epoch(
             task, batches, network, optimizer, schedule, state.epochs, hardware, progress
         )
@@ -242,6 +243,13 @@ def _take_up(state: TrainingState, network: Any, optimizer: Any) -> None:
     if state.epochs:
         network.load_state_dict(state.network)
         optimizer.load_state_dict(state.optimizer)
+
+
+def _decay(optimizer: Any, schedule: Schedule, epoch: int) -> None:
+    """Bring the learning rate of the epoch before to this one; `patience` reduces it besides."""
+    if epoch:
+        for group in optimizer.param_groups:
+            group["lr"] *= schedule.factor(epoch) / schedule.factor(epoch - 1)
 
 
 def _make_folder(folder: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
@@ -46,6 +47,8 @@ class Schedule:
     """Epochs without a better score after which training ends; None: all epochs."""
     clip_gradient: float | None = None
     """Largest norm of the gradient; None: any."""
+    decay: Literal["none", "cosine"] = "none"
+    """Fall of the learning rate from epoch to epoch: half a cosine, which ends near 0."""
 
     def __post_init__(self) -> None:
         check_choices(self)
@@ -57,6 +60,10 @@ class Schedule:
         check_range("reduction", self.reduction, 1e-6, 1.0)
         check_range("stop_after", self.stop_after, 1, 1_000_000)
         check_range("clip_gradient", self.clip_gradient, 1e-9, 1e9)
+
+    def factor(self, epoch: int) -> float:
+        """Share of the learning rate that the decay leaves in an epoch, 0 or more."""
+        return 1.0 if self.decay == "none" else 0.5 + 0.5 * math.cos(math.pi * epoch / self.epochs)
 
     def make_optimizer(self, network: Any) -> Any:
         """The optimiser of a network's parameters."""

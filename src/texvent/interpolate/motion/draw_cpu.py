@@ -14,7 +14,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.interpolate.motion.layers_cpu import (
     Floats,
@@ -37,14 +36,6 @@ from texvent.runtime.jit import jit
 
 SIMILAR, DIFFERENT = np.float32(0.25), np.float32(0.75)
 """Two frames whose coverage differs by less agree; by more, one of them cannot see the layer."""
-CHANGED = np.float32(0.02)
-"""A surface whose level differs by a larger share between its two frames was lit differently."""
-UNSURE = np.float32(0.015)
-"""Share of a level by which the spline and straight lines may differ where it is known well."""
-DARK = np.float32(2.0)
-"""Added to levels before they are compared."""
-FOLLOWED, MIXED = 0, 1
-"""Kinds of pixels: within one layer and equally bright in both frames, or not."""
 
 
 class FrameSide(NamedTuple):
@@ -61,9 +52,8 @@ def draw(
     second: FrameSide,
     position: np.float32,
     image: Floats,
-    kind: NDArray[np.uint8],
 ) -> None:
-    """Draw the instant at τ = `position` into `image`, and what was met where into `kind`."""
+    """Draw the instant at τ = `position` into `image`."""
     height, width = image.shape
     rest = np.float32(1.0) - position
     visible = make_nearest_layer(height, width)
@@ -89,7 +79,7 @@ def draw(
         _gather(first.layers, occluded.places, 0, overlaps),
         _gather(second.layers, occluded.places, SOURCE, overlaps),
     )
-    _compose(position, visible.number, near, far, image, kind)
+    _compose(position, visible.number, near, far, image)
     _hold(first.layers.value, second.layers.value, position, image)
 
 
@@ -100,7 +90,6 @@ def _compose(
     near: tuple[Floats, Floats],
     far: tuple[Floats, Floats],
     image: Floats,
-    kind: NDArray[np.uint8],
 ) -> None:
     """Mix what both frames know of each pixel, and cover the farther layer by the nearer one."""
     height, width = image.shape
@@ -112,12 +101,7 @@ def _compose(
             share_1, value_1 = near_1[k, 0], near_1[k, 1]
             share_2, value_2 = near_2[k, 0], near_2[k, 1]
             level = _mix(share_1, value_1, share_2, value_2, position)
-            kind[y, x] = MIXED
-            if overlap == 0:
-                is_same = share_1 == 0 or share_2 == 0 or _is_alike(value_1, value_2)
-                if level >= 0 and is_same and near_1[k, 2] > 0 and near_2[k, 2] > 0:
-                    kind[y, x] = FOLLOWED
-            else:
+            if overlap:
                 farther = _mix(
                     far_1[overlap, 0],
                     far_1[overlap, 1],
@@ -126,8 +110,6 @@ def _compose(
                     position,
                 )
                 share = _covered(share_1, share_2, position)
-                if level >= 0 and farther >= 0 and _is_alike(level, farther):
-                    kind[y, x] = FOLLOWED
                 if level < 0:
                     level = farther
                 elif farther >= 0 and share < 1:
@@ -144,13 +126,6 @@ def _hold(first: Floats, second: Floats, position: np.float32, image: Floats) ->
         for x in range(width):
             if image[y, x] < 0:
                 image[y, x] = first[y, x] + position * (second[y, x] - first[y, x])
-
-
-@jit(error_model="numpy", inner=True)
-def _is_alike(one: np.float32, two: np.float32) -> bool:
-    """Whether two levels differ by less than `CHANGED`."""
-    high, low = max(one, two) + DARK, min(one, two) + DARK
-    return bool(high < (np.float32(1.0) + CHANGED) * low)
 
 
 @jit(error_model="numpy", inner=True)
@@ -183,7 +158,7 @@ def _mix(
 
 @jit(error_model="numpy", inner=True)
 def _gather(layers: Layers, places: Floats, index: int, pixels: Numbers) -> Floats:
-    """Share and level of a layer in a frame, and whether the place is within the layer.
+    """Share and level of a layer in a frame.
 
     Args:
         layers: the frame.
@@ -192,17 +167,16 @@ def _gather(layers: Layers, places: Floats, index: int, pixels: Numbers) -> Floa
         pixels: [n] flat index of the pixel that each row belongs to.
 
     Returns:
-        [n, 3] float32.
+        [n, 2] float32.
     """
     height, width = layers.order.shape
     order, is_plain, value = layers.order, layers.is_plain, layers.value
     spline, lowest, highest = layers.spline, layers.lowest, layers.highest
-    found = np.zeros((len(places), 3), np.float32)
+    found = np.zeros((len(places), 2), np.float32)
     half = np.float32(0.5)
     for k in range(len(places)):
         weight = places[k, index]
         if weight <= 0:
-            found[k, 2] = 1.0
             continue
         shift_x, shift_y = places[k, index + 1] / weight, places[k, index + 2] / weight
         depth, limit = places[k, index + 3] / weight, places[k, index + 4] / weight
@@ -215,28 +189,13 @@ def _gather(layers: Layers, places: Floats, index: int, pixels: Numbers) -> Floa
         if is_plain[row, column] and abs(away) <= 3 * limit:
             level = _spline(spline, column, row, u, v)
             level = min(max(level, lowest[row, column]), highest[row, column])
-            straight = _straight(value, column, row, u, v)
             if u == 0 and v == 0:
-                level = straight
+                level = value[row, column]
             found[k, 0], found[k, 1] = 1.0, level
-            # A sharp edge between four pixels is not known well.
-            found[k, 2] = abs(level - straight) < UNSURE * (straight + DARK)
         else:
             arguments = column, row, u, v, depth, SAME_LAYER * limit
-            share, level, spread = _at_contour(layers, *arguments)
-            found[k, 0], found[k, 1] = share, level
-            is_known = shift_x == 0 and shift_y == 0
-            is_known = is_known or spread < np.float32(2.0) * UNSURE * (level + DARK)
-            found[k, 2] = is_known and share > np.float32(0.999)
+            found[k, 0], found[k, 1] = _at_contour(layers, *arguments)
     return found
-
-
-@jit(error_model="numpy", inner=True)
-def _straight(value: Floats, column: int, row: int, u: np.float32, v: np.float32) -> np.float32:
-    """Bilinear level at (column + u, row + v)."""
-    upper = value[row, column] + u * (value[row, column + 1] - value[row, column])
-    lower = value[row + 1, column] + u * (value[row + 1, column + 1] - value[row + 1, column])
-    return np.float32(upper + v * (lower - upper))
 
 
 @jit(error_model="numpy", inner=True)
@@ -248,12 +207,11 @@ def _at_contour(
     v: np.float32,
     depth: np.float32,
     limit: np.float32,
-) -> tuple[np.float32, np.float32, np.float32]:
-    """Share and level of the layer at `depth` in a pixel that four overlap; and their spread."""
+) -> tuple[np.float32, np.float32]:
+    """Share and level of the layer at `depth` in a pixel that four overlap."""
     height, width = layers.order.shape
     one = np.float32(1.0)
     share, light = np.float32(0.0), np.float32(0.0)
-    low, high = np.float32(np.inf), np.float32(0.0)
     for corner in range(4):
         i, j = corner % 2, corner // 2
         # What of this pixel the new one overlaps.
@@ -275,10 +233,9 @@ def _at_contour(
             continue
         share += part
         light += part * value
-        low, high = min(low, value), max(high, value)
     if share <= np.float32(1e-4):
-        return np.float32(0.0), np.float32(0.0), np.float32(0.0)
-    return share, light / share, high - low
+        return np.float32(0.0), np.float32(0.0)
+    return share, light / share
 
 
 @jit(error_model="numpy", inner=True)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from texvent.config import InterpolateConfig
 from texvent.errors import InputError
-from texvent.interpolate.motion.draw_cpu import CHANGED, DARK, FOLLOWED, MIXED, FrameSide, draw
+from texvent.interpolate.motion.draw_cpu import FrameSide, draw
 from texvent.interpolate.motion.layers_cpu import (
     FURTHEST,
     GAMMA,
@@ -30,13 +30,10 @@ from texvent.interpolate.motion.paths_cpu import (
 from texvent.pairs.instants import float_luma, position
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.transfer import Transfer
-from texvent.video import FlickeringStream, Frame, FrameStream, Motion, MovingStream
+from texvent.video import Frame, FrameStream, Motion, MovingStream
 
 MOST_AT_ONCE = 8
 """Intermediate frames that are drawn at a time, each by a thread."""
-MOST_RENDERED = 0.15
-"""Share of the pixels that motion does not explain; above it, frames are rendered whole where they
-can be."""
 NEAREST_M = 1e-3
 """Smaller depths count as this, m."""
 MARGIN_PX = 3
@@ -59,7 +56,6 @@ class MotionInterpolator:
     def __init__(self, config: InterpolateConfig, stream: FrameStream) -> None:
         del config  # an argument of every interpolator; not used here
         self._stream = stream if isinstance(stream, MovingStream) else None
-        self._beats = isinstance(stream, FlickeringStream) and stream.flicker_hz is not None
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
         """Frames at `times_us`, every surface where its path leads.
@@ -75,8 +71,8 @@ class MotionInterpolator:
         Raises:
             InputError: neither frame has vectors to the other.
         """
-        if self._stream is not None and (self._beats or self._stream.has_moving_light):
-            return _rendered(self._stream, times_us)
+        if self._stream is not None:
+            return self._stream.between(first, second, times_us)
         # Now, not at the first frame: this may run in the prefetch thread.
         pair = MotionPair.of(first, second)
         return self._draw(pair, [position(first, second, t_us) for t_us in times_us], times_us)
@@ -84,35 +80,12 @@ class MotionInterpolator:
     def _draw(
         self, pair: MotionPair, places: Sequence[float], times_us: Sequence[int]
     ) -> Iterator[Frame]:
-        """Frames at τ = `places`, a few at a time; unexplained pixels are rendered."""
+        """Frames at τ = `places`, a few at a time."""
         step = max(1, min(count_threads(), MOST_AT_ONCE))
         for start in range(0, len(places), step):
             drawn = run_parts(pair.draw, places[start : start + step])
-            if self._stream is not None and np.mean(drawn[0][1] == MIXED) > MOST_RENDERED:
-                yield from _rendered(self._stream, times_us[start:])
-                return
-            for (image, kind), t_us in zip(drawn, times_us[start:], strict=False):
-                if self._stream is not None:
-                    wanted = _grown(kind == MIXED)
-                    image[wanted] = self._stream.luma_of(t_us, wanted)
+            for image, t_us in zip(drawn, times_us[start:], strict=False):
                 yield Frame(image, t_us, is_source=False, transfer=pair.transfer)
-
-
-def _grown(mask: NDArray[np.bool_]) -> NDArray[np.bool_]:
-    """A mask with the four neighbours of its pixels."""
-    grown = mask.copy()
-    grown[1:] |= mask[:-1]
-    grown[:-1] |= mask[1:]
-    grown[:, 1:] |= mask[:, :-1]
-    grown[:, :-1] |= mask[:, 1:]
-    return grown
-
-
-def _rendered(stream: MovingStream, times_us: Sequence[int]) -> Iterator[Frame]:
-    """Frames of which so much would have to be rendered that they are rendered whole."""
-    for t_us in times_us:
-        frame = stream.at(t_us)
-        yield Frame(float_luma(frame), t_us, is_source=False, transfer=frame.transfer)
 
 
 @dataclass(frozen=True, eq=False)
@@ -165,21 +138,18 @@ class MotionPair:
         sides = _frame_side(cut[0::2], cut[1::2]), _frame_side(cut[1::2], cut[0::2])
         return cls(*levels, part, sides, first.transfer)
 
-    def draw(self, place: float) -> tuple[Floats, NDArray[np.uint8]]:
-        """The image at τ = `place`, [H, W], and for each pixel `FOLLOWED` or `MIXED`."""
+    def draw(self, place: float) -> Floats:
+        """The image at τ = `place`, [H, W]."""
         position = np.float32(place)
         image = self.first + position * (self.second - self.first)
-        darker = np.minimum(self.first, self.second) + DARK
-        changed = np.abs(self.second - self.first) >= CHANGED * darker
-        kind = np.where(changed, MIXED, FOLLOWED).astype(np.uint8)
         if image[self.part].size:
-            inside = np.empty_like(image[self.part]), np.empty_like(kind[self.part])
-            draw(*self.sides, position, *inside)
-            image[self.part], kind[self.part] = inside
+            inside = np.empty_like(image[self.part])
+            draw(*self.sides, position, inside)
+            image[self.part] = inside
         if self.transfer is Transfer.LINEAR:
             light = (np.maximum(image, 0) / np.float32(WHITE)) ** np.float32(GAMMA)
             image = np.asarray(np.float32(WHITE) * light, np.float32)
-        return image, kind
+        return image
 
 
 def _coded(frame: Frame) -> Floats:

@@ -12,6 +12,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from texvent.runtime.jit import jit
 from texvent.scenes.lens import Lens, lens_reach
 from texvent.scenes.raycast.meshes.tree import describe_surfaces, tree_of
 from texvent.scenes.raycast.records import (
@@ -75,18 +76,33 @@ def bin_rectangles(rectangles: IntArray, numbers: IntArray, columns: int, rows: 
         columns: cells across.
         rows: cells down.
     """
-    low = np.maximum(rectangles[:, ::2], 0)
-    high = np.minimum(rectangles[:, 1::2], [columns - 1, rows - 1])
-    extent = np.maximum(high - low + 1, 0)
-    count = extent[:, 0] * extent[:, 1]
-    owner = np.repeat(np.arange(len(numbers)), count)
-    place = np.arange(len(owner)) - np.repeat(np.cumsum(count) - count, count)
-    column = low[owner, 0] + place % extent[owner, 0]
-    row = low[owner, 1] + place // extent[owner, 0]
-    cell = row * columns + column
-    order = np.argsort(cell, kind="stable")
-    start = np.searchsorted(cell[order], np.arange(columns * rows + 1))
-    return Bins(start.astype(np.int64), numbers[owner[order]].astype(np.int64), columns, rows)
+    rectangles = np.ascontiguousarray(rectangles, dtype=np.int64)
+    numbers = np.ascontiguousarray(numbers, dtype=np.int64)
+    return Bins(*sort_into_cells(rectangles, numbers, columns, rows), columns, rows)
+
+
+@jit
+def sort_into_cells(
+    rectangles: IntArray, numbers: IntArray, columns: int, rows: int
+) -> tuple[IntArray, IntArray]:
+    """`Bins.start` and `Bins.items` of `bin_rectangles`."""
+    start = np.zeros(columns * rows + 1, np.int64)
+    for first, last, top, bottom in rectangles:
+        for row in range(max(top, 0), min(bottom, rows - 1) + 1):
+            for column in range(max(first, 0), min(last, columns - 1) + 1):
+                start[row * columns + column + 1] += 1
+    for cell in range(columns * rows):
+        start[cell + 1] += start[cell]
+    free = start.copy()
+    items = np.empty(start[-1], np.int64)
+    for index in range(len(rectangles)):
+        first, last, top, bottom = rectangles[index]
+        for row in range(max(top, 0), min(bottom, rows - 1) + 1):
+            for column in range(max(first, 0), min(last, columns - 1) + 1):
+                cell = row * columns + column
+                items[free[cell]] = numbers[index]
+                free[cell] += 1
+    return start, items
 
 
 def screen_bounds(
@@ -108,21 +124,30 @@ def screen_bounds(
     basis = np.stack([rays.right, rays.down, rays.corner], axis=1)
     seen = (corners - rays.origin) @ np.linalg.inv(basis).T
     depth = seen[..., 2]
-    first, second = np.triu_indices(len(CUBE), 1)
-    gap = depth[:, second] - depth[:, first]
-    share = np.clip((NEAR_M - depth[:, first]) / np.where(gap == 0.0, np.inf, gap), 0.0, 1.0)
-    cut = seen[:, first] + share[..., None] * (seen[:, second] - seen[:, first])
-    points = np.concatenate([seen, cut], axis=1)
-    front = points[..., 2] >= NEAR_M * (1.0 - 1e-9)
-    place = points[..., :2] / np.where(front, points[..., 2], 1.0)[..., None]
-    low = np.where(front[..., None], place, np.inf).min(axis=1)
-    high = np.where(front[..., None], place, -np.inf).max(axis=1)
+    low, high = _extremes(seen)
+    crossing = (depth.min(axis=1) < NEAR_M) & (depth.max(axis=1) >= NEAR_M)
+    if crossing.any():
+        first, second = np.triu_indices(len(CUBE), 1)
+        ends = seen[crossing]
+        gap = ends[:, second, 2] - ends[:, first, 2]
+        share = (NEAR_M - ends[:, first, 2]) / np.where(gap == 0.0, np.inf, gap)
+        step = np.clip(share, 0.0, 1.0)[..., None] * (ends[:, second] - ends[:, first])
+        points = np.concatenate([ends, ends[:, first] + step], axis=1)
+        low[crossing], high[crossing] = _extremes(points)
     bounds = np.stack([low[:, 0], high[:, 0], low[:, 1], high[:, 1]], axis=1)
     _tighten_ellipsoids(
         bounds, np.flatnonzero(is_round), to_world, np.linalg.inv(basis).astype(np.float64), rays
     )
     limit = 4.0 * max(size)
     return np.clip(bounds, -limit, limit + max(size)), np.maximum(depth.min(axis=1), 0.0)
+
+
+def _extremes(points: Float64Array) -> tuple[Float64Array, Float64Array]:
+    """Lowest and highest image point, [n, 2], of [n, k, 3] points in front of the camera."""
+    front = points[..., 2] >= NEAR_M * (1.0 - 1e-9)
+    place = points[..., :2] / np.where(front, points[..., 2], 1.0)[..., None]
+    low = np.where(front[..., None], place, np.inf).min(axis=1)
+    return low, np.where(front[..., None], place, -np.inf).max(axis=1)
 
 
 def _tighten_ellipsoids(

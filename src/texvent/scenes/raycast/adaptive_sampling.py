@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
 from texvent.scenes.raycast.lamps.glow import add_glows
-from texvent.scenes.raycast.lamps.light import ALL_LIGHTS, LIT_BITS, lit_by
+from texvent.scenes.raycast.lamps.light import ALL_LIGHTS, LIT_BITS, SUN, lit_by
 from texvent.scenes.raycast.puffs import through_puffs
 from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.lighting import shade_hit
@@ -36,8 +36,9 @@ from texvent.scenes.scene import Colour, Float64Array
 
 _THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
-_NOT_PROBED = -(1 << 41)
-"""Probe value of lattice points that no wanted pixel needs."""
+UNKNOWN = -(1 << 41)
+"""Probe value of lattice points that no wanted pixel needs, and of pixels with several surfaces."""
+Codes = NDArray[np.int64]
 _BISECTIONS = 6
 """Steps that place an edge between two probes: to 1/128 pixel with two probes per pixel side."""
 _MAX_EDGES = 4
@@ -163,26 +164,31 @@ def _find_edge(
 
     `low` is where on the line (0..1) that surface is known to be; `probes[1]` is at its end.
     """
-    high = 1.0
-    changed = 0
-    if probes[0] >> LIT_BITS == probes[1] >> LIT_BITS:
-        changed = (probes[0] ^ probes[1]) & ALL_LIGHTS
+    high, surface, beyond = 1.0, probes[0] >> LIT_BITS, probes[1]
+    changed = (probes[0] ^ probes[1]) & ALL_LIGHTS if surface == beyond >> LIT_BITS else 0
+    hit, place = (0.0, 0, 0), ends[1]
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
         x, y = _between(ends[0], ends[1], middle)
         depth, number, face, _ = first_hit(instant, x, y)
-        is_same = surface_code(instant, number, face) == probes[0] >> LIT_BITS
-        if is_same and changed:  # else there is no need to know about shadow
-            lit, _ = lit_by(instant, x, y, (depth, number, face), changed)
-            is_same = lit & changed == probes[0] & changed
-        if is_same:
+        code = surface_code(instant, number, face)
+        reached = probes[0] & changed
+        if code == surface and changed:  # else there is no need to know about shadow
+            reached = lit_by(instant, x, y, (depth, number, face), changed)[0] & changed
+        if code == surface and reached == probes[0] & changed:
             low = middle
         else:
-            high = middle
-    if high == 1.0:
-        return 0.5 * (low + high), probes[1]
-    x, y = _between(ends[0], ends[1], high)
-    return 0.5 * (low + high), _probe(instant, x, y)
+            high, hit, place = middle, (depth, number, face), (x, y)
+            beyond = (code << LIT_BITS) + (probes[1] & ALL_LIGHTS & ~changed) + reached
+    if high < 1.0 and beyond >> LIT_BITS != surface:
+        # Where the same lamps reach both ends, only the sun's shadow is looked for.
+        goes_on = beyond >> LIT_BITS == probes[1] >> LIT_BITS
+        wanted = ALL_LIGHTS
+        if goes_on and (probes[0] ^ probes[1]) & ALL_LIGHTS & ~SUN == 0:
+            wanted = SUN
+        lit, _ = lit_by(instant, place[0], place[1], hit, wanted)
+        beyond = beyond & ~wanted | lit & wanted
+    return 0.5 * (low + high), beyond
 
 
 @jit(error_model="numpy", inner=True)
@@ -274,7 +280,7 @@ def _probe_tile(
     for j in range(wanted.shape[0] * samples + 1):
         for i in range(wanted.shape[1] * samples + 1):
             if not _is_needed(wanted, j, i, samples):
-                probes[j, i] = _NOT_PROBED
+                probes[j, i] = UNKNOWN
                 continue
             x, y = left + i / samples, top + j / samples
             depth, number, face, thin = first_hit(instant, x, y)
@@ -290,29 +296,35 @@ def _probe_tile(
 @jit(error_model="numpy", inner=True)
 def _probe_shadows(
     instant: Record,
-    column: int,
-    row: int,
+    left: int,
+    top: int,
     lattice: tuple[int, int],
     probes: NDArray[np.int64],
     around: NDArray[np.int64],
 ) -> None:
-    """Write the probes of a pixel to `around`, and look for shadow where they took it over.
+    """Write the probes of a pixel to `around`, and look for shadow where they took over another.
 
     `probes` are those of the tile, `lattice` the place in them of the pixel's first point.
     """
     last = len(around) - 1
+    around[:] = probes[lattice[0] : lattice[0] + last + 1, lattice[1] : lattice[1] + last + 1]
     for j in range(last + 1):
-        for i in range(last + 1):
-            if (lattice[0] + lattice[1] + i + j) % 2 == 1:
-                around[j, i] = _probe(instant, column + i / last, row + j / last)
-            else:
-                around[j, i] = probes[lattice[0] + j, lattice[1] + i]
+        for i in range((lattice[0] + lattice[1] + j + 1) % 2, last + 1, 2):
+            is_sure = True
+            for row, column in ((j - 1, i), (j + 1, i), (j, i - 1), (j, i + 1)):
+                if 0 <= row <= last and 0 <= column <= last:
+                    differs = around[row, column] ^ around[j, i]
+                    is_sure &= differs == 0 or differs >> LIT_BITS != 0
+            if not is_sure:
+                around[j, i] = _probe(instant, left + i / last, top + j / last)
 
 
 @jit(error_model="numpy", inner=True)
 def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
-    """Whether all probes in and around one pixel saw the same surface."""
+    """Whether all probes in and around one pixel saw the same surface, and nothing thin."""
     first = probes[top, left]
+    if first == _THIN:
+        return False
     for row in range(top, top + samples + 1):
         for column in range(left, left + samples + 1):
             if probes[row, column] != first:
@@ -337,6 +349,7 @@ def render_rows(
     samples: int,
     pattern: Float64Array,
     wanted: NDArray[np.bool_],
+    codes: Codes,
     image: Float64Array,
 ) -> None:
     """Fill the wanted pixels in some rows of an image.
@@ -347,6 +360,8 @@ def render_rows(
         samples: probes per pixel side.
         pattern: [k, 2] sample positions in [0, 1)² for pixels with something thin.
         wanted: [H, W] which pixels to fill.
+        codes: [H, W] the one surface that fills a pixel and what it is lit by, where that is known;
+            `UNKNOWN` elsewhere. What is found in wanted pixels is written.
         image: [H, W, 3] linear light, 1 is white; these rows are written.
     """
     instant = instants[0]
@@ -360,16 +375,19 @@ def render_rows(
         in_tile = wanted[top:bottom, left:right]
         if not in_tile.any():
             continue
-        _probe_tile(instant, (left, top), in_tile, samples, probes)
+        in_doubt = in_tile & (codes[top:bottom, left:right] == UNKNOWN)
+        _probe_tile(instant, (left, top), in_doubt, samples, probes)
         for row in range(top, bottom):
             for column in range(left, right):
                 if not wanted[row, column]:
                     continue
                 j, i = (row - top) * samples, (column - left) * samples
-                if _any_thin(probes, j, i, samples):
+                if in_doubt[row - top, column - left] and _agree(probes, j, i, samples):
+                    codes[row, column] = probes[j, i]
+                if codes[row, column] != UNKNOWN:
+                    light = _shade(instant, column + 0.5, row + 0.5, codes[row, column])
+                elif _any_thin(probes, j, i, samples):
                     light = _sample_pixel(instant, column, row, pattern, shares)
-                elif _agree(probes, j, i, samples):
-                    light = _shade(instant, column + 0.5, row + 0.5, int(probes[j, i]))
                 else:
                     _probe_shadows(instant, column, row, (j, i), probes, around)
                     light = _split_pixel(instant, column, row, around, shares)

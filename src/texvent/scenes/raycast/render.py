@@ -11,9 +11,9 @@ from numpy.typing import NDArray
 
 from texvent.runtime.threads import run_parts
 from texvent.scenes.raycast.acceleration import TILE, Bins, build_world
-from texvent.scenes.raycast.adaptive_sampling import render_rows
+from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes, render_rows
 from texvent.scenes.raycast.lamps.glow import see_glows
-from texvent.scenes.raycast.lamps.light import list_casters, order_lamps
+from texvent.scenes.raycast.lamps.light import cover_with_balls, list_casters, order_lamps
 from texvent.scenes.raycast.puffs import describe_puffs
 from texvent.scenes.raycast.records import World
 from texvent.scenes.scene import (
@@ -51,7 +51,10 @@ def light_up(
     instant = world.instant
     lamps, casting = order_lamps(environment.lamps, shadows=shadows)
     inverse = world.shapes["inverse"]
-    grids = [list_casters(lamp, primitives, inverse) for lamp in lamps[:casting]]
+    grids = []
+    if casting:
+        balls = cover_with_balls(primitives)
+        grids = [list_casters(lamp, balls, primitives, inverse) for lamp in lamps[:casting]]
     instant["shadow_lamps"] = casting
     instant["lamp_cells"] = len(world.lists)
     puffs, tiles = describe_puffs(environment.puffs, rays, instant[0])
@@ -154,6 +157,7 @@ def light_of_rows(
     *,
     samples: int = 2,
     wanted: NDArray[np.bool_] | None = None,
+    codes: Codes | None = None,
 ) -> Float64Array:
     """Some rows of what `render_light` gives.
 
@@ -163,6 +167,7 @@ def light_of_rows(
         size: image size, pixels.
         samples: as for `render`.
         wanted: [H, W] which pixels to draw, the others have any value; None: all.
+        codes: [H, W] what fills whole pixels, as for `render_rows`; None: nothing is known.
     """
     first, last = rows
     image = np.empty((last, size.width, 3), dtype=np.float64)
@@ -170,10 +175,12 @@ def light_of_rows(
     chosen = np.ascontiguousarray(
         np.ones((last, size.width), dtype=np.bool_) if wanted is None else wanted
     )
+    known = np.full((last, size.width), UNKNOWN) if codes is None else codes
     pattern = sample_pattern((4 * samples) ** 2)
 
     def draw(top: int) -> None:
-        render_rows(world.instant, (top, min(top + TILE, last)), samples, pattern, chosen, image)
+        band = top, min(top + TILE, last)
+        render_rows(world.instant, band, samples, pattern, chosen, known, image)
 
     run_parts(draw, range(first, last, TILE))
     return image[first:]

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.scenes.raycast.acceleration import CUBE, SUN_CELLS, TILE, screen_bounds
+from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes
 from texvent.scenes.raycast.records import INSTANT_RECORD, World
 from texvent.scenes.raycast.render import light_of_rows, world_and_shapes
 from texvent.scenes.raycast.trace import MESH, SHADOW_BIAS_M
@@ -69,28 +70,29 @@ class FrameMemory:
     ) -> None:
         self._scene, self._size, self._code = scene, size, code
         self._samples, self._shadows = samples, shadows
-        self._last: tuple[Drawn, Float32Array] | None = None
+        self._last: tuple[Drawn, Float32Array, Codes] | None = None
 
-    def render(self, time_s: float) -> Float32Array:
-        """The frame at an instant, [H, W, 3], coded."""
+    def render(self, time_s: float) -> tuple[Float32Array, Codes]:
+        """The frame at an instant, [H, W, 3], coded; and its codes, as of `render_rows`."""
         size, samples = self._size, self._samples
         world, primitives = world_and_shapes(
             self._scene, time_s, size, shadows=self._shadows, samples=samples
         )
         drawn, last = Drawn(world, primitives), self._last
         tiles = None if last is None else changed_tiles(last[0], drawn)
-        if last is None or tiles is None or tiles.mean() > MOST_CHANGED:
-            light = light_of_rows(world, (0, size.height), size, samples=samples)
-            pixels = self._code(light)
-        else:
+        wanted: Mask = np.ones(size.shape, dtype=np.bool_)
+        codes, pixels = np.full(size.shape, UNKNOWN), np.empty((*size.shape, 3), np.float32)
+        if last is not None and tiles is not None and tiles.mean() <= MOST_CHANGED:
             wanted = tiles.repeat(TILE, axis=0).repeat(TILE, axis=1)[: size.height, : size.width]
-            light = light_of_rows(world, (0, size.height), size, samples=samples, wanted=wanted)
-            pixels = last[1].copy()
-            pixels[wanted] = self._code(light[wanted])
+            codes, pixels = np.where(wanted, UNKNOWN, last[2]), last[1].copy()
+        light = light_of_rows(
+            world, (0, size.height), size, samples=samples, wanted=wanted, codes=codes
+        )
+        pixels[wanted] = self._code(light[wanted])
         kept = pixels.copy()
         kept.flags.writeable = False
-        self._last = drawn, kept
-        return np.asarray(pixels)
+        self._last = drawn, kept, codes
+        return pixels, codes
 
 
 def changed_tiles(before: Drawn, after: Drawn) -> Mask | None:

@@ -99,13 +99,6 @@ class ComposedScene:
         rates = (self.animated_environment.flicker_hz, self.lamps.blink_hz)
         return max((rate for rate in rates if rate is not None), default=None)
 
-    @property
-    def has_moving_light(self) -> bool:
-        """Whether light moves that belongs to no surface: beams and glow of lamps, smoke, fire."""
-        return self.lamps.is_moving or any(
-            len(effect.puffs(0.0)) or len(effect.lamps(0.0)) for effect in self.particles.effects
-        )
-
 
 def compose_scene(
     description: SceneDescription,

@@ -17,6 +17,7 @@ from texvent.io.atomic import check_output
 from texvent_lab.bench.document import write_document
 
 BENCHMARKS: Mapping[str, str] = {
+    "detection": "whose events teach a detector most?",
     "digits": "do networks trained on simulated events read recorded ones?",
     "fidelity": "which simulator comes closest to true events of exact scenes?",
     "page": "a result of fidelity, real, digits or selftest as a page",

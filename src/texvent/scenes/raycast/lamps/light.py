@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -101,7 +101,7 @@ def light_through(instant: Record, point: Vector) -> Colour:
     return light
 
 
-LONGITUDES, LATITUDES = 48, 24
+LONGITUDES, LATITUDES = 96, 64
 """Cells of the grid of directions around a lamp: around the vertical, and by the sine of the
 height."""
 MOST_SHADOW_LAMPS = 4
@@ -120,44 +120,20 @@ def order_lamps(lamps: Float64Array, *, shadows: bool) -> tuple[NDArray[Any], in
     return rows[np.concatenate([casts, rest])], len(casts)
 
 
-def list_casters(lamp: Any, primitives: Primitives, inverse: Float64Array) -> Bins:
-    """The shapes that may stand in a lamp's light, by cells of directions from the lamp.
+class Balls(NamedTuple):
+    """Balls that together hold the shapes that may cast shadows."""
 
-    Each is followed by its distance from the lamp, mm, and nearer ones come first: what is
-    farther than a surface cannot stand in its light. Shapes that glow, that hold the lamp or that
-    its light does not reach are left out.
-
-    Args:
-        lamp: `LAMP_RECORD`.
-        primitives: the shapes.
-        inverse: [n, 3, 4] world → unit-shape coordinates.
-    """
-    place = lamp["place"]
-    local = inverse[:, :, :3] @ place + inverse[:, :, 3]
-    is_round = primitives.shape == Shape.ELLIPSOID
-    extent = np.where(is_round, np.linalg.norm(local, axis=1), np.abs(local).max(axis=1))
-    chosen = np.flatnonzero((np.asarray(primitives.emission) <= 0.0) & (extent > 1.0))
-    numbers, centre, radius = _split_long(primitives, chosen)
-    offset = centre - place
-    distance = np.linalg.norm(offset, axis=1)
-    near = distance - radius < lamp["reach"]
-    if lamp["full"] >= -1.0:
-        near &= in_beam(lamp, offset, distance, radius)
-    numbers, offset = numbers[near], offset[near]
-    start_mm = np.floor(1e3 * np.maximum(distance - radius, 0.0)[near]).astype(np.int64)
-    rectangles, owner = _rectangles(offset, distance[near], radius[near])
-    order = np.argsort(start_mm[owner], kind="stable")
-    rectangles, owner = rectangles[order], owner[order]
-    bins = bin_rectangles(rectangles, np.arange(len(owner)), LONGITUDES, LATITUDES)
-    shown = owner[bins.items]
-    items = np.stack([numbers[shown], start_mm[shown]], axis=1).ravel()
-    return Bins(2 * bins.start, items, LONGITUDES, LATITUDES)
+    number: IntArray
+    """[k] shape that each one is part of."""
+    centre: Float64Array
+    """[k, 3] m."""
+    radius: Float64Array
+    """[k] m."""
 
 
-def _split_long(
-    primitives: Primitives, chosen: IntArray
-) -> tuple[IntArray, Float64Array, Float64Array]:
-    """Balls that together hold each shape: its number, their centres and radii, m."""
+def cover_with_balls(primitives: Primitives) -> Balls:
+    """The shapes that may cast shadows in balls, several for a long one; those that glow do not."""
+    chosen = np.flatnonzero(np.asarray(primitives.emission) <= 0.0)
     linear = np.asarray(primitives.to_world, dtype=np.float64)[chosen, :, :3]
     middle = np.asarray(primitives.to_world, dtype=np.float64)[chosen, :, 3]
     lengths = np.linalg.norm(linear, axis=1)
@@ -170,11 +146,46 @@ def _split_long(
     step = np.arange(len(owner)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
     axis = linear[rows, :, longest]
     place = (2.0 * step + 1.0) / pieces[owner] - 1.0
-    scaled = linear.copy()
-    scaled[rows, :, longest] = axis / pieces[:, None]
-    corners = np.einsum("nij,kj->nki", scaled, CUBE)
+    linear[rows, :, longest] = axis / pieces[:, None]
+    corners = np.einsum("nij,kj->nki", linear, CUBE)
     radius = np.linalg.norm(corners, axis=2).max(axis=1)
-    return chosen[owner], middle[owner] + place[:, None] * axis[owner], radius[owner]
+    return Balls(chosen[owner], middle[owner] + place[:, None] * axis[owner], radius[owner])
+
+
+def list_casters(lamp: Any, balls: Balls, primitives: Primitives, inverse: Float64Array) -> Bins:
+    """The shapes that may stand in a lamp's light, by cells of directions from the lamp.
+
+    Each is followed by its distance from the lamp, mm, and nearer ones come first: what is
+    farther than a surface cannot stand in its light. Shapes that hold the lamp or that its light
+    does not reach are left out.
+
+    Args:
+        lamp: `LAMP_RECORD`.
+        balls: of `cover_with_balls`.
+        primitives: the shapes.
+        inverse: [n, 3, 4] world → unit-shape coordinates.
+    """
+    place = lamp["place"]
+    local = inverse[:, :, :3] @ place + inverse[:, :, 3]
+    is_round = primitives.shape == Shape.ELLIPSOID
+    extent = np.where(is_round, np.linalg.norm(local, axis=1), np.abs(local).max(axis=1))
+    offset = balls.centre - place
+    distance = np.linalg.norm(offset, axis=1)
+    near = (distance - balls.radius < lamp["reach"]) & (extent[balls.number] > 1.0)
+    if lamp["full"] >= -1.0:
+        near &= in_beam(lamp, offset, distance, balls.radius)
+    numbers, offset, distance, radius = (
+        one[near] for one in (balls.number, offset, distance, balls.radius)
+    )
+    start_mm = np.floor(1e3 * np.maximum(distance - radius, 0.0)).astype(np.int64)
+    rectangles, owner = _rectangles(offset, distance, radius)
+    order = np.argsort(start_mm[owner], kind="stable")
+    rectangles, owner = rectangles[order], owner[order]
+    bins = bin_rectangles(rectangles, np.arange(len(owner)), LONGITUDES, LATITUDES)
+    shown = owner[bins.items]
+    items = np.empty((len(shown), 2), np.int32)
+    items[:, 0], items[:, 1] = numbers[shown], start_mm[shown]
+    return Bins(2 * bins.start, items.ravel(), LONGITUDES, LATITUDES)
 
 
 def in_beam(
@@ -305,6 +316,8 @@ def lamps_reach(instant: Record, point: Vector, normal: Vector, wanted: int) -> 
 
 ALL_LIGHTS = (1 << LIT_BITS) - 1
 """All bits of a probe that tell what light reaches a surface."""
+SUN = 1
+"""The sun's bit."""
 
 
 @jit(error_model="numpy", inner=True)

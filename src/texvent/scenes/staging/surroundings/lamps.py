@@ -191,11 +191,6 @@ class LampPlan:
         return np.concatenate([np.array(rows).reshape(-1, LAMP_COLUMNS), self.still])
 
     @property
-    def is_moving(self) -> bool:
-        """Whether objects of the scene, which may move, shed light."""
-        return any(one.shines for one in self.lit)
-
-    @property
     def blink_hz(self) -> float | None:
         """Highest frequency at which a lamp goes up and down, Hz; None = all are steady."""
         rates = [one.fastest_hz for one in self.lit]

@@ -1,0 +1,162 @@
+"""Clips with boxes, read by evlib from the layout of RVT's preprocessing.
+
+Histograms are nearly empty, so a clip is kept as the places and counts of its filled cells: 2,000
+clips take less than 1 GB, and become dense on the device that computes.
+"""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import FileFormatError, InputError, one_line
+from texvent.extending import require
+from texvent.networks.weight_files import Tensor
+from texvent.truth.boxes import BOX_RECORD
+from texvent_lab.bench.detection.config import EXTRA
+from texvent_lab.bench.detection.labels import COUNTED, IGNORED
+
+REPRESENTATION = "stacked_histogram_dt=50_nbins=10"
+WINDOW_US = 50_000
+LEAST_MOTION_PX = 0.5
+"""Of an edge of a box from one window to the next; a box that moves less makes no events."""
+NOTE_FILE = "texvent-export.json"
+
+
+@dataclass(frozen=True, eq=False)
+class Clip:
+    """Histograms of successive windows, and the boxes at their ends."""
+
+    key: str
+    shape: tuple[int, int, int, int]
+    """Windows, channels, height and width."""
+    places: NDArray[np.int64]
+    """[n] filled cells, in the flat array of that shape."""
+    counts: NDArray[np.uint8]
+    """[n] their events."""
+    boxes: tuple[NDArray[np.void], ...]
+    """`BOX_RECORD` of each window; a confidence of 0 marks boxes at rest."""
+
+    @classmethod
+    def of(
+        cls, key: str, histograms: Sequence[NDArray[np.uint8]], boxes: Sequence[NDArray[np.void]]
+    ) -> Clip:
+        """A clip of dense histograms, [channels, height, width] each."""
+        places, counts, size = [], [], histograms[0].size
+        for number, one in enumerate(histograms):
+            flat = one.ravel()
+            filled = np.flatnonzero(flat)
+            places.append(filled + number * size)
+            counts.append(flat[filled])
+        channels, height, width = histograms[0].shape
+        shape = (len(histograms), channels, height, width)
+        return cls(key, shape, np.concatenate(places), np.concatenate(counts), tuple(boxes))
+
+    @property
+    def learnable(self) -> list[int]:
+        """Windows with a box that counts."""
+        return [n for n, one in enumerate(self.boxes) if (one["class_confidence"] > IGNORED).any()]
+
+
+def read_classes(folder: Path) -> tuple[str, ...]:
+    """Names of the classes of an exported data set, in the order of their numbers.
+
+    Raises:
+        InputError: the folder is no export.
+        FileFormatError: its note is damaged.
+    """
+    path = folder / NOTE_FILE
+    try:
+        return tuple(map(str, json.loads(path.read_text(encoding="utf-8"))["classes"]))
+    except OSError as error:
+        raise InputError(
+            f"{folder} has no {NOTE_FILE}; write it with texvent dataset export --layout rvt"
+        ) from error
+    except (ValueError, KeyError, TypeError) as error:
+        raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
+
+
+def read_clips(folder: Path, split: str) -> list[Clip]:
+    """All clips of a split, in the order of their names.
+
+    Raises:
+        InputError: there are none.
+        FileFormatError: one is damaged.
+        MissingDependencyError: evlib is not installed.
+    """
+    place = folder / split
+    paths = sorted(one for one in place.iterdir() if one.is_dir()) if place.is_dir() else []
+    if not paths:
+        raise InputError(f"there are no clips in {place}; make and export the split {split} first")
+    source_type = require("evlib.data.sources", extra=EXTRA).PreprocessedH5Source
+    return [_read(source_type, path) for path in paths]
+
+
+def _read(source_type: Any, path: Path) -> Clip:
+    source = source_type(path, REPRESENTATION, downsample_by_2=False)
+    try:
+        count = source.window_count()
+        histograms = [one.numpy() for one in source.read_windows(0, count)[0]]
+        rows = [source.read_window_gt(number) for number in range(count)]
+    except (OSError, ValueError, KeyError) as error:
+        raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
+    return Clip.of(path.name, histograms, mark_resting([_as_boxes(one) for one in rows]))
+
+
+def _as_boxes(rows: NDArray[np.void] | None) -> NDArray[np.void]:
+    if rows is None:
+        return np.zeros(0, BOX_RECORD)
+    boxes = np.zeros(len(rows), BOX_RECORD)
+    for name in BOX_RECORD.names or ():
+        boxes[name] = rows[name]
+    return boxes
+
+
+def mark_resting(windows: Sequence[NDArray[np.void]]) -> list[NDArray[np.void]]:
+    """Boxes with `COUNTED` as confidence, and `IGNORED` where all edges rest.
+
+    An object that rests before a standing camera makes no events: no network can find it, and one
+    that remembers it is not wrong. What rests follows from the boxes alone, so that all simulators
+    are asked for the same ones. Where no neighbouring window has the object, it counts as moving.
+
+    Args:
+        windows: boxes at the ends of successive windows.
+    """
+    marked = []
+    for number, boxes in enumerate(windows):
+        neighbour = windows[abs(number - 1)] if len(windows) > 1 else boxes[:0]
+        before = {int(one["track_id"]): _edges(one) for one in neighbour}
+        found = boxes.copy()
+        for box in found:
+            other = before.get(int(box["track_id"]))
+            moved = other is None or np.abs(_edges(box) - other).max() >= LEAST_MOTION_PX
+            box["class_confidence"] = COUNTED if moved else IGNORED
+        marked.append(found)
+    return marked
+
+
+def _edges(box: NDArray[np.void]) -> NDArray[np.float64]:
+    x, y, w, h = (float(box[name]) for name in "xywh")
+    return np.array([x, y, x + w, y + h])
+
+
+def dense(clips: Sequence[Clip], device: Any) -> Tensor:
+    """Histograms of clips of one size, [clips, windows, channels, height, width] uint8.
+
+    Shorter clips end with empty windows.
+    """
+    torch = require("torch", extra=EXTRA)
+    longest = max(one.shape[0] for one in clips)
+    shape = (len(clips), longest, *clips[0].shape[1:])
+    size = int(np.prod(shape[1:]))
+    places = np.concatenate([one.places + n * size for n, one in enumerate(clips)])
+    counts = np.concatenate([one.counts for one in clips])
+    flat = torch.zeros(len(clips) * size, dtype=torch.uint8, device=device)
+    flat[torch.from_numpy(places).to(device)] = torch.from_numpy(counts).to(device)
+    return flat.view(shape)

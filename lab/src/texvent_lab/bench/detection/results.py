@@ -1,0 +1,82 @@
+"""Scores of detectors, the document, and the table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass
+from typing import Any
+
+from texvent_lab.bench.document import markdown_table
+from texvent_lab.bench.summary import summarise
+
+SCHEMA = "texvent-detection-1"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ArmScore:
+    """A network that was trained on the events of one simulator."""
+
+    arm: str
+    seed: int
+    clips: Mapping[str, int]
+    """Split → clips."""
+    events: float
+    """Of the test clip in the middle, as far as histograms count them."""
+    boxes: int
+    """Of the test clips, at ends of windows; those at rest left out."""
+    ap: Mapping[str, float]
+    """Class → average precision over overlaps of .5 to .95; "all" is the mean."""
+    ap50: Mapping[str, float]
+    """The same at an overlap of .5."""
+    ap50_by_size: Mapping[str, float]
+    street: Mapping[str, Mapping[str, float]] | None
+    """AP50 and AP of cars on a recorded street: value, low and high of the 95 % interval."""
+    best_epoch: int = 0
+    training_seconds: float = 0.0
+    seconds: float = 0.0
+
+
+@dataclass(frozen=True)
+class DetectionReport:
+    """All results."""
+
+    environment: Mapping[str, Any]
+    protocol: Mapping[str, Any]
+    scores: list[ArmScore]
+    seconds: float
+
+    def document(self) -> dict[str, Any]:
+        """The values, ready for JSON."""
+        return {"schema": SCHEMA, **asdict(self)}
+
+
+def detection_table(report: DetectionReport) -> str:
+    """A row per arm: means over its networks, ± standard error where there are several."""
+    arms: dict[str, list[ArmScore]] = {}
+    for score in report.scores:
+        arms.setdefault(score.arm, []).append(score)
+    classes = [name for name in report.scores[0].ap50 if name != "all"]
+    titles = ["trained on", "events", "AP", "AP50", *classes]
+    titles += [f"{size}" for size in report.scores[0].ap50_by_size]
+    titles.append("recorded street, car AP50 [95 %]")
+    rows = []
+    for arm, scores in arms.items():
+        cells = [f"{scores[0].events:,.0f}"]
+        cells += [_mean([one.ap["all"] for one in scores])]
+        cells += [_mean([one.ap50[name] for one in scores]) for name in ("all", *classes)]
+        cells += [_mean([one.ap50_by_size[n] for one in scores]) for n in scores[0].ap50_by_size]
+        rows.append([arm, *cells, ", ".join(_street(one) for one in scores)])
+    return markdown_table(titles, rows)
+
+
+def _mean(values: list[float]) -> str:
+    found = summarise(values)
+    error = f" ± {found.standard_error:.3f}" if found.defined > 1 else ""
+    return f"{found.mean:.3f}{error}" if found.defined else "–"
+
+
+def _street(score: ArmScore) -> str:
+    if score.street is None:
+        return "–"
+    one = score.street["AP50"]
+    return f"{one['value']:.3f} [{one['low']:.3f}, {one['high']:.3f}]"

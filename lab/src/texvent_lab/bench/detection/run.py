@@ -1,0 +1,294 @@
+"""A detector trained on each simulator's events of the same clips, and tested on unseen ones.
+
+Every step leaves its files in the plan's folder, so that a run that was stopped goes on: clips are
+made and exported, a detector is trained for every arm and seed, and each is tested on the events of
+its own arm and on a recorded street.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent import dataset
+from texvent.config import check_range
+from texvent.data.pull import find_pulled
+from texvent.dataset.export import export
+from texvent.dataset.layouts.rvt import WINDOW_US
+from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.specification.items import read_items
+from texvent.dataset.specification.reading import read_specification
+from texvent.dataset.specification.specification import Specification
+from texvent.errors import ConfigError, TexventError, shown
+from texvent.extending import require, suggest
+from texvent.io.atomic import atomic_file
+from texvent.io.files import open_events
+from texvent.options.values import plain
+from texvent.represent.histogram import stacked_histogram
+from texvent.runtime.progress import NO_PROGRESS
+from texvent_lab.bench.detection.clips import read_clips
+from texvent_lab.bench.detection.config import EXTRA, DetectionConfig, DetectionData
+from texvent_lab.bench.detection.labels import IGNORED, read_street_labels
+from texvent_lab.bench.detection.precision import average_precision, bootstrap
+from texvent_lab.bench.detection.results import ArmScore, DetectionReport
+from texvent_lab.bench.detection.task import (
+    DetectionTask,
+    as_boxes,
+    detect_clips,
+    detect_last,
+    join_boxes,
+)
+from texvent_lab.bench.document import describe_environment
+from texvent_lab.bench.jobs import Progress, no_progress, run_jobs
+from texvent_lab.train.loop import train
+from texvent_lab.train.schedule import Hardware, Schedule
+
+CLASSES = "car,truck,bus,motorcycle,cyclist,pedestrian"
+STREET = "davis346"
+SCORES_FILE = "scores.json"
+AP50 = (0.5,)
+SIZES: Mapping[str, tuple[float, float]] = {
+    "small": (0.0, 32.0**2),
+    "medium": (32.0**2, 96.0**2),
+    "large": (96.0**2, np.inf),
+}
+"""COCO's sizes, by the area of a box, px²."""
+MOST_WINDOWS = 10
+"""Memory of a detector before an instant of the street, in windows: that of a training clip."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class DetectionPlan:
+    """Clips, arms and networks.
+
+    Raises:
+        ConfigError: a value out of range.
+    """
+
+    specification: Path
+    """Of the data set; each of its variants is an arm."""
+    work: Path
+    """Folder that keeps clips, networks and scores."""
+    clips: int | None = None
+    """Clips in all; None: as many as the specification says."""
+    arms: tuple[str, ...] = ()
+    """Variants to train on; none: all."""
+    seeds: int = 1
+    """Networks per arm."""
+    passes: int = 1
+    """Passes over the clips in an epoch."""
+    schedule: Schedule = DetectionConfig().schedule
+
+    def __post_init__(self) -> None:
+        check_range("clips", self.clips, 1)
+        check_range("seeds", self.seeds, 1, 1000)
+        for arm in self.arms:
+            if arm not in self.variants:
+                raise ConfigError(f"unknown arm {shown(arm)}; {suggest(arm, self.variants)}")
+
+    @property
+    def variants(self) -> tuple[str, ...]:
+        """All arms."""
+        return tuple(one.name for one in read_specification(self.specification).variants)
+
+    def training(self, arm: str, seed: int) -> DetectionConfig:
+        """How the network of an arm and seed is trained."""
+        data = DetectionData(folder=self.work / "rvt" / arm, passes=self.passes)
+        return DetectionConfig(seed=seed, data=data, schedule=self.schedule)
+
+
+def run_detection(
+    plan: DetectionPlan,
+    hardware: Hardware,
+    *,
+    jobs: int = 1,
+    progress: Progress = no_progress,
+) -> DetectionReport:
+    """Make, train and test what was not before.
+
+    Args:
+        plan: see `DetectionPlan`.
+        hardware: what trains.
+        jobs: processes that make clips; as many arms are trained at once.
+        progress: told of every step.
+
+    Raises:
+        MissingDependencyError: evlib, torch or pycocotools is not installed.
+        ConfigError, InputError, TexventError: a step cannot be done.
+    """
+    start = time.perf_counter()
+    for module in ("torch", "torchvision", "evlib.models.rvt", "pycocotools"):
+        require(module, extra=EXTRA)
+    arms = plan.arms or plan.variants
+    make_clips(plan, arms, jobs=jobs, progress=progress)
+    todo = [(plan, hardware, arm, seed) for seed in range(plan.seeds) for arm in arms]
+    scores = []
+    for score in run_jobs(train_and_test, todo, jobs):
+        progress(f"{score.arm}, seed {score.seed}: AP50 {score.ap50['all']:.3f}")
+        scores.append(score)
+    return DetectionReport(
+        environment=describe_environment() | {"gpu": _gpu_name(hardware)},
+        protocol=_protocol(plan, arms),
+        scores=scores,
+        seconds=time.perf_counter() - start,
+    )
+
+
+def make_clips(plan: DetectionPlan, arms: Sequence[str], *, jobs: int, progress: Progress) -> None:
+    """Make the data set and export each arm as RVT reads it; what is there is kept."""
+    if all((plan.work / "rvt" / arm / "train").is_dir() for arm in arms):
+        return
+    folder = plan.work / "clips"
+    specification = with_count(read_specification(plan.specification), plan.clips)
+    work = dataset.make(specification, folder, workers=jobs)
+    if work.failures:
+        raise TexventError(f"clips could not be made: {next(iter(work.failures.values()))}")
+    for arm in arms:
+        done = export(
+            StoredDataset.open(folder), "rvt", plan.work / "rvt" / arm, variant=arm, classes=CLASSES
+        )
+        progress(f"{arm}: {done.samples} clips")
+
+
+def with_count(specification: Specification, clips: int | None) -> Specification:
+    """The specification with so many clips in all, in equal shares of its scene files."""
+    if clips is None:
+        return specification
+
+    def shared(count: int) -> Specification:
+        sources = [dataclasses.replace(one, count=count) for one in specification.sources]
+        return dataclasses.replace(specification, sources=tuple(sources))
+
+    return shared(max(1, clips // len(read_items(shared(1)).all)))
+
+
+def train_and_test(plan: DetectionPlan, hardware: Hardware, arm: str, seed: int) -> ArmScore:
+    """Train a network, or go on, and score its best epoch; the scores are kept beside it."""
+    folder = plan.work / "networks" / f"{arm}-{seed}"
+    config, started = plan.training(arm, seed), time.perf_counter()
+    task = DetectionTask(config)
+    state = train(
+        task,
+        plan.schedule,
+        folder,
+        tables=plain(config),
+        hardware=hardware,
+        progress=NO_PROGRESS,
+    )
+    if (folder / SCORES_FILE).is_file():
+        return ArmScore(**json.loads((folder / SCORES_FILE).read_text(encoding="utf-8")))
+    network, device = task.make_network(), hardware.find_device()
+    network.load_state_dict(state.best)
+    network.to(device).eval()
+    with hardware.autocast(device):
+        score = score_network(network, task, config, device, arm=arm, seed=seed)
+    score = dataclasses.replace(
+        score,
+        best_epoch=state.best_epoch,
+        training_seconds=sum(row["seconds"] for row in state.rows),
+        seconds=time.perf_counter() - started,
+    )
+    with atomic_file(folder / SCORES_FILE, overwrite=True) as part:
+        part.write_text(json.dumps(asdict(score), indent=1) + "\n", encoding="utf-8")
+    return score
+
+
+def score_network(
+    network: Any, task: DetectionTask, config: DetectionConfig, device: Any, *, arm: str, seed: int
+) -> ArmScore:
+    """AP of a network on the unseen clips of its arm, and on the street where it is pulled."""
+    folder = Path(config.data.folder or "")
+    clips = read_clips(folder, "test")
+    found = detect_clips(network, clips, device)
+    truth = join_boxes([one.boxes for one in clips])
+    events = [int(one.counts.sum()) for one in clips]
+    return ArmScore(
+        arm=arm,
+        seed=seed,
+        clips={name: _count(folder / name) for name in ("train", "val", "test")},
+        events=float(np.median(events)),
+        boxes=int((truth["class_confidence"] > IGNORED).sum()),
+        ap=average_precision(found, truth, classes=task.classes),
+        ap50=average_precision(found, truth, classes=task.classes, iou=AP50),
+        ap50_by_size={
+            name: average_precision(
+                *_of_size(found, truth, limits), classes=task.classes, iou=AP50
+            )["all"]
+            for name, limits in SIZES.items()
+        },
+        street=score_street(network, task.classes, device),
+    )
+
+
+def _count(folder: Path) -> int:
+    return sum(one.is_dir() for one in folder.iterdir())
+
+
+def _of_size(
+    found: NDArray[np.void], truth: NDArray[np.void], limits: tuple[float, float]
+) -> tuple[NDArray[np.void], NDArray[np.void]]:
+    """Detections of that area, and boxes of which others than those of that area do not count."""
+    low, high = limits
+    has_size = [
+        (low <= area) & (area < high) for area in (one["w"] * one["h"] for one in (found, truth))
+    ]
+    marked = truth.copy()
+    marked["class_confidence"][~has_size[1]] = IGNORED
+    return found[has_size[0]], marked
+
+
+def score_street(
+    network: Any, classes: Sequence[str], device: Any
+) -> Mapping[str, Mapping[str, float]] | None:
+    """AP50 and AP of cars on the recorded street, with 95 % intervals; None if it is not pulled."""
+    path = find_pulled(STREET)
+    if path is None:
+        return None
+    truth = read_street_labels(classes)
+    found = np.concatenate(list(_detect_street(network, path, np.unique(truth["t"]), device)))
+    scores = {
+        "AP50": bootstrap(found, truth, classes=classes, iou=AP50),
+        "AP": bootstrap(found, truth, classes=classes),
+    }
+    return {
+        name: {end: float(getattr(one["car"], end)) for end in ("value", "low", "high")}
+        for name, one in scores.items()
+    }
+
+
+def _detect_street(
+    network: Any, path: Path, instants_us: NDArray[np.int64], device: Any
+) -> Iterator[NDArray[np.void]]:
+    """Detections at each instant, after the windows before it."""
+    events = open_events(path).collect()
+    for t_us in map(int, instants_us):
+        count = min(MOST_WINDOWS, max(1, (t_us - int(events.t[0])) // WINDOW_US))
+        ends = [t_us - WINDOW_US * number for number in reversed(range(count))]
+        windows = [stacked_histogram(events.cut(end - WINDOW_US, end + 1)) for end in ends]
+        found = detect_last(network, windows, device)
+        yield as_boxes(found, t_us, events.size.shape)
+
+
+def _gpu_name(hardware: Hardware) -> str | None:
+    torch = require("torch", extra=EXTRA)
+    is_gpu = hardware.find_device().type == "cuda"
+    return str(torch.cuda.get_device_name()) if is_gpu else None
+
+
+def _protocol(plan: DetectionPlan, arms: Sequence[str]) -> dict[str, Any]:
+    options = {one.name: one.options for one in read_specification(plan.specification).variants}
+    return {
+        "network": "RVT-T of evlib, YOLOX head, from random weights",
+        "schedule": plain(plan.schedule),
+        "passes per epoch": plan.passes,
+        "arms": {arm: dict(options[arm]) for arm in arms},
+        "boxes at rest": "ignored",
+    }

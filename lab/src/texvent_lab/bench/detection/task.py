@@ -1,0 +1,304 @@
+"""Training of evlib's RVT on clips with boxes: its input, its loss, and average precision.
+
+Source: M. Gehrig, D. Scaramuzza, "Recurrent vision transformers for object detection with event
+cameras", CVPR 2023; Z. Ge et al., "YOLOX: exceeding YOLO series in 2021", whose head and loss it
+has. Network, head and loss are evlib's.
+Deviations: memory starts empty in every clip; no zoom; the head computes in float32 always.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from texvent.errors import FileFormatError, InputError
+from texvent.extending import require
+from texvent.networks.weight_files import STATE, Tensor
+from texvent.truth.boxes import BOX_RECORD
+from texvent_lab.bench.detection.clips import (
+    WINDOW_US,
+    Clip,
+    dense,
+    read_classes,
+    read_clips,
+)
+from texvent_lab.bench.detection.config import EXTRA, DetectionConfig
+from texvent_lab.bench.detection.labels import COUNTED
+from texvent_lab.bench.detection.precision import ALL, average_precision
+from texvent_lab.networks.layers import make_seeded
+from texvent_lab.train.task import Batches, Score
+
+CLASSES = "classes"
+"""Of the weights file: names of the classes."""
+STRIDE, SPLIT = 32, 2
+"""Of the last stage, px; windows of attention along each side there."""
+LEAST_CONFIDENCE, MOST_OVERLAP = 0.01, 0.45
+"""Of detections; more overlap with a surer one of the same class removes one."""
+CLIP_US = 10_000_000
+"""Distance of clips on the common clock of their boxes, µs."""
+NUMBER, FLIP, LEARNED = "number", "flip", "learned"
+
+
+@dataclass(frozen=True)
+class DrawnClips:
+    """Training clips by number; see `MakeSample`."""
+
+    clips: Sequence[Clip]
+    windows: int
+    flips: bool
+
+    @property
+    def identity(self) -> str:
+        """See `MakeSample`."""
+        names = (f"{one.key}:{len(one.places)}" for one in self.clips)
+        return " ".join(names)
+
+    def __call__(self, number: int, chance: np.random.Generator) -> Mapping[str, Any]:
+        """The number of a clip, whether it is mirrored, and the windows that are learned."""
+        place = number % len(self.clips)
+        windows = chance.choice(self.clips[place].learnable, self.windows)
+        flip = self.flips and bool(chance.random() < 0.5)
+        return {NUMBER: place, FLIP: np.bool_(flip), LEARNED: windows.astype(np.int64)}
+
+
+class DetectionTask:
+    """Boxes of road users from events."""
+
+    score: ClassVar[Score] = Score("AP50", is_higher_better=True)
+
+    def __init__(self, config: DetectionConfig) -> None:
+        """Open the validation clips.
+
+        Raises:
+            InputError, FileFormatError: they are missing or damaged.
+        """
+        self._config, self._folder = config, Path(config.data.folder or "")
+        self.classes = read_classes(self._folder)
+        self._validation = read_clips(self._folder, config.data.validation_split)
+        self._clips: list[Clip] = []
+
+    @classmethod
+    def of(cls, config: DetectionConfig, classes: Sequence[str], clips: list[Clip]) -> Self:
+        """A task of clips in memory, which it trains on and scores."""
+        task = cls.__new__(cls)
+        task._config, task.classes = config, tuple(classes)
+        task._clips = task._validation = clips
+        return task
+
+    def make_network(self) -> Any:
+        """See `Task`."""
+        size = self._validation[0].shape[-2:]
+        return make_detector(len(self.classes), size, self._config.seed)
+
+    def batches(self, *, workers: int) -> Batches:
+        """See `Task`."""
+        data, schedule = self._config.data, self._config.schedule
+        found = read_clips(self._folder, data.split)
+        self._clips = [one for one in found if one.learnable]
+        sizes = {one.shape[1:] for one in (*self._clips, *self._validation)}
+        if not self._clips or len(sizes) > 1:
+            raise InputError(
+                f"{self._folder} has clips of {len(sizes)} sizes, {len(self._clips)} of them with "
+                "moving boxes; export clips of one sensor, with boxes of the detector's classes"
+            )
+        make = DrawnClips(self._clips, data.windows, self._config.flip_x)
+        count = len(self._clips) * data.passes
+        return Batches(make, count, schedule.batch_size, self._config.seed, workers=0)
+
+    def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
+        """YOLOX's loss in the windows that are learned, with the memory of all before them."""
+        torch = require("torch", extra=EXTRA)
+        clips = [self._clips[number] for number in batch[NUMBER].tolist()]
+        flips, learned = batch[FLIP], batch[LEARNED].tolist()
+        histograms = dense(clips, device)
+        histograms[flips.to(device)] = histograms[flips.to(device)].flip(-1)
+        last = max(map(max, learned))
+        chosen: list[dict[int, Tensor]] = []
+        boxes: list[NDArray[np.float32]] = []
+        for window, features in enumerate(run_backbone(network, histograms[:, : last + 1])):
+            rows = [n for n, windows in enumerate(learned) for one in windows if one == window]
+            if rows:
+                chosen.append({stage: one[rows] for stage, one in features.items()})
+                boxes += [targets(clips[n], window, bool(flips[n])) for n in rows]
+        joined = {stage: torch.cat([one[stage] for one in chosen]) for stage in chosen[0]}
+        with cached_memory():
+            return run_head(network, joined, _padded(boxes).to(device))[1]["loss"]
+
+    def validate(
+        self, network: Any, device: Any, *, workers: int
+    ) -> tuple[dict[str, float], dict[str, list[Any]]]:
+        """AP at an overlap of .5 and over all, in windows with boxes."""
+        del workers
+        found = detect_clips(network, self._validation, device)
+        truth = join_boxes([one.boxes for one in self._validation])
+        return {
+            "AP50": average_precision(found, truth, classes=self.classes, iou=(0.5,))[ALL],
+            "AP": average_precision(found, truth, classes=self.classes)[ALL],
+        }, {}
+
+    def published(self, network: Any) -> Mapping[str, Any]:
+        """Evlib's names."""
+        tensors = {name: one.detach().cpu() for name, one in network.state_dict().items()}
+        return {STATE: tensors, CLASSES: list(self.classes)}
+
+    def read(self, network: Any, content: Mapping[str, Any], path: Path) -> None:
+        """See `Task`."""
+        if tuple(content.get(CLASSES, ())) != self.classes:
+            raise FileFormatError(
+                f"{path} has no weights for the classes {', '.join(self.classes)}; texvent train "
+                "detection writes them as weights.pt"
+            )
+        try:
+            network.load_state_dict(content[STATE])
+        except (RuntimeError, KeyError, TypeError) as error:
+            raise FileFormatError(f"{path} holds other tensors than evlib's RVT-T has") from error
+
+
+def make_detector(classes: int, size: tuple[int, int], seed: int) -> Any:
+    """Evlib's RVT-T with random weights.
+
+    Args:
+        classes: number of them.
+        size: height and width of the sensor, px, which choose the windows of attention.
+        seed: of the weights.
+    """
+    models = require("evlib.models.rvt", extra=EXTRA)
+    part = tuple(-(-side // (STRIDE * SPLIT)) for side in size)
+    return make_seeded(
+        lambda: models.RVT(variant="tiny", num_classes=classes, partition_size=part), seed
+    )
+
+
+def run_backbone(network: Any, histograms: Tensor) -> Iterator[dict[int, Tensor]]:
+    """Features of successive windows; memory is empty before the first.
+
+    Args:
+        network: evlib's RVT.
+        histograms: [clips, windows, channels, height, width]; enlarged to the right and below to
+            what the windows of attention divide.
+    """
+    pad = require("torch", extra=EXTRA).nn.functional.pad
+    parts = network.backbone.config.partition_size
+    below, right = (
+        -side % (STRIDE * part) for side, part in zip(histograms.shape[-2:], parts, strict=True)
+    )
+    states = None
+    for window in range(histograms.shape[1]):
+        image = pad(histograms[:, window].float(), (0, right, 0, below))
+        features, states = network.forward_backbone(image, states)
+        yield features
+
+
+def run_head(
+    network: Any, features: Mapping[int, Tensor], targets: Tensor | None = None
+) -> tuple[Tensor, Any]:
+    """Evlib's predictions, and its losses where there are targets, in float32.
+
+    The head keeps the grid of cells that it meets first; sizes and modes of autograd differ here.
+    """
+    torch = require("torch", extra=EXTRA)
+    network.head.output_grids = network.head.output_strides = None
+    inputs = {stage: one.float() for stage, one in features.items()}
+    with torch.autocast(inputs[2].device.type, enabled=False):
+        found: tuple[Tensor, Any] = network.forward_detect(inputs, targets)
+    return found
+
+
+@contextmanager
+def cached_memory() -> Iterator[None]:
+    """Keep torch's cache of GPU memory: evlib's loss empties it for each image, which is slow."""
+    cuda = require("torch", extra=EXTRA).cuda
+    empty_cache, cuda.empty_cache = cuda.empty_cache, lambda: None
+    try:
+        yield
+    finally:
+        cuda.empty_cache = empty_cache
+
+
+def targets(clip: Clip, window: int, flip: bool) -> NDArray[np.float32]:
+    """Boxes of a window that count, [n, 5]: class, x and y of the middle, width, height."""
+    boxes = clip.boxes[window]
+    boxes = boxes[boxes["class_confidence"] == COUNTED]
+    x = boxes["x"] + boxes["w"] / 2
+    if flip:
+        x = clip.shape[-1] - x
+    y = boxes["y"] + boxes["h"] / 2
+    return np.stack([boxes["class_id"], x, y, boxes["w"], boxes["h"]], axis=1).astype(np.float32)
+
+
+def _padded(boxes: Sequence[NDArray[np.float32]]) -> Tensor:
+    rows = np.zeros((len(boxes), max(map(len, boxes)), 5), np.float32)
+    for row, one in zip(rows, boxes, strict=True):
+        row[: len(one)] = one
+    return require("torch", extra=EXTRA).from_numpy(rows)
+
+
+def detect_clips(
+    network: Any, clips: Sequence[Clip], device: Any, *, batch: int = 8
+) -> NDArray[np.void]:
+    """Detections in all windows with boxes, `BOX_RECORD` on the clock of `join_boxes`."""
+    found = []
+    for first in range(0, len(clips), batch):
+        chosen = clips[first : first + batch]
+        for window, predictions in enumerate(_predict(network, dense(chosen, device))):
+            for place, one in enumerate(predictions):
+                clip = chosen[place]
+                if window < len(clip.boxes) and len(clip.boxes[window]):
+                    t_us = (first + place) * CLIP_US + (window + 1) * WINDOW_US
+                    found.append(as_boxes(one, t_us, clip.shape[-2:]))
+    return np.concatenate(found) if found else np.zeros(0, BOX_RECORD)
+
+
+def join_boxes(clips: Sequence[Sequence[NDArray[np.void]]]) -> NDArray[np.void]:
+    """Boxes of clips on one clock: window k of clip n ends at n · `CLIP_US` + (k + 1) · 50 ms."""
+    joined = []
+    for number, windows in enumerate(clips):
+        for window, boxes in enumerate(windows):
+            moved = boxes.copy()
+            moved["t"] = number * CLIP_US + (window + 1) * WINDOW_US
+            joined.append(moved)
+    return np.concatenate(joined)
+
+
+def detect_last(network: Any, histograms: Sequence[NDArray[np.uint8]], device: Any) -> Tensor:
+    """Detections [n, 7] of evlib at the end of the last of successive windows; None for none."""
+    torch = require("torch", extra=EXTRA)
+    windows = torch.from_numpy(np.stack(histograms))[None].to(device)
+    return list(_predict(network, windows))[-1][0]
+
+
+def _predict(network: Any, histograms: Tensor) -> Iterator[list[Tensor | None]]:
+    """Evlib's detections of each clip, window by window."""
+    torch = require("torch", extra=EXTRA)
+    postprocess = require("evlib.models.yolox_head", extra=EXTRA).postprocess
+    with torch.inference_mode():
+        for features in run_backbone(network, histograms):
+            found, _ = run_head(network, features)
+            yield postprocess(found, network.num_classes, LEAST_CONFIDENCE, MOST_OVERLAP)
+
+
+def as_boxes(found: Tensor | None, t_us: int, size: Sequence[int]) -> NDArray[np.void]:
+    """Detections of evlib as `BOX_RECORD`, cut at the edges of the sensor.
+
+    Args:
+        found: [n, 7] left, top, right, bottom, objectness, class confidence, class; None for none.
+        t_us: their time.
+        size: height and width of the sensor, px.
+    """
+    if found is None:
+        return np.zeros(0, BOX_RECORD)
+    rows = found.float().cpu().numpy()
+    boxes = np.zeros(len(rows), BOX_RECORD)
+    left, right = rows[:, 0].clip(0, size[1] - 1), rows[:, 2].clip(0, size[1] - 1)
+    top, bottom = rows[:, 1].clip(0, size[0] - 1), rows[:, 3].clip(0, size[0] - 1)
+    boxes["t"], boxes["x"], boxes["y"] = t_us, left, top
+    boxes["w"], boxes["h"] = right - left, bottom - top
+    boxes["class_confidence"] = rows[:, 4] * rows[:, 5]
+    boxes["class_id"] = rows[:, 6]
+    return boxes[(boxes["w"] > 0) & (boxes["h"] > 0)]

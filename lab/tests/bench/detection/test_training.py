@@ -1,0 +1,155 @@
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.errors import ConfigError, InputError
+from texvent.truth.boxes import BOX_RECORD
+from texvent_lab.bench.detection.clips import Clip, mark_resting, read_classes, read_clips
+from texvent_lab.bench.detection.config import DetectionConfig
+from texvent_lab.commands.bench.bench import run
+
+SCENE = """
+[[objects]]
+noun = "car"
+position_m = [0, 0]
+heading_deg = 180
+motions = [{ kind = "drive", speed_m_s = 6 }]
+
+[camera]
+position_m = [0, -7, 1.5]
+look_at_m = [0, 0, 0.7]
+field_of_view_deg = 60
+"""
+SPECIFICATION = """
+name = "cars"
+truth = ["boxes"]
+previews = false
+samples_per_shard = 4
+splits = { train = 0.5, val = 0.25, test = 0.25 }
+filters = { min_events = 0 }
+options = { duration = 0.2, sensor = "64x48" }
+
+[[sources]]
+scene = "car.toml"
+count = 400
+
+[sources.vary]
+"objects[0].noun" = ["car", "truck"]
+"objects[0].position_m[0]" = { uniform = [-2.0, 2.0] }
+
+[variants.texvent]
+
+[variants.frames]
+interpolate = "none"
+"""
+
+
+def boxes(*rows):
+    """Records of (track, x, y, w, h)."""
+    return np.array([(0, x, y, w, h, 0, track, 1) for track, x, y, w, h in rows], BOX_RECORD)
+
+
+def test_a_box_at_rest_is_ignored_until_an_edge_moves():
+    windows = [
+        boxes((1, 10, 10, 20, 20), (2, 40, 10, 8, 8)),
+        boxes((1, 10, 10, 20, 20), (2, 43, 10, 8, 8)),
+        boxes((1, 10, 10, 20, 20.6), (3, 50, 10, 8, 8)),
+    ]
+    marked = [one["class_confidence"].tolist() for one in mark_resting(windows)]
+    assert marked == [[0, 1], [0, 1], [1, 1]]
+
+
+def test_what_is_no_export_is_refused_in_one_line(tmp_path: Path):
+    with pytest.raises(InputError, match=r"has no texvent-export\.json; write it with"):
+        read_classes(tmp_path)
+    with pytest.raises(InputError, match=r"there are no clips in .*train; make and export"):
+        read_clips(tmp_path, "train")
+    with pytest.raises(ConfigError, match=r"data\.folder is missing; name what"):
+        DetectionConfig().make_task()
+
+
+@pytest.mark.detect
+def test_mirrored_histograms_and_boxes_agree():
+    pytest.importorskip("evlib")
+    from texvent_lab.bench.detection.clips import dense
+    from texvent_lab.bench.detection.task import targets
+
+    histogram = np.zeros((20, 48, 64), np.uint8)
+    histogram[3, 10:20, 5:15] = 2
+    clip = Clip.of("a", [histogram], [boxes((1, 5, 10, 10, 10))])
+    image = dense([clip], "cpu")[0, 0].flip(-1).numpy()
+    ((_, x, y, w, h),) = targets(clip, 0, flip=True)
+    assert image[3, int(y - h / 2) : int(y + h / 2), int(x - w / 2) : int(x + w / 2)].sum() == 200
+    assert dense([clip, clip], "cpu").sum() == 400
+
+
+@pytest.mark.detect
+def test_a_detector_finds_what_it_was_trained_on():
+    pytest.importorskip("evlib")
+    import torch
+
+    from texvent_lab.bench.detection.precision import average_precision
+    from texvent_lab.bench.detection.task import DetectionTask, detect_clips, join_boxes
+
+    clips = [_square(number) for number in range(4)]
+    task = DetectionTask.of(DetectionConfig(), ("square",), clips)
+    network = task.make_network().train()
+    optimizer = DetectionConfig().schedule.make_optimizer(network)
+    learned = torch.tensor([[0, 1]] * 4)
+    batch = {
+        "number": torch.arange(4),
+        "flip": torch.zeros(4, dtype=torch.bool),
+        "learned": learned,
+    }
+    for _ in range(80):
+        loss = task.loss(network, batch, torch.device("cpu"))
+        optimizer.zero_grad()
+        loss.backward()
+        optimizer.step()
+    found = detect_clips(network.eval(), clips, "cpu")
+    truth = join_boxes([one.boxes for one in clips])
+    assert average_precision(found, truth, classes=("square",), iou=(0.5,))["all"] > 0.5
+
+
+def _square(number: int) -> Clip:
+    """A filled square of 16 to 22 px that moves by 4 px."""
+    side = 16 + 2 * number
+    histograms = np.zeros((2, 20, 64, 64), np.uint8)
+    found = []
+    for window in range(2):
+        x, y = 4 + 8 * number + 4 * window, 30 - 6 * number
+        histograms[window, :, y : y + side, x : x + side] = 3
+        found.append(boxes((1, x, y, side, side)))
+    return Clip.of(str(number), list(histograms), found)
+
+
+@pytest.mark.detect
+def test_arms_are_made_trained_and_tested_and_kept(tmp_path: Path):
+    pytest.importorskip("evlib")
+    (tmp_path / "car.toml").write_text(SCENE)
+    (tmp_path / "cars.toml").write_text(SPECIFICATION)
+    words = ["detection", str(tmp_path / "cars.toml"), "--work", str(tmp_path / "work")]
+    words += ["--clips", "8", "--epochs", "1", "--batch-size", "2", "--device", "cpu"]
+    run([*words, "-o", str(tmp_path / "one.json")])
+    document = json.loads((tmp_path / "one.json").read_text())
+    assert [one["arm"] for one in document["scores"]] == ["texvent", "frames"]
+    first = document["scores"][0]
+    assert first["clips"] == {"train": 4, "val": 2, "test": 2}
+    assert first["boxes"] == document["scores"][1]["boxes"] > 0
+    assert set(first["ap50"]) == {
+        "car",
+        "truck",
+        "bus",
+        "motorcycle",
+        "cyclist",
+        "pedestrian",
+        "all",
+    }
+    times = {one: one.stat().st_mtime_ns for one in (tmp_path / "work").rglob("*.pt")}
+    run([*words, "-o", str(tmp_path / "two.json")])
+    assert times == {one: one.stat().st_mtime_ns for one in times}
+    assert json.loads((tmp_path / "two.json").read_text())["scores"] == document["scores"]
+    with pytest.raises(ConfigError, match="unknown arm 'rvt'"):
+        run([*words, "--arms", "rvt"])
