@@ -24,7 +24,7 @@ from texvent.sensor import SensorSize
 
 BLOCK = 4
 """Side of the blocks of pixels that share their instants; divides `TILE`."""
-EVEN, EVEN_S = 0.04, 2e-4
+EVEN, EVEN_S = 0.03, 1.5e-4
 """A level that is foretold to this share of it changes evenly; in long intervals, where the same
 error shifts events further, to `EVEN_S` over the interval."""
 DARK = 30.0
@@ -163,7 +163,7 @@ def block_speeds(forward: Float32Array, backward: Float32Array) -> Float32Array:
     speeds = np.zeros((-(-height // BLOCK), -(-width // BLOCK)), np.float32)
     for vectors in (forward, backward):
         spread_speeds(vectors, speeds)
-    return speeds
+    return widen_ways(speeds)
 
 
 @jit(error_model="numpy")
@@ -188,6 +188,24 @@ def spread_speeds(vectors: Float32Array, speeds: Float32Array) -> None:
                 if 0 <= column < width and 0 <= row < height:
                     block = row // BLOCK, column // BLOCK
                     speeds[block] = max(speeds[block], length)
+
+
+@jit(error_model="numpy")
+def widen_ways(speeds: Float32Array) -> Float32Array:
+    """The speeds of blocks, each raised to those from which it is half a way off.
+
+    What turns leaves the straight line between its places by as much.
+    """
+    rows, columns = speeds.shape
+    result = speeds.copy()
+    for row in range(rows):
+        for column in range(columns):
+            speed = speeds[row, column]
+            reach = int(0.5 * speed / BLOCK) if speed < math.inf else 0
+            for y in range(max(row - reach, 0), min(row + reach + 1, rows)):
+                for x in range(max(column - reach, 0), min(column + reach + 1, columns)):
+                    result[y, x] = max(result[y, x], speed)
+    return result
 
 
 @jit(error_model="numpy")
