@@ -57,8 +57,8 @@ class ProceduralConfig:
     """How the embedded generator renders a scene."""
 
     fps: Fraction = Fraction(24)
-    """Frame rate of the video, as 24, 29.97 or 30000/1001. In between, surfaces are followed along
-    their exact motion, and what that does not tell is rendered: the rate decides little."""
+    """Frame rate of the video, as 24, 29.97 or 30000/1001. In between, every part of the image is
+    rendered as often as it changes: the rate decides little."""
     duration: float = 2.0
     """Length of the video, in seconds, cut to whole frame intervals: 0.4 s at 24 fps are nine of
     them, 0.375 s."""
@@ -206,18 +206,13 @@ class ProceduralVideo(NotebookFrames):
         def luma(light: NDArray[np.float64]) -> NDArray[np.float32]:
             return np.asarray(luma_bt601(self._code(light)[None])[0], dtype=np.float32)
 
-        config, speeds = self.config, None
-        forward = None if first.motion is None else first.motion.forward
-        backward = None if second.motion is None else second.motion.backward
-        if forward is not None and backward is not None:
-            speeds = block_speeds(forward, backward)
+        config, start, stop = self.config, first.motion or Motion(), second.motion or Motion()
+        speeds = block_speeds(self.size, start.forward, stop.backward)
         drawing = Between(self.scene, self.size, config.samples, config.shadows, luma)
         times = [t_us / MICROSECONDS for t_us in (first.t_us, *times_us, second.t_us)]
-        ends = [
-            Instant(number, float_luma(frame), getattr(frame, "codes", None))
-            for number, frame in ((0, first), (len(times) - 1, second))
-        ]
-        return drawing.draw(ends[0], ends[1], speeds, times)
+        before = Instant(0, float_luma(first), getattr(first, "codes", None))
+        after = Instant(len(times) - 1, float_luma(second), getattr(second, "codes", None))
+        return drawing.draw(before, after, speeds, times)
 
     def _motion(self, index: int) -> Motion:
         """Motion from a frame to its neighbours."""

@@ -51,10 +51,10 @@ def test_motion_of_frames_is_the_ground_truth():
     ("prompt", "most_drawn"),
     [
         ("city driving at night", 0.7),
-        ("driving through a forest", 0.8),
+        ("driving through a forest", 0.85),
         ("cars drive past houses on a street", 0.25),
-        ("a fan", 0.25),
-        ("the camera pans left across a room", 0.7),
+        ("a fan spins at 20 Hz", 0.4),
+        ("the camera pans left across a room", 0.75),
     ],
 )
 def test_events_agree_with_those_of_every_instant_rendered(monkeypatch, prompt, most_drawn):
@@ -71,7 +71,7 @@ def test_events_agree_with_those_of_every_instant_rendered(monkeypatch, prompt, 
         options = {"interpolate": interpolate, "fixed_count": 15, "noise": "none"}
         run = Simulation(video=video(prompt), settings=resolve("generate", options))
         streams[interpolate] = run.packets.collect()
-    assert compare(streams["motion"], streams["exact"], ["stpp"])["stpp"] > 0.97
+    assert compare(streams["motion"], streams["exact"], ["stpp"])["stpp"] > 0.98
     instants = 15 * (video(prompt).frame_count - 1)
     assert sum(drawn) < most_drawn * instants
 

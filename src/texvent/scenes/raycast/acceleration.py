@@ -60,7 +60,7 @@ class Bins(NamedTuple):
 
     start: IntArray
     """[cells + 1], row-major cells."""
-    items: IntArray
+    items: IntArray | NDArray[np.int32]
     """Shape numbers, in the order given to `bin_rectangles`."""
     columns: int
     rows: int

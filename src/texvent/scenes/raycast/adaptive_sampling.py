@@ -182,10 +182,9 @@ def _find_edge(
             beyond = (code << LIT_BITS) + (probes[1] & ALL_LIGHTS & ~changed) + reached
     if high < 1.0 and beyond >> LIT_BITS != surface:
         # Where the same lamps reach both ends, only the sun's shadow is looked for.
-        goes_on = beyond >> LIT_BITS == probes[1] >> LIT_BITS
-        wanted = ALL_LIGHTS
-        if goes_on and (probes[0] ^ probes[1]) & ALL_LIGHTS & ~SUN == 0:
-            wanted = SUN
+        is_other = beyond >> LIT_BITS != probes[1] >> LIT_BITS
+        lamps = (probes[0] ^ probes[1]) & ALL_LIGHTS & ~SUN
+        wanted = ALL_LIGHTS if is_other or lamps else SUN
         lit, _ = lit_by(instant, place[0], place[1], hit, wanted)
         beyond = beyond & ~wanted | lit & wanted
     return 0.5 * (low + high), beyond

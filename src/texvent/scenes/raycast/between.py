@@ -11,20 +11,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
 from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes
-from texvent.scenes.raycast.render import light_of_rows, world_and_shapes
-from texvent.scenes.raycast.reuse import Drawn, Mask, changed_tiles
+from texvent.scenes.raycast.render import Drawn, light_of_rows, world_and_shapes
+from texvent.scenes.raycast.reuse import Mask, changed_tiles
 from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
 
 BLOCK = 4
 """Side of the blocks of pixels that share their instants; divides `TILE`."""
-EVEN, EVEN_S = 0.04, 2e-4
+EVEN, EVEN_S = 0.03, 1.5e-4
 """A level that is foretold to this share of it changes evenly; in long intervals, where the same
 error shifts events further, to `EVEN_S` over the interval."""
 DARK = 30.0
@@ -59,23 +60,19 @@ class Between:
     """Light [k, 3] (1 is white) → levels [k]."""
 
     def draw(
-        self, first: Instant, last: Instant, speeds: Float32Array | None, times_s: Sequence[float]
+        self, first: Instant, last: Instant, speeds: Float32Array, times_s: Sequence[float]
     ) -> Iterator[Float32Array]:
         """Levels [H, W] at the inner times, in their order.
 
         Args:
             first: the frame before.
             last: the frame after.
-            speeds: [rows, columns] of blocks: how far what passes a block moves from frame to
-                frame, px; None: not known.
+            speeds: of `block_speeds`.
             times_s: of the frame before, of the instants, of the frame after.
         """
-        blocks = self._changing(times_s)
-        if speeds is None:
-            speeds = np.full(blocks.shape, math.inf, np.float32)
         speeds = speeds / np.float32(len(times_s) - 1)
-        for one in self._divide(first, last, blocks, speeds, times_s):
-            yield one.luma
+        instants = self._divide(first, last, self._changing(times_s), speeds, times_s)
+        return (one.luma for one in instants)
 
     def _divide(
         self,
@@ -112,27 +109,21 @@ class Between:
 
     def _luma(self, time_s: float, wanted: Mask, codes: Codes) -> Float32Array:
         """Levels [k] of the wanted pixels at an instant."""
-        world = self._drawn(time_s).world
-        rows = (0, self.size.height)
-        light = light_of_rows(
-            world, rows, self.size, samples=self.samples, wanted=wanted, codes=codes
-        )
+        world, size, samples = self._drawn(time_s).world, self.size, self.samples
+        rows = (0, size.height)
+        light = light_of_rows(world, rows, size, samples=samples, wanted=wanted, codes=codes)
         return self.luma_of(light[wanted])
 
     def _drawn(self, time_s: float) -> Drawn:
         size, samples = self.size, self.samples
-        return Drawn(
-            *world_and_shapes(self.scene, time_s, size, shadows=self.shadows, samples=samples)
-        )
+        return world_and_shapes(self.scene, time_s, size, shadows=self.shadows, samples=samples)
 
     def _changing(self, times_s: Sequence[float]) -> Mask:
         """[rows, columns] of blocks that may differ between the frames and the middle of them."""
         height, width = self.size.shape
-        first, middle, last = (
-            self._drawn(times_s[number]) for number in (0, (len(times_s) - 1) // 2, -1)
-        )
+        drawn = [self._drawn(times_s[number]) for number in (0, (len(times_s) - 1) // 2, -1)]
         changed: Mask = np.zeros((-(-height // TILE), -(-width // TILE)), np.bool_)
-        for one, other in ((first, middle), (middle, last)):
+        for one, other in pairwise(drawn):
             tiles = changed_tiles(one, other)
             changed |= True if tiles is None else tiles
         blocks = changed.repeat(TILE // BLOCK, axis=0).repeat(TILE // BLOCK, axis=1)
@@ -152,18 +143,19 @@ def _any_in_block(pixels: Mask) -> Mask:
     return np.asarray(np.logical_or.reduceat(upright, columns, axis=1))
 
 
-def block_speeds(forward: Float32Array, backward: Float32Array) -> Float32Array:
+def block_speeds(size: SensorSize, *fields: Float32Array | None) -> Float32Array:
     """How far what passes each block moves between two frames, px; inf where that is not known.
 
     Args:
-        forward: [H, W, 2] vectors from the first frame, px; NaN where unknown.
-        backward: [H, W, 2] vectors from the second frame.
+        size: of the frames, pixels.
+        fields: [H, W, 2] vectors from one frame to the other, px; NaN where unknown.
     """
-    height, width = forward.shape[:2]
+    height, width = size.shape
     speeds = np.zeros((-(-height // BLOCK), -(-width // BLOCK)), np.float32)
-    for vectors in (forward, backward):
-        spread_speeds(vectors, speeds)
-    return speeds
+    unknown = np.full((height, width, 2), np.nan, np.float32)
+    for vectors in fields:
+        spread_speeds(unknown if vectors is None else vectors, speeds)
+    return widen_ways(speeds)
 
 
 @jit(error_model="numpy")
@@ -188,6 +180,24 @@ def spread_speeds(vectors: Float32Array, speeds: Float32Array) -> None:
                 if 0 <= column < width and 0 <= row < height:
                     block = row // BLOCK, column // BLOCK
                     speeds[block] = max(speeds[block], length)
+
+
+@jit(error_model="numpy")
+def widen_ways(speeds: Float32Array) -> Float32Array:
+    """The speeds of blocks, each raised to those from which it is half a way off.
+
+    What turns leaves the straight line between its places by as much.
+    """
+    rows, columns = speeds.shape
+    result = speeds.copy()
+    for row in range(rows):
+        for column in range(columns):
+            speed = speeds[row, column]
+            reach = int(0.5 * speed / BLOCK) if speed < math.inf else 0
+            for y in range(max(row - reach, 0), min(row + reach + 1, rows)):
+                for x in range(max(column - reach, 0), min(column + reach + 1, columns)):
+                    result[y, x] = max(result[y, x], speed)
+    return result
 
 
 @jit(error_model="numpy")

@@ -6,6 +6,8 @@ with any number of threads, and a scene that stands still gives identical images
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 from numpy.typing import NDArray
 
@@ -78,12 +80,19 @@ def world_at(
     scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
 ) -> World:
     """What the kernels read about one instant of a scene."""
-    return world_and_shapes(scene, time_s, size, shadows=shadows, samples=samples)[0]
+    return world_and_shapes(scene, time_s, size, shadows=shadows, samples=samples).world
+
+
+class Drawn(NamedTuple):
+    """One instant as it is drawn."""
+
+    world: World
+    primitives: Primitives
 
 
 def world_and_shapes(
     scene: Scene, time_s: float, size: SensorSize, *, shadows: bool = True, samples: int = 2
-) -> tuple[World, Primitives]:
+) -> Drawn:
     """What the kernels read about one instant of a scene, and the shapes that it is made of."""
     camera = scene.camera(time_s)
     rays = camera_rays(camera, size)
@@ -91,7 +100,7 @@ def world_and_shapes(
     world = build_world(
         primitives, environment, rays, size, shadows=shadows, samples=samples, lens=camera.lens
     )
-    return light_up(world, primitives, environment, rays, shadows=shadows), primitives
+    return Drawn(light_up(world, primitives, environment, rays, shadows=shadows), primitives)
 
 
 def render(

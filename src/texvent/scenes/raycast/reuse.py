@@ -7,7 +7,7 @@ camera, lamps, smoke or surroundings differ, all tiles are drawn.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from texvent.scenes.raycast.acceleration import CUBE, SUN_CELLS, TILE, screen_bounds
 from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes
 from texvent.scenes.raycast.records import INSTANT_RECORD, World
-from texvent.scenes.raycast.render import light_of_rows, world_and_shapes
+from texvent.scenes.raycast.render import Drawn, light_of_rows, world_and_shapes
 from texvent.scenes.raycast.trace import MESH, SHADOW_BIAS_M
 from texvent.scenes.raycast.vectors import NO_DISTORTION
 from texvent.scenes.scene import Float32Array, Float64Array, Ground, Primitives, Rays, Scene
@@ -37,13 +37,6 @@ _ELSEWHERE = {
 }  # fmt: skip
 """Fields of the instant that are addresses, or that are looked at by themselves."""
 _FIELDS = [name for name in INSTANT_RECORD.names or () if name not in _ELSEWHERE]
-
-
-class Drawn(NamedTuple):
-    """One instant as it was drawn."""
-
-    world: World
-    primitives: Primitives
 
 
 class FrameMemory:
@@ -75,10 +68,8 @@ class FrameMemory:
     def render(self, time_s: float) -> tuple[Float32Array, Codes]:
         """The frame at an instant, [H, W, 3], coded; and its codes, as of `render_rows`."""
         size, samples = self._size, self._samples
-        world, primitives = world_and_shapes(
-            self._scene, time_s, size, shadows=self._shadows, samples=samples
-        )
-        drawn, last = Drawn(world, primitives), self._last
+        drawn = world_and_shapes(self._scene, time_s, size, shadows=self._shadows, samples=samples)
+        last = self._last
         tiles = None if last is None else changed_tiles(last[0], drawn)
         wanted: Mask = np.ones(size.shape, dtype=np.bool_)
         codes, pixels = np.full(size.shape, UNKNOWN), np.empty((*size.shape, 3), np.float32)
@@ -86,7 +77,7 @@ class FrameMemory:
             wanted = tiles.repeat(TILE, axis=0).repeat(TILE, axis=1)[: size.height, : size.width]
             codes, pixels = np.where(wanted, UNKNOWN, last[2]), last[1].copy()
         light = light_of_rows(
-            world, (0, size.height), size, samples=samples, wanted=wanted, codes=codes
+            drawn.world, (0, size.height), size, samples=samples, wanted=wanted, codes=codes
         )
         pixels[wanted] = self._code(light[wanted])
         kept = pixels.copy()

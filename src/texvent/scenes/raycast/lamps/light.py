@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -120,19 +120,12 @@ def order_lamps(lamps: Float64Array, *, shadows: bool) -> tuple[NDArray[Any], in
     return rows[np.concatenate([casts, rest])], len(casts)
 
 
-class Balls(NamedTuple):
-    """Balls that together hold the shapes that may cast shadows."""
-
-    number: IntArray
-    """[k] shape that each one is part of."""
-    centre: Float64Array
-    """[k, 3] m."""
-    radius: Float64Array
-    """[k] m."""
+Balls = tuple[IntArray, Float64Array, Float64Array]
+"""Balls that together hold shapes: [k] number of the shape, [k, 3] centre and [k] radius, m."""
 
 
 def cover_with_balls(primitives: Primitives) -> Balls:
-    """The shapes that may cast shadows in balls, several for a long one; those that glow do not."""
+    """The shapes that may cast shadows, several balls for a long one; those that glow do not."""
     chosen = np.flatnonzero(np.asarray(primitives.emission) <= 0.0)
     linear = np.asarray(primitives.to_world, dtype=np.float64)[chosen, :, :3]
     middle = np.asarray(primitives.to_world, dtype=np.float64)[chosen, :, 3]
@@ -149,7 +142,7 @@ def cover_with_balls(primitives: Primitives) -> Balls:
     linear[rows, :, longest] = axis / pieces[:, None]
     corners = np.einsum("nij,kj->nki", linear, CUBE)
     radius = np.linalg.norm(corners, axis=2).max(axis=1)
-    return Balls(chosen[owner], middle[owner] + place[:, None] * axis[owner], radius[owner])
+    return chosen[owner], middle[owner] + place[:, None] * axis[owner], radius[owner]
 
 
 def list_casters(lamp: Any, balls: Balls, primitives: Primitives, inverse: Float64Array) -> Bins:
@@ -169,14 +162,13 @@ def list_casters(lamp: Any, balls: Balls, primitives: Primitives, inverse: Float
     local = inverse[:, :, :3] @ place + inverse[:, :, 3]
     is_round = primitives.shape == Shape.ELLIPSOID
     extent = np.where(is_round, np.linalg.norm(local, axis=1), np.abs(local).max(axis=1))
-    offset = balls.centre - place
+    numbers, centre, radius = balls
+    offset = centre - place
     distance = np.linalg.norm(offset, axis=1)
-    near = (distance - balls.radius < lamp["reach"]) & (extent[balls.number] > 1.0)
+    near = (distance - radius < lamp["reach"]) & (extent[numbers] > 1.0)
     if lamp["full"] >= -1.0:
-        near &= in_beam(lamp, offset, distance, balls.radius)
-    numbers, offset, distance, radius = (
-        one[near] for one in (balls.number, offset, distance, balls.radius)
-    )
+        near &= in_beam(lamp, offset, distance, radius)
+    numbers, offset, distance, radius = (one[near] for one in (numbers, offset, distance, radius))
     start_mm = np.floor(1e3 * np.maximum(distance - radius, 0.0)).astype(np.int64)
     rectangles, owner = _rectangles(offset, distance, radius)
     order = np.argsort(start_mm[owner], kind="stable")
