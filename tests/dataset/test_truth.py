@@ -26,7 +26,7 @@ from texvent.view.drawing.panels import BOX_COLOUR
 TRUTH: dict[str, Any] = {
     "truth": ["boxes", "flow", "depth", "ids", "poses"],
     "classes": {"bus": "vehicle", "man": "person", "car": "vehicle"},
-    "sources": [{"prompts": ["a red car drives left", "a man walks right past a tree"]}],
+    "sources": [{"prompts": ["a red car drives left", "a man walks right past a cone"]}],
     "splits": {"train": 1.0},
 }
 
@@ -47,10 +47,10 @@ def test_truth_is_that_of_the_scene_in_every_variant(labelled: Path, tmp_path: P
         assert truth.classes == {0: "vehicle", 1: "person"}
         assert truth.instances == wanted.instances
         names = np.array([wanted.classes[one] for one in wanted.boxes["class_id"].tolist()])
-        boxes = wanted.boxes[names != "tree"]
+        boxes = wanted.boxes[names != "cone"]
         for column in ("t", "x", "y", "w", "h", "track_id"):
             np.testing.assert_array_equal(truth.boxes[column], boxes[column])
-        np.testing.assert_array_equal(truth.boxes["class_id"], names[names != "tree"] == "man")
+        np.testing.assert_array_equal(truth.boxes["class_id"], names[names != "cone"] == "man")
         for index in range(3):
             np.testing.assert_allclose(truth.depth[index], wanted.depth(index), rtol=5e-4)
             np.testing.assert_array_equal(truth.instance[index], wanted.instance(index))
@@ -64,7 +64,7 @@ def test_without_classes_boxes_have_the_ids_of_nouns(tmp_path: Path) -> None:
     folder = make_set(tmp_path / "cars", **{**TRUTH, "truth": ["boxes"], "classes": []})
     for sample in texvent.dataset.open(folder, variant="esim"):
         names = {sample.truth.classes[one] for one in sample.truth.boxes["class_id"].tolist()}
-        assert names == ({"car"} if "car" in (sample.caption or "") else {"man", "tree"})
+        assert names == ({"car"} if "car" in (sample.caption or "") else {"man", "cone"})
 
 
 def test_boxes_are_counted_checked_and_drawn(

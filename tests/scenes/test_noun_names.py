@@ -15,7 +15,7 @@ OTHER_MEANINGS = {
     *("table", "shirt"),  # a trait, a part of every outfit
     *("person", "hand"),  # whose bodies are code
 }
-LEFT_OUT = ("inflection.py", "raycast")
+LEFT_OUT = ("words.py", "raycast")
 """Irregular plurals, and the renderer, which knows no nouns."""
 
 

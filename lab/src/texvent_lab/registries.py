@@ -11,10 +11,10 @@ from texvent.extending import Registry
 RECONSTRUCTORS = Registry(
     "reconstructor",
     {
-        "e2vid": "texvent_lab.reconstruct.networks:E2VID",
-        "e2vid+": "texvent_lab.reconstruct.networks:E2VID_PLUS",
-        "firenet": "texvent_lab.reconstruct.networks:FIRENET",
-        "firenet+": "texvent_lab.reconstruct.networks:FIRENET_PLUS",
+        "e2vid": "texvent_lab.reconstruct.recurrent_unet:E2VID",
+        "e2vid+": "texvent_lab.reconstruct.recurrent_unet:E2VID_PLUS",
+        "firenet": "texvent_lab.reconstruct.firenet:FIRENET",
+        "firenet+": "texvent_lab.reconstruct.firenet:FIRENET_PLUS",
         "pie-net": "texvent_lab.reconstruct.pie_net:PIE_NET",
     },
 )

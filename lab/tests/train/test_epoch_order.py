@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from texvent_lab.train.epoch_order import epoch_order
+from texvent_lab.train.schedule import epoch_order
 
 
 def test_orders_differ_by_epoch_and_seed_and_are_pinned():

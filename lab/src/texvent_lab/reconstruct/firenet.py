@@ -9,7 +9,7 @@ from texvent.extending import require
 from texvent.networks.weight_files import Shape, Tensor
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import ConvGru, ConvLayer, ResidualBlock
-from texvent_lab.reconstruct.recurrent_network import RecurrentNetwork
+from texvent_lab.reconstruct.recurrent_network import EVREAL, PublishedNetwork, RecurrentNetwork
 
 _nn: Any = require("torch.nn", extra=EXTRA)
 
@@ -88,3 +88,7 @@ class FireNetPlus(FireNet):
 
     def _layers(self) -> tuple[Any, ...]:
         return self.head, self.G1, self.R1, self.G2, self.R2, self.pred
+
+
+FIRENET = PublishedNetwork("firenet", FireNet, EVREAL.format("FireNet"), is_normalised=True)
+FIRENET_PLUS = PublishedNetwork("firenet+", FireNetPlus, EVREAL.format("FireNet+"))

@@ -12,6 +12,10 @@ from texvent.networks.weight_files import Shape, Tensor, shapes_of
 from texvent_lab.networks import EXTRA
 from texvent_lab.networks.layers import Network
 
+EVREAL = "the project ercanburak/EVREAL on GitHub carries it as pretrained/{}/model.pth"
+"""Where files and normalisations of the published networks come from: B. Ercan et al., "EVREAL:
+towards a comprehensive benchmark and analysis suite for event-based video reconstruction", CVPRW
+2023."""
 _torch: Any = require("torch", extra=EXTRA)
 
 

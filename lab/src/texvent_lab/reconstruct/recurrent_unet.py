@@ -16,7 +16,7 @@ from texvent_lab.networks.layers import (
     UpsampleLayer,
     count_blocks,
 )
-from texvent_lab.reconstruct.recurrent_network import RecurrentNetwork
+from texvent_lab.reconstruct.recurrent_network import EVREAL, PublishedNetwork, RecurrentNetwork
 
 _nn: Any = require("torch.nn", extra=EXTRA)
 
@@ -137,3 +137,13 @@ class E2vidPlus(E2vid):
         """See `RecurrentNetwork`."""
         activation = str(settings.get("final_activation", cls.default_activation))
         return cls(UNetVariant.of(found), activation)
+
+
+E2VID = PublishedNetwork(
+    "e2vid",
+    E2vid,
+    f"{EVREAL.format('E2VID')}, and uzh-rpg/rpg_e2vid links to it",
+    is_normalised=True,
+    is_stretched=True,
+)
+E2VID_PLUS = PublishedNetwork("e2vid+", E2vidPlus, EVREAL.format("E2VID+"))

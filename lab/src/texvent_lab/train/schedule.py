@@ -7,9 +7,13 @@ from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Literal
 
+import numpy as np
+from numpy.typing import NDArray
+
 from texvent.config import check_choices, check_range
 from texvent.errors import ConfigError
 from texvent.extending import require
+from texvent.simulate.random.draws import frame_key, frame_keys
 
 if TYPE_CHECKING:
     from texvent_lab.train.task import Task
@@ -136,3 +140,19 @@ class TrainingConfig:
             InputError, ConfigError, FileFormatError: it cannot be trained; the message says why.
         """
         raise NotImplementedError
+
+
+def epoch_order(count: int, *, seed: int, epoch: int) -> NDArray[np.int64]:
+    """The numbers 0..count−1 once, shuffled: a function of the arguments alone.
+
+    Args:
+        count: number of samples.
+        seed: 0..2⁶³−1.
+        epoch: 0 or more.
+
+    Returns:
+        [count] numbers of samples; every order is as likely.
+    """
+    places = 1  # the purpose of the draws; another one gives other orders
+    key = int(frame_key(int(frame_key(seed, epoch)) >> 1, places)) >> 1
+    return np.argsort(frame_keys(key, np.arange(count)), kind="stable")

@@ -14,8 +14,7 @@ from texvent.dataset.loading.torch_samples import collate
 from texvent.errors import TexventError
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor
-from texvent_lab.train.epoch_order import epoch_order
-from texvent_lab.train.schedule import EXTRA
+from texvent_lab.train.schedule import EXTRA, epoch_order
 
 
 @dataclass(frozen=True)

@@ -116,9 +116,9 @@ def test_a_scene_without_true_events_has_undefined_ratios_not_numbers():
     assert math.isnan(score.values["nearest"][0])
     assert not score.is_matched
     assert reference.events == [0]
-    name, reason = score_entry(truth, Entry(simulator="esim", interpolate="motion"), metrics)
-    assert name == "esim, motion"
-    assert "motion vectors" in reason
+    name, reason = score_entry(truth, Entry(simulator="esim", interpolate="rife"), metrics)
+    assert name == "esim, rife"
+    assert "texvent[rife]" in reason or "weights" in reason
 
 
 def six_textures(**entries):

@@ -20,7 +20,7 @@ from ..windowed_specification import TEXT, write_specification
 
 torch = pytest.importorskip("torch", reason="make test-torch runs the tests that need torch")
 
-from texvent_lab.reconstruct.networks import FIRENET  # noqa: E402
+from texvent_lab.reconstruct.firenet import FIRENET  # noqa: E402
 from texvent_lab.reconstruct.reconstructor import Reconstructor, load_reconstructor  # noqa: E402
 from texvent_lab.train.reconstruction.config import (  # noqa: E402
     ReconstructionAugmentation,

@@ -153,12 +153,6 @@ def render_light(
     return light_of_rows(world, (0, size.height), size, samples=samples)
 
 
-def grey_light(light: Float64Array) -> Float64Array:
-    """Linear RGB [..., 3] as a film in black and white has it: its luminance (BT.709), thrice."""
-    luminance = light @ np.array([0.2126, 0.7152, 0.0722])
-    return np.repeat(luminance[..., None], 3, axis=-1)
-
-
 def light_of_rows(
     world: World,
     rows: tuple[int, int],

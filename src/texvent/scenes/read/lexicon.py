@@ -11,8 +11,6 @@ from types import MappingProxyType
 from typing import Any, TypeAlias
 
 from texvent.scenes.colours import SURFACES
-from texvent.scenes.inflection import list_plurals, list_verb_forms
-from texvent.scenes.literals import find_literals
 from texvent.scenes.models.animals.acts import ANIMAL_ACTS
 from texvent.scenes.models.effects import EFFECTS
 from texvent.scenes.models.nouns import DRESSING, NOUNS
@@ -20,6 +18,7 @@ from texvent.scenes.models.people.activities import ACTIVITIES, DVS_GESTURES, HA
 from texvent.scenes.models.places import PLACES
 from texvent.scenes.models.protocol import Noun
 from texvent.scenes.models.tables import read_table
+from texvent.scenes.words import find_literals, list_plurals, list_verb_forms
 
 _UNSAID = ("parked ", "flying ")
 """Begin the names of variants of nouns, which no sentence names: it says that a bicycle stands."""

@@ -15,8 +15,7 @@ from numpy.typing import NDArray
 from texvent.extending import require
 from texvent.networks.weight_files import Tensor
 from texvent_lab.bench.digits.data import CLASSES
-from texvent_lab.train.epoch_order import epoch_order
-from texvent_lab.train.schedule import EXTRA, Schedule
+from texvent_lab.train.schedule import EXTRA, Schedule, epoch_order
 
 Precision: TypeAlias = Literal["float32", "bfloat16"]
 SHIFT = 2

@@ -22,7 +22,7 @@ BENCHMARKS: Mapping[str, str] = {
     "fidelity": "which simulator comes closest to true events of exact scenes?",
     "page": "a result of fidelity, real, digits or selftest as a page",
     "paper": "the paper's tables, ablations E1-E12, or a folder of configs",
-    "real": "which simulator comes closest to a real sensor, in events or images?",
+    "real": "which simulator is closest to a real sensor, in events or images?",
     "selftest": "20 perturbations of a recording: which does a metric see?",
 }
 """Name, which is its module beside this one → the question that it answers."""
