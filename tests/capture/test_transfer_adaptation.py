@@ -117,5 +117,5 @@ def test_known_motion_adds_light_up_and_stays_linear():
     frames = [
         Frame(one.pixels, one.t_us, motion=motion, transfer=Transfer.LINEAR) for one in video(2)
     ]
-    image, _ = MotionPair.of(frames[0], frames[0]).draw(0.5)
+    image = MotionPair.of(frames[0], frames[0]).draw(0.5)
     assert image == pytest.approx(frames[0].pixels, rel=1e-5)

@@ -323,8 +323,8 @@ def _note_epoch(
     state.epochs += 1
     weights = {name: one.detach().cpu().clone() for name, one in network.state_dict().items()}
     state.network = weights
-    name, sign = task.score.name, 1 if task.score.is_higher_better else -1
-    now, best = (sign * state.rows[number - 1][name] for number in (state.epochs, state.best_epoch))
+    epochs = state.epochs, state.best_epoch
+    now, best = (state.rows[number - 1][task.score] for number in epochs)
     if not state.best_epoch or now > best or (np.isnan(best) and not np.isnan(now)):
         state.best_epoch, state.best = state.epochs, weights
     waited = state.epochs - max(state.best_epoch, state.reduced_at)
@@ -348,7 +348,7 @@ def _write_results(folder: Path, state: TrainingState, task: Task, network: Any)
         "texvent_version": full_version(),
         "torch_version": str(torch.__version__),
         "best_epoch": state.best_epoch,
-        "chosen_by": task.score.name,
+        "chosen_by": task.score,
         TRAINING: state.tables,
     }
     write_history(folder, facts, state.rows)

@@ -17,22 +17,14 @@ from texvent.networks.weight_files import Tensor
 from texvent_lab.train.schedule import EXTRA, epoch_order
 
 
-@dataclass(frozen=True)
-class Score:
-    """The score by which the best epoch is chosen."""
-
-    name: str
-    """In what `Task.validate` gives."""
-    is_higher_better: bool
-
-
 class Task(Protocol):
     """A network, its samples, its loss and its scores.
 
     `validate` and `loss` are given the network on its device and move what they need there.
     """
 
-    score: ClassVar[Score]
+    score: ClassVar[str]
+    """Name of the score, in what `validate` gives, whose highest value is the best epoch's."""
 
     def make_network(self) -> Any:
         """The network, a torch module, with initial weights that depend on the seed alone."""

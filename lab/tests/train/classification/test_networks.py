@@ -78,7 +78,7 @@ def test_weights_of_another_representation_are_refused(
     (tmp_path / "spec.toml").write_text(text)
     words = [str(tmp_path / "spec.toml"), "-o", str(tmp_path / "run"), "--device", "cpu", "-q"]
     assert main(["train", "classification", *words]) == 0
-    (tmp_path / "other.toml").write_text(text.replace("binary-event-image", "dist"))
+    (tmp_path / "other.toml").write_text(text.replace("binary-event-image", "histogram-2d"))
     weights = str(tmp_path / "run" / "weights.pt")
     assert main(["evaluate", "classification", str(tmp_path / "other.toml"), weights]) == 2
     assert "with representation 'binary-event-image', and [net" in capsys.readouterr().err

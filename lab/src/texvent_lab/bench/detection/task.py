@@ -32,7 +32,7 @@ from texvent_lab.bench.detection.config import EXTRA, DetectionConfig
 from texvent_lab.bench.detection.labels import COUNTED
 from texvent_lab.bench.detection.precision import ALL, average_precision
 from texvent_lab.networks.layers import make_seeded
-from texvent_lab.train.task import Batches, Score
+from texvent_lab.train.task import Batches
 
 CLASSES = "classes"
 """Of the weights file: names of the classes."""
@@ -70,7 +70,7 @@ class DrawnClips:
 class DetectionTask:
     """Boxes of road users from events."""
 
-    score: ClassVar[Score] = Score("AP50", is_higher_better=True)
+    score: ClassVar[str] = "AP50"
 
     def __init__(self, config: DetectionConfig) -> None:
         """Open the validation clips.

@@ -29,7 +29,7 @@ from texvent_lab.train.classification.samples import (
 )
 from texvent_lab.train.loop import STANDARD_ERROR
 from texvent_lab.train.schedule import EXTRA
-from texvent_lab.train.task import Batches, Score
+from texvent_lab.train.task import Batches
 
 SMALL_WIDTH, STAGES = 16, 3
 LAST_LAYERS = ("linear.weight", "linear.bias", "fc.weight", "fc.bias")
@@ -79,7 +79,7 @@ WHERE_FROM = "texvent train classification writes it as weights.pt"
 class ClassificationTask:
     """Cross entropy, scored by the share of validation samples that are recognised."""
 
-    score: ClassVar[Score] = Score("accuracy", is_higher_better=True)
+    score: ClassVar[str] = "accuracy"
 
     def __init__(self, config: ClassificationConfig) -> None:
         """Open the validation samples.

@@ -35,7 +35,7 @@ from texvent_lab.train.reconstruction.config import ReconstructionAugmentation, 
 from texvent_lab.train.reconstruction.losses import SequenceLoss
 from texvent_lab.train.reconstruction.sequences import WindowedClips
 from texvent_lab.train.schedule import EXTRA
-from texvent_lab.train.task import Batches, Score
+from texvent_lab.train.task import Batches
 
 
 def new_network(published: PublishedNetwork, seed: int) -> RecurrentNetwork:
@@ -55,7 +55,7 @@ class ReconstructionTask:
         ECCV 2020.
     """
 
-    score: ClassVar[Score] = Score("ssim", is_higher_better=True)
+    score: ClassVar[str] = "ssim"
 
     def __init__(self, config: ReconstructionConfig) -> None:
         """Read the specification and simulate the first validation clip.
