@@ -29,7 +29,7 @@ class EvaluateOptions:
     outputs: ClassVar[tuple[str, ...]] = ("out",)
 
     task: str = REQUIRED
-    """classification or reconstruction."""
+    """classification, detection or reconstruction."""
     specification: Path = REQUIRED
     """As for training; the samples of its validation split are scored."""
     weights: Path = REQUIRED

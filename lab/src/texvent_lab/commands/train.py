@@ -30,7 +30,7 @@ class TrainOptions:
     outputs: ClassVar[tuple[str, ...]] = ("out",)
 
     task: str = REQUIRED
-    """classification or reconstruction."""
+    """classification, detection or reconstruction."""
     specification: Path = REQUIRED
     """Data, network and schedule: TOML or YAML."""
     out: Path = REQUIRED

@@ -68,18 +68,23 @@ def read_classes(folder: Path) -> tuple[str, ...]:
     """Names of the classes of an exported data set, in the order of their numbers.
 
     Raises:
-        InputError: the folder is no export.
+        InputError: the folder is no export, or one of another layout.
         FileFormatError: its note is damaged.
     """
     path = folder / NOTE_FILE
     try:
-        return tuple(map(str, json.loads(path.read_text(encoding="utf-8"))["classes"]))
+        note = json.loads(path.read_text(encoding="utf-8"))
+        classes = tuple(map(str, note["classes"]))
+        layout = note["layout"]
     except OSError as error:
         raise InputError(
             f"{folder} has no {NOTE_FILE}; write it with texvent dataset export --layout rvt"
         ) from error
     except (ValueError, KeyError, TypeError) as error:
         raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
+    if layout != "rvt":
+        raise InputError(f"{folder} has the layout {layout}; export it with --layout rvt")
+    return classes
 
 
 def read_clips(folder: Path, split: str) -> list[Clip]:

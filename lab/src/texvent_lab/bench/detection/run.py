@@ -90,6 +90,8 @@ class DetectionPlan:
     def __post_init__(self) -> None:
         check_range("clips", self.clips, 1)
         check_range("seeds", self.seeds, 1, 1000)
+        if "boxes" not in read_specification(self.specification).truth:
+            raise ConfigError(f'{self.specification} makes no boxes; add truth = ["boxes"]')
         for arm in self.arms:
             if arm not in self.variants:
                 raise ConfigError(f"unknown arm {shown(arm)}; {suggest(arm, self.variants)}")
@@ -144,8 +146,6 @@ def run_detection(
 
 def make_clips(plan: DetectionPlan, arms: Sequence[str], *, jobs: int, progress: Progress) -> None:
     """Make the data set and export each arm as RVT reads it; what is there is kept."""
-    if all((plan.work / "rvt" / arm / "train").is_dir() for arm in arms):
-        return
     folder = plan.work / "clips"
     specification = with_count(read_specification(plan.specification), plan.clips)
     work = dataset.make(specification, folder, workers=jobs)
