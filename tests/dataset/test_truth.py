@@ -14,6 +14,7 @@ from tests.dataset.generation.small_sets import digests, make
 
 import texvent
 from texvent.cli.app import main
+from texvent.dataset.export import export
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.generation.shards import read_record, write_record
 from texvent.dataset.reading.stored_dataset import StoredDataset
@@ -60,8 +61,15 @@ def test_truth_is_that_of_the_scene_in_every_variant(labelled: Path, tmp_path: P
     assert digests(make_set(tmp_path / "again", **TRUTH)) == digests(labelled)
 
 
-def test_without_classes_boxes_have_the_ids_of_nouns(tmp_path: Path) -> None:
+def test_without_classes_boxes_have_the_ids_of_nouns(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     folder = make_set(tmp_path / "cars", **{**TRUTH, "truth": ["boxes"], "classes": []})
+    none = make_set(tmp_path / "none", **{**TRUTH, "truth": ["boxes"], "classes": ["dragonfly"]})
+    assert main(["dataset", "stats", str(none)]) == 0
+    assert "\nwarning  no sample shows: dragonfly\n" in capsys.readouterr().out
+    with pytest.raises(InputError, match="layout coco holds boxes, and no sample shows dragonfly"):
+        export(StoredDataset.open(none), "coco", tmp_path / "out", variant="esim")
     for sample in texvent.dataset.open(folder, variant="esim"):
         names = {sample.truth.classes[one] for one in sample.truth.boxes["class_id"].tolist()}
         assert names == ({"car"} if "car" in (sample.caption or "") else {"man", "cone"})
@@ -221,7 +229,7 @@ def test_labels_of_more_frames_fail_their_sample_in_one_line(filmed: Path, tmp_p
     record = read_record(tmp_path / "set/events/train-000000.tar")
     assert record is not None
     said = record.samples[0].reason or ""
-    assert "car.json labels frame 4 (from 0), and the video has 3 frames" in said
+    assert "car.json labels 5 frames, the video has 3" in said
 
 
 @pytest.mark.parametrize(

@@ -44,6 +44,12 @@ def test_classes_gather_and_the_others_go() -> None:
     only = ClassList.parse("bus, person = man + woman").renumbered(boxes, names)
     assert set(only["class_id"].tolist()) == {1}
     assert len(only) == 4
-    for text in ("car,,bus", "car,car", "car=,bus", "a=taxi,b=taxi"):
-        with pytest.raises(ConfigError, match="empty or there twice; give names with commas"):
+    for text, said in (
+        ("car,,bus", "an entry without a name, in 'car,,bus'; give names with commas"),
+        ("=car", "an entry without a name"),
+        ("v=", "nothing after = or around [+]"),
+        ("car,car", "'car' twice"),
+        ("a=taxi,b=taxi", "'taxi' twice"),
+    ):
+        with pytest.raises(ConfigError, match=said):
             ClassList.parse(text)
