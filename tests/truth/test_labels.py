@@ -57,11 +57,11 @@ def test_three_formats_hold_the_same_boxes(tmp_path: Path) -> None:
         np.testing.assert_allclose(found, wanted, rtol=1e-6)
         assert labels.names == (name,)
         assert labels.boxes["track_id"].tolist() == ([0] * 3 if path == "yolo" else [1, 2, 1])
-    with pytest.raises(InputError, match="file 0 if from 0, else 4, the last"):
+    with pytest.raises(InputError, match="from zero or one; add an empty .*, or of the last frame"):
         labels.place(TIMES, SIZE, {"2": 0})
     (tmp_path / "yolo/clip_0.txt").touch()
-    placed, known = read_labels(tmp_path / "yolo", SIZE).place(TIMES, SIZE, {"2": 0})
-    assert [known.tolist(), placed["t"].tolist()] == [TIMES.tolist(), [2_000, 2_000, 4_000]]
+    placed, _ = read_labels(tmp_path / "yolo", SIZE).place(TIMES, SIZE, {"2": 0})
+    assert placed["t"].tolist() == [2_000, 2_000, 4_000]
     (tmp_path / "yolo/clip_4.txt").write_text("\n2 0.5 0.5 0.5\n")
     with pytest.raises(InputError, match=r"4\.txt: line 2 has 4 columns; class cx cy w h are 5"):
         read_labels(tmp_path / "yolo", SIZE)
@@ -74,8 +74,7 @@ def test_three_formats_hold_the_same_boxes(tmp_path: Path) -> None:
         ("a.json", coco(images=[]), "image_id 10 of a box is not in its lists"),
         ("a.json", coco(categories=[]), "category_id 3 of a box is not in its lists"),
         ("a.json", '{"images": []}', "has no list 'annotations'; COCO has"),
-        ("a.json", "[]", "is not a COCO object"),
-        ("a.json", coco(annotations=[3]), "cannot be read as COCO JSON"),
+        ("a.json", "[3]", "is not a COCO object"),
         ("a.json", coco(images=[{"id": 10, "width": 9, "height": 9}]), "labels pictures of 9x9"),
         ("a.json", coco_box(41, 2, 5, 5), "'car' in frame 0 has no part .* 40x20: left 41, top 2"),
         ("a.json", coco_box(4, 2, -3, 5), "no width or height: left 4, top 2, width -3, height 5"),
@@ -116,7 +115,7 @@ def test_without_a_clock_boxes_are_at_the_labelled_frames(labels: Labels) -> Non
     ]  # fmt: skip
     boxes, _ = labels.place(TIMES, SIZE, {"2": 0})
     assert boxes["track_id"].tolist() == [2]
-    with pytest.raises(InputError, match="labels 4 frames, the video has 2"):
+    with pytest.raises(InputError, match=r"labels more frames \(4\) than the video has \(2\)"):
         labels.place(TIMES[:2], SIZE, IDS)
     boxes, known = labels.place(TIMES[:2], SIZE, IDS, is_whole=False)
     assert (len(boxes), known.tolist()) == (1, [1_000])

@@ -173,13 +173,13 @@ class Labels:
         first = int(is_whole and self.may_count_from_one and last == count)
         if is_whole and last - first >= count:
             raise InputError(
-                f"{self.path} labels {last + 1 - first} frames, the video has {count}; give the "
-                "video that was labelled"
+                f"{self.path} labels more frames ({last + 1 - first}) than the video has ({count}); "
+                "give the video that was labelled"
             )
         if self.may_count_from_one and not first:
             raise InputError(
-                f"{self.path}: its files may count frames from 0 or from 1; add an empty file 0 if "
-                f"from 0, else {f'{count}, the last' if is_whole else 'leave out option stop'}"
+                f"{self.path}: no file says whether frames count from zero or one; add an empty one "
+                f"of number zero, or {'of the last frame' if is_whole else 'leave out option stop'}"
             )
         numbers = np.array([classes.get(name, -1) for name in self.names])
         places, frames = self.boxes["t"] - first, self.frames - first
