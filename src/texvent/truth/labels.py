@@ -173,12 +173,12 @@ class Labels:
         first = int(is_whole and self.may_count_from_one and last == count)
         if is_whole and last - first >= count:
             raise InputError(
-                f"{self.path} labels more frames ({last + 1 - first}) than the video has ({count}); "
-                "give the video that was labelled"
+                f"{self.path} labels more frames ({last + 1 - first}) than the video has ({count})"
+                "; give the video that was labelled"
             )
         if self.may_count_from_one and not first:
             raise InputError(
-                f"{self.path}: no file says whether frames count from zero or one; add an empty one "
+                f"{self.path}: no file says if frames count from zero or one; add an empty file "
                 f"of number zero, or {'of the last frame' if is_whole else 'leave out option stop'}"
             )
         numbers = np.array([classes.get(name, -1) for name in self.names])
