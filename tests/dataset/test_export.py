@@ -154,6 +154,8 @@ def test_layouts_with_boxes_from_the_command_line(
         assert tracks["class_id"].tolist() == boxes["class_id"].tolist()
         assert texvent.load(tmp_path / "gen1" / split / f"{key}_td.dat").size == (64, 48)
     found = json.loads((tmp_path / "coco/val/annotations.json").read_text())
+    numbers = json.loads((tmp_path / "coco/texvent-export.json").read_text())["class_numbers"]
+    assert all(numbers[one["name"]] == one["id"] for one in found["categories"])
     assert len(found["images"]) == 2
     assert not [one for one in tmp_path.rglob("*") if one.name.startswith(".texvent")]
 

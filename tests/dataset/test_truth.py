@@ -14,6 +14,7 @@ from tests.dataset.generation.small_sets import digests, make
 
 import texvent
 from texvent.cli.app import main
+from texvent.dataset.export import export
 from texvent.dataset.generation.recipe import Recipe
 from texvent.dataset.generation.shards import read_record, write_record
 from texvent.dataset.reading.stored_dataset import StoredDataset
@@ -68,8 +69,13 @@ def test_without_classes_boxes_have_the_ids_of_nouns(tmp_path: Path) -> None:
 
 
 def test_boxes_are_counted_checked_and_drawn(
-    labelled: Path, capsys: pytest.CaptureFixture[str]
+    labelled: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
+    none = make_set(tmp_path, **{**TRUTH, "truth": ["boxes"], "classes": ["dragonfly"]})
+    assert main(["dataset", "stats", str(none)]) == 0
+    assert "\nwarning  no sample shows: dragonfly\n" in capsys.readouterr().out
+    with pytest.raises(InputError, match="layout coco holds boxes, and no sample shows dragonfly"):
+        export(StoredDataset.open(none), "coco", tmp_path / "out", variant="esim")
     samples = texvent.dataset.open(labelled)
     assert sum(len(sample.truth.boxes) for sample in samples) == 18
     assert main(["dataset", "stats", str(labelled)]) == 0
@@ -221,7 +227,7 @@ def test_labels_of_more_frames_fail_their_sample_in_one_line(filmed: Path, tmp_p
     record = read_record(tmp_path / "set/events/train-000000.tar")
     assert record is not None
     said = record.samples[0].reason or ""
-    assert "car.json labels frame 4 (from 0), and the video has 3 frames" in said
+    assert "car.json labels more frames (5) than the video has (3)" in said
 
 
 @pytest.mark.parametrize(

@@ -50,12 +50,20 @@ def test_three_formats_hold_the_same_boxes(tmp_path: Path) -> None:
         (tmp_path / f"yolo/clip_{frame + 1}.txt").write_text(text)
     for path, name in (("a.json", "car"), ("a.txt", "3"), ("yolo", "2")):
         labels = read_labels(tmp_path / path, SIZE)
-        found = [[one[column] for column in ("t", *"xywh")] for one in labels.boxes]
-        wanted = [[0, 4, 2, 8, 6], [0, 30, 10, 10, 6], [2, 8, 2, 8, 10]]
+        placed, known = labels.place(TIMES[:3], SIZE, {name: 0})
+        found = [[one[column] for column in ("t", *"xywh")] for one in placed]
+        wanted = [[1_000, 4, 2, 8, 6], [1_000, 30, 10, 10, 6], [3_000, 8, 2, 8, 10]]
+        assert known.tolist() == [1_000, 2_000, 3_000]
         np.testing.assert_allclose(found, wanted, rtol=1e-6)
         assert labels.names == (name,)
         assert labels.boxes["track_id"].tolist() == ([0] * 3 if path == "yolo" else [1, 2, 1])
-        assert labels.frames.tolist() == [0, 1, 2]
+    with pytest.raises(InputError, match="add an empty file of number zero, or of the last"):
+        labels.place(TIMES, SIZE, {"2": 0})
+    (tmp_path / "yolo/clip_0.txt").touch()
+    assert read_labels(tmp_path / "yolo", SIZE).place(TIMES, SIZE, {"2": 0})[0]["t"][-1] == 4_000
+    (tmp_path / "yolo/clip_4.txt").write_text("\n2 0.5 0.5 0.5\n")
+    with pytest.raises(InputError, match=r"4\.txt: line 2 has 4 columns; class cx cy w h are 5"):
+        read_labels(tmp_path / "yolo", SIZE)
 
 
 @pytest.mark.parametrize(
@@ -64,14 +72,16 @@ def test_three_formats_hold_the_same_boxes(tmp_path: Path) -> None:
         ("a.json", coco(annotations=[]), "has no box"),
         ("a.json", coco(images=[]), "image_id 10 of a box is not in its lists"),
         ("a.json", coco(categories=[]), "category_id 3 of a box is not in its lists"),
-        ("a.json", '{"images": []}', "cannot be read as COCO JSON"),
+        ("a.json", '{"images": []}', "has no list 'annotations'; COCO has"),
+        ("a.json", "[3]", "is not a COCO object"),
         ("a.json", coco(images=[{"id": 10, "width": 9, "height": 9}]), "labels pictures of 9x9"),
-        ("a.json", coco_box(41, 2, 5, 5), r"x=41.0, .* no part inside the picture of 40x20"),
-        ("a.json", coco_box(4, 2, 0, 5), "has no part inside"),
+        ("a.json", coco_box(41, 2, 5, 5), "'car' in frame 0 has no part .* 40x20: left 41, top 2"),
+        ("a.json", coco_box(4, 2, -3, 5), "no width or height: left 4, top 2, width -3, height 5"),
         ("a.txt", mot("1,1,3,3,5,5,1,3,1"), r"track 1 is twice in frame 0 \(from 0\)"),
         ("a.txt", "1,4,1,1,3,4,1,1\n2,4,36,1,3,4,1,1\n", "track 4 jumps from frame 0 to 1 "),
+        ("a.txt", "1,4,1,1,3,4\n2,4,9,1,3,4\n3,4,1,1,3,4", "track 4 jumps from frame 0 to 1 "),
         ("a.txt", "0,4,3,3,5,5,1,1,1\n", "has a frame before the first"),
-        ("a.txt", "1,2,3\n", "cannot be read as MOT text"),
+        ("a.txt", "1,2,3\n", "line 1 has 3 columns; frame id left top width height are 6"),
         ("a.csv", "1,2,3\n", "neither COCO"),
         ("b.txt", mot(), "no such labels"),
     ],
@@ -104,7 +114,7 @@ def test_without_a_clock_boxes_are_at_the_labelled_frames(labels: Labels) -> Non
     ]  # fmt: skip
     boxes, _ = labels.place(TIMES, SIZE, {"2": 0})
     assert boxes["track_id"].tolist() == [2]
-    with pytest.raises(InputError, match=r"labels frame 3 \(from 0\), and the video has 2 frames"):
+    with pytest.raises(InputError, match=r"labels more frames \(4\) than the video has \(2\)"):
         labels.place(TIMES[:2], SIZE, IDS)
     boxes, known = labels.place(TIMES[:2], SIZE, IDS, is_whole=False)
     assert (len(boxes), known.tolist()) == (1, [1_000])

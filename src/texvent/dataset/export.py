@@ -120,13 +120,14 @@ def _begin(
     Raises:
         OutputError: it is of something else.
     """
+    first = LAYOUTS[layout].first_class
     note = {
         "layout": layout,
         "data_set": dataset.name,
         "variant": variant,
         "identity": dataset.identity,
         "classes": list(classes.names),
-        "class_numbers": dict(classes.numbers),
+        "class_numbers": {name: first + one for name, one in classes.numbers.items()},
     }
     path = folder / NOTE_FILE
     try:

@@ -18,6 +18,7 @@ from texvent.dataset.generation.shards import (
     ShardRecord,
 )
 from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
+from texvent.errors import few
 from texvent.scenes.report import PromptReport, ReportTally, ranked
 from texvent.truth.boxes import SIZE_CLASSES
 
@@ -271,8 +272,10 @@ def in_several_splits(shards: Iterable[StoredShard]) -> set[str]:
     return found
 
 
-def summary_lines(statistics: Statistics) -> list[str]:
+def summary_lines(statistics: Statistics, classes: Iterable[str] = ()) -> list[str]:
     """The counts of a data set, of a part of it, or of the trial of a plan, for people.
+
+    Of `classes` of boxes, those that no sample shows are named.
 
     Example:
         >>> summary_lines(Statistics())
@@ -287,6 +290,8 @@ def summary_lines(statistics: Statistics) -> list[str]:
         lines.append(f"{kind:8} {count:,}: {why}")
     if statistics.with_truth:
         lines += _box_lines(statistics)
+        missing = [name for name in classes if not statistics.boxes[name]]
+        lines += [f"warning  no sample shows: {few(missing)}"] if missing else []
     if statistics.prompts is not None:
         lines.append(f"prompts  {statistics.prompts.line('clips')}")
     return lines
@@ -296,9 +301,9 @@ def _box_lines(statistics: Statistics) -> list[str]:
     classes = "; ".join(f"{name} {count:,}" for name, count in ranked(statistics.boxes))
     sizes = ", ".join(f"{statistics.box_sizes[name]:,} {name}" for name in SIZE_CLASSES)
     share = statistics.without_boxes / statistics.with_truth
+    objects = f" of {statistics.tracks:,} objects" if statistics.tracks else ""
     return [
-        f"boxes    {sum(statistics.boxes.values()):,} of {statistics.tracks:,} objects: "
-        f"{classes or 'none'}",
+        f"boxes    {sum(statistics.boxes.values()):,}{objects}: {classes or 'none'}",
         f"sizes    {sizes} (COCO's, by area: below 32² and 96² px)",
         f"no box   in {100 * share:.0f} % of samples",
     ]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.fit_to_sensor import fit_place
-from texvent.errors import FileFormatError, InputError, one_line
+from texvent.errors import FileFormatError, InputError, one_line, shown
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import BOX_RECORD, Label, clip_boxes
 from texvent.video import MICROSECONDS, frame_time_us
@@ -27,6 +27,10 @@ def read_coco(path: Path, size: SensorSize) -> tuple[list[Label], set[int]]:
     which object a box is of. Crowds are left out. Source: the COCO object detection format.
     """
     facts = json.loads(path.read_text(encoding="utf-8"))
+    for name in ("images", "annotations", "categories"):
+        if not isinstance(facts, dict) or not isinstance(facts.get(name), list):
+            what = f"has no list {name!r}" if isinstance(facts, dict) else "is not a COCO object"
+            raise FileFormatError(f"{path} {what}; COCO has images, annotations, categories")
     names = {one["id"]: str(one["name"]) for one in facts["categories"]}
     images = facts["images"]
     frames = {one["id"]: int(one.get("frame_id", place)) for place, one in enumerate(images)}
@@ -57,8 +61,7 @@ def read_mot(path: Path, size: SensorSize) -> tuple[list[Label], set[int]]:
     """
     del size  # boxes are in pixels
     labels, frames = [], set()
-    for line in filter(str.strip, path.read_text(encoding="ascii").splitlines()):
-        frame, track, x, y, w, h, *more = map(float, line.split(","))
+    for frame, track, x, y, w, h, *more in _rows(path, "frame id left top width height", ","):
         confidence, kind = (*more, -1.0, -1.0)[:2]
         frames.add(int(frame) - 1)
         if confidence != 0:
@@ -71,20 +74,30 @@ def read_yolo(path: Path, size: SensorSize) -> tuple[list[Label], set[int]]:
     """Labels and labelled frames of a YOLO folder, for pictures of a size; see `read_labels`.
 
     A .txt for each labelled frame has lines `class cx cy w h`, in shares of the picture. The number
-    at the end of its name is that of the frame, from 0 where one is 0, else from 1. Classes are
+    at the end of its name is that of the frame; `Labels.place` knows where it begins. Classes are
     called by their numbers. Source: the label format of Darknet and Ultralytics.
     """
     numbered = ((re.search(r"(\d+)\.txt$", one.name), one) for one in sorted(path.iterdir()))
     files = {int(number[1]): one for number, one in numbered if number is not None}
-    first = min(1, *files, 1)
     labels = []
     for number, one in files.items():
-        for line in filter(str.strip, one.read_text(encoding="ascii").splitlines()):
-            kind, cx, cy, w, h = map(float, line.split()[:5])
+        for kind, cx, cy, w, h, *_ in _rows(one, "class cx cy w h"):
             corner = (cx - w / 2) * size.width, (cy - h / 2) * size.height
             sides = w * size.width, h * size.height
-            labels.append(Label(number - first, 0, str(int(kind)), *corner, *sides))
-    return labels, {number - first for number in files}
+            labels.append(Label(number, 0, str(int(kind)), *corner, *sides))
+    return labels, set(files)
+
+
+def _rows(path: Path, names: str, separator: str | None = None) -> Iterator[list[float]]:
+    """Numbers of each line that is not blank; at least the columns of these names."""
+    for number, line in enumerate(path.read_text(encoding="ascii").splitlines(), start=1):
+        columns, wanted = line.split(separator), len(names.split())
+        if line.strip() and len(columns) < wanted:
+            raise FileFormatError(
+                f"{path}: line {number} has {len(columns)} columns; {names} are {wanted}"
+            )
+        if line.strip():
+            yield [float(column) for column in columns]
 
 
 Reader = Callable[[Path, SensorSize], tuple[list[Label], set[int]]]
@@ -95,7 +108,7 @@ READERS: Mapping[str, tuple[str, Reader]] = MappingProxyType(
         "folder": ("a YOLO folder", read_yolo),
     }
 )
-"""Extension → name of the format, and its reader: boxes, and frames that were labelled, from 0."""
+"""Extension → name of the format, and its reader: boxes, and frames that were labelled."""
 DAMAGE = (OSError, ValueError, TypeError, LookupError, AttributeError, ArithmeticError,
           RecursionError)  # fmt: skip
 """Readers raise any of these on a damaged file."""
@@ -104,6 +117,8 @@ LARGEST = 1e6
 FARTHEST = 3.0
 """A box that moves by more of its diagonals from frame to frame is that of another object; a car
 that crosses the picture in a quarter of a second moves by less than one."""
+FARTHEST_BACK = 1.0
+"""As `FARTHEST`, of one that turns back at once: two objects that share a track alternate."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,12 +130,15 @@ class Labels:
     size: SensorSize
     """Of the pictures."""
     boxes: NDArray[np.void]
-    """[k] records of `BOX_RECORD`, inside the picture; `t` is the number of the frame, from 0, and
-    `class_id` the place in `names`."""
+    """[k] records of `BOX_RECORD`, inside the picture; `t` is the number of the frame, as in
+    `frames`, and `class_id` the place in `names`."""
     frames: NDArray[np.int64]
-    """Numbers of the frames that were labelled, in order; some may show nothing."""
+    """Numbers of the frames that were labelled, in order; some may show nothing. From 0, or those
+    of the files of a YOLO folder."""
     names: tuple[str, ...]
     """Names of the classes."""
+    may_count_from_one: bool
+    """Whether the numbers are those of files, none of which is 0."""
 
     def place(
         self,
@@ -148,19 +166,28 @@ class Labels:
             they are known, µs.
 
         Raises:
-            InputError: more frames are labelled than the video has.
+            InputError: more frames are labelled than the video has, or the files of a YOLO folder
+                may count from 0 or from 1: none has number 0, and none the number of frames.
         """
-        if is_whole and int(self.frames[-1]) >= len(times_us):
+        last, count = int(self.frames[-1]), len(times_us)
+        first = int(is_whole and self.may_count_from_one and last == count)
+        if is_whole and last - first >= count:
             raise InputError(
-                f"{self.path} labels frame {self.frames[-1]} (from 0), and the video has "
-                f"{len(times_us)} frames; give the video that was labelled"
+                f"{self.path} labels more frames ({last + 1 - first}) than the video has ({count})"
+                "; give the video that was labelled"
+            )
+        if self.may_count_from_one and not first:
+            raise InputError(
+                f"{self.path}: no file says if frames count from zero or one; add an empty file "
+                f"of number zero, or {'of the last frame' if is_whole else 'leave out option stop'}"
             )
         numbers = np.array([classes.get(name, -1) for name in self.names])
-        is_kept = (numbers[self.boxes["class_id"]] >= 0) & (self.boxes["t"] < len(times_us))
+        places, frames = self.boxes["t"] - first, self.frames - first
+        is_kept = (numbers[self.boxes["class_id"]] >= 0) & (places < count)
         boxes = self.boxes[is_kept]
         boxes["class_id"] = numbers[boxes["class_id"]]
-        boxes["t"] = times_us[boxes["t"]]
-        known = times_us[self.frames[self.frames < len(times_us)]]
+        boxes["t"] = times_us[places[is_kept]]
+        known = times_us[frames[frames < count]]
         if rate_hz is not None and len(known):
             boxes, known = _at_rate(boxes, known, int(times_us[0]), rate_hz)
         scale, shift = fit_place(self.size, size, fit)
@@ -205,12 +232,15 @@ def read_labels(path: Path, size: SensorSize) -> Labels:
         raise InputError(f"{path} has {what}; leave its video out, or give it another file")
     is_inside = clip_boxes(boxes, size)
     if not is_inside.all():
+        row = rows[int(np.argmin(is_inside))]
+        is_empty = row.w <= 0 or row.h <= 0
+        what = "no width or height" if is_empty else f"no part inside the picture of {size}"
         raise InputError(
-            f"{path}: {rows[int(np.argmin(is_inside))]!r:.300} has no part inside the picture of "
-            f"{size}; correct or remove it"
+            f"{path}: a box of {shown(row.name)} in frame {row.frame} has {what}: left {row.x:g}, "
+            f"top {row.y:g}, width {row.w:g}, height {row.h:g} px; correct or remove it"
         )
     _refuse_jumps(path, boxes)
-    return Labels(path, size, boxes, frames, names)
+    return Labels(path, size, boxes, frames, names, kind == "folder" and frames[0] > 0)
 
 
 def _refuse_jumps(path: Path, boxes: NDArray[np.void]) -> None:
@@ -219,9 +249,15 @@ def _refuse_jumps(path: Path, boxes: NDArray[np.void]) -> None:
     before, after = boxes[:-1], boxes[1:]
     steps, is_same = after["t"] - before["t"], before["track_id"] == after["track_id"]
     centres = np.stack([boxes["x"] + boxes["w"] / 2, boxes["y"] + boxes["h"] / 2])
-    moved, diagonal = np.hypot(*np.diff(centres)), np.hypot(boxes["w"], boxes["h"])
-    largest = np.maximum(diagonal[:-1], diagonal[1:])
-    wrong = np.flatnonzero(is_same & ((steps == 0) | (moved > FARTHEST * largest * steps)))
+    diagonal = np.hypot(boxes["w"], boxes["h"])
+    longest = np.maximum(diagonal[:-1], diagonal[1:]) * np.maximum(steps, 1)
+    moves = np.where(is_same, np.diff(centres) / longest, 0)  # diagonals per frame
+    moved = np.hypot(*moves)
+    turns = (moves[:, :-1] * moves[:, 1:]).sum(axis=0) < 0
+    turns &= np.minimum(moved[:-1], moved[1:]) > FARTHEST_BACK
+    is_wrong = is_same & ((steps == 0) | (moved > FARTHEST))
+    is_wrong[:-1] |= turns
+    wrong = np.flatnonzero(is_wrong)
     if len(wrong):
         first, last = before[wrong[0]], after[wrong[0]]
         what = f"jumps from frame {first['t']} to {last['t']}"

@@ -159,13 +159,15 @@ def _engine(options: MakeOptions, work: Work) -> Engine:
 def _finish(folder: Path, work: Work, options: MakeOptions, *, is_whole: bool) -> int:
     failed = sum(counts[FAILED] for counts in work.complete.values())
     places = {str(shard.path) for shard in work.complete}
-    shards = (one.record for one in StoredDataset.open(folder).shards() if one.place in places)
+    dataset = StoredDataset.open(folder)
+    shards = (one.record for one in dataset.shards() if one.place in places)
     made = Statistics.of(shards)
     write_out(
         f"{folder}: {made.samples:,} samples, {sum(made.events):,} events in "
         f"{made.shards:,} shards\n"
     )
-    write_out("".join(f"{line}\n" for line in summary_lines(made)))
+    classes = dataset.box_classes if is_whole else ()
+    write_out("".join(f"{line}\n" for line in summary_lines(made, classes)))
     if work.failures:
         shard, reason = next(iter(work.failures.items()))
         raise TexventError(

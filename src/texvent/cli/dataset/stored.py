@@ -158,7 +158,7 @@ def _print_counts(dataset: StoredDataset, statistics: DatasetStatistics) -> None
             shown = "; ".join(f"{name} {count:,}" for name, count in ranked[:MOST_CLASSES])
             more = len(ranked) - MOST_CLASSES
             console.print(escape(f"{title}: {shown}{f' ... {more:,} more' if more > 0 else ''}"))
-    for line in summary_lines(total):
+    for line in summary_lines(total, dataset.box_classes):
         console.print(escape(line))
     console.print(
         f"{escape(dataset.name)}: {total.samples:,} samples of {len(total.clips):,} videos, "

@@ -125,8 +125,11 @@ class ClassList:
         for entry in text.split(","):
             name, has_classes, classes = (part.strip() for part in entry.partition("="))
             gathered = [one.strip() for one in classes.split("+")] if has_classes else [name]
-            if not name or name in names or not all(gathered) or numbers.keys() & set(gathered):
-                raise ConfigError(f"classes has {shown(entry)}, empty or there twice; {HELP}")
+            again = [name] if name in names else sorted(numbers.keys() & set(gathered))
+            if not name or not all(gathered) or again:
+                wrong = f"{shown(again[0])} twice" if again else "nothing after = or around +"
+                wrong = wrong if name else "an entry without a name"
+                raise ConfigError(f"classes has {wrong}, in {shown(text)}; {HELP}")
             numbers |= dict.fromkeys(gathered, len(names))
             if not has_classes:
                 usual.append(name)

@@ -71,14 +71,17 @@ def find_classes(
 
     Raises:
         ConfigError: those given cannot be read.
-        InputError: no box is of a class given, or the layout has no class for some boxes.
+        InputError: there is no box, none of a class given, or the layout has no class for some.
     """
     if not layout.has_boxes:
         return ClassList.of(())
     there = _count_boxes(dataset, variant)
+    if not there:
+        raise InputError(
+            f"layout {name} holds boxes, and no sample shows {few(dataset.box_classes) or 'any'}"
+        )
     if given is None and not layout.classes:
-        named = [str(one) for _, one in dataset.specification.get("classes", ())]
-        listed = ClassList.of(dict.fromkeys(named or sorted(there)))
+        listed = ClassList.of(dataset.box_classes or sorted(there))
     else:
         listed = ClassList.parse(layout.classes if given is None else given)
     others = [one for one in there if one not in listed.numbers]
@@ -91,7 +94,7 @@ def find_classes(
         raise InputError(f"{len(listed.names)} classes; layouts hold {MOST_CLASSES}")
     if given is not None and len(others) == len(there):
         raise InputError(
-            f"no box is of the classes {shown(given)}; boxes are of {few(sorted(there)) or 'none'}"
+            f"no box is of the classes {shown(given)}; boxes are of {few(sorted(there))}"
         )
     return listed
 

@@ -24,6 +24,7 @@ from texvent.represent.event_frame import count_events
 from texvent.truth.boxes import CocoFile, open_coco
 
 WINDOW_US = 50_000
+FIRST_CLASS = 1
 
 
 def _write(sample: LayoutSample, path: Path) -> bool:
@@ -48,7 +49,7 @@ def _images(sample: LayoutSample) -> Iterator[tuple[str, int]]:
 def _write_annotations(
     folder: Path, samples: Iterable[LayoutSample], classes: tuple[str, ...]
 ) -> None:
-    names = dict(enumerate(classes, start=1))
+    names = dict(enumerate(classes, start=FIRST_CLASS))
     numbers = count(1)
     with ExitStack() as stack:
         files: dict[str, CocoFile] = {}
@@ -68,7 +69,7 @@ def _write_annotations(
 def _add_box(file: CocoFile, box: np.void) -> None:
     left, top, width, height = (float(box[name]) for name in "xywh")
     file.add_box(
-        int(box["class_id"]) + 1,
+        int(box["class_id"]) + FIRST_CLASS,
         (left, top, width, height),
         width * height,
         track_id=int(box["track_id"]),
@@ -82,4 +83,5 @@ COCO = Layout(
     splits=USUAL_SPLITS,
     lost="captions, events (only images of them)",
     has_boxes=True,
+    first_class=FIRST_CLASS,
 )

@@ -77,6 +77,8 @@ class Layout:
     keeps_noise_labels: bool = False
     classes: str = ""
     """Its classes of boxes, as `ClassList.parse` reads them; "": those of the data set."""
+    first_class: int = 0
+    """Number of the first class of boxes in its files."""
     shortest_us: int = 0
     """Least duration of a sample, µs."""
 

@@ -87,6 +87,11 @@ class StoredDataset:
         return tuple(map(str, self.facts.get("labels", ())))
 
     @property
+    def box_classes(self) -> tuple[str, ...]:
+        """Classes of boxes that its specification names, in the order of their numbers."""
+        return tuple(dict.fromkeys(str(one) for _, one in self.specification.get("classes", ())))
+
+    @property
     def splits(self) -> tuple[str, ...]:
         """Names of the splits."""
         return tuple(self.specification["splits"])
