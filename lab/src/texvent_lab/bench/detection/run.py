@@ -145,16 +145,15 @@ def run_detection(
 
 
 def make_clips(plan: DetectionPlan, arms: Sequence[str], *, jobs: int, progress: Progress) -> None:
-    """Make the data set and export each arm as RVT reads it; what is there is kept."""
-    folder = plan.work / "clips"
-    specification = with_count(read_specification(plan.specification), plan.clips)
-    work = dataset.make(specification, folder, workers=jobs)
-    if work.failures:
-        raise TexventError(f"clips could not be made: {next(iter(work.failures.values()))}")
+    """Make the same clips in every arm, each in a folder of its own, and export what RVT reads."""
+    whole = with_count(read_specification(plan.specification), plan.clips)
     for arm in arms:
-        done = export(
-            StoredDataset.open(folder), "rvt", plan.work / "rvt" / arm, variant=arm, classes=CLASSES
-        )
+        variants = tuple(one for one in whole.variants if one.name == arm)
+        folder = plan.work / "clips" / arm
+        work = dataset.make(dataclasses.replace(whole, variants=variants), folder, workers=jobs)
+        if work.failures:
+            raise TexventError(f"clips could not be made: {next(iter(work.failures.values()))}")
+        done = export(StoredDataset.open(folder), "rvt", plan.work / "rvt" / arm, classes=CLASSES)
         progress(f"{arm}: {done.samples} clips")
 
 
