@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import itertools
 import sys
 import threading
 import time
@@ -36,7 +35,6 @@ LEAVE_S = 2.0
 class Shown(NamedTuple):
     """A frame with the events that end at it."""
 
-    number: int
     frame: Frame
     events: EventStream
     arrived_s: float
@@ -64,7 +62,6 @@ class LiveEvents:
         self._camera = EventCamera(source.size, **options)
         self._steps = self._arrived = self._dropped = self._lost = self._start_us = 0
         self._waiting: tuple[Frame, float] | None = None
-        self._numbers = itertools.count(1)
         self._shown: Shown | None = None
         self._latencies_ms: deque[float] = deque(maxlen=MEASURED_FRAMES)
         self._recording: Path | None = None
@@ -92,11 +89,11 @@ class LiveEvents:
         if self._error is not None:
             raise self._error
 
-    def wait(self, number: float, timeout_s: float) -> Shown | None:
-        """The latest frame, once it is another than `number`; None if none comes in time."""
+    def wait(self, after_us: float, timeout_s: float) -> Shown | None:
+        """The latest frame, once there is one of a later time; None if none comes in time."""
 
         def newer() -> Shown | None:
-            return self._shown if self._shown and self._shown.number != number else None
+            return self._shown if self._shown and self._shown.frame.t_us > after_us else None
 
         with self._changed:
             return self._changed.wait_for(newer, timeout_s)
@@ -224,7 +221,7 @@ class LiveEvents:
                 events = camera.step(frame.pixels, frame.t_us)
                 with self._changed:
                     if camera is self._camera:
-                        self._show(Shown(next(self._numbers), frame, events, arrived_s))
+                        self._show(Shown(frame, events, arrived_s))
         except TexventError as error:
             self._error = error
         self._stop.set()

@@ -76,26 +76,25 @@ class LiveServer(PageServer):
         self._asked_s = time.monotonic()
         if self._asked_s - self._left_s > GRACE_S:
             self._left_s = 0.0  # it was loaded again, or is open twice
-        arrived_s = _number(query, "arrived")
+        arrived_s = _number(query, "arrived_s", 0.0)
         if arrived_s:
             self._live.note_drawn(arrived_s)
-        frame = self._live.wait(_number(query, "drawn"), WAIT_S)
+        frame = self._live.wait(_number(query, "drawn_us", -1.0), WAIT_S)
         return Answer(json.dumps({**self._live.describe(), **(_pictures(frame) if frame else {})}))
 
 
-def _number(query: Mapping[str, str], name: str) -> float:
+def _number(query: Mapping[str, str], name: str, default: float) -> float:
     with contextlib.suppress(ValueError):
         return float(query.get(name, ""))
-    return 0.0
+    return default
 
 
 def _pictures(one: Shown) -> dict[str, Any]:
     camera = jpeg_bytes(shrink(frame_image(one.frame), PICTURE_WIDTH), quality=85)
     events = draw_events(event_frame(one.events, "count"), PALETTES["paper"])
     return {
-        "number": one.number,
-        "arrived": one.arrived_s,
-        "t_s": one.frame.t_us / 1e6,
+        "t_us": one.frame.t_us,
+        "arrived_s": one.arrived_s,
         "events": len(one.events),
         "camera_jpeg": base64.b64encode(camera).decode(),
         "events_png": base64.b64encode(png_bytes(events, level=1)).decode(),

@@ -50,4 +50,5 @@ def run(arguments: Sequence[str]) -> int:
     options, page = parse_configs(arguments, groups, prog="texvent live", description=DESCRIPTION)
     frames = open_frames(options.source, CaptureConfig())
     live = LiveEvents(frames, {name: getattr(options, name) for name in OF_THE_CAMERA})
-    return serve(LiveServer(live, options.source, port=page.port), page)
+    name = str(frames.metadata.get("source", options.source))  # without a password
+    return serve(LiveServer(live, name, port=page.port), page)
