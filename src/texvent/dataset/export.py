@@ -70,7 +70,7 @@ def export(
     variant: str | None = None,
     classes: str | None = None,
 ) -> Exports:
-    """Write all samples of a variant; a second run goes on where the first was stopped.
+    """Write all samples of a variant; a second run resumes where the first was stopped.
 
     Args:
         dataset: the data set.

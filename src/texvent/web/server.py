@@ -58,7 +58,7 @@ class PageServer:
         text: the page, HTML.
         gets: path → its answer, given the query; None where there is nothing.
         posts: path → action, given the values that the page's script sends; a `TexventError` is
-            what the script is told.
+            what the script receives.
         port: TCP port; 0: any free one.
 
     Raises:

@@ -72,7 +72,6 @@ def test_what_is_no_export_is_refused_in_one_line(tmp_path: Path):
 
 @pytest.mark.detect
 def test_mirrored_histograms_and_boxes_agree():
-    pytest.importorskip("evlib")
     from texvent_lab.bench.detection.clips import dense
     from texvent_lab.bench.detection.task import targets
 
@@ -87,7 +86,6 @@ def test_mirrored_histograms_and_boxes_agree():
 
 @pytest.mark.detect
 def test_a_detector_finds_what_it_was_trained_on():
-    pytest.importorskip("evlib")
     import torch
 
     from texvent_lab.bench.detection.precision import average_precision
@@ -127,7 +125,6 @@ def _square(number: int) -> Clip:
 
 @pytest.mark.detect
 def test_arms_are_made_trained_and_tested_and_kept(tmp_path: Path):
-    pytest.importorskip("evlib")
     (tmp_path / "car.toml").write_text(SCENE)
     (tmp_path / "cars.toml").write_text(SPECIFICATION)
     words = ["detection", str(tmp_path / "cars.toml"), "--work", str(tmp_path / "work")]

@@ -27,7 +27,7 @@ from texvent.runtime.progress import Progress
 from texvent.runtime.threads import count_threads
 
 DESCRIPTION = """Make a data set from a specification (TOML or YAML). What is complete is kept: the
-same command goes on where it was stopped or killed, on any machine that sees the folder.
+same command resumes where it was stopped or killed, on any machine that sees the folder.
 
   texvent dataset make cars.toml -o cars --workers 8
   texvent dataset make cars --shards 3/10     the third of ten parts, for job arrays

@@ -37,7 +37,7 @@ from texvent.truth.layout import check_generator
 DESCRIPTION = """Events for many prompts, scene files or videos. A list is a .txt (one prompt or
 scene file per line, # begins a comment), .csv or .jsonl (prompt, scene or video, and perhaps name
 and seed). Each sample has a seed of its own, derived from --seed and its text. What is done is
-noted in the folder: the same command goes on where it was stopped.
+noted in the folder: the same command resumes where it was stopped.
 
   texvent batch prompts.csv --generator wan-1.3b -o events
   texvent batch clips/ --simulator v2e --jobs 4 -o events"""
