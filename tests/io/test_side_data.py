@@ -26,7 +26,7 @@ def test_triggers_by_hand() -> None:
         "<4I", 10 << 28 | 5 << 22, 8 << 28 | 3, 1 << 28, 10 << 28 | 7 << 22 | 6 << 8 | 1
     )
     assert rows([evt2], EVT2) == [(3 << 6 | 7, 6, 1)], "without a high time there is none"
-    evt21 = struct.pack("<2Q", 8 << 60 | 3 << 32, 10 << 60 | 7 << 54 | 6 << 40)
+    evt21 = struct.pack("<4I", 8 << 28 | 3, 0, 10 << 28 | 7 << 22 | 6 << 8, 0)
     assert rows([evt21], EVT21) == [(3 << 6 | 7, 6, 0)]
     evt3 = struct.pack("<6H", 0x8FFF, 0x6010, 0xA201, 0x8000, 0xA200, 0x0000)
     assert rows([evt3], EVT3) == [(0xFFF << 12 | 0x10, 2, 1), (1 << 24, 2, 0)], "the counter wraps"

@@ -8,8 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from texvent.io.files import load
-from texvent.io.prophesee import evt21_coding
-from texvent.io.prophesee.evt import SwappedWordDecoder
+from texvent.io.prophesee.evt import Evt21Codec
 
 from .prophesee_files import events_of, write_words
 from .slow_words import decode_evt21
@@ -68,6 +67,6 @@ def test_any_words_mean_what_the_slow_decoder_says(words: list[int]) -> None:
     if (np.diff(highs) < -(2**27)).any():
         # The slow decoder does not know wraps.
         return
-    columns = SwappedWordDecoder(evt21_coding).decode(array)
+    columns = Evt21Codec().make_decoder().decode(array << 32 | array >> 32)
     rows = zip(*(columns[name].tolist() for name in "xytp"), strict=True)
     assert list(rows) == decode_evt21(array.tobytes())

@@ -22,7 +22,6 @@ from pathlib import Path
 from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
 from texvent.events import COLUMN_TYPES
@@ -35,12 +34,8 @@ from texvent.io.block_codec import (
 )
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, SideData, WriteBlock
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
-from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding, read_triggers
+from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding, Words, read_triggers
 from texvent.io.reading import ReadOptions
-
-Words: TypeAlias = bytes | memoryview | NDArray[Any]
-"""Whole words, as stored in the file."""
-
 
 WordKernels: TypeAlias = Any
 """Module of the compiled loops of a format: the NumPy type `WORD` of the numbers that its functions
@@ -90,9 +85,8 @@ class EvtReader(BlockReader):
     def kernels(self) -> WordKernels:
         """The compiled loops; importing them brings Numba."""
 
-    def make_decoder(self, header: TextHeader | None = None) -> WordDecoder:
-        """A decoder for a file with this header; None: with the header that texvent writes."""
-        del header
+    def make_decoder(self) -> WordDecoder:
+        """A decoder of words as `in_order` gives them."""
         return WordDecoder(self.kernels())
 
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
@@ -120,15 +114,15 @@ class EvtReader(BlockReader):
             (self.in_order(header, words) for words in blocks), self.trigger_coding
         )
 
-    def in_order(self, header: TextHeader, words: bytes) -> bytes:
-        """Words whose lowest byte comes first."""
+    def in_order(self, header: TextHeader, words: bytes) -> Words:
+        """The words of a file with this header, as the decoder takes them."""
         del header
         return words
 
     def _read_blocks(self, path: Path, header: TextHeader) -> Iterator[Columns]:
-        decoder = self.make_decoder(header)
+        decoder = self.make_decoder()
         for words in read_records(path, header.length, self.word_bytes):
-            yield decoder.decode(words)
+            yield decoder.decode(self.in_order(header, words))
 
 
 def _read_header(path: Path) -> TextHeader:
@@ -177,24 +171,10 @@ class Evt21Codec(EvtReader):
 
         return evt21_coding
 
-    def in_order(self, header: TextHeader, words: bytes) -> bytes:
-        """Words whose lowest byte comes first: halves are exchanged where the upper one does."""
+    def in_order(self, header: TextHeader, words: bytes) -> Words:
+        """Words whose upper half comes first: halves are exchanged where the lower one does."""
         numbers = np.frombuffer(words, "<u8")
-        return (numbers << 32 | numbers >> 32).tobytes() if is_legacy(header) else words
-
-    def make_decoder(self, header: TextHeader | None = None) -> WordDecoder:
-        """A decoder for a file with this header: it may have to exchange the halves of words."""
-        kind = WordDecoder if header is None or is_legacy(header) else SwappedWordDecoder
-        return kind(self.kernels())
-
-
-class SwappedWordDecoder(WordDecoder):
-    """Decodes words whose lower half comes first."""
-
-    def decode(self, words: Words) -> Columns:
-        """Columns x, y, t, p of the events in these words."""
-        numbers = np.frombuffer(words, "<u8")
-        return super().decode(numbers << 32 | numbers >> 32)
+        return words if is_legacy(header) else numbers << 32 | numbers >> 32
 
 
 def is_legacy(header: TextHeader) -> bool:
@@ -223,10 +203,6 @@ class Evt3Codec(EvtReader, BlockCodec):
 
         return evt3_coding
 
-    def make_encoder(self) -> Evt3Encoder:
-        """An encoder for one file."""
-        return Evt3Encoder()
-
     def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Write the header and the words before the first event."""
         size = target.size
@@ -238,7 +214,7 @@ class Evt3Codec(EvtReader, BlockCodec):
             "integrator_name": INTEGRATOR,
             "plugin_integrator_name": INTEGRATOR,
         }
-        encoder = self.make_encoder()
+        encoder = Evt3Encoder()
         header = make_text_header(fields, target.metadata, end=True)
         return write_records(part, header + encoder.start(), encoder.encode)
 

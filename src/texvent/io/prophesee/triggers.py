@@ -1,7 +1,7 @@
 """External triggers in the words of EVT2, EVT2.1 and EVT3.
 
     EVT2    u32: 31..28 type 10 · 27..22 low time · 12..8 channel · 0 value
-    EVT2.1  u64: 63..60 type 10 · 59..54 low time · 44..40 channel · 32 value
+    EVT2.1  u64: the upper half is a word of EVT2, the lower half nothing
     EVT3    u16: 15..12 type 10 · 11..8 channel · 0 value; the time is that of the words before it
 
 Source: Prophesee, "Data Encoding Formats" of the Metavision documentation.
@@ -10,7 +10,8 @@ Source: Prophesee, "Data Encoding Formats" of the Metavision documentation.
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Any, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,9 @@ from numpy.typing import NDArray
 from texvent.io.block_writer import Columns
 
 TIME_LOW, TIME_HIGH, TRIGGER = 6, 8, 10
-Words = NDArray[np.int64]
+Words: TypeAlias = bytes | memoryview | NDArray[Any]
+"""Whole words, as stored in the file."""
+Fields: TypeAlias = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -41,11 +44,12 @@ class TriggerCoding:
 
 
 EVT2 = TriggerCoding("<u4", (28, 4), (0, 28), (22, 6), (8, 5), (0, 1))
-EVT21 = TriggerCoding("<u8", (60, 4), (32, 28), (54, 6), (40, 5), (32, 1))
+EVT21 = replace(EVT2, word="<u8")
+"""Of words whose upper half comes first."""
 EVT3 = TriggerCoding("<u2", (12, 4), (0, 12), None, (8, 4), (0, 1))
 
 
-def read_triggers(blocks: Iterable[bytes], coding: TriggerCoding) -> Iterator[Columns]:
+def read_triggers(blocks: Iterable[Words], coding: TriggerCoding) -> Iterator[Columns]:
     """Columns t (µs), channel and value of the triggers in consecutive blocks of words."""
     turns, high, low = 0, -1, 0
     for block in blocks:
@@ -76,12 +80,12 @@ def read_triggers(blocks: Iterable[bytes], coding: TriggerCoding) -> Iterator[Co
             turns, high, low = int(turn[-1]), int(highs[-1]), int(lows[-1])
 
 
-def _field(words: NDArray[np.unsignedinteger], place: tuple[int, int]) -> Words:
+def _field(words: NDArray[np.unsignedinteger], place: tuple[int, int]) -> Fields:
     shift, bits = place
     return (words >> words.dtype.type(shift)).astype(np.int64) & ((1 << bits) - 1)
 
 
-def _forward(values: Words, first: int) -> Words:
+def _forward(values: Fields, first: int) -> Fields:
     """Values whose −1 are replaced by the last that is none."""
     places = np.where(values >= 0, np.arange(1, len(values) + 1), 0)
     return np.concatenate([[first], values])[np.maximum.accumulate(places)]

@@ -28,7 +28,7 @@ from texvent.events import EventStream
 from texvent.io.atomic import hidden_folder
 from texvent.io.block_codec import split_by_time
 from texvent.io.block_writer import Columns
-from texvent.io.prophesee.evt import Evt3Codec
+from texvent.io.prophesee.evt import Evt3Encoder
 from texvent.io.ros.messages import (
     EVENT_ARRAY,
     EVENT_ARRAY_TEXT,
@@ -113,7 +113,7 @@ class SensorBag:
         is_ros1 = self._kind == "rosbag1"
         kind = EVENT_ARRAY if is_ros1 else EVENT_PACKET
         connection = self._bag.add_connection(topic, kind, typestore=self._types)
-        encoder, number = Evt3Codec().make_encoder(), 0
+        encoder, number = Evt3Encoder(), 0
 
         def write(columns: Columns) -> None:
             nonlocal number
