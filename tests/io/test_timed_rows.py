@@ -17,7 +17,7 @@ from hypothesis import strategies as st
 from texvent.errors import FileFormatError
 from texvent.event_packets import SeekablePackets
 from texvent.events import EventStream
-from texvent.io.block_codec import TimedRows, seek_rows
+from texvent.io.block_codec import TimedRows, read_between
 from texvent.io.files import open_events
 from texvent.sensor import SensorSize
 
@@ -121,7 +121,7 @@ def test_times_that_decrease_inside_a_part_or_between_its_blocks_are_refused(
             yield TimedRows(6, times.__getitem__, lambda a, b: {"t": stored[a:b]}, block)
 
         with pytest.raises(FileFormatError, match="time decreases from 50 to 40 µs"):
-            [*seek_rows(tmp_path / "a.h5", opened).blocks(15, 65)]
+            [*read_between(tmp_path / "a.h5", opened, 15, 65)]
 
 
 PEAK = """

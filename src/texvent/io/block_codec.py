@@ -45,16 +45,6 @@ BLOCK_BYTES = 2**21
 
 
 @dataclass(frozen=True)
-class TimeSeek:
-    """Search for a time without reading all before it."""
-
-    time_range: Callable[[], tuple[int, int] | None]
-    """Half-open range of the event times, µs; None without events."""
-    blocks: Callable[[int, int], Iterator[Columns]]
-    """Gives the columns of `start_us <= t < stop_us`, block by block."""
-
-
-@dataclass(frozen=True)
 class FileContents:
     """Facts stated by a file, and a reader of its events."""
 
@@ -63,8 +53,8 @@ class FileContents:
     metadata: Mapping[str, Any]
     blocks: Callable[[], Iterator[Columns]]
     """Gives columns x, y, t, p, and label if known, block by block, from the start at each call."""
-    seek: TimeSeek | None = None
-    """For files that can find a time."""
+    rows: OpenRows | None = None
+    """For files that find a time without reading all before it."""
     left_out: list[int] = field(default_factory=list)
     """Receives how many rows could not be read, where that is repaired."""
 
@@ -106,8 +96,8 @@ class BlockReader(ABC):
         if options.repair:
             return _repaired(path, contents, final_size)
         packets = BlockPackets(path, contents, final_size)
-        if contents.seek is not None:
-            packets = SeekableBlockPackets(path, contents, final_size, contents.seek)
+        if contents.rows is not None:
+            packets = SeekableBlockPackets(path, contents, final_size, contents.rows)
         return EventPackets(packets, final_size, contents.metadata)
 
     def recognises(self, path: Path) -> bool | None:
@@ -255,16 +245,21 @@ def _repaired(path: Path, contents: FileContents, size: SensorSize) -> EventPack
 class SeekableBlockPackets(BlockPackets):
     """Packets of a file that finds times; see `SeekablePackets`."""
 
-    seek: TimeSeek
+    open_rows: OpenRows
 
     @property
     def time_range(self) -> tuple[int, int] | None:
         """Half-open range [first, last + 1) of the event times, µs, or None without events."""
-        return self.seek.time_range()
+        with self.open_rows() as rows:
+            if not rows.count:
+                return None
+            first, last = rows.time_of(0), rows.time_of(rows.count - 1)
+        _check_order(self.path, [first, last])
+        return first, last + 1
 
     def between(self, start_us: int, stop_us: int) -> Iterator[EventStream]:
-        """The packets of `start_us <= t < stop_us`."""
-        return self._packets(self.seek.blocks(start_us, stop_us))
+        """The packets of `start_us <= t < stop_us`; times read on the way must be in order."""
+        return self._packets(read_between(self.path, self.open_rows, start_us, stop_us))
 
 
 def split_by_time(columns: Columns, length_us: int) -> Iterator[Columns]:
@@ -334,25 +329,17 @@ def already_open(rows: TimedRows) -> OpenRows:
     return lambda: nullcontext(rows)
 
 
-def read_rows(open_rows: OpenRows) -> Iterator[Columns]:
-    """All events, block by block."""
+def contents_of_rows(
+    size: tuple[int, int] | None, metadata: Mapping[str, Any], open_rows: OpenRows
+) -> FileContents:
+    """Facts of a file that finds times, and readers of its events."""
+    return FileContents(size, metadata, partial(_read_rows, open_rows), open_rows)
+
+
+def _read_rows(open_rows: OpenRows) -> Iterator[Columns]:
     with open_rows() as rows:
         for start in range(0, rows.count, rows.block):
             yield rows.read(start, min(start + rows.block, rows.count))
-
-
-def seek_rows(path: Path, open_rows: OpenRows) -> TimeSeek:
-    """`TimeSeek` of such a file; every time that is read on the way must be in order."""
-    return TimeSeek(partial(_time_range, path, open_rows), partial(_read_between, path, open_rows))
-
-
-def _time_range(path: Path, open_rows: OpenRows) -> tuple[int, int] | None:
-    with open_rows() as rows:
-        if not rows.count:
-            return None
-        first, last = rows.time_of(0), rows.time_of(rows.count - 1)
-    _check_order(path, [first, last])
-    return first, last + 1
 
 
 def _check_order(path: Path, times: ArrayLike) -> None:
@@ -368,9 +355,12 @@ def _check_order(path: Path, times: ArrayLike) -> None:
         raise FileFormatError(f"{path}: time decreases from {before} to {after} µs")
 
 
-def _read_between(
-    path: Path, open_rows: OpenRows, start_us: int, stop_us: int
-) -> Iterator[Columns]:
+def read_between(path: Path, open_rows: OpenRows, start_us: int, stop_us: int) -> Iterator[Columns]:
+    """Columns of `start_us <= t < stop_us`, block by block.
+
+    Raises:
+        FileFormatError: times that are read on the way decrease.
+    """
     with open_rows() as opened:
         seen: dict[int, int] = {}
 

@@ -30,7 +30,7 @@ from typing import Any, ClassVar
 from texvent.errors import FileFormatError, shown
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.arrays.npz import read_arrays
-from texvent.io.block_codec import BlockReader, FileContents, already_open, read_rows, seek_rows
+from texvent.io.block_codec import BlockReader, FileContents, already_open, contents_of_rows
 from texvent.io.block_writer import Columns
 from texvent.io.metadata import metadata_from_json, parse_sidecar
 from texvent.io.reading import ReadOptions
@@ -60,7 +60,7 @@ class EvrealFolderCodec(BlockReader):
         table.check(path, arrays)
         size, metadata = _read_facts(path)
         rows = already_open(table.rows(path, arrays, options, block=PACKET_EVENTS))
-        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
+        return contents_of_rows(size, metadata, rows)
 
 
 def _read_facts(path: Path) -> tuple[tuple[int, int] | None, dict[str, Any]]:

@@ -33,8 +33,7 @@ from texvent.io.block_codec import (
     FileContents,
     TimedRows,
     already_open,
-    read_rows,
-    seek_rows,
+    contents_of_rows,
 )
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import (
@@ -223,5 +222,4 @@ class NpyCodec(BlockReader):
         table = find_tables(path, arrays, options)[0]
         table.check(path, arrays)
         rows = table.rows(path, arrays, options, block=BLOCK_EVENTS)
-        opened = already_open(rows)
-        return FileContents(None, {}, partial(read_rows, opened), seek_rows(path, opened))
+        return contents_of_rows(None, {}, already_open(rows))

@@ -44,7 +44,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
 from texvent.events import COLUMN_TYPES, OPTIONAL_COLUMNS
-from texvent.io.block_codec import BlockCodec, FileContents, TimedRows, read_rows, seek_rows
+from texvent.io.block_codec import BlockCodec, FileContents, TimedRows, contents_of_rows
 from texvent.io.block_writer import BlockWriter, Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.hdf5.storage import (
     DeferredErrorFile,
@@ -197,7 +197,7 @@ class Hdf5Codec(BlockCodec):
             size = next((one for one in map(stored_size, groups) if one is not None), None)
             metadata = read_metadata(file, path) or {}
         rows = partial(_open_rows, path, options)
-        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
+        return contents_of_rows(size, metadata, rows)
 
     def layout(self, file: Any, target: FileTarget) -> StoredColumns:
         """The empty data sets of a new file, h5py's and open."""

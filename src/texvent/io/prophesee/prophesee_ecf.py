@@ -39,7 +39,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
 from texvent.events import COLUMN_TYPES
-from texvent.io.block_codec import BlockReader, FileContents, TimedRows, read_rows, seek_rows
+from texvent.io.block_codec import BlockReader, FileContents, TimedRows, contents_of_rows
 from texvent.io.block_writer import Columns
 from texvent.io.hdf5.native import read_metadata, stored_size
 from texvent.io.hdf5.storage import check_claims, open_hdf5
@@ -187,7 +187,7 @@ class EcfHdf5Codec(BlockReader):
             _checked_events(file, path)
             size, metadata = _stored_size(file), _read_metadata(file, path)
         rows = partial(_open_rows, path)
-        return FileContents(size, metadata, partial(read_rows, rows), seek_rows(path, rows))
+        return contents_of_rows(size, metadata, rows)
 
 
 @contextmanager
