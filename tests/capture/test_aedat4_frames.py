@@ -14,7 +14,7 @@ from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
 from texvent.errors import FileFormatError, InputError
 from texvent.events import EventStream
-from texvent.io.aedat.aedat4_container import LZ4, MAGIC, pack_lz4
+from texvent.io.aedat.aedat4_container import LZ4_CODE, MAGIC, pack_lz4
 from texvent.io.aedat.aedat4_tables import make_header, make_info
 from texvent.io.files import save
 from texvent.sensor import SensorSize
@@ -51,7 +51,7 @@ def write_file(path: Path, frames: list[bytes], kind: bytes = b"FRME") -> Path:
     xml = make_info(SIZE, "LZ4", "{}").replace(b"EVTS", kind)
     packets = [pack_lz4(frame) for frame in frames]
     body = b"".join(struct.pack("<ii", 0, len(packet)) + packet for packet in packets)
-    path.write_bytes(MAGIC + make_header(LZ4.code, -1, xml) + body)
+    path.write_bytes(MAGIC + make_header(LZ4_CODE, -1, xml) + body)
     return path
 
 

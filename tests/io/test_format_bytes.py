@@ -185,10 +185,10 @@ def test_a_zip_bomb_is_refused_before_it_is_unpacked(tmp_path: Path) -> None:
 
 def test_a_packet_that_unpacks_without_end_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     packed = aedat4_packing.pack_lz4(bytes(3 * 2**20))
-    assert aedat4_packing.LZ4.unpack(packed) == bytes(3 * 2**20)
+    assert aedat4_packing.unpack_lz4(packed) == bytes(3 * 2**20)
     monkeypatch.setattr(aedat4_packing, "MAX_PACKET_BYTES", 2**20)
     with pytest.raises(FileFormatError, match="unpacks to more than 1 MiB"):
-        aedat4_packing.LZ4.unpack(packed)
+        aedat4_packing.unpack_lz4(packed)
 
 
 def test_aedat4_of_a_recorder_that_crashed_is_read(tmp_path: Path) -> None:

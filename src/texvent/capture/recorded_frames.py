@@ -147,15 +147,8 @@ def is_evreal(folder: Path) -> bool:
     return all((folder / name).is_file() for name in (IMAGES, TIMES))
 
 
-def open_evreal(
-    folder: Path, times: FrameTimes | None = None, white_level: float | None = None
-) -> ArrayFrames:
-    """The images of a folder in order; they are read when they are asked for.
-
-    Args:
-        folder: holds images.npy and images_ts.npy.
-        times: frame times that replace the folder's own.
-        white_level: as for `ArrayFrames`.
+def open_evreal(folder: Path, times: FrameTimes | None, white_level: float | None) -> ArrayFrames:
+    """The images of a folder in order, read when asked for; `times` replace the folder's own.
 
     Raises:
         FileFormatError: an array is damaged, or the times are no seconds.

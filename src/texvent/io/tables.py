@@ -65,13 +65,8 @@ def spelled(name: str) -> tuple[str | None, TimeUnit | None]:
     return None, None
 
 
-def find_columns(path: Path, names: Iterable[str], *, kind: str = "column") -> dict[str, str]:
-    """t, x, y, p → the name that a file gives each.
-
-    Args:
-        path: the file, for messages.
-        names: all names in the file, with capitals or without.
-        kind: kind of the named objects, such as "array".
+def find_columns(path: Path, names: Iterable[str]) -> dict[str, str]:
+    """t, x, y, p → the name that a file with columns of these names gives each.
 
     Raises:
         FileFormatError: a column is missing or there twice; the message says what is accepted.
@@ -80,27 +75,18 @@ def find_columns(path: Path, names: Iterable[str], *, kind: str = "column") -> d
     for column, spellings in SPELLINGS.items():
         matching = [name for name in names if spelled(name)[0] == column]
         if len(matching) != 1:
-            what = f"{len(matching)} {kind}s" if matching else f"no {kind}"
+            what = f"{len(matching)} columns" if matching else "no column"
             raise FileFormatError(
                 f"{path} has {what} {column!r} (it has: {shown(', '.join(names) or 'none')}); "
-                f"texvent reads {kind}s t, x, y, p; {column} may be called "
+                f"texvent reads columns t, x, y, p; {column} may be called "
                 f"{' or '.join(spellings[1:4])}; or give columns (--columns {column}=NAME,...)"
             )
         found[column] = matching[0]
     return found
 
 
-def guess_orders(rows: NDArray[Any], size: SensorSize | None = None) -> list[str]:
-    """Orders of the columns that fit rows of four numbers.
-
-    Args:
-        rows: [n, 4] in the order of the file.
-        size: sensor size, pixels, where it is known.
-    """
-    return [order for order in ORDERS if _fits(rows, order, size)]
-
-
 def _fits(rows: NDArray[Any], order: str, size: SensorSize | None) -> bool:
+    """Whether rows of four numbers, [n, 4], can be meant in an order, on a sensor in pixels."""
     t, x, y, p = (rows[:, order.index(name)] for name in "txyp")
     limits = (np.inf, np.inf) if size is None else size
     pixels = all(
@@ -320,7 +306,7 @@ def certain_order(
     Raises:
         InputError: several orders fit, or none, and there is no default.
     """
-    orders = guess_orders(np.asarray(rows), size)
+    orders = [order for order in ORDERS if _fits(np.asarray(rows), order, size)]
     if default is not None and (default in orders or not orders):
         return default
     if len(orders) == 1 or (orders and len(rows) == 0):

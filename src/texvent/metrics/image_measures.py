@@ -17,7 +17,7 @@ LUMINANCE, CONTRAST = 0.01, 0.03
 Float64Array: TypeAlias = NDArray[np.float64]
 
 
-def structural_similarity(a: Float64Array, b: Float64Array, *, data_range: float = 1.0) -> float:
+def structural_similarity(a: Float64Array, b: Float64Array) -> float:
     """Mean SSIM over all pixels whose 11×11 window is inside the image.
 
     The same as scikit-image's with `gaussian_weights=True, use_sample_covariance=False`.
@@ -25,7 +25,6 @@ def structural_similarity(a: Float64Array, b: Float64Array, *, data_range: float
     Args:
         a: [H, W].
         b: [H, W].
-        data_range: difference between the largest and the smallest value a pixel can have.
 
     Returns:
         −1..1, or NaN if a side is shorter than 11 px.
@@ -38,7 +37,7 @@ def structural_similarity(a: Float64Array, b: Float64Array, *, data_range: float
     mean_a, mean_b, square_a, square_b, product = _smooth(np.stack([a, b, a * a, b * b, a * b]))
     variance = square_a - mean_a**2 + square_b - mean_b**2
     covariance = product - mean_a * mean_b
-    c1, c2 = (LUMINANCE * data_range) ** 2, (CONTRAST * data_range) ** 2
+    c1, c2 = LUMINANCE**2, CONTRAST**2
     ssim = (2 * mean_a * mean_b + c1) * (2 * covariance + c2)
     ssim /= (mean_a**2 + mean_b**2 + c1) * (variance + c2)
     return float(ssim.mean())

@@ -14,16 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import ConfigError
+from texvent.options.values import option_names
 from texvent.scenes.lens import Lens
 from texvent.scenes.scene import Camera, Environment, Primitives, Scene
 from texvent.sensor import SensorSize
 
 Float64Array = NDArray[np.float64]
-
-
-def no_motion() -> Float64Array:
-    """The [4, 4] map that changes nothing."""
-    return np.eye(4)
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,7 +32,7 @@ class RigCamera:
     """Pixels."""
     lens: Lens | None
     """Intrinsics and distortion; None: the pinhole that the scene's own camera is."""
-    from_first: Float64Array = field(default_factory=no_motion)
+    from_first: Float64Array = field(default_factory=lambda: np.eye(4))
     """[4, 4] coordinates in the first camera → coordinates in this one."""
     sensor: str | None = None
     """Name of its sensor, whose measured constants its pixels have where the simulator knows them;
@@ -57,13 +53,8 @@ class ImuNoise:
     """Random walk of the bias, rad/s²/√Hz."""
 
 
-NOISE_NAMES = (
-    "accelerometer_noise_density",
-    "accelerometer_random_walk",
-    "gyroscope_noise_density",
-    "gyroscope_random_walk",
-)
-"""Fields of `ImuNoise`, by which Kalibr knows them too."""
+NOISE_NAMES = option_names(ImuNoise)
+"""Kalibr knows the densities by the same names."""
 IMU_NOISES: dict[str, ImuNoise] = {
     "adis16448": ImuNoise(2.0e-3, 3.0e-3, 1.6968e-4, 1.9393e-5),
     "none": ImuNoise(),
@@ -78,7 +69,7 @@ class Rig:
 
     cameras: tuple[RigCamera, ...]
     """At least one; the first follows the scene's camera path."""
-    first_from_imu: Float64Array = field(default_factory=no_motion)
+    first_from_imu: Float64Array = field(default_factory=lambda: np.eye(4))
     """[4, 4] coordinates in the IMU → coordinates in the first camera."""
 
 

@@ -140,12 +140,10 @@ class Recording:
         """[n] times of the true poses, µs: those of the IMU's samples."""
         return sample_times_us(self.config.imu or POSE_RATE_HZ, self.stop_us)
 
-    def poses(self, camera: RigCamera | None = None) -> tuple[NDArray[Any], NDArray[Any]]:
-        """[n, 3] true places, m, and [n, 3, 3] rotations to the world, of the IMU or a camera."""
-        in_first = self.rig.first_from_imu
-        if camera is not None:
-            in_first = np.asarray(np.linalg.inv(camera.from_first), dtype=np.float64)
-        return body_poses(self.video.scene, in_first, self.pose_times / MICROSECONDS)
+    def poses(self) -> tuple[NDArray[Any], NDArray[Any]]:
+        """[n, 3] true places, m, and [n, 3, 3] rotations to the world, of the IMU."""
+        seconds = self.pose_times / MICROSECONDS
+        return body_poses(self.video.scene, self.rig.first_from_imu, seconds)
 
     @cached_property
     def imu(self) -> ImuSamples | None:
@@ -176,7 +174,9 @@ def prepare_recording(
     check_generator(settings.generator)
     check_run(settings)
     rig, noise = _read(config, settings.size or SensorSize(346, 260))
-    first = settings if rig.cameras[0].size == settings.size else _sized(settings, rig)
+    # The scene is composed for the first camera's image.
+    run = replace(settings.run, sensor=str(rig.cameras[0].size))
+    first = settings if rig.cameras[0].size == settings.size else replace(settings, run=run)
     video = text_to_video(prompt, first, progress=progress)
     if not isinstance(video, ProceduralVideo):
         raise ConfigError("the embedded generator was replaced by another one; a rig needs it")
@@ -221,11 +221,6 @@ def _with_constants_of(sensor: str | None, settings: Settings) -> Settings:
     }
     run = replace(settings.run, preset=preset)
     return replace(settings, run=run, simulate=replace(presets[preset], **given))
-
-
-def _sized(settings: Settings, rig: Rig) -> Settings:
-    """Settings of a scene that is composed for the first camera's image."""
-    return replace(settings, run=replace(settings.run, sensor=str(rig.cameras[0].size)))
 
 
 def _read(config: RigConfig, size: SensorSize) -> tuple[Rig, ImuNoise]:

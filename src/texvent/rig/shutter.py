@@ -71,14 +71,11 @@ class Shutter:
         """Half the time from the first row's start to the last row's end."""
         return 0.5 * (self.exposure_s + self.row_s * (self.height - 1))
 
-    def row_middles_s(self) -> Float64Array:
-        """[H] middle of each row's exposure, s from the frame's time."""
-        return np.asarray(self.row_s * (np.arange(self.height) - 0.5 * (self.height - 1)), float)
-
     def instants_s(self, count: int) -> Float64Array:
         """[H, count] instants, s from the frame's time: middles of equal parts of the exposure."""
         parts = (np.arange(count) + 0.5) / count - 0.5
-        return np.asarray(self.row_middles_s()[:, None] + self.exposure_s * parts)
+        middles = self.row_s * (np.arange(self.height) - 0.5 * (self.height - 1))
+        return np.asarray(middles[:, None] + self.exposure_s * parts)
 
 
 def make_shutter(config: RigConfig, size: SensorSize) -> Shutter:

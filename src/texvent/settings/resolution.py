@@ -27,7 +27,6 @@ ALONG_MOTION = "motion"
 """The interpolator of frames that come with motion vectors."""
 RENDERED = "exact"
 """The interpolator of what is known at any instant."""
-"""Tables of options in a config file."""
 DECIDING = ("generator", "simulator", "preset", "sensor", "motion", "motion_back", "camera")
 """Options that decide which other options there are, or their defaults."""
 

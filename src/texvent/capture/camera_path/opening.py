@@ -49,8 +49,8 @@ def open_photo(
     source: Any,
     config: CaptureConfig,
     *,
-    size: SensorSize | None = None,
-    seed: int = 0,
+    size: SensorSize | None,
+    seed: int,
 ) -> PhotoFrames:
     """Frames of a camera that moves over an image.
 

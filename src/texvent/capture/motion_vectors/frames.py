@@ -307,7 +307,7 @@ OWN_FOLDER = "motion"
 
 
 def attach_motion(
-    stream: FrameStream, config: CaptureConfig, given: Mapping[str, Any] | None = None
+    stream: FrameStream, config: CaptureConfig, given: Mapping[str, Any] | None
 ) -> FrameStream:
     """The stream with the fields of files and of memory in `Frame.motion`.
 

@@ -25,7 +25,8 @@ import numpy as np
 
 from texvent.errors import FileFormatError
 from texvent.io.aedat.aedat4_container import (
-    LZ4,
+    LZ4_CODE,
+    LZ4_NAME,
     MAGIC,
     PACKET_HEAD,
     Container,
@@ -110,10 +111,10 @@ class Aedat4Codec(BlockCodec):
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
         """Write the header; at the end the list of packets, and where it lies into the header."""
-        xml = make_info(target.size, LZ4.name, metadata_to_json(target.metadata))
+        xml = make_info(target.size, LZ4_NAME, metadata_to_json(target.metadata))
         entries: list[PacketEntry] = []
         with part.open("wb") as file:
-            file.write(MAGIC + make_header(LZ4.code, UNKNOWN, xml))
+            file.write(MAGIC + make_header(LZ4_CODE, UNKNOWN, xml))
 
             def write(columns: Columns) -> None:
                 for packet in split_by_time(columns, PACKET_US):
@@ -131,7 +132,7 @@ class Aedat4Codec(BlockCodec):
             position = file.tell()
             file.write(pack_lz4(make_list(entries, 0)))
             file.seek(len(MAGIC))
-            file.write(make_header(LZ4.code, position, xml))
+            file.write(make_header(LZ4_CODE, position, xml))
 
 
 def _read_side_data(container: Container, name: str) -> Iterator[Columns]:

@@ -33,31 +33,24 @@ MAX_PACKET_BYTES = 256 * 2**20
 """16 million events, or a frame of 80 megapixels."""
 
 
-@dataclass(frozen=True)
-class Packing:
-    """Compression of packets."""
-
-    name: str
-    """As the file's XML says it."""
-    code: int
-    """As the file's header says it."""
-    unpack: Callable[[bytes], bytes]
+LZ4_NAME, LZ4_CODE = "LZ4", 1
+"""What the XML and the header of a file with LZ4 say."""
 
 
-def packing_of(code: int) -> Packing:
-    """The packing that a file's header names.
+def _unpacker(code: int) -> Callable[[bytes], bytes]:
+    """What unpacks the packets of a file whose header names this compression.
 
     Raises:
         FileFormatError: no packing has this number.
         MissingDependencyError: Zstandard is needed and not installed.
     """
     if code == 0:
-        return NONE
+        return bytes
     if code in (1, 2):
-        return LZ4
+        return unpack_lz4
     if code in (3, 4):
         _zstd()
-        return ZSTD
+        return _unpack_zstd
     raise FileFormatError(f"its header names compression {code}; AEDAT4 knows 0 to 4")
 
 
@@ -67,7 +60,12 @@ def pack_lz4(data: bytes) -> bytes:
     return packed
 
 
-def _unpack_lz4(data: bytes) -> bytes:
+def unpack_lz4(data: bytes) -> bytes:
+    """A packet of a LZ4 frame.
+
+    Raises:
+        FileFormatError: it is damaged, cut off or too large.
+    """
     return _unpack(lz4.frame.LZ4FrameDecompressor(), data, RuntimeError, "LZ4")
 
 
@@ -105,11 +103,6 @@ def _zstd() -> ModuleType:
         return require("backports.zstd", extra="zstd")
 
 
-NONE = Packing("NONE", 0, bytes)
-LZ4 = Packing("LZ4", 1, _unpack_lz4)
-ZSTD = Packing("ZSTD", 3, _unpack_zstd)
-
-
 MAGIC = b"#!AER-DAT4.0\r\n"
 PACKET_HEAD = struct.Struct("<ii")
 """Stream and bytes of a packet."""
@@ -120,7 +113,7 @@ class Container:
     """An AEDAT4 file whose header has been read."""
 
     path: Path
-    packing: Packing
+    unpack: Callable[[bytes], bytes]
     start: int
     """First byte of the first packet."""
     stop: int | None
@@ -151,7 +144,7 @@ class Container:
         with self.path.open("rb") as file:
             for count, end in self._seek_packets(file, stream):
                 try:
-                    packet = self.packing.unpack(file.read(count))
+                    packet = self.unpack(file.read(count))
                 except FileFormatError as error:
                     raise FileFormatError(f"{self.path}, before byte {end}: {error}") from error
                 yield end, packet
@@ -196,7 +189,7 @@ def open_container(path: Path, *, is_whole: bool = True) -> Container:
         data = prefix + file.read(start - len(MAGIC) - 4)
     try:
         table = Table.root(data, b"IOHE")
-        packing = packing_of(table.number(0, "<i", 0))
+        unpack = _unpacker(table.number(0, "<i", 0))
         stop = table.number(1, "<q", UNKNOWN)
         xml = table.text(2)
     except FileFormatError as error:
@@ -208,7 +201,7 @@ def open_container(path: Path, *, is_whole: bool = True) -> Container:
             f"{path} states its list of packets at byte {stop} of {length}; the file was cut off"
         )
     streams = tuple(read_info(path, xml))
-    return Container(path, packing, start, None if stop == UNKNOWN else stop, streams, length)
+    return Container(path, unpack, start, None if stop == UNKNOWN else stop, streams, length)
 
 
 def stored_size(path: Path, stream: StreamInfo) -> tuple[int, int] | None:

@@ -30,25 +30,18 @@ _MAGIC = b"\x93NUMPY\x01\x00"
 
 @contextmanager
 def growing_array(
-    path: Path, *, dtype: str | np.dtype[np.void], columns: int | None = None
+    path: Path, *, dtype: str | np.dtype[np.void]
 ) -> Iterator[Callable[[NDArray[np.generic]], None]]:
-    """A .npy file to which the function given appends rows, [n] or [n, columns].
-
-    Args:
-        path: the file.
-        dtype: type of the values; those of records have names.
-        columns: values per row; None: the array has one dimension.
-    """
+    """A .npy file, [n], to which the function given appends; a type with names makes records."""
     kind = np.dtype(dtype)
     row_count = 0
     with path.open("wb") as file:
 
         def write_header() -> None:
-            shape = (row_count,) if columns is None else (row_count, columns)
             facts = {
                 "descr": npy_format.dtype_to_descr(kind),
                 "fortran_order": False,
-                "shape": shape,
+                "shape": (row_count,),
             }
             space = HEADER_BYTES if kind.names is None else RECORD_HEADER_BYTES
             length = space - len(_MAGIC) - 2
@@ -70,9 +63,6 @@ class StoredArray:
     """The array of a .npy file, of which rows are read when they are asked for.
 
     Not mapped into memory: a mapped file that shrinks ends the process by a bus error.
-
-    Args:
-        path: the file.
 
     Raises:
         FileFormatError: it is damaged, cut off, or holds Python objects.
