@@ -273,13 +273,7 @@ def _truth_output(
 def _simulation(
     source: Source, options: SimulateOptions, config: str | Path | None
 ) -> tuple[Settings, dict[str, Any]]:
-    """Settings of a run from frames, and its fields of motion that are in memory.
-
-    Args:
-        source: the frames, which may bring motion along.
-        options: as given; vectors, depth and ids may be arrays.
-        config: a file with options.
-    """
+    """Settings of a run from frames, and its fields of motion that are in memory."""
     from texvent.capture.motion_vectors.frames import (
         find_motion_sidecar,  # brings the readers of frames
     )

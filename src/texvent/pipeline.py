@@ -40,11 +40,6 @@ def text_to_events(
 ) -> Simulation:
     """Events for a text prompt (Eq. 2); none is computed before the result is iterated.
 
-    Args:
-        prompt: what to show: a sentence, or a scene of the embedded generator.
-        settings: all options.
-        progress: receives the progress of a slow generator: a learned model makes its video here.
-
     Raises:
         InputError: the prompt is empty, or the model cannot be had.
     """
@@ -100,9 +95,6 @@ class Simulation:
 
         Intermediate frames may be drawn only when their pixels are read.
 
-        Args:
-            on_scene_change: called at every cut and flash.
-
         Warns:
             TexventWarning: `warns`, and there is no signal, or hardly any.
         """
@@ -124,11 +116,7 @@ class Simulation:
             warn(doubt)
 
     def begin(self, threads: ExitStack) -> tuple[Simulator, Iterator[FramePair]]:
-        """A simulator at rest, and the pairs of frames that it advances through.
-
-        Args:
-            threads: ends the threads of the pairs when it is closed.
-        """
+        """A simulator at rest, and the pairs of frames that it advances through."""
         simulator = build_simulator(self.settings.run, self.settings.simulate)
         pairs = plan_pairs(
             self.video,

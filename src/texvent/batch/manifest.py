@@ -135,10 +135,7 @@ def _flag(name: str) -> str:
 def describe_differences(old: Any, new: Any, *, name_of: Callable[[str], str] = str) -> str:
     """Differences between two trees of options, at most three; empty if they are equal.
 
-    Args:
-        old: the tree that is stored.
-        new: the one that is asked for.
-        name_of: how an option is called, from its name in the tree.
+    `name_of` gives an option's name from that in the tree.
     """
     found = list(_differences(old, new, name_of))
     more = len(found) - MOST_DIFFERENCES

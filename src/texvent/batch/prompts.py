@@ -17,10 +17,6 @@ def refuse_prompts(subjects: Sequence[tuple[str, Subject]], settings: Settings) 
     Scenes are not built, so each takes about a millisecond; errors that only the built scene shows
     fail its sample later.
 
-    Args:
-        subjects: place or text of each, for messages, and what is to be shown.
-        settings: that all share.
-
     Raises:
         InputError: there are such prompts, or scenes that name files that are not there.
         ConfigError: a field of a scene is wrong.

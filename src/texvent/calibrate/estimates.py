@@ -94,14 +94,7 @@ def write_preset(
     size: SensorSize,
     overwrite: bool = False,
 ) -> Path:
-    """Write options as TOML, for `texvent simulate --sensor FILE`.
-
-    Args:
-        config: what was found.
-        lines: what is known of it, for the comment at the top.
-        path: file to write.
-        size: of the sensor.
-        overwrite: replace an existing file.
+    """Write options as TOML, under lines of comment, for `texvent simulate --sensor FILE`.
 
     Returns:
         The path.

@@ -45,12 +45,7 @@ class Distance(NamedTuple):
 
 
 def measure_distance(simulated: EventStream, recorded: EventStream) -> Distance:
-    """Distance of simulated events from recorded ones of the same span.
-
-    Args:
-        simulated: by the model.
-        recorded: by the sensor; it has events of both polarities.
-    """
+    """Distance of simulated events from recorded ones, of both polarities, of the same span."""
     intervals = interval_distance(simulated, recorded)
     on, off = (_log_ratio(simulated, recorded, p) for p in (1, 0))
     return Distance(

@@ -53,10 +53,6 @@ class Aedat4Frames(FrameSource):
     Times are the middle of each exposure on the recording's own clock, that of its events, unless
     `times` are given.
 
-    Args:
-        path: the file.
-        times: frame times that replace the file's own.
-
     Raises:
         FileFormatError: it holds no frames or was cut off; while iterating: a frame is damaged, of
             another size than the sensor, or of another type of pixels.
@@ -113,9 +109,6 @@ class Aedat4Frames(FrameSource):
 
 def read_exposure(table: Table) -> tuple[int, int]:
     """Middle and length of a frame's exposure, µs.
-
-    Args:
-        table: of type FRME.
 
     Returns:
         The middle, rounded down, from the stated start and end; from the start and the length

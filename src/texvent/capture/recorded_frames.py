@@ -57,9 +57,6 @@ class DsecFrames(FrameSource):
 
     The calibration is read when the sequence is opened, the images one by one.
 
-    Args:
-        folder: the sequence.
-
     Raises:
         InputError: images or times are missing.
         FileFormatError: the calibration is missing, damaged or lacks an entry.

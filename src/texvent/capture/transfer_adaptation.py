@@ -24,11 +24,6 @@ def adapt_transfer(video: FrameStream, simulator: str, config: Any) -> tuple[Fra
     """Frames in the transfer that a pixel model is defined for, and the model's options for them.
 
     The option `gamma` of a model undoes the coding of frames: for linear ones it is 1.
-
-    Args:
-        video: gamma-coded or linear frames.
-        simulator: name of the pixel model.
-        config: its options.
     """
     if transfer_of(video) is Transfer.GAMMA:
         return video, config

@@ -43,10 +43,6 @@ class VideoFile(FrameSource):
     arithmetic, counted from the first frame, unless `times` are given. Frames that repeat the time
     of the frame before (some recorders write them) are dropped and counted in `metadata`.
 
-    Args:
-        path: the file.
-        times: frame times that replace the file's own.
-
     Raises:
         InputError: the file does not exist.
         FileFormatError: it has no video that can be decoded; while iterating: it is damaged, ends
@@ -271,9 +267,6 @@ UNSPECIFIED = 2
 def decoded_pixels(frame: VideoFrame) -> PixelArray:
     """Pixels of a decoded frame, turned as its display matrix says.
 
-    Args:
-        frame: any video frame that libav decodes.
-
     Returns:
         [H, W] for grey formats, else [H, W, 3] RGB; uint8 for up to 8 bits per component, uint16
         (65535 is white) for more. Alpha is dropped. YUV becomes RGB by the matrix and range that
@@ -334,9 +327,6 @@ def coding_facts(frame: VideoFrame, comment: str = "") -> dict[str, str]:
 
 def pixel_format(source: VideoFormat) -> str:
     """The libav format that keeps the precision and the colour of `source`.
-
-    Args:
-        source: format of a decoded frame.
 
     Returns:
         `gray`, `gray16le`, `rgb24` or `rgb48le`.

@@ -76,13 +76,6 @@ def run_source(
 ) -> int:
     """Simulate a video into its files; returns exit code 0.
 
-    Args:
-        source: as `texvent simulate` takes it.
-        settings: all options.
-        options: what is written, and where.
-        prompt: what the video shows, if that is known.
-        subject: what the event file is named after, unless it has a name.
-
     Raises:
         TexventError: as `execute`, and as `texvent.run.prepare.prepare_source`.
     """
@@ -144,12 +137,7 @@ def _estimate(simulation: Simulation, options: OutputOptions, files: RunFiles) -
 
 
 def describe_scene(metadata: Mapping[str, Any], *, with_words: bool = False) -> Iterator[str]:
-    """Lines on the scene of a prompt; warnings have named words that are not shown.
-
-    Args:
-        metadata: of the video.
-        with_words: whether the words that are shown are listed too.
-    """
+    """Lines on the scene of a prompt; warnings have named words that are not shown."""
     report = PromptReport.of_metadata(metadata)
     if report is None:
         return

@@ -196,12 +196,7 @@ def unpack(archive: Path, data_set: DataSet, target: Path) -> None:
     """Write the data set's files, and nothing else of the archive, into `target`.
 
     Only members named in the catalogue are read, and they are written under the catalogue's names,
-    so an archive cannot place a file elsewhere.
-
-    Args:
-        archive: a wheel or a .tar.gz whose digest has been checked.
-        data_set: which files.
-        target: folder; made if missing.
+    so an archive cannot place a file elsewhere. Its own digest was checked before.
 
     Raises:
         FileFormatError: the archive is damaged, or a member is missing or not as recorded.

@@ -116,10 +116,6 @@ class OpenSoraGenerator:
     def generate(self, prompt: str, *, progress: Progress | None = None) -> StoredVideo:
         """The video for `prompt`, made now unless it was made before.
 
-        Args:
-            prompt: what to show.
-            progress: receives a line when it starts.
-
         Raises:
             InputError: the prompt is empty.
             TexventError: Open-Sora is missing, lacks a file, or fails; its last output follows.
@@ -231,12 +227,7 @@ def _root() -> Path | None:
 
 
 def run_program(command: Sequence[str], *, cwd: Path | None, log: Path) -> None:
-    """Run a program to its end; Ctrl-C or any other exception ends it and its children.
-
-    Args:
-        command: program and arguments; no shell is involved.
-        cwd: folder to run in.
-        log: file for everything it prints.
+    """Run a program, without a shell; Ctrl-C or any other exception ends it and its children.
 
     Raises:
         TexventError: it cannot be started, or ends with an error; its last lines are quoted.

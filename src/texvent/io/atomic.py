@@ -90,10 +90,6 @@ def _refuse_inputs(path: str | Path, target: Path) -> None:
 def check_output(path: str | Path, *, overwrite: bool) -> Path:
     """The path, if a file can be put there.
 
-    Args:
-        path: the file to be written.
-        overwrite: whether an existing file may be replaced.
-
     Returns:
         The path, symbolic links resolved, so that replacing it replaces what it points to.
 
@@ -145,10 +141,6 @@ def atomic_file(path: str | Path, *, overwrite: bool) -> Iterator[Path]:
     """A path to write to, which becomes `path` if the `with` block ends without an exception.
 
     The path given is in the same folder and has the same extension.
-
-    Args:
-        path: the file to be written.
-        overwrite: whether an existing file may be replaced.
 
     Raises:
         OutputError: see `check_output`; or the disk became full inside the block.
@@ -292,10 +284,6 @@ def _refusals(path: str | Path, target: Path) -> Iterator[None]:
 @contextmanager
 def hidden_file(folder: Path, suffix: str) -> Iterator[Path]:
     """An empty hidden file in `folder`; it is removed at the end of the block if it is still there.
-
-    Args:
-        folder: where it is made.
-        suffix: end of its name, with the dot.
 
     Raises:
         OSError: the folder refuses it.

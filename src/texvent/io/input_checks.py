@@ -46,10 +46,6 @@ def refuse_other_kind(path: Path) -> None:
 def refuse_missing(path: Path, what: str = "file") -> None:
     """Refuse a path at which there is nothing.
 
-    Args:
-        path: a file, folder or camera.
-        what: expected kind of a path without a folder's or a camera's name.
-
     Raises:
         InputError: see above; a missing camera, or the first folder that is missing, is named.
     """
@@ -141,11 +137,6 @@ def begins_with(path: Path, magic: bytes) -> bool:
 def reporting_damage(path: Path, kind: str, damage: tuple[type[Exception], ...]) -> Iterator[None]:
     """Turn what a library raises on a damaged file into an error that names the file.
 
-    Args:
-        path: the file.
-        kind: expected kind, such as "an HDF5 event file".
-        damage: exceptions of the library.
-
     Raises:
         FileFormatError: one of `damage` was raised inside the block.
     """
@@ -176,10 +167,6 @@ def check_zip(path: Path, archive: zipfile.ZipFile) -> None:
 
 def stated_unit(path: Path, stored: Any) -> TimeUnit | None:
     """Unit of time that a file states as milliseconds per unit; None if it states none.
-
-    Args:
-        path: the file.
-        stored: stated value, of any type.
 
     Raises:
         FileFormatError: it is not the length of a unit.

@@ -54,13 +54,7 @@ class RepairCounts:
 def repair_blocks(
     blocks: Iterator[Columns], size: SensorSize, counts: RepairCounts
 ) -> Iterator[Columns]:
-    """Blocks of events that lie on the sensor and in time order.
-
-    Args:
-        blocks: columns x, y, t, p, and others, as the file has them.
-        size: sensor size, pixels.
-        counts: receives how much was repaired.
-    """
+    """Blocks of events that lie on the sensor and in time order; `counts` gets the rest."""
     held: _Columns = {}
     tail: _Columns = {}
     latest_us = released_us = -(2**62)

@@ -106,10 +106,5 @@ its shuffles."""
 
 
 def run_controls(metric: Metric, reference: EventStream) -> dict[str, float]:
-    """Control → value of the metric.
-
-    Args:
-        metric: the similarity score.
-        reference: the true stream; all controls are made of it.
-    """
+    """Control → value of the metric."""
     return {name: metric(*pair(reference)) for name, pair in CONTROLS.items()}

@@ -150,13 +150,7 @@ def check_finite(tensors: Mapping[str, Tensor], path: Path) -> None:
 
 
 def load_strictly(network: Any, tensors: Mapping[str, Tensor], path: Path, hint: str) -> None:
-    """Fill a network with the tensors of a file.
-
-    Args:
-        network: a torch module; it may be on the device "meta".
-        tensors: name → tensor, float32.
-        path: of the file, for messages.
-        hint: where to get the right file.
+    """Fill a network, which may be on the device "meta", with the float32 tensors of a file.
 
     Raises:
         FileFormatError: a tensor is missing, unknown, of another shape, or not finite.

@@ -44,9 +44,6 @@ def steady_frames(frames: Iterator[Frame]) -> Iterator[Frame]:
 
     The gain restarts at a cut or a flash.
 
-    Args:
-        frames: source frames in time order.
-
     Yields:
         One frame per frame, same time and kind: the frame itself where no correction is needed,
         else its pixels times one number, float32, 0..255 scale.
@@ -66,10 +63,6 @@ def steady_frames(frames: Iterator[Frame]) -> Iterator[Frame]:
 
 def global_gain(first: Frame, second: Frame) -> float:
     """The gain of the whole frame from one frame to the next, log units.
-
-    Args:
-        first: the earlier frame.
-        second: the later frame, same size.
 
     Returns:
         The median of ln(I₂ / I₁) over cells; 0 if motion alone may explain it, or too few cells can

@@ -77,9 +77,6 @@ def time_surface(
 def timestamp_image(events: Events) -> Array:
     """Time of the last event per polarity and pixel, as a share of the slice.
 
-    Args:
-        events: the slice.
-
     Returns:
         [2, H, W] float32; index 0 is ON, 1 is OFF. (t − t₁) / (t_N − t₁), so 1 at the last event;
         0 at the first, where no event fell, and where all events have one time.

@@ -130,7 +130,7 @@ def stereo_rig(size: SensorSize, baseline_m: float) -> Rig:
 def camera_entries(
     rig: Rig, topics: Mapping[str, str], *, has_imu: bool
 ) -> dict[str, dict[str, Any]]:
-    """The rig's cameras by the names of Kalibr's camchain.yaml; arguments as `camchain`."""
+    """The rig's cameras by the names of Kalibr's camchain.yaml; `topics`: name → topic."""
     document: dict[str, dict[str, Any]] = {}
     before = np.eye(4)
     for number, camera in enumerate(rig.cameras):
@@ -153,13 +153,7 @@ def camera_entries(
 
 
 def camchain(rig: Rig, topics: Mapping[str, str], *, has_imu: bool) -> str:
-    """The rig as Kalibr's camchain.yaml, or camchain-imucam.yaml with an IMU.
-
-    Args:
-        rig: cameras with lenses.
-        topics: camera → topic of its frames.
-        has_imu: whether the IMU's place is included.
-    """
+    """The rig as Kalibr's camchain.yaml, or camchain-imucam.yaml with an IMU."""
     document = camera_entries(rig, topics, has_imu=has_imu)
     return yaml.safe_dump(document, default_flow_style=None, sort_keys=False, width=200)
 

@@ -160,12 +160,6 @@ def prepare_recording(
 ) -> Recording:
     """A recording with everything about it checked.
 
-    Args:
-        prompt: what to show: a sentence or a scene.
-        settings: of the simulation, as those of `texvent generate`.
-        config: what is recorded.
-        progress: receives the progress of the generator.
-
     Raises:
         ConfigError: the generator is not the embedded one, the camera zooms, a lens does not fit
             its resolution, or the rig file is wrong.

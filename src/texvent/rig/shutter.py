@@ -106,16 +106,7 @@ def expose_frames(
     samples: int,
     shadows: bool,
 ) -> Iterator[ExposedFrame]:
-    """The frames at some times.
-
-    Args:
-        scene: as the camera sees it.
-        size: of the images, pixels.
-        shutter: when their rows see light.
-        times_us: the frames' times, µs.
-        samples: fineness of edges, as for rendering.
-        shadows: whether there are shadows.
-    """
+    """The frames at some times."""
     # Imported here: the kernels load Numba.
     from texvent.transfer import encode_srgb
 

@@ -22,13 +22,7 @@ END_BYTES = 8 * 2**20
 def describe_run(
     settings: Settings, *, prompt: str | None, source: Mapping[str, Any]
 ) -> dict[str, Any]:
-    """Prompt or scene, report, source, models, seed, options, version and weight files of a run.
-
-    Args:
-        settings: all options.
-        prompt: what the video shows, if it was said.
-        source: metadata of the video.
-    """
+    """Prompt or scene, report, source, models, seed, options, version and weight files of a run."""
     run = settings.run
     facts = describe_source(source)
     made_of = {key: facts.pop(key) for key in (SCENE_KEY, REPORT_KEY) if key in facts}

@@ -129,13 +129,6 @@ def _default_settings(
 ) -> Settings:
     """Settings before any single option: the defaults of the named parts and preset.
 
-    Args:
-        command: "generate" (from a prompt) or "simulate" (from frames).
-        generator: its name, or None for the default.
-        simulator: its name, or None for the default, or that which has the preset.
-        preset: its name, or None for the simulator's first.
-        interpolate: the interpolator that suits recorded frames, if not the default.
-
     Raises:
         ConfigError: a part or preset of that name does not exist.
     """

@@ -41,13 +41,7 @@ def map_packets(
     *,
     size: SensorSize | None = None,
 ) -> Recording:
-    """Every packet changed by a function; a stream is one packet.
-
-    Args:
-        events: the recording.
-        change: gives the new packet.
-        size: sensor size of the new packets; None: as before.
-    """
+    """Every packet changed by a function; a stream is one packet."""
     return map_in_order(events, lambda: change, size=size)
 
 

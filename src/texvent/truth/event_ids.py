@@ -72,11 +72,6 @@ def ids_of_frames(before: Snapshot, after: Snapshot, interval: Interval) -> Ids:
     Pixels of the earlier frame move along their vectors, nearer ones over farther ones; a pixel
     that none reaches has the id of the later frame. Without vectors, the id of the frame that is
     closer in time.
-
-    Args:
-        before: truth at the earlier frame.
-        after: truth at the later frame.
-        interval: the events, between the two.
     """
     events, span_us = interval.events, max(after.t_us - before.t_us, 1)
     if before.instance is None or after.instance is None or not len(events):

@@ -138,11 +138,7 @@ def disagreements(pairs: Pairs, omega: float, dead_s: float) -> Float64Array:
 
 
 def fit_step_response(pairs: Sequence[Pairs]) -> StepResponseFit:
-    """Bandwidth and refractory period with which the pairs of every pixel agree best.
-
-    Args:
-        pairs: of OFF and of ON events.
-    """
+    """Bandwidth and refractory period at which pixels' pairs of OFF and of ON events agree best."""
     fitted = [one.thinned(FITTED_PAIRS) for one in pairs]
     kept, known = fitted, None
     for _ in range(ROUNDS):

@@ -41,11 +41,7 @@ class View:
         return np.array([[self.scale, 0.0, x], [0.0, self.scale, y], [0.0, 0.0, 1.0]])
 
     def reach(self, places: Sequence[CameraPose2D]) -> float:
-        """Distance of the sensor's corners from the image's centre, the farthest: 1 is its border.
-
-        Args:
-            places: instants of the path.
-        """
+        """Distance of the sensor's farthest corner from the image's centre: 1 is its border."""
         width, height = self.sensor
         corners = np.array([[0, 0, 1], [width, 0, 1], [0, height, 1], [width, height, 1]], float)
         points = np.stack([self.matrix(one) for one in places]) @ corners.T
@@ -84,11 +80,6 @@ class View:
 
 def fitted_view(start: View, places: Sequence[CameraPose2D], *, is_pixelwise: bool) -> View:
     """The view whose scale keeps the sensor in the image on all its path, if it can.
-
-    Args:
-        start: the view of scale 1.
-        places: instants of the path.
-        is_pixelwise: whether the scale must stay 1.
 
     Returns:
         The image covers the sensor at all these instants; but if it had to be enlarged for that,

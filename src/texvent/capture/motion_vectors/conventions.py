@@ -201,10 +201,6 @@ MOST_UNKNOWN = 0.5
 def check_vectors(stored: NDArray[Any], where: str) -> None:
     """Refuse what cannot be vectors. Single NaN are unknown vectors.
 
-    Args:
-        stored: of one frame.
-        where: what to call it in messages.
-
     Raises:
         InputError: not [h, w, 2 or more] numbers, an infinity, or most of it NaN.
     """

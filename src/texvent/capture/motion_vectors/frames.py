@@ -63,11 +63,6 @@ class MotionFrames(FrameSource):
     There is one field per frame, or, of vectors, one per pair of frames: then the backward ones
     begin with the second frame. What only one direction is given of stays None in the other.
 
-    Args:
-        stream: the frames.
-        stacks: role → fields.
-        config: convention and scale of depth.
-
     Raises:
         InputError: another number of fields than of frames.
     """

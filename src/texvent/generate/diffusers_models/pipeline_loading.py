@@ -73,10 +73,6 @@ class LoadRequest:
 def load_pipeline(request: LoadRequest, announce: Callable[[str], None] | None = None) -> Pipeline:
     """The pipeline, in evaluation mode, placed as asked. The last one is kept for the next prompt.
 
-    Args:
-        request: model, files and placement.
-        announce: receives a line before minutes of loading.
-
     Raises:
         FileFormatError: a weight file does not fit its network.
         InputError: diffusers has no such class, or a file is missing.

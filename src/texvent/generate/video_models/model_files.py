@@ -47,10 +47,6 @@ class ModelFiles:
 def find_files(model: VideoModel, announce: Callable[[str], None]) -> ModelFiles:
     """The files of a model, fetched first if they are not on this machine.
 
-    Args:
-        model: the model.
-        announce: receives size and licence before anything is fetched.
-
     Raises:
         InputError: the model is not here and cannot be fetched, or a file is missing.
         FileFormatError: a file is damaged.
@@ -243,10 +239,6 @@ def loading(folder: Path, role: str) -> Iterator[None]:
     """Inside, a library loads `folder`; it shows no bars, and a damaged folder is refused.
 
     Weights that a file lacks are filled by the libraries with random numbers, which they warn of.
-
-    Args:
-        folder: what is loaded.
-        role: what it is loaded as, for the message: "a decoder".
 
     Raises:
         FileFormatError: a file is damaged, or of another network.

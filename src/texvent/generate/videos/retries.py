@@ -24,12 +24,6 @@ def generate_checked(
 ) -> StoredVideo:
     """A video that passes the failure filter, or the response of `on_failure`.
 
-    Args:
-        make: (seed, progress) → video.
-        config: what to do about a failed video.
-        seed: the first seed; the others follow from it.
-        progress: receives what is wrong.
-
     Returns:
         The video, with the filter's findings in its metadata.
 

@@ -72,12 +72,7 @@ class VideoCache:
         return self._is_kept and self.path(key, extension).is_file()
 
     def find(self, key: str, fps: Fraction) -> StoredVideo | None:
-        """The video of that key, or None.
-
-        Args:
-            key: see `content_key`.
-            fps: rate it is played at.
-        """
+        """The video of that `content_key`, or None."""
         found = reopen(self.path(key)) if self.has(key) else None
         return found and dataclasses.replace(found, fps=fps)
 

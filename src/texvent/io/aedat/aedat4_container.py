@@ -168,11 +168,7 @@ class Container:
 
 
 def open_container(path: Path, *, is_whole: bool = True) -> Container:
-    """Read the header of a file.
-
-    Args:
-        path: the file.
-        is_whole: refuse a file that was cut off before its list of packets.
+    """Read the header of a file; `is_whole` refuses one cut off before its list of packets.
 
     Raises:
         FileFormatError: the file is damaged or of another format.

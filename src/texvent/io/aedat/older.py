@@ -95,11 +95,6 @@ class AedatHeader:
 def read_aedat_header(path: Path, magic: str, end: str) -> AedatHeader:
     """The header of a file.
 
-    Args:
-        path: the file.
-        magic: its first line.
-        end: its last line, where the format has one.
-
     Raises:
         FileFormatError: the first line is another, or the header does not end.
     """

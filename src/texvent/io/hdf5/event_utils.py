@@ -42,12 +42,7 @@ COLUMNS = {"xs": "<i2", "ys": "<i2", "ts": "<f8", "ps": "?"}
 
 
 class EventUtilsColumns:
-    """Appends to the columns; counts are written at the end.
-
-    Args:
-        file: h5py's, new and open.
-        target: the file to write.
-    """
+    """Appends to the columns; counts are written at the end."""
 
     def __init__(self, file: Any, target: FileTarget) -> None:
         self._file, self._written, self._on_events = file, 0, 0

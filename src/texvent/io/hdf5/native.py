@@ -106,12 +106,6 @@ class Hdf5Columns:
     """The columns of an open file, to which blocks are appended, and their index by millisecond.
 
     Blocks hold whole chunks, except the last.
-
-    Args:
-        file: h5py's, new and open.
-        target: the file to write.
-        limits: of the format.
-        time_type: NumPy's, of the stored times.
     """
 
     def __init__(self, file: Any, target: FileTarget, limits: OffsetLimits, time_type: str) -> None:

@@ -134,11 +134,6 @@ def read_text_header(file: BinaryIO, path: Path) -> TextHeader:
 def make_text_header(fields: Mapping[str, str], metadata: Mapping[str, Any], *, end: bool) -> bytes:
     """Header lines in order of their keys, as Prophesee's software writes them.
 
-    Args:
-        fields: key → value.
-        metadata: how the events were made.
-        end: whether `% end` follows.
-
     Raises:
         InputError: the metadata is not JSON-serialisable or too long.
     """

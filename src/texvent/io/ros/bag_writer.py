@@ -237,11 +237,8 @@ class SensorBag:
 def open_sensor_bag(path: Path, kind: BagKind) -> Iterator[SensorBag]:
     """A new bag to write into; it has its name when the block ends without an exception.
 
-    rosbags makes files and folders of its own, so the bag begins in a hidden folder.
-
-    Args:
-        path: the file; one of this name is replaced.
-        kind: rosbag1 or mcap.
+    rosbags makes files and folders of its own, so the bag begins in a hidden folder. A file of this
+    name is replaced.
 
     Raises:
         MissingDependencyError: rosbags is not installed.

@@ -165,11 +165,6 @@ class _Fields:
 def open_message(kind: str, data: bytes, version: int) -> RawMessage:
     """The parts of a serialised message of events.
 
-    Args:
-        kind: its type, one of `EVENT_MESSAGES`.
-        data: the message.
-        version: of ROS, 1 or 2.
-
     Raises:
         FileFormatError: the message is damaged, or its encoding is not read.
     """
