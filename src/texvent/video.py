@@ -104,7 +104,8 @@ class Frame:
     def __repr__(self) -> str:
         kind = "" if self.is_source else ", intermediate"
         light = ", linear" if self.transfer is Transfer.LINEAR else ""
-        return f"Frame({self.size} {_describe_pixels(self.pixels)}, t {self.t_us} µs{light}{kind})"
+        pixels = f"{self.pixels.dtype} {'RGB' if self.pixels.ndim == 3 else 'grey'}"
+        return f"Frame({self.size} {pixels}, t {self.t_us} µs{light}{kind})"
 
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
@@ -241,10 +242,6 @@ def describe_stream(stream: FrameStream) -> str:
         count = f"{stream.frame_count} frames"
     rate = "" if stream.fps is None else f", {float(stream.fps):g} fps"
     return f"{type(stream).__name__}({count}, {stream.size}{rate})"
-
-
-def _describe_pixels(pixels: PixelArray) -> str:
-    return f"{pixels.dtype} {'RGB' if pixels.ndim == 3 else 'grey'}"
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -62,15 +62,7 @@ class Interval(NamedTuple):
 def judge_fit(
     search: Search, truth: EventStream, span: TimeSpan, best: PhysicalConfig, start: PhysicalConfig
 ) -> Measurement:
-    """Intervals of thresholds, balance and cutoff.
-
-    Args:
-        search: which found `best`.
-        truth: the recorded events of the span.
-        span: the part that was fitted.
-        best: the fitted model.
-        start: source of options that the recording cannot identify.
-    """
+    """Intervals of thresholds, balance and cutoff."""
     blocks = cut_blocks(span)
     found: list[Estimate] = []
     kept: list[UnidentifiedOption] = []

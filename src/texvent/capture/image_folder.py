@@ -56,8 +56,14 @@ class ImageFolder(FrameSource):
         if file is not None and listing is not None and listing.names is not None:
             self._paths = _named_images(listing, file, images_folder)
         else:
-            self._paths = list_images(images_folder)
-        self._times = times or (listing.times if listing else None) or _refuse_without_times(folder)
+            self._paths = sorted(filter(_is_image, images_folder.iterdir()), key=natural_key)
+        known = times or (listing.times if listing else None)
+        if known is None:
+            raise InputError(
+                f"{folder} has no {' or '.join(TIMESTAMP_NAMES)}, so the times of its images are "
+                "unknown; give a frame rate (fps=25) or a file of times (timestamps=FILE)"
+            )
+        self._times = known
         self._times.check_count(len(self._paths))
         first = read_image(self._paths[0])
         if white_level is None:
@@ -144,11 +150,6 @@ def find_images_folder(folder: Path) -> Path:
     )
 
 
-def list_images(folder: Path) -> list[Path]:
-    """Images of a folder in natural order: frame2 comes before frame10."""
-    return sorted((path for path in folder.iterdir() if _is_image(path)), key=natural_key)
-
-
 def find_timestamps(folder: Path) -> Path | None:
     """A timestamp file in the folder of the images or beside it, or None."""
     candidates = (place / name for place in (folder, folder.parent) for name in TIMESTAMP_NAMES)
@@ -174,10 +175,3 @@ def _named_images(listing: Timestamps, file: Path, folder: Path) -> list[Path]:
             )
         paths.append(path)
     return paths
-
-
-def _refuse_without_times(folder: Path) -> FrameTimes:
-    raise InputError(
-        f"{folder} has no {' or '.join(TIMESTAMP_NAMES)}, so the times of its images are "
-        "unknown; give a frame rate (fps=25) or a file of times (timestamps=FILE)"
-    )

@@ -149,10 +149,6 @@ def _open_live(address: _Address) -> FrameStream:
     return LiveFrames(address.text, address.times)
 
 
-def _open_evreal(address: _Address) -> FrameStream:
-    return open_evreal(address.path, address.times, address.config.white_level)
-
-
 def _open_images(address: _Address) -> FrameStream:
     config = address.config
     return ImageFolder(
@@ -164,14 +160,10 @@ def _open_images(address: _Address) -> FrameStream:
     )
 
 
-def _open_npy(address: _Address) -> FrameStream:
-    return _open_array(StoredArray(address.path), address.config, address.given)
-
-
 def _refuse_still(address: _Address) -> FrameStream:
     raise InputError(
         f"{address.path} is one image, so nothing changes; move a camera over it with `camera` "
-        "saccade, shake, pan or FILE, or name a folder of images"
+        "saccade, shake or pan, or name a folder of images"
     )
 
 
@@ -193,14 +185,22 @@ def _open_video(address: _Address) -> FrameStream:
 
 SOURCES = (
     _Source("live video", lambda a: a.is_live, _open_live),
-    _Source("EVREAL folder", lambda a: is_evreal(a.path), _open_evreal),
+    _Source(
+        "EVREAL folder",
+        lambda a: is_evreal(a.path),
+        lambda a: open_evreal(a.path, a.times, a.config.white_level),
+    ),
     _Source(
         "DSEC sequence",
         lambda a: is_dsec(a.path) and a.has_own_times,
         lambda a: DsecFrames(a.path),
     ),
     _Source("image folder", lambda a: a.path.is_dir(), _open_images),
-    _Source(".npy", lambda a: a.path.suffix.lower() == ".npy" and a.path.is_file(), _open_npy),
+    _Source(
+        ".npy",
+        lambda a: a.path.suffix.lower() == ".npy" and a.path.is_file(),
+        lambda a: _open_array(StoredArray(a.path), a.config, a.given),
+    ),
     _Source("AEDAT4", lambda a: is_aedat4(a.path), lambda a: Aedat4Frames(a.path, a.times)),
     _Source("still image", lambda a: is_still(a.path), _refuse_still),
     _Source("video file", lambda a: True, _open_video),

@@ -68,12 +68,7 @@ class FormatLimits:
         return first_us
 
     def check_packet(self, path: Path, packet: EventStream, first_us: int) -> None:
-        """Refuse times that do not fit.
-
-        Args:
-            path: the file, for the message.
-            packet: at least one event.
-            first_us: time of the first event of the file, µs.
+        """Refuse times that do not fit; the first event of the file is at `first_us`.
 
         Raises:
             InputError: see above.

@@ -144,12 +144,6 @@ def to_microseconds(path: Path, times: NDArray[Any], unit: TimeUnit) -> NDArray[
 def check_rate(path: Path, count: int, range_us: tuple[int, int], unit: TimeUnit) -> None:
     """Refuse times whose unit was guessed and cannot be meant.
 
-    Args:
-        path: the file.
-        count: number of events.
-        range_us: first and last time, µs.
-        unit: guessed unit.
-
     Raises:
         TimeUnitError: the mean rate is below that of a quiet sensor, or no clock shows such times.
     """

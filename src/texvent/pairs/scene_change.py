@@ -19,7 +19,6 @@ from dataclasses import dataclass
 from enum import Enum
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array, balanced_log
 from texvent.pairs.instants import matching_luma
@@ -185,8 +184,11 @@ def _match(image: Float64Array, other: Float64Array) -> _Match:
         for left in range(0, image.shape[1] - size + 1, size):
             block = image[top : top + size, left : left + size].ravel()
             block = block - block.mean()
-            near = _near(windows, top, left).reshape(-1, area)
-            variance, near_variance = float(block @ block) / area, _mean_square(near)
+            rows = slice(max(0, top - SEARCH_CELLS), top + SEARCH_CELLS + 1)
+            columns = slice(max(0, left - SEARCH_CELLS), left + SEARCH_CELLS + 1)
+            near = windows[rows, columns].reshape(-1, area)
+            variance = float(block @ block) / area
+            near_variance = np.einsum("ij,ij->i", near, near) / area
             product = near @ block / area
             residuals.append(float((variance + near_variance - 2.0 * product).min()))
             variances.append(variance)
@@ -201,14 +203,3 @@ def _match(image: Float64Array, other: Float64Array) -> _Match:
         ),
         textured=float(has_texture.mean()),
     )
-
-
-def _near(windows: NDArray[np.float64], top: int, left: int) -> NDArray[np.float64]:
-    return windows[
-        max(0, top - SEARCH_CELLS) : top + SEARCH_CELLS + 1,
-        max(0, left - SEARCH_CELLS) : left + SEARCH_CELLS + 1,
-    ]
-
-
-def _mean_square(rows: NDArray[np.float64]) -> NDArray[np.float64]:
-    return np.asarray(np.einsum("ij,ij->i", rows, rows) / rows.shape[1])

@@ -77,9 +77,8 @@ def find_cycles(events: EventStream, hz: float) -> Cycles:
     step = max(1, len(events) // MOST_EVENTS)
     t = (events.t[::step] - first_us) / MICROSECONDS
     sign = events.p[::step].astype(np.float64) * 2 - 1
-    trials = hz * (
-        1 + np.linspace(-1, 1, _odd(8 * seconds * hz * FREQUENCY_RANGE)) * FREQUENCY_RANGE
-    )
+    count = 2 * int(8 * seconds * hz * FREQUENCY_RANGE) + 9
+    trials = hz * (1 + np.linspace(-1, 1, count) * FREQUENCY_RANGE)
     strength = np.array([abs((sign * np.exp(2j * np.pi * one * t)).mean()) for one in trials])
     best = int(strength.argmax())
     if strength[best] < LEAST_STRENGTH:
@@ -94,10 +93,6 @@ def find_cycles(events: EventStream, hz: float) -> Cycles:
     onset = [_onset(rate[p], rate[1 - p]) / PHASE_BINS - LEAD for p in (0, 1)]
     start = first_us + (np.array(onset) % 1.0) * MICROSECONDS / hz
     return Cycles(hz, start, int(seconds * hz) - 1)
-
-
-def _odd(number: float) -> int:
-    return 2 * int(number) + 9
 
 
 def _peak(trials: Float64Array, strength: Float64Array, best: int) -> float:

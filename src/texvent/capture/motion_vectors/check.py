@@ -74,11 +74,6 @@ def judge(
 ) -> Verdict | None:
     """How well vectors fit frames, and which other meaning would fit clearly better.
 
-    Args:
-        frames: some frames and their neighbours.
-        convention: what the vectors are said to mean.
-        direction: where they are said to lead.
-
     Returns:
         The verdict; None where too little moves to tell.
     """

@@ -272,7 +272,8 @@ def _vector_fields(stacks: Mapping[Role, FieldStack], convention: Convention) ->
         if stack is None:
             continue
         for kind in sorted(stack.found & {"vectors", "forward", "backward"}):
-            direction = convention.direction if kind == "vectors" else _direction(kind)
+            named: Direction = "forward" if kind == "forward" else "backward"
+            direction = convention.direction if kind == "vectors" else named
             if direction in fields:
                 raise InputError(
                     f"{direction} vectors are given twice, by {fields[direction].role} "
@@ -280,10 +281,6 @@ def _vector_fields(stacks: Mapping[Role, FieldStack], convention: Convention) ->
                 )
             fields[direction] = _Field(role, kind, direction)
     return tuple(fields.values())
-
-
-def _direction(kind: str) -> Direction:
-    return "forward" if kind == "forward" else "backward"
 
 
 def _with_next(frames: FrameStream) -> Iterator[tuple[Frame, Frame | None]]:

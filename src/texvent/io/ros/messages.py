@@ -257,15 +257,14 @@ MAX_CHUNK_BYTES = 256 * 2**20
 
 def bound_chunks(bag: Any) -> None:
     """Let rosbags' reader of an open ROS 1 bag unpack no chunk beyond `MAX_CHUNK_BYTES`."""
-    bounded = {bz2.decompress: bz2.BZ2Decompressor, lz4.frame.decompress: _lz4_decompressor}
+    bounded = {
+        bz2.decompress: bz2.BZ2Decompressor,
+        lz4.frame.decompress: lz4.frame.LZ4FrameDecompressor,
+    }
     for position, chunk in bag.chunks.items():
         make = bounded.get(chunk.decompressor)
         if make is not None:
             bag.chunks[position] = chunk._replace(decompressor=partial(_unpack, make))
-
-
-def _lz4_decompressor() -> Any:
-    return lz4.frame.LZ4FrameDecompressor()
 
 
 def _unpack(make: Callable[[], Any], data: bytes) -> bytes:
