@@ -14,10 +14,10 @@ Source: Prophesee, "Data Encoding Formats" of the Metavision documentation.
 
 from __future__ import annotations
 
-from abc import abstractmethod
 from collections.abc import Iterator
 from contextlib import AbstractContextManager
 from functools import partial
+from importlib import import_module
 from pathlib import Path
 from typing import Any, ClassVar, TypeAlias
 
@@ -73,6 +73,8 @@ class EvtReader(BlockReader):
     word_bytes: ClassVar[int]
     trigger_coding: ClassVar[TriggerCoding]
     """Places of the fields of a trigger."""
+    coding: ClassVar[str]
+    """Module of the compiled loops; importing it brings Numba."""
 
     def recognises(self, path: Path) -> bool:
         """True if the header names this format."""
@@ -81,13 +83,9 @@ class EvtReader(BlockReader):
         except (OSError, FileFormatError):
             return False
 
-    @abstractmethod
-    def kernels(self) -> WordKernels:
-        """The compiled loops; importing them brings Numba."""
-
     def make_decoder(self) -> WordDecoder:
         """A decoder of words as `in_order` gives them."""
-        return WordDecoder(self.kernels())
+        return WordDecoder(import_module(f"texvent.io.prophesee.{self.coding}"))
 
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
         """The header states size and metadata."""
@@ -145,12 +143,7 @@ class Evt2Codec(EvtReader):
     title: ClassVar[str] = "EVT2"
     word_bytes: ClassVar[int] = 4
     trigger_coding: ClassVar[TriggerCoding] = EVT2
-
-    def kernels(self) -> WordKernels:
-        """The compiled loops of EVT2."""
-        from texvent.io.prophesee import evt2_coding  # brings Numba
-
-        return evt2_coding
+    coding: ClassVar[str] = "evt2_coding"
 
 
 LEGACY = "legacy"
@@ -164,12 +157,7 @@ class Evt21Codec(EvtReader):
     title: ClassVar[str] = "EVT21"
     word_bytes: ClassVar[int] = 8
     trigger_coding: ClassVar[TriggerCoding] = EVT21
-
-    def kernels(self) -> WordKernels:
-        """The compiled loops of EVT2.1."""
-        from texvent.io.prophesee import evt21_coding  # brings Numba
-
-        return evt21_coding
+    coding: ClassVar[str] = "evt21_coding"
 
     def in_order(self, header: TextHeader, words: bytes) -> Words:
         """Words whose upper half comes first: halves are exchanged where the lower one does."""
@@ -195,13 +183,8 @@ class Evt3Codec(EvtReader, BlockCodec):
     title: ClassVar[str] = "EVT3"
     word_bytes: ClassVar[int] = 2
     trigger_coding: ClassVar[TriggerCoding] = EVT3
+    coding: ClassVar[str] = "evt3_coding"
     limits: ClassVar[FormatLimits] = FormatLimits("EVT3", MAX_SIDE, 1 << 42)
-
-    def kernels(self) -> WordKernels:
-        """The compiled loops of EVT3."""
-        from texvent.io.prophesee import evt3_coding  # brings Numba
-
-        return evt3_coding
 
     def start(self, target: FileTarget, part: Path) -> AbstractContextManager[WriteBlock]:
         """Write the header and the words before the first event."""
