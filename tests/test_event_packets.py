@@ -6,7 +6,7 @@ import pytest
 from texvent.errors import InputError
 from texvent.event_packets import EventPackets, LazyPackets
 from texvent.events import EventStream
-from texvent.io.files import load, open_events, save
+from texvent.io.files import load
 from texvent.sensor import SensorSize
 
 SIZE = SensorSize(32, 24)
@@ -50,25 +50,6 @@ def test_a_window_of_packets_is_that_of_the_stream_and_stops_reading_early(whole
 def test_the_time_range_is_that_of_the_stream(whole, packets):
     assert packets.time_range == whole.time_range
     assert EventPackets([EventStream.empty(SIZE)], SIZE).time_range is None
-
-
-@pytest.mark.parametrize("extension", [".h5", ".csv", ".raw", ".aedat4", ".npz"])
-def test_windows_and_time_range_of_files_are_those_of_the_stream(tmp_path, whole, extension):
-    opened = open_events(save(tmp_path / f"events{extension}", whole))
-    assert opened.time_range == whole.time_range
-    for start, stop in ((0, 99_999), (5_000, 20_000), (15_000, 15_000), (40_000, 50_000)):
-        got = opened.cut(start, stop)
-        assert got.collect().equals(whole.cut(start, stop))
-        again = whole.cut(start, stop).cut(6_000, 7_000)
-        assert got.cut(6_000, 7_000).collect().equals(again)
-
-
-def test_a_window_of_an_hdf5_file_reads_neither_before_nor_after(tmp_path, whole, monkeypatch):
-    path = save(tmp_path / "events.h5", whole)
-    monkeypatch.setattr("texvent.io.hdf5.native.PACKET_EVENTS", 50)
-    middle = int(whole.t[300])
-    assert sum(1 for _ in open_events(path)) == COUNT // 50
-    assert sum(1 for _ in open_events(path).between(middle, middle + 1)) == 1
 
 
 def test_packets_are_saved_one_by_one_and_say_how_far_they_are(tmp_path, whole, packets):

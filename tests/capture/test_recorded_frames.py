@@ -72,11 +72,6 @@ def test_images_have_their_times_on_the_clock_of_the_events(tmp_path, extra):
     assert load(folder, size=frames.size).t.tolist() == [5_010_000, 5_020_000]
 
 
-def test_a_part_of_a_folder_keeps_its_times(tmp_path):
-    frames = open_frames(write_folder(tmp_path), CaptureConfig(start=0.03))
-    assert [frame.t_us for frame in frames] == [5_040_000, 5_080_000]
-
-
 @pytest.mark.parametrize(
     ("images", "seconds", "error", "message"),
     [

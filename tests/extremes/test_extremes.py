@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 import texvent
-from texvent.errors import ConfigError, InputError, TexventError, shown
+from texvent.errors import ConfigError, InputError, TexventError
 from texvent.run import prepare
 from texvent.run.prepare import estimate_bytes
 from texvent.runtime.memory import usable_bytes
@@ -217,20 +217,3 @@ def test_a_config_file_with_an_extreme_value_is_refused_in_one_short_line(text, 
     message = str(refused.value).replace(str(path), "run.toml")
     assert "\n" not in message
     assert len(message) < 300
-
-
-VALUES = {
-    "digits": 10**5000,
-    "text": "x" * 10**6,
-    "list": [10**5000],
-    "float": 1e300,
-    "lines": "a\nb",
-    "mapping": {1: "y" * 99},
-}
-
-
-@pytest.mark.parametrize("value", VALUES.values(), ids=VALUES)
-def test_messages_show_at_most_80_characters_of_a_value(value):
-    text = shown(value)
-    assert 0 < len(text) <= 80
-    assert text.isprintable()

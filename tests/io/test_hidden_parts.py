@@ -14,7 +14,6 @@ import pytest
 from texvent.io import atomic
 from texvent.io.atomic import (
     atomic_file,
-    atomic_folder,
     hidden_file,
     hidden_folder,
     remove_own_parts,
@@ -132,14 +131,4 @@ def test_a_folder_caught_between_two_renames_gets_its_name_back(tmp_path: Path) 
     assert not target.exists()
     atomic.sweep(tmp_path)
     assert (target / "events").read_text() == "old"
-    assert [path.name for path in tmp_path.iterdir()] == ["recording"]
-
-
-def test_a_folder_is_replaced_whole(tmp_path: Path) -> None:
-    target = tmp_path / "recording"
-    target.mkdir()
-    (target / "events").write_text("old")
-    with atomic_folder(target, overwrite=True, is_own=lambda path: True) as part:
-        (part / "times").write_text("new")
-    assert [path.name for path in target.iterdir()] == ["times"]
     assert [path.name for path in tmp_path.iterdir()] == ["recording"]

@@ -48,8 +48,3 @@ def test_a_timestamp_image_equals_its_definition(events):
     found = timestamp_image(events)
     assert found.dtype == np.float32
     np.testing.assert_array_equal(found, definitions.timestamp_image(events))
-
-
-def test_times_are_shares_of_the_slice_and_on_comes_first():
-    events = EventStream([0, 1, 0, 2], [0, 0, 0, 0], [100, 105, 110, 120], [1, 0, 1, 0], (3, 1))
-    np.testing.assert_allclose(timestamp_image(events)[:, 0], [[0.5, 0, 0], [0, 0.25, 1]])

@@ -46,13 +46,6 @@ def test_a_shift_by_whole_pixels_gives_the_pixels_exactly(x, y):
     np.testing.assert_array_equal(view_of().render(IMAGE, CameraPose2D(x, y)), expected)
 
 
-def test_a_half_pixel_is_the_mean_of_two():
-    image = np.array([[10, 30, 50, 90]], np.float32)
-    view = view_of(4, 1, image=image)
-    assert view.render(image, CameraPose2D(0.5)).tolist() == [[20, 40, 70, 90]]
-    assert view.render(image, CameraPose2D(-0.25)).tolist() == [[10, 25, 45, 80]]
-
-
 def test_a_smaller_sensor_averages_over_the_area_of_its_pixels():
     view = view_of(9, 7, scale=2.0)
     blocks = IMAGE.reshape(7, 2, 9, 2).mean(axis=(1, 3))

@@ -67,11 +67,6 @@ def test_a_file_without_a_last_newline_is_whole(tmp_path: Path) -> None:
     assert len(load(write(tmp_path, RECORDED.rstrip("\n")), size=(240, 180))) == 3
 
 
-def test_signed_polarity_is_converted(tmp_path: Path) -> None:
-    events = load(write(tmp_path, "0.1 1 1 -1\n0.2 1 1 1\n"), size=(4, 4))
-    assert events.p.tolist() == [0, 1]
-
-
 @pytest.mark.parametrize(
     ("text", "message"),
     [
@@ -91,14 +86,6 @@ def test_a_wrong_row_is_one_clear_line(tmp_path: Path, text: str, message: str) 
     with pytest.raises(FileFormatError, match=message) as caught:
         load(write(tmp_path, text), size=(4, 4))
     assert "\n" not in str(caught.value)
-
-
-def test_order_is_checked_between_blocks_too(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr(text_rows, "BLOCK_BYTES", 10)
-    with pytest.raises(FileFormatError, match="time decreases"):
-        load(write(tmp_path, "0.2 1 1 1\n0.1 1 1 1\n"), size=(4, 4))
 
 
 def test_a_damaged_companion_file_is_reported(tmp_path: Path) -> None:
