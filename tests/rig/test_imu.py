@@ -84,13 +84,6 @@ def test_integrating_the_imu_returns_the_pose_within_a_millimetre(prompt: str) -
     assert np.ptp(samples.position, axis=0).max() > 0.01 or np.abs(samples.rate).max() > 0.01
 
 
-def test_at_rest_it_measures_gravity_upwards() -> None:
-    scene = HandScene(camera_at=lambda time: Camera(np.zeros(3), LEVEL, 1.0))
-    samples = true_samples(scene, np.eye(4), np.array([0, 10_000]))
-    np.testing.assert_allclose(samples.acceleration, [[0, -GRAVITY, 0]] * 2, atol=1e-9)
-    np.testing.assert_allclose(samples.rate, 0.0, atol=1e-9)
-
-
 def test_a_circle_gives_its_centripetal_acceleration_and_rate() -> None:
     """Radius 2 m at 1.5 rad/s, the camera looking along its path: a = ω² r to the left."""
     rate = 1.5

@@ -16,7 +16,7 @@ from texvent.errors import ConfigError
 from texvent.generate.procedural import ProceduralConfig, ProceduralVideo
 from texvent.rig.config import RigConfig
 from texvent.rig.description import ImuNoise, Rig, RigCamera
-from texvent.rig.layouts.dsec import raw_points, rectified_points, rectify, write_disparity
+from texvent.rig.layouts.dsec import rectified_points, rectify, write_disparity
 from texvent.rig.recording import Recording
 from texvent.runtime.progress import NO_PROGRESS
 from texvent.scenes.lens import Lens
@@ -185,18 +185,6 @@ def test_disparity_images_hold_the_true_depth(tmp_path: Path) -> None:
         column = round(64.0 + 120.0 * 0.05 * SPEED_M_S / depth)
         assert image[row, column] / 256.0 == pytest.approx(120.0 * BASELINE / depth, abs=0.01)
     assert image[0, 0] == 0
-
-
-def test_raw_points_undo_rectified_points() -> None:
-    rig = RIGS["lenses"]
-    pair = rectify(*rig.cameras)
-    for number, camera in enumerate(rig.cameras):
-        there = raw_points(pair, number, camera)
-        back = rectified_points(pair, number, camera)
-        row, column = 38, 64
-        x, y = there[row, column]
-        near = back[int(y), int(x)] + [x - int(x) - 0.5, y - int(y) - 0.5]
-        np.testing.assert_allclose(near, [column + 0.5, row + 0.5], atol=0.3)
 
 
 def test_a_pair_with_the_second_camera_on_the_left_is_refused() -> None:

@@ -133,16 +133,6 @@ def test_every_entry_is_complete(name):
 
 @pytest.mark.network
 @pytest.mark.torch
-def test_the_published_weights_can_be_fetched(folders, monkeypatch):
-    monkeypatch.undo()
-    monkeypatch.setenv("TEXVENT_CACHE", str(folders / "cache"))
-    monkeypatch.setenv("TEXVENT_DATA", str(folders / "data"))
-    pytest.importorskip("safetensors")
-    assert pull_weights("rife").stat().st_size == 20_656_056
-
-
-@pytest.mark.network
-@pytest.mark.torch
 def test_the_published_lpips_weights_can_be_fetched(folders, monkeypatch):
     monkeypatch.undo()
     monkeypatch.setenv("TEXVENT_CACHE", str(folders / "cache"))

@@ -27,10 +27,6 @@ def exchange_halves(word: int) -> int:
     return (word & 0xFFFF_FFFF) << 32 | word >> 32
 
 
-def test_words_built_by_hand_from_the_published_table(tmp_path: Path) -> None:
-    assert events_of(load(write_words(tmp_path, "evt21", WORDS))) == MEANING
-
-
 @pytest.mark.parametrize(
     ("header", "legacy"),
     [

@@ -50,10 +50,6 @@ def written_words(path: Path) -> list[int]:
     return np.frombuffer(path.read_bytes().split(b"% end\n")[1], dtype="<u2").tolist()
 
 
-def test_words_built_by_hand_from_the_published_table(tmp_path: Path) -> None:
-    assert events_of(load(write_words(tmp_path, "evt3", BY_HAND))) == MEANING
-
-
 def test_blocks_that_cut_a_vector_group_change_nothing(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
