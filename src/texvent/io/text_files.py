@@ -386,9 +386,21 @@ class E2vidZipCodec(TextCodec):
             return False
         return len(names) == 1 and not names[0].endswith(".npy")
 
-    def open_text(self, path: Path) -> AbstractContextManager[BinaryIO]:
-        """The archive's one text file."""
-        return _open_text(path)
+    @contextmanager
+    def open_text(self, path: Path) -> Iterator[BinaryIO]:
+        """The archive's one text file; damage found while it is read becomes a FileFormatError."""
+        with (
+            reporting_damage(path, "a zip archive", ZIP_DAMAGE),
+            zipfile.ZipFile(path) as archive,
+        ):
+            check_zip(path, archive)
+            entries = archive.infolist()
+            if len(entries) != 1:
+                raise FileFormatError(
+                    f"{path} holds {len(entries)} files; an E2VID archive holds one text file"
+                )
+            with archive.open(entries[0]) as file:
+                yield cast("BinaryIO", file)
 
     @contextmanager
     def start(self, target: FileTarget, part: Path) -> Iterator[WriteBlock]:
@@ -402,23 +414,6 @@ class E2vidZipCodec(TextCodec):
         ):
             file.write(f"{target.size.width} {target.size.height}\n".encode())
             yield lambda columns: file.write(make_rows(columns))
-
-
-@contextmanager
-def _open_text(path: Path) -> Iterator[BinaryIO]:
-    """The archive's one text file; damage found while it is read becomes a FileFormatError."""
-    with (
-        reporting_damage(path, "a zip archive", ZIP_DAMAGE),
-        zipfile.ZipFile(path) as archive,
-    ):
-        check_zip(path, archive)
-        entries = archive.infolist()
-        if len(entries) != 1:
-            raise FileFormatError(
-                f"{path} holds {len(entries)} files; an E2VID archive holds one text file"
-            )
-        with archive.open(entries[0]) as file:
-            yield cast("BinaryIO", file)
 
 
 HEADER = b"t,x,y,p\n"

@@ -44,6 +44,7 @@ from texvent.rig.recording import Recording
 from texvent.runtime.progress import Progress
 from texvent.scenes.lens import Lens, distort, normalised
 from texvent.sensor import SensorSize
+from texvent.truth.writer import write_png
 from texvent.video import MICROSECONDS
 
 
@@ -205,8 +206,6 @@ def _write_images(
 
 def write_disparity(recording: Recording, pair: Rectified, folder: Path) -> None:
     """Disparity from the scene's depth in the rectified left camera."""
-    import cv2
-
     from texvent.scenes.raycast.ground_truth import ground_truth
 
     scene = recording.scene_of(rectified_camera(pair, 0, recording.rig.cameras[0]))
@@ -217,8 +216,7 @@ def write_disparity(recording: Recording, pair: Rectified, folder: Path) -> None
         depth = ground_truth(scene, time_s, time_s, pair.size).depth.astype(np.float64)
         disparity = pair.lens.fx * pair.baseline_m / depth
         levels = np.clip(np.round(disparity * DISPARITY_SCALE), 0, 65_535).astype(np.uint16)
-        _, data = cv2.imencode(".png", levels)
-        (folder / "event" / f"{number:06d}.png").write_bytes(data.tobytes())
+        write_png(folder / "event" / f"{number:06d}.png", levels)
     text = "".join(f"{t_us}\n" for t_us in times)
     (folder / "timestamps.txt").write_text(text, encoding="utf-8")
 
