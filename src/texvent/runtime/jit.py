@@ -13,7 +13,10 @@ from typing import Any, TypeVar, overload
 
 import numba
 from numba import types
+from numba._dynfunc import make_function
 from numba.core.caching import FunctionCache, IndexDataCacheFile
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -46,9 +49,12 @@ def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **o
         options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
     def decorate(function: Any) -> Any:
+        if not options.get("parallel"):
+            options["pipeline_class"] = _InnerCompiler if inner else _KernelCompiler
         kernel: Any = numba.njit(nogil=nogil, **options)(function)
         if hasattr(kernel, "py_func"):  # not with NUMBA_DISABLE_JIT=1
-            kernel._cache = _KernelCache(function)
+            if not inner:
+                kernel._cache = _KernelCache(function)
             kernel.get_call_template = functools.partial(_template_of, kernel)
         return kernel
 
@@ -63,6 +69,59 @@ def _template_of(kernel: Any, arguments: Any, keywords: Any) -> Any:
     arguments = tuple(_type_of(one) for one in arguments)
     keywords = {name: _type_of(one) for name, one in keywords.items()}
     return type(kernel).get_call_template(kernel, arguments, keywords)
+
+
+class _KernelLibrary(JITCodeLibrary):
+    """Machine code of a kernel: all that it calls is linked first, and optimised together, once."""
+
+    def finalize(self) -> None:
+        needed: list[Any] = []
+        for library in reversed(self._linking_libraries):
+            _add_with_callees(library, needed)
+        self._linking_libraries = needed[::-1]
+        super().finalize()
+
+
+class _InnerLibrary(JITCodeLibrary):
+    """Code of an inner function as Numba writes it; the kernels that call it make the rest."""
+
+    def finalize(self) -> None:
+        for library in self._linking_libraries:
+            self._reload_init.update(library._reload_init)
+        self._finalize_dynamic_globals()
+        self._finalized = True
+
+
+def _add_with_callees(library: Any, after: list[Any]) -> None:
+    """Add a library in front of those that it calls: LLVM links what is called so far."""
+    if library not in after:
+        if isinstance(library, _InnerLibrary):
+            for one in reversed(library._linking_libraries):
+                _add_with_callees(one, after)
+        after.append(library)
+
+
+class _KernelCompiler(Compiler):
+    _library: Any = _KernelLibrary
+
+    def compile_extra(self, func: Any) -> Any:
+        state = self.state
+        state.library = self._library(state.targetctx.codegen(), func.__qualname__)
+        state.library.enable_object_caching()
+        return super().compile_extra(func)
+
+
+class _InnerCompiler(_KernelCompiler):
+    _library = _InnerLibrary
+
+    def compile_extra(self, func: Any) -> Any:
+        def entry(library: Any, description: Any, environment: Any) -> Any:
+            library._ensure_finalized()
+            name = description.qualname
+            return make_function(description.lookup_module(), name, "", 0, environment, (library,))
+
+        self.state.targetctx.get_executable = entry
+        return super().compile_extra(func)
 
 
 class _KernelCache(FunctionCache):
