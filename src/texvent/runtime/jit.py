@@ -85,6 +85,9 @@ class _KernelLibrary(JITCodeLibrary):
 class _InnerLibrary(JITCodeLibrary):
     """Code of an inner function as Numba writes it; the kernels that call it make the rest."""
 
+    def _optimize_functions(self, ll_module: Any) -> None:
+        ll_module.data_layout = self._codegen._data_layout
+
     def finalize(self) -> None:
         for library in self._linking_libraries:
             self._reload_init.update(library._reload_init)
