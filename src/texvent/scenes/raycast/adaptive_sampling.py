@@ -306,7 +306,9 @@ def _probe_shadows(
     `probes` are those of the tile, `lattice` the place in them of the pixel's first point.
     """
     last = len(around) - 1
-    around[:] = probes[lattice[0] : lattice[0] + last + 1, lattice[1] : lattice[1] + last + 1]
+    for j in range(last + 1):  # to assign a slice compiles 40 functions of Numba's error message
+        for i in range(last + 1):
+            around[j, i] = probes[lattice[0] + j, lattice[1] + i]
     for j in range(last + 1):
         for i in range((lattice[0] + lattice[1] + j + 1) % 2, last + 1, 2):
             is_sure = True
