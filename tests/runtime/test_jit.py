@@ -1,5 +1,6 @@
 """Compiled kernels are kept on disk, and compiled again when anything they use changes."""
 
+import math
 import os
 import re
 import subprocess
@@ -9,6 +10,7 @@ from pathlib import Path
 
 import numba
 import pytest
+from numba.core import event
 from packaging.requirements import Requirement
 
 from texvent.runtime.jit import jit
@@ -27,7 +29,7 @@ from kernels.limits import Limits
 def run(x, limits):
     return add(x) + below(x) + limits.upper
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def below(x):
     return 0 * x
 
@@ -119,8 +121,27 @@ def test_a_kernel_is_compiled_once_for_all_constants_that_callers_pass():
     def several(x):
         return add(add(add(x, 1), 2), 3)
 
-    assert several(4) == 10
-    assert len(getattr(add, "signatures", [()])) == 1
+    with event.install_recorder("numba:compile") as recorder:
+        assert several(4) == 10
+    compiled = [one.data["dispatcher"].py_func for _, one in recorder.buffer if one.is_start]
+    assert compiled == [] if numba.config.DISABLE_JIT else compiled.count(add.py_func) == 1
+
+
+def test_kernels_share_what_they_call_whoever_compiles_them():
+    @jit
+    def root(x):
+        return math.sqrt(x) + 1
+
+    @jit
+    def twice(x):
+        return 2 * root(x)
+
+    @numba.njit
+    def of_a_user(x):
+        return twice(x) + root(x)
+
+    assert of_a_user(4.0) == 9
+    assert (root(4.0), twice(4.0)) == (3, 6)
 
 
 def test_numba_is_bounded():

@@ -26,10 +26,8 @@ _IMPORT = re.compile(r"^(?:from ([\w.]+) import (\([^)]*\)|.*)|import ([\w.]+))"
 @overload
 def jit(function: Function, /) -> Function: ...
 @overload
-def jit(
-    *, nogil: bool = True, inner: bool = False, **options: Any
-) -> Callable[[Function], Function]: ...
-def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **options: Any) -> Any:
+def jit(*, nogil: bool = True, **options: Any) -> Callable[[Function], Function]: ...
+def jit(function: Any = None, /, *, nogil: bool = True, **options: Any) -> Any:
     """Compile a function with Numba at its first call; later processes read it from disk.
 
     It is compiled again when its file changes, or a file of its package (or of texvent) that its
@@ -39,26 +37,29 @@ def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **o
     Args:
         function: what to compile.
         nogil: release the interpreter lock, so that threads work at the same time.
-        inner: only other kernels call it: it has no entry for Python and compiles sooner.
         **options: other options of `numba.njit`, such as `error_model`, `inline` and `parallel`.
 
     Returns:
         The compiled function; the function itself with NUMBA_DISABLE_JIT=1.
     """
-    if inner:
-        options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
     def decorate(function: Any) -> Any:
-        if not options.get("parallel"):
-            options["pipeline_class"] = _InnerCompiler if inner else _KernelCompiler
-        kernel: Any = numba.njit(nogil=nogil, **options)(function)
+        compiler = {} if options.get("parallel") else {"pipeline_class": _KernelCompiler}
+        kernel: Any = numba.njit(nogil=nogil, **compiler, **options)(function)
         if hasattr(kernel, "py_func"):  # not with NUMBA_DISABLE_JIT=1
-            if not inner:
-                kernel._cache = _KernelCache(function)
-            kernel.get_call_template = functools.partial(_template_of, kernel)
+            inner = functools.cache(functools.partial(_inner, function, options))
+            kernel._cache = _KernelCache(function)
+            kernel.get_call_template = lambda *given: _template_of(inner(), *given)
+            kernel.get_overload = lambda signature: inner().get_overload(signature)
         return kernel
 
     return decorate if function is None else decorate(function)
+
+
+def _inner(function: Any, options: dict[str, Any]) -> Any:
+    """The function as other kernels call it: without an entry for Python."""
+    without = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    return numba.njit(**options, **without, pipeline_class=_InnerCompiler)(function)
 
 
 _type_of: Any = types.unliteral
@@ -68,63 +69,88 @@ def _template_of(kernel: Any, arguments: Any, keywords: Any) -> Any:
     """Call from another kernel: compiled for types, not once for each constant passed."""
     arguments = tuple(_type_of(one) for one in arguments)
     keywords = {name: _type_of(one) for name, one in keywords.items()}
-    return type(kernel).get_call_template(kernel, arguments, keywords)
+    return kernel.get_call_template(arguments, keywords)
+
+
+class _KernelCompiler(Compiler):
+    """Compiles what Python calls."""
+
+    def compile_extra(self, func: Any) -> Any:
+        codegen: Any = self.state.targetctx.codegen()
+        self.state.library = _KernelLibrary(codegen, func.__qualname__)  # type: ignore[no-untyped-call]
+        self.state.library.enable_object_caching()
+        return super().compile_extra(func)  # type: ignore[no-untyped-call]
+
+
+class _InnerCompiler(Compiler):
+    """Compiles what kernels call, as far as to code that is not optimised."""
+
+    def compile_extra(self, func: Any) -> Any:
+        codegen: Any = self.state.targetctx.codegen()
+        self.state.library = _InnerLibrary(codegen, func.__qualname__)  # type: ignore[no-untyped-call]
+        self.state.targetctx.get_executable = _finalize_without_entry
+        return super().compile_extra(func)  # type: ignore[no-untyped-call]
+
+
+def _finalize_without_entry(library: Any, description: Any, environment: Any) -> Any:
+    library.finalize()
+    name = description.qualname
+    return make_function(description.lookup_module(), name, "", 0, environment, (library,))
 
 
 class _KernelLibrary(JITCodeLibrary):
-    """Machine code of a kernel: all that it calls is linked first, and optimised together, once."""
+    """Code of a kernel: all that it calls is linked first, then optimised and emitted, once."""
 
     def finalize(self) -> None:
-        needed: list[Any] = []
-        for library in reversed(self._linking_libraries):
-            _add_with_callees(library, needed)
-        self._linking_libraries = needed[::-1]
-        super().finalize()
+        _take_from_callees(self)
+        _link(self._final_module, self._linking_libraries)
+        self._linking_libraries.clear()
+        super().finalize()  # type: ignore[no-untyped-call]
 
 
 class _InnerLibrary(JITCodeLibrary):
-    """Code of an inner function as Numba writes it; the kernels that call it make the rest."""
+    """Code of a function for the kernels that call it: neither optimised nor emitted here."""
+
+    def finalize(self) -> None:
+        _take_from_callees(self)
+        self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
+        self._finalized = True
 
     def _optimize_functions(self, ll_module: Any) -> None:
         ll_module.data_layout = self._codegen._data_layout
 
-    def finalize(self) -> None:
-        for library in self._linking_libraries:
-            self._reload_init.update(library._reload_init)
-        self._finalize_dynamic_globals()
-        self._finalized = True
+    def _get_module_for_linking(self) -> Any:
+        module = self.own_module().clone()
+        _link(module, self._linking_libraries)
+        return module
+
+    def own_module(self) -> Any:
+        """What the function consists of, without what it calls."""
+        return super()._get_module_for_linking()  # type: ignore[no-untyped-call]
 
 
-def _add_with_callees(library: Any, after: list[Any]) -> None:
-    """Add a library in front of those that it calls: LLVM links what is called so far."""
-    if library not in after:
+def _take_from_callees(library: Any) -> None:
+    for callee in library._linking_libraries:
+        library._reload_init.update(callee._reload_init)
+
+
+def _link(module: Any, libraries: list[Any]) -> None:
+    """Link libraries into a module that calls them, and all that they call."""
+    last_first: list[Any] = []
+    for library in reversed(libraries):
+        _add_after_callees(library, last_first)
+    for library in reversed(last_first):  # LLVM links what is called so far, and drops the rest
+        is_inner = isinstance(library, _InnerLibrary)
+        needed = library.own_module() if is_inner else library._get_module_for_linking()
+        module.link_in(needed, preserve=True)
+
+
+def _add_after_callees(library: Any, added: list[Any]) -> None:
+    if library not in added:
         if isinstance(library, _InnerLibrary):
-            for one in reversed(library._linking_libraries):
-                _add_with_callees(one, after)
-        after.append(library)
-
-
-class _KernelCompiler(Compiler):
-    _library: Any = _KernelLibrary
-
-    def compile_extra(self, func: Any) -> Any:
-        state = self.state
-        state.library = self._library(state.targetctx.codegen(), func.__qualname__)
-        state.library.enable_object_caching()
-        return super().compile_extra(func)
-
-
-class _InnerCompiler(_KernelCompiler):
-    _library = _InnerLibrary
-
-    def compile_extra(self, func: Any) -> Any:
-        def entry(library: Any, description: Any, environment: Any) -> Any:
-            library._ensure_finalized()
-            name = description.qualname
-            return make_function(description.lookup_module(), name, "", 0, environment, (library,))
-
-        self.state.targetctx.get_executable = entry
-        return super().compile_extra(func)
+            for callee in reversed(library._linking_libraries):
+                _add_after_callees(callee, added)
+        added.append(library)
 
 
 class _KernelCache(FunctionCache):
