@@ -58,8 +58,8 @@ def jit(function: Any = None, /, *, nogil: bool = True, **options: Any) -> Any:
 
 def _inner(function: Any, options: dict[str, Any]) -> Any:
     """The function as other kernels call it: without an entry for Python."""
-    without = {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
-    return numba.njit(**options, **without, pipeline_class=_InnerCompiler)(function)
+    options = {**options, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+    return numba.njit(pipeline_class=_InnerCompiler, **options)(function)
 
 
 _type_of: Any = types.unliteral
