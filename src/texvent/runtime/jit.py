@@ -44,8 +44,8 @@ def jit(function: Any = None, /, *, nogil: bool = True, **options: Any) -> Any:
     """
 
     def decorate(function: Any) -> Any:
-        compiler = {} if options.get("parallel") else {"pipeline_class": _KernelCompiler}
-        kernel: Any = numba.njit(nogil=nogil, **compiler, **options)(function)
+        compiler: Any = None if options.get("parallel") else _KernelCompiler
+        kernel: Any = numba.njit(nogil=nogil, pipeline_class=compiler, **options)(function)
         if hasattr(kernel, "py_func"):  # not with NUMBA_DISABLE_JIT=1
             inner = functools.cache(functools.partial(_inner, function, options))
             kernel._cache = _KernelCache(function)
