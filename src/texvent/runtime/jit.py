@@ -18,6 +18,8 @@ from numba.core.caching import FunctionCache, IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 
+from texvent.runtime.compilation import tell_of_compilation
+
 Function = TypeVar("Function", bound=Callable[..., Any])
 
 _IMPORT = re.compile(r"^(?:from ([\w.]+) import (\([^)]*\)|.*)|import ([\w.]+))", re.MULTILINE)
@@ -76,6 +78,7 @@ class _KernelCompiler(Compiler):
     """Compiles what Python calls."""
 
     def compile_extra(self, func: Any) -> Any:
+        tell_of_compilation()
         codegen: Any = self.state.targetctx.codegen()
         self.state.library = _KernelLibrary(codegen, func.__qualname__)  # type: ignore[no-untyped-call]
         self.state.library.enable_object_caching()
