@@ -6,10 +6,9 @@ import sys
 import numba
 import pytest
 
-from texvent.runtime import compilation
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent.runtime.jit import jit
-from texvent.runtime.progress import NoProgress, open_progress
+from texvent.runtime.progress import NoProgress, _tell_terminal, open_progress
 
 
 def test_a_function_is_called_at_every_step_and_line():
@@ -68,7 +67,7 @@ def test_short_work_draws_no_bar_and_long_work_does(monkeypatch):
 def test_a_terminal_is_told_once_that_kernels_are_compiled(monkeypatch):
     terminal = Terminal()
     monkeypatch.setattr(sys, "stderr", terminal)
-    compilation._tell_last.cache_clear()
+    _tell_terminal.cache_clear()
     for value in (1, 2.0):
         with ConsoleProgress():
             assert jit(lambda x: x + 1)(value) == value + 1

@@ -18,7 +18,7 @@ from numba.core.caching import FunctionCache, IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 
-from texvent.runtime.compilation import tell_of_compilation
+from texvent.runtime.progress import tell_of_compilation
 
 Function = TypeVar("Function", bound=Callable[..., Any])
 
@@ -46,8 +46,7 @@ def jit(function: Any = None, /, *, nogil: bool = True, **options: Any) -> Any:
     """
 
     def decorate(function: Any) -> Any:
-        compiler: Any = None if options.get("parallel") else _KernelCompiler
-        kernel: Any = numba.njit(nogil=nogil, pipeline_class=compiler, **options)(function)
+        kernel: Any = numba.njit(nogil=nogil, **options)(function)
         if hasattr(kernel, "py_func"):  # not with NUMBA_DISABLE_JIT=1
             inner = functools.cache(functools.partial(_inner, function, options))
             kernel._cache = _KernelCache(function)
@@ -74,19 +73,8 @@ def _template_of(kernel: Any, arguments: Any, keywords: Any) -> Any:
     return kernel.get_call_template(arguments, keywords)
 
 
-class _KernelCompiler(Compiler):
-    """Compiles what Python calls."""
-
-    def compile_extra(self, func: Any) -> Any:
-        tell_of_compilation()
-        codegen: Any = self.state.targetctx.codegen()
-        self.state.library = _KernelLibrary(codegen, func.__qualname__)  # type: ignore[no-untyped-call]
-        self.state.library.enable_object_caching()
-        return super().compile_extra(func)  # type: ignore[no-untyped-call]
-
-
 class _InnerCompiler(Compiler):
-    """Compiles what kernels call, as far as to code that is not optimised."""
+    """Compiles what kernels call, up to code that is neither optimised nor for the machine."""
 
     def compile_extra(self, func: Any) -> Any:
         codegen: Any = self.state.targetctx.codegen()
@@ -101,59 +89,18 @@ def _finalize_without_entry(library: Any, description: Any, environment: Any) ->
     return make_function(description.lookup_module(), name, "", 0, environment, (library,))
 
 
-class _KernelLibrary(JITCodeLibrary):
-    """Code of a kernel: all that it calls is linked first, then optimised and emitted, once."""
-
-    def finalize(self) -> None:
-        _take_from_callees(self)
-        _link(self._final_module, self._linking_libraries)
-        self._linking_libraries.clear()
-        super().finalize()  # type: ignore[no-untyped-call]
-
-
 class _InnerLibrary(JITCodeLibrary):
-    """Code of a function for the kernels that call it: neither optimised nor emitted here."""
-
-    def finalize(self) -> None:
-        _take_from_callees(self)
-        self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
-        self._finalized = True
+    """Code of a function for the kernels that call it, which optimise it among their own."""
 
     def _optimize_functions(self, ll_module: Any) -> None:
         ll_module.data_layout = self._codegen._data_layout
 
-    def _get_module_for_linking(self) -> Any:
-        module = self.own_module().clone()
-        _link(module, self._linking_libraries)
-        return module
+    def _optimize_final_module(self) -> None:
+        pass
 
-    def own_module(self) -> Any:
-        """What the function consists of, without what it calls."""
-        return super()._get_module_for_linking()  # type: ignore[no-untyped-call]
-
-
-def _take_from_callees(library: Any) -> None:
-    for callee in library._linking_libraries:
-        library._reload_init.update(callee._reload_init)
-
-
-def _link(module: Any, libraries: list[Any]) -> None:
-    """Link libraries into a module that calls them, and all that they call."""
-    last_first: list[Any] = []
-    for library in reversed(libraries):
-        _add_after_callees(library, last_first)
-    for library in reversed(last_first):  # LLVM links what is called so far, and drops the rest
-        is_inner = isinstance(library, _InnerLibrary)
-        needed = library.own_module() if is_inner else library._get_module_for_linking()
-        module.link_in(needed, preserve=True)
-
-
-def _add_after_callees(library: Any, added: list[Any]) -> None:
-    if library not in added:
-        if isinstance(library, _InnerLibrary):
-            for callee in reversed(library._linking_libraries):
-                _add_after_callees(callee, added)
-        added.append(library)
+    def _finalize_final_module(self) -> None:
+        self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
+        self._finalized = True
 
 
 class _KernelCache(FunctionCache):
@@ -165,6 +112,12 @@ class _KernelCache(FunctionCache):
         stamp = (self._cache_file._source_stamp, _stamp(function.__module__))
         name = self._impl.filename_base
         self._cache_file = _KernelIndex(self._cache_path, name, stamp)  # type: ignore[no-untyped-call]
+
+    def load_overload(self, signature: Any, target_context: Any) -> Any:
+        found = super().load_overload(signature, target_context)  # type: ignore[no-untyped-call]
+        if found is None:
+            tell_of_compilation()
+        return found
 
 
 class _KernelIndex(IndexDataCacheFile):

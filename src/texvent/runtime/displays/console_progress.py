@@ -18,7 +18,7 @@ from rich.progress import (
 )
 
 from texvent.errors import visible
-from texvent.runtime.compilation import LISTENERS
+from texvent.runtime.progress import TERMINALS
 
 PATIENCE_SECONDS = 0.5
 """Work that ends sooner shows no bar."""
@@ -56,7 +56,7 @@ class ConsoleProgress:
     def __enter__(self) -> Self:
         self._started = time.monotonic()
         if self._has_bar:
-            LISTENERS.append(self.announce)
+            TERMINALS.append(self)
         return self
 
     def __exit__(
@@ -66,7 +66,7 @@ class ConsoleProgress:
         trace: TracebackType | None,
     ) -> None:
         if self._has_bar:
-            LISTENERS.remove(self.announce)
+            TERMINALS.remove(self)
         if self._is_shown:
             self._bar.stop()
 
