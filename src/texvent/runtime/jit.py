@@ -46,7 +46,8 @@ def jit(function: Any = None, /, *, nogil: bool = True, **options: Any) -> Any:
     """
 
     def decorate(function: Any) -> Any:
-        kernel: Any = numba.njit(nogil=nogil, **options)(function)
+        compiler: Any = None if options.get("parallel") else _KernelCompiler
+        kernel: Any = numba.njit(nogil=nogil, pipeline_class=compiler, **options)(function)
         if hasattr(kernel, "py_func"):  # not with NUMBA_DISABLE_JIT=1
             inner = functools.cache(functools.partial(_inner, function, options))
             kernel._cache = _KernelCache(function)
@@ -73,34 +74,74 @@ def _template_of(kernel: Any, arguments: Any, keywords: Any) -> Any:
     return kernel.get_call_template(arguments, keywords)
 
 
-class _InnerCompiler(Compiler):
-    """Compiles what kernels call, up to code that is neither optimised nor for the machine."""
+class _KernelLibrary(JITCodeLibrary):
+    """Code of a kernel: all that it calls is linked first, then optimised and emitted, once."""
+
+    def finalize(self) -> None:
+        _link_callees(self, self._final_module)
+        self._linking_libraries.clear()
+        super().finalize()  # type: ignore[no-untyped-call]
+
+
+class _InnerLibrary(JITCodeLibrary):
+    """Code of a function for the kernels that call it: neither optimised nor emitted here."""
+
+    def finalize(self) -> None:
+        self._finalized = True
+
+    def _optimize_functions(self, ll_module: Any) -> None:
+        ll_module.data_layout = self._codegen._data_layout
+
+    def _get_module_for_linking(self) -> Any:
+        module = self.own_module().clone()
+        _link_callees(self, module)
+        return module
+
+    def own_module(self) -> Any:
+        """The function without what it calls."""
+        return super()._get_module_for_linking()  # type: ignore[no-untyped-call]
+
+
+def _link_callees(library: Any, module: Any) -> None:
+    """Link all that a library calls, directly or through others, into a module."""
+    last_first: list[Any] = []
+    _list_callees(library, last_first)
+    for callee in reversed(last_first):  # LLVM links what is called so far, and drops the rest
+        is_inner = isinstance(callee, _InnerLibrary)
+        needed = callee.own_module() if is_inner else callee._get_module_for_linking()
+        module.link_in(needed, preserve=True)
+        library._reload_init.update(callee._reload_init)
+
+
+def _list_callees(library: Any, listed: list[Any]) -> None:
+    for callee in reversed(library._linking_libraries):
+        if callee not in listed:
+            if isinstance(callee, _InnerLibrary):
+                _list_callees(callee, listed)
+            listed.append(callee)
+
+
+class _KernelCompiler(Compiler):
+    library_class: Any = _KernelLibrary
 
     def compile_extra(self, func: Any) -> Any:
-        codegen: Any = self.state.targetctx.codegen()
-        self.state.library = _InnerLibrary(codegen, func.__qualname__)  # type: ignore[no-untyped-call]
-        self.state.targetctx.get_executable = _finalize_without_entry
+        self.state.library = self.library_class(self.state.targetctx.codegen(), func.__qualname__)
+        self.state.library.enable_object_caching()
         return super().compile_extra(func)  # type: ignore[no-untyped-call]
+
+
+class _InnerCompiler(_KernelCompiler):
+    library_class = _InnerLibrary
+
+    def compile_extra(self, func: Any) -> Any:
+        self.state.targetctx.get_executable = _finalize_without_entry
+        return super().compile_extra(func)
 
 
 def _finalize_without_entry(library: Any, description: Any, environment: Any) -> Any:
     library.finalize()
     name = description.qualname
     return make_function(description.lookup_module(), name, "", 0, environment, (library,))
-
-
-class _InnerLibrary(JITCodeLibrary):
-    """Code of a function for the kernels that call it, which optimise it among their own."""
-
-    def _optimize_functions(self, ll_module: Any) -> None:
-        ll_module.data_layout = self._codegen._data_layout
-
-    def _optimize_final_module(self) -> None:
-        pass
-
-    def _finalize_final_module(self) -> None:
-        self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
-        self._finalized = True
 
 
 class _KernelCache(FunctionCache):
