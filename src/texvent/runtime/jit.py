@@ -39,7 +39,8 @@ def jit(function: Any = None, /, *, nogil: bool = True, **options: Any) -> Any:
     Args:
         function: what to compile.
         nogil: release the interpreter lock, so that threads work at the same time.
-        **options: other options of `numba.njit`, such as `error_model`, `inline` and `parallel`.
+        **options: other options of `numba.njit`, such as `error_model`, `inline` and `parallel`
+            (no kernel may call a parallel one).
 
     Returns:
         The compiled function; the function itself with NUMBA_DISABLE_JIT=1.
@@ -110,7 +111,6 @@ def _link_callees(library: Any, module: Any) -> None:
         is_inner = isinstance(callee, _InnerLibrary)
         needed = callee.own_module() if is_inner else callee._get_module_for_linking()
         module.link_in(needed, preserve=True)
-        library._reload_init.update(callee._reload_init)
 
 
 def _list_callees(library: Any, listed: list[Any]) -> None:
