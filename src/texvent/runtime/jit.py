@@ -152,23 +152,17 @@ class _KernelCache(FunctionCache):
         # Numba compares the stamp with that on disk. Its own is of one file.
         stamp = (self._cache_file._source_stamp, _stamp(function.__module__))
         name = self._impl.filename_base
-        self._cache_file = _KernelIndex(self._cache_path, name, stamp)  # type: ignore[no-untyped-call]
+        self._cache_file = IndexDataCacheFile(self._cache_path, name, stamp)  # type: ignore[no-untyped-call]
 
     def load_overload(self, signature: Any, target_context: Any) -> Any:
-        found = super().load_overload(signature, target_context)  # type: ignore[no-untyped-call]
+        found = None
+        try:
+            found = super().load_overload(signature, target_context)  # type: ignore[no-untyped-call]
+        except (AttributeError, ImportError):  # types of stored signatures were renamed since
+            self.flush()  # type: ignore[no-untyped-call]
         if found is None:
             tell_of_compilation()
         return found
-
-
-class _KernelIndex(IndexDataCacheFile):
-    """The compiled signatures of a kernel; they may name types that were renamed since."""
-
-    def _load_index(self) -> Any:
-        try:
-            return super()._load_index()  # type: ignore[no-untyped-call]
-        except (AttributeError, ImportError):
-            return {}
 
 
 @functools.cache
