@@ -3,10 +3,12 @@
 import io
 import sys
 
+import numba
 import pytest
 
 from texvent.runtime.displays.console_progress import ConsoleProgress
-from texvent.runtime.progress import NoProgress, open_progress
+from texvent.runtime.jit import jit
+from texvent.runtime.progress import NoProgress, _tell_terminal, open_progress
 
 
 def test_a_function_is_called_at_every_step_and_line():
@@ -60,3 +62,13 @@ def test_short_work_draws_no_bar_and_long_work_does(monkeypatch):
         clock[0] = 2.0
         progress.advance("simulate", 2, 3)
     assert "simulate" in terminal.getvalue()
+
+
+def test_a_terminal_is_told_once_that_kernels_are_compiled(monkeypatch):
+    terminal = Terminal()
+    monkeypatch.setattr(sys, "stderr", terminal)
+    _tell_terminal.cache_clear()
+    for value in (1, 2.0):
+        with ConsoleProgress():
+            assert jit(lambda x: x + 1)(value) == value + 1
+    assert terminal.getvalue().count("compiling (once)") == (0 if numba.config.DISABLE_JIT else 1)

@@ -40,12 +40,14 @@ def test_results_come_in_the_order_of_the_parts_and_threads_work_at_once():
     assert threading.get_ident() in (here, there)
 
 
-def test_an_error_is_raised_when_all_parts_are_done():
-    done = []
+def test_an_error_is_raised_when_no_part_is_worked_on():
+    done, is_begun = [], threading.Event()
 
     def work(part):
         if part == 0:
+            is_begun.wait(60)
             raise ValueError("part 0")
+        is_begun.set()
         time.sleep(0.05)
         done.append(part)
 

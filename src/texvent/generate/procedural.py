@@ -25,6 +25,7 @@ from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
 from texvent.generate.scene_input import Subject, describe_subject, list_nouns, nouns_of, understand
 from texvent.options.values import plain
 from texvent.pairs.instants import float_luma
+from texvent.runtime.prefetch import prefetch
 from texvent.scenes.description import report_of
 from texvent.scenes.report import REPORT_KEY
 from texvent.sensor import SENSORS, SensorSize
@@ -50,6 +51,8 @@ if TYPE_CHECKING:
 
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Image size when none is given."""
+IMAGES_AHEAD = 8
+"""Images between two frames that are drawn while those of the frames before are simulated."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -194,9 +197,11 @@ class ProceduralVideo(NotebookFrames):
         if self.flicker_hz is not None:
             images = (float_luma(self.at(t_us)) for t_us in times_us)
         else:
-            images = self._draw_between(first, second, times_us)
-        for image, t_us in zip(images, times_us, strict=True):
-            yield Frame(image, t_us, is_source=False, transfer=self.transfer)
+            images = prefetch(self._draw_between(first, second, times_us), depth=IMAGES_AHEAD)
+        return (
+            Frame(image, t_us, is_source=False, transfer=self.transfer)
+            for image, t_us in zip(images, times_us, strict=True)
+        )
 
     def _draw_between(
         self, first: Frame, second: Frame, times_us: Sequence[int]

@@ -104,7 +104,7 @@ def find_sweep(forward: Floats, backward: Floats) -> Floats:
     return sweep
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def _is_met(flow: Floats, other: Floats, x: int, y: int) -> bool:
     """Whether the flow of a pixel leads to one whose flow leads back, within a pixel."""
     height, width, _ = flow.shape
@@ -118,7 +118,7 @@ def _is_met(flow: Floats, other: Floats, x: int, y: int) -> bool:
     return bool(_apart2(other, column, row, (-u, -v)) <= _VISIBLE_RELATIVE * length2 + _1)
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def _write_sweep(
     sweep: Floats, forward: Floats, backward: Floats, place: Vector, path: Vector
 ) -> None:
@@ -139,12 +139,12 @@ def _write_sweep(
                 held[0], held[1] = u, v
 
 
-@jit(inner=True)
+@jit
 def _nearest(place: np.float32) -> int:
     return int(np.floor(place + _HALF))
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def _apart2(flow: Floats, x: int, y: int, other: Vector) -> np.float32:
     """Squared distance of the flow at a pixel from another one."""
     u, v = flow[y, x, 0] - other[0], flow[y, x, 1] - other[1]
@@ -173,7 +173,7 @@ def mark_contested(forward: Floats, backward: Floats, sweep: Floats) -> NDArray[
     return marks if number else marks[:0]
 
 
-@jit(inner=True)
+@jit
 def list_contested(
     marks: NDArray[np.uint8], pixel: Numbers, number: int, contested: Numbers
 ) -> None:
@@ -195,7 +195,7 @@ def list_contested(
     contested[0] = count
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def choose_path(
     forward: Floats, backward: Floats, sweep: Floats, pixel: Vector, position: np.float32
 ) -> Vector:
@@ -221,7 +221,7 @@ def choose_path(
     return best
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def _confirmed(
     forward: Floats, backward: Floats, pixel: Vector, path: Vector, position: np.float32
 ) -> np.float32:

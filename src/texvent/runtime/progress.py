@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable, Iterator
 from contextlib import AbstractContextManager, contextmanager
+from functools import cache
 from typing import Protocol, TypeAlias
 
 from texvent.runtime.displays.notebook_progress import NotebookProgress, is_notebook
@@ -39,6 +40,19 @@ class NoProgress:
 
 
 NO_PROGRESS = NoProgress()
+TERMINALS: list[Progress] = []
+"""Bars in terminals that are open now."""
+
+
+def tell_of_compilation() -> None:
+    """Tell a terminal, once in a process, why nothing moves in the first run on a machine."""
+    if TERMINALS:
+        _tell_terminal()
+
+
+@cache
+def _tell_terminal() -> None:
+    TERMINALS[-1].announce("note     compiling (once): later runs read what this one needs")
 
 
 class CallbackProgress:

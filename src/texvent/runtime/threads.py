@@ -79,7 +79,8 @@ def run_parts(work: Callable[[Part], Result], parts: Sequence[Part]) -> list[Res
     try:
         take_parts()
     finally:
-        errors = [other.exception() for other in others]
+        # What has not begun has nothing left to do, but may have to wait for other callers' parts.
+        errors = [other.exception() for other in others if not other.cancel()]
     for error in errors:
         if error is not None:
             raise error

@@ -18,6 +18,7 @@ from rich.progress import (
 )
 
 from texvent.errors import visible
+from texvent.runtime.progress import TERMINALS
 
 PATIENCE_SECONDS = 0.5
 """Work that ends sooner shows no bar."""
@@ -54,6 +55,8 @@ class ConsoleProgress:
 
     def __enter__(self) -> Self:
         self._started = time.monotonic()
+        if self._has_bar:
+            TERMINALS.append(self)
         return self
 
     def __exit__(
@@ -62,6 +65,8 @@ class ConsoleProgress:
         error: BaseException | None,
         trace: TracebackType | None,
     ) -> None:
+        if self._has_bar:
+            TERMINALS.remove(self)
         if self._is_shown:
             self._bar.stop()
 

@@ -27,7 +27,7 @@ from texvent.scenes.raycast.vectors import Vector, along, dot, mapped, triple, t
 from texvent.scenes.scene import Colour, Float64Array, Primitives, Shape
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def beam_share(lamp: Record, away: Vector) -> float:
     """Share of a lamp's light that it sends along a unit vector: a beam with a soft edge."""
     if lamp.full < -1.0:
@@ -41,7 +41,7 @@ def beam_share(lamp: Record, away: Vector) -> float:
     return float(share * share * (3.0 - 2.0 * share))
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def falloff(lamp: Record, towards: Vector) -> tuple[float, float]:
     """(light on a surface that faces the lamp, as a share of that at 1 m; distance in metres).
 
@@ -59,7 +59,7 @@ def falloff(lamp: Record, towards: Vector) -> tuple[float, float]:
     return share * window * window / (square + lamp.radius * lamp.radius), distance
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def towards_lamp(lamp: Record, point: Vector) -> Vector:
     """From a point to a lamp, metres."""
     return along(triple(lamp.place), point, -1.0)
@@ -90,7 +90,7 @@ def lamp_light(instant: Record, point: Vector, normal: Vector, lit: int) -> Colo
     return light
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def light_through(instant: Record, point: Vector) -> Colour:
     """Light of all lamps at a point in the air, from all sides, without shadows."""
     light = (0.0, 0.0, 0.0)
@@ -235,7 +235,7 @@ LIT_BITS = 1 + MOST_SHADOW_LAMPS
 """Bits of a probe that tell what light reaches a surface: the sun, then lamps."""
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def direction_cell(towards: Vector, distance: float) -> int:
     """The cell of a lamp's grid of directions that a surface is in; `towards` leads to the lamp.
 
@@ -253,7 +253,7 @@ def direction_cell(towards: Vector, distance: float) -> int:
     return row * LONGITUDES + column
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def _blocked(
     instant: Record, cell: int, point: Vector, towards: Vector, near: float
 ) -> tuple[bool, bool]:
@@ -312,7 +312,7 @@ SUN = 1
 """The sun's bit."""
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def lit_by(
     instant: Record, x: float, y: float, hit: tuple[float, int, int], wanted: int
 ) -> tuple[int, bool]:
