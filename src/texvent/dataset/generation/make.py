@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from texvent.batch.engines import Engine, Outcome, local_engine
 from texvent.batch.prompts import refuse_prompts
-from texvent.dataset.generation.make_shard import is_complete, make_shard
+from texvent.dataset.generation.make_shard import is_complete, make_together
 from texvent.dataset.generation.recipe import (
     SPECIFICATION_FILE,
     VIDEOS,
@@ -30,19 +31,19 @@ OnOutcome = Callable[[Outcome], None]
 
 @dataclass(frozen=True)
 class ShardTask:
-    """A shard to make, for an engine."""
+    """A shard to make, or those of one place in several variants, for an engine."""
 
     folder: Path
-    shard: Shard
+    shards: tuple[Shard, ...]
     retry_failed: bool = False
 
     @property
     def is_video(self) -> bool:
         """True for a shard of videos."""
-        return self.shard.variant == VIDEOS
+        return self.shards[0].variant == VIDEOS
 
-    def run(self) -> ShardRecord:
-        """Make the shard in this process.
+    def run(self) -> tuple[ShardRecord, ...]:
+        """Make the shards in this process.
 
         Raises:
             ConfigError, OutputError, MissingDependencyError: what all shards would meet.
@@ -56,7 +57,7 @@ class ShardTask:
             recipe = load_recipe_once(self.folder)
         except TexventError as error:
             raise ConfigError(str(error)) from error
-        return make_shard(recipe, self.folder, self.shard, retry_failed=self.retry_failed)
+        return make_together(recipe, self.folder, self.shards, retry_failed=self.retry_failed)
 
 
 @dataclass
@@ -66,14 +67,24 @@ class Work:
     complete: dict[Shard, Counter[str]] = field(default_factory=dict)
     """Complete shards: status → number of samples."""
     todo: list[ShardTask] = field(default_factory=list)
-    """Shards of events, in order."""
+    """Shards of events, in order; those that show the same rendered clips together."""
     videos_todo: list[ShardTask] = field(default_factory=list)
     failures: dict[Shard, str] = field(default_factory=dict)
     """Shards that could not be made."""
 
+    @property
+    def to_make(self) -> int:
+        """Shards of `todo` and `videos_todo`."""
+        return sum(len(task.shards) for task in (*self.todo, *self.videos_todo))
+
 
 def find_work(
-    recipe: Recipe, folder: Path, *, part: tuple[int, int] = (1, 1), retry_failed: bool = False
+    recipe: Recipe,
+    folder: Path,
+    *,
+    part: tuple[int, int] = (1, 1),
+    retry_failed: bool = False,
+    variants: Sequence[str] = (),
 ) -> Work:
     """Complete shards and those to make.
 
@@ -82,6 +93,7 @@ def find_work(
         folder: of the data set.
         part: (K, N): of N parts of all shards, the K-th, 1 ≤ K ≤ N.
         retry_failed: whether shards with failed samples are made again.
+        variants: that are made; none: all.
 
     Raises:
         ConfigError: there is no such part.
@@ -91,17 +103,22 @@ def find_work(
     if not 1 <= which <= parts:
         raise ConfigError(f"shards is {which}/{parts}; it must be K/N with 1 ≤ K ≤ N")
     work = Work()
+    together: dict[Any, list[Shard]] = {}
     for stage in recipe.stages:
-        tasks = work.videos_todo if stage == VIDEOS else work.todo
-        for number, shard in enumerate(recipe.shards(stage)):
+        is_wanted = not variants or stage in (VIDEOS, *variants)
+        for number, shard in enumerate(recipe.shards(stage) if is_wanted else ()):
             if number % parts != which - 1:
                 continue
             record = is_complete(recipe, folder, shard)
             again = retry_failed and record is not None and record.count(FAILED) > 0
             if record is None or again:
-                tasks.append(ShardTask(folder, shard, retry_failed=again))
+                place = number if recipe.renders else (stage, number)
+                together.setdefault((place, again), []).append(shard)
             else:
                 work.complete[shard] = record.statuses
+    for (_, again), shards in together.items():
+        task = ShardTask(folder, tuple(shards), retry_failed=again)
+        (work.videos_todo if task.is_video else work.todo).append(task)
     return work
 
 
@@ -111,7 +128,7 @@ def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
     Args:
         work: what is to do; what is done is noted there.
         engine: what makes it.
-        on_outcome: called for every shard.
+        on_outcome: called for every task.
 
     Raises:
         ConfigError, OutputError, MissingDependencyError: what all shards would meet.
@@ -119,10 +136,10 @@ def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
     waiting: dict[Shard, list[ShardTask]] = {}
     running = len(work.videos_todo)
     for task in work.videos_todo:
-        waiting[task.shard] = []
+        waiting[task.shards[0]] = []
         engine.submit(task)
     for task in work.todo:
-        of_video = waiting.get(replace(task.shard, variant=VIDEOS))
+        of_video = waiting.get(replace(task.shards[0], variant=VIDEOS))
         if of_video is not None:
             of_video.append(task)
             continue
@@ -131,12 +148,14 @@ def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
     while running:
         outcome = engine.next()
         running -= 1
-        shard = outcome.task.shard
+        shards = outcome.task.shards
         if outcome.failure is not None:
-            work.failures[shard] = outcome.failure
+            work.failures.update(dict.fromkeys(shards, outcome.failure))
         else:
-            work.complete[shard] = outcome.result.statuses
-            for task in waiting.pop(shard, ()):
+            work.complete.update(
+                (s, r.statuses) for s, r in zip(shards, outcome.result, strict=True)
+            )
+            for task in waiting.pop(shards[0], ()):
                 engine.submit(task)
                 running += 1
         on_outcome(outcome)
@@ -171,6 +190,7 @@ def make(
     *,
     workers: int = 1,
     retry_failed: bool = False,
+    variants: Sequence[str] = (),
     progress: ProgressOption = None,
 ) -> Work:
     """Make a data set, or what is missing of it; see docs/datasets.md.
@@ -181,6 +201,7 @@ def make(
         workers: processes; 1: this one. A program that uses more needs the usual
             `if __name__ == "__main__":`, because they import its main module.
         retry_failed: make samples that failed again.
+        variants: that are made; none: all.
         progress: receives every shard.
 
     Returns:
@@ -193,8 +214,8 @@ def make(
         specification = read_specification(specification)
     recipe, folder = Recipe.of(specification), Path(folder).absolute()
     begin(recipe, folder)
-    work = find_work(recipe, folder, retry_failed=retry_failed)
-    total = len(work.complete) + len(work.todo) + len(work.videos_todo)
+    work = find_work(recipe, folder, retry_failed=retry_failed, variants=variants)
+    total = len(work.complete) + work.to_make
     with open_progress(progress) as display, closing(local_engine(workers)) as engine:
         make_shards(
             work, engine, lambda outcome: display.advance("shards", len(work.complete), total)

@@ -20,6 +20,8 @@ from texvent.dataset.specification.clips import Clip
 from texvent.dataset.specification.items import Item
 from texvent.dataset.specification.specification import Filters, Specification
 from texvent.events import SIGNAL, EventStream
+from texvent.generate.kept_frames import KeptFrames
+from texvent.generate.procedural import ProceduralVideo
 from texvent.pipeline import Simulation, select_events, text_to_video
 from texvent.represent.event_frame import count_events
 from texvent.run.prepare import prepare_source, prepare_video
@@ -36,8 +38,14 @@ if TYPE_CHECKING:
     from texvent.truth.recorder import TruthRecorder
 
 
-def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings) -> Simulation:
+def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings, frames: KeptFrames) -> Simulation:
     """A clip made ready; its video has the clip's seed, its simulation that of the settings.
+
+    Args:
+        recipe: of the data set.
+        clip: which.
+        settings: of the variant.
+        frames: what other simulations of the clip have rendered.
 
     Raises:
         TexventError: the video cannot be read or made.
@@ -46,6 +54,8 @@ def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings) -> Simulation:
     if recipe.items.are_videos:
         return prepare_source(clip.item.video, settings, prompt=prompt, video_seed=clip.seed)
     video = text_to_video(clip.item.subject, with_seed(settings, clip.seed))
+    if isinstance(video, ProceduralVideo):
+        video = replace(video, kept=frames)
     return prepare_video(video, settings, prompt=prompt)
 
 

@@ -145,15 +145,17 @@ def run_detection(
 
 
 def make_clips(plan: DetectionPlan, arms: Sequence[str], *, jobs: int, progress: Progress) -> None:
-    """Make the same clips in every arm, each in a folder of its own, and export what RVT reads."""
-    whole = with_count(read_specification(plan.specification), plan.clips)
+    """Make the same clips in every arm, and export what RVT reads."""
+    whole, folder = (
+        with_count(read_specification(plan.specification), plan.clips),
+        plan.work / "clips",
+    )
+    work = dataset.make(whole, folder, workers=jobs, variants=arms)
+    if work.failures:
+        raise TexventError(f"clips could not be made: {next(iter(work.failures.values()))}")
+    stored = StoredDataset.open(folder)
     for arm in arms:
-        variants = tuple(one for one in whole.variants if one.name == arm)
-        folder = plan.work / "clips" / arm
-        work = dataset.make(dataclasses.replace(whole, variants=variants), folder, workers=jobs)
-        if work.failures:
-            raise TexventError(f"clips could not be made: {next(iter(work.failures.values()))}")
-        done = export(StoredDataset.open(folder), "rvt", plan.work / "rvt" / arm, classes=CLASSES)
+        done = export(stored, "rvt", plan.work / "rvt" / arm, variant=arm, classes=CLASSES)
         progress(f"{arm}: {done.samples} clips")
 
 
