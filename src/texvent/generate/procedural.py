@@ -11,9 +11,9 @@ import math
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from fractions import Fraction
-from functools import cached_property, partial
+from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,6 @@ from texvent._version import __version__
 from texvent.brightness import luma_bt601
 from texvent.config import FPS_RANGE, check_range
 from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
-from texvent.generate.kept_frames import KeptFrames
 from texvent.generate.scene_input import Subject, describe_subject, list_nouns, nouns_of, understand
 from texvent.options.values import plain
 from texvent.pairs.instants import float_luma
@@ -51,9 +50,6 @@ if TYPE_CHECKING:
 
 DEFAULT_SIZE = SENSORS["davis346"].size
 """Image size when none is given."""
-FRAME_BYTES, MOTION_BYTES, LUMA_BYTES = 24, 24, 4
-"""Memory of a pixel: of RGB, codes and luma; of vectors, depth and ids; of luma alone."""
-T = TypeVar("T")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -123,8 +119,6 @@ class ProceduralVideo(NotebookFrames):
     """Whether frames carry exact motion vectors and depth."""
     transfer: Transfer = Transfer.GAMMA
     """Whether frames are gamma-coded or linear."""
-    kept: KeptFrames = field(default_factory=lambda: KeptFrames(0))
-    """What was rendered before; videos of the same clip may share it."""
 
     def __repr__(self) -> str:
         return describe_stream(self)
@@ -153,24 +147,24 @@ class ProceduralVideo(NotebookFrames):
         memory = self._make_memory()
         for index in range(first, self.frame_count):
             t_us = frame_time_us(index, self.fps)
-            render = partial(memory.render, t_us / MICROSECONDS)
-            pixels, codes = self._once("frame", t_us, render, FRAME_BYTES)
-            motion = self._motion(index, t_us) if self.has_motion else None
+            pixels, codes = self._render(memory, t_us)
+            motion = self._motion(index) if self.has_motion else None
             yield SceneFrame(pixels, t_us, motion=motion, transfer=self.transfer, codes=codes)
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
-        pixels, _ = self._memory.render(t_us / MICROSECONDS)
+        pixels, _ = self._render(self._memory, t_us)
         return Frame(pixels, t_us, is_source=False, transfer=self.transfer)
+
+    def _render(self, memory: FrameMemory, t_us: int) -> tuple[NDArray[Any], NDArray[Any]]:
+        return memory.render(t_us / MICROSECONDS)
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         """Depth, ids and boxes at `t0_us`, and optical flow from there to `t1_us`."""
         # Imported here: the kernels load Numba, which reading options and help must not do.
         from texvent.scenes.raycast.ground_truth import ground_truth
 
-        times_s = t0_us / MICROSECONDS, t1_us / MICROSECONDS
-        find = partial(ground_truth, self.scene, *times_s, self.size)
-        return self._once("truth", (t0_us, t1_us), find, MOTION_BYTES)
+        return ground_truth(self.scene, t0_us / MICROSECONDS, t1_us / MICROSECONDS, self.size)
 
     def instances_at(
         self, t_us: int, points: NDArray[np.float64]
@@ -194,15 +188,7 @@ class ProceduralVideo(NotebookFrames):
         return replace(self, has_motion=True)
 
     def between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
-        """Frames of luma at times between two frames, each part drawn as often as it changes."""
-        if not self.kept.most_bytes:
-            return self._between(first, second, times_us)
-        when = (first.t_us, *times_us, second.t_us)
-        make = partial(tuple, self._between(first, second, times_us))
-        return iter(self._once("between", when, make, LUMA_BYTES * len(times_us)))
-
-    def _between(self, first: Frame, second: Frame, times_us: Sequence[int]) -> Iterator[Frame]:
-        """See `between`; each is drawn when it is read.
+        """Frames of luma at times between two frames, each part drawn as often as it changes.
 
         Light that beats is drawn at every instant: two frames and their middle may all show the
         same moment of its beat.
@@ -231,21 +217,17 @@ class ProceduralVideo(NotebookFrames):
         after = Instant(len(times) - 1, float_luma(second), getattr(second, "codes", None))
         return drawing.draw(before, after, speeds, times)
 
-    def _motion(self, index: int, t_us: int) -> Motion:
+    def _motion(self, index: int) -> Motion:
         """Motion from a frame to its neighbours."""
         from texvent.scenes.raycast.ground_truth import frame_motion
 
         before, now, after = (
             frame_time_us(index + step, self.fps) / MICROSECONDS for step in (-1, 0, 1)
         )
-        ends = before if index else None, after if index < self.frame_count - 1 else None
-        find = partial(frame_motion, self.scene, now, *ends, self.size)
-        return self._once("motion", t_us, find, MOTION_BYTES)
-
-    def _once(self, what: str, when: object, make: Callable[[], T], bytes_per_pixel: int) -> T:
-        size = self.size
-        key = what, when, size, self.transfer
-        return self.kept.once(key, make, bytes_per_pixel * size.width * size.height)
+        last = self.frame_count - 1
+        return frame_motion(
+            self.scene, now, before if index else None, after if index < last else None, self.size
+        )
 
     @cached_property
     def _memory(self) -> FrameMemory:

@@ -88,7 +88,8 @@ class Hardware:
     device: Literal["auto", "cpu", "cuda"] = "auto"
     """auto is the GPU if torch finds one."""
     precision: Literal["float32", "bfloat16"] = "float32"
-    """Number type of the network's computation; bfloat16 is for GPUs (mixed precision)."""
+    """Number type of the network's computation; bfloat16 (mixed precision) is for GPUs, and for
+    CPUs with AMX."""
     workers: int = 0
     """Processes that make batches; 0: this one."""
 

@@ -6,7 +6,13 @@ import pytest
 
 from texvent.errors import ConfigError, InputError
 from texvent.truth.boxes import BOX_RECORD
-from texvent_lab.bench.detection.clips import Clip, mark_resting, read_classes, read_clips
+from texvent_lab.bench.detection.clips import (
+    Clip,
+    bin_pixels,
+    mark_resting,
+    read_classes,
+    read_clips,
+)
 from texvent_lab.bench.detection.config import DetectionConfig
 from texvent_lab.commands.bench.bench import run
 
@@ -65,9 +71,27 @@ def test_what_is_no_export_is_refused_in_one_line(tmp_path: Path):
     with pytest.raises(InputError, match=r"has no texvent-export\.json; write it with"):
         read_classes(tmp_path)
     with pytest.raises(InputError, match=r"there are no clips in .*train; make and export"):
-        read_clips(tmp_path, "train")
+        read_clips(tmp_path, "train", 1)
     with pytest.raises(ConfigError, match=r"data\.folder is missing; name what"):
         DetectionConfig().make_task()
+
+
+def test_cells_add_the_counts_of_their_pixels():
+    histogram = np.arange(2 * 3 * 5, dtype=np.uint8).reshape(2, 3, 5) * 8
+    cells = bin_pixels(histogram, 2)
+    assert cells.shape == (2, 2, 3)
+    assert cells[0, 0].tolist() == [8 * (0 + 1 + 5 + 6), 8 * (2 + 3 + 7 + 8), 8 * (4 + 9)]
+    assert cells[1, 0].tolist() == [255, 255, 255]
+
+
+def test_a_part_of_a_clip_has_its_windows():
+    histograms = [np.full((1, 2, 2), n, np.uint8) for n in (1, 0, 3, 4)]
+    clip = Clip.of("a", histograms, [boxes((n, n, 0, 1, 1)) for n in range(4)])
+    part = clip.part(1, 2)
+    assert part.shape == (2, 1, 2, 2)
+    assert (part.places.tolist(), part.counts.tolist()) == ([4, 5, 6, 7], [3] * 4)
+    assert [int(one["x"][0]) for one in part.boxes] == [1, 2]
+    assert clip.part(3, 5).shape[0] == 1
 
 
 @pytest.mark.detect
@@ -99,6 +123,7 @@ def test_a_detector_finds_what_it_was_trained_on():
     batch = {
         "number": torch.arange(4),
         "flip": torch.zeros(4, dtype=torch.bool),
+        "first": torch.zeros(4, dtype=torch.int64),
         "learned": learned,
     }
     for _ in range(80):

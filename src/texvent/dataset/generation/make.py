@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -79,12 +79,7 @@ class Work:
 
 
 def find_work(
-    recipe: Recipe,
-    folder: Path,
-    *,
-    part: tuple[int, int] = (1, 1),
-    retry_failed: bool = False,
-    variants: Sequence[str] = (),
+    recipe: Recipe, folder: Path, *, part: tuple[int, int] = (1, 1), retry_failed: bool = False
 ) -> Work:
     """Complete shards and those to make.
 
@@ -93,7 +88,6 @@ def find_work(
         folder: of the data set.
         part: (K, N): of N parts of all shards, the K-th, 1 ≤ K ≤ N.
         retry_failed: whether shards with failed samples are made again.
-        variants: that are made; none: all.
 
     Raises:
         ConfigError: there is no such part.
@@ -105,8 +99,7 @@ def find_work(
     work = Work()
     together: dict[Any, list[Shard]] = {}
     for stage in recipe.stages:
-        is_wanted = not variants or stage in (VIDEOS, *variants)
-        for number, shard in enumerate(recipe.shards(stage) if is_wanted else ()):
+        for number, shard in enumerate(recipe.shards(stage)):
             if number % parts != which - 1:
                 continue
             record = is_complete(recipe, folder, shard)
@@ -190,7 +183,6 @@ def make(
     *,
     workers: int = 1,
     retry_failed: bool = False,
-    variants: Sequence[str] = (),
     progress: ProgressOption = None,
 ) -> Work:
     """Make a data set, or what is missing of it; see docs/datasets.md.
@@ -201,7 +193,6 @@ def make(
         workers: processes; 1: this one. A program that uses more needs the usual
             `if __name__ == "__main__":`, because they import its main module.
         retry_failed: make samples that failed again.
-        variants: that are made; none: all.
         progress: receives every shard.
 
     Returns:
@@ -214,7 +205,7 @@ def make(
         specification = read_specification(specification)
     recipe, folder = Recipe.of(specification), Path(folder).absolute()
     begin(recipe, folder)
-    work = find_work(recipe, folder, retry_failed=retry_failed, variants=variants)
+    work = find_work(recipe, folder, retry_failed=retry_failed)
     total = len(work.complete) + work.to_make
     with open_progress(progress) as display, closing(local_engine(workers)) as engine:
         make_shards(

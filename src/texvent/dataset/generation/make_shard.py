@@ -10,7 +10,7 @@ from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from texvent.batch.engines import ENDING_ALL
 from texvent.batch.identity import digest
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.sample import (
+    KeptFrames,
     count_boxes,
     prepare_clip,
     record_truth,
@@ -41,18 +42,14 @@ from texvent.dataset.generation.shards import (
 from texvent.dataset.specification.clips import Clip, clip_settings, simulation_seed, video_settings
 from texvent.dataset.specification.items import KEY_DIGITS
 from texvent.errors import InputError, TexventError, warnings_to
-from texvent.generate.kept_frames import KeptFrames
 from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
 from texvent.io.atomic import atomic_file
-from texvent.pipeline import Simulation, fit_to_sensor
+from texvent.pipeline import fit_to_sensor
 from texvent.run.prepare import make_video, prepare_video
 from texvent.scenes.report import REPORT_KEY
 from texvent.settings.resolution import Settings
 from texvent.truth.clip import ClipTruth
 from texvent.video import FrameStream
-
-if TYPE_CHECKING:
-    from texvent.truth.recorder import TruthRecorder
 
 Members = Mapping[str, bytes]
 Make = Callable[[], tuple[Members, dict[str, Any]]]
@@ -79,14 +76,13 @@ def make_together(
     Raises:
         ConfigError, OutputError, MissingDependencyError: what all samples would meet.
     """
-    runs = sum(1 if one.variant == VIDEOS else recipe.variants[one.variant].seeds for one in shards)
     with ExitStack() as files:
         makers = [
             files.enter_context(_open_shard(recipe, folder, shard, retry_failed=retry_failed))
             for shard in shards
         ]
         for clip in recipe.clips_of(shards[0]):
-            frames = KeptFrames() if runs > 1 else KeptFrames(0)
+            frames = KeptFrames()
             for maker in makers:
                 maker.add(clip, frames)
     return tuple(maker.record for maker in makers)
@@ -185,7 +181,6 @@ class _ShardMaker:
         self._path, self._writer, self._kept = folder / shard.path, writer, kept
         self._labels = {label: number for number, label in enumerate(recipe.items.labels)}
         self._stored: StoredVideos | None = None
-        self._recorder: tuple[str, TruthRecorder] | None = None
         if recipe.stores_videos and shard.variant != VIDEOS:
             self._stored = StoredVideos(folder, replace(shard, variant=VIDEOS), scratch)
         self.samples: list[SampleRecord] = []
@@ -248,7 +243,7 @@ class _ShardMaker:
         else:
             video = fit_to_sensor(self._stored.open(clip), settings)
             simulation = prepare_video(video, settings, prompt=item.prompt)
-        recorder = self._truth_recorder(clip, simulation)
+        recorder = record_truth(specification, item, simulation) if specification.truth else None
         on_frame = None if recorder is None else recorder.add
         simulated = simulate_sample(simulation, specification.filters, on_frame)
         known = {
@@ -284,13 +279,6 @@ class _ShardMaker:
             truth=truth,
         )
         return members, {**known, **count_boxes(ClipTruth(members.__getitem__, key))}
-
-    def _truth_recorder(self, clip: Clip, simulation: Simulation) -> TruthRecorder | None:
-        """Recorder of the truth of a clip, one for all of its seeds; None where none is wanted."""
-        specification = self._recipe.specification
-        if specification.truth and (self._recorder is None or self._recorder[0] != clip.key):
-            self._recorder = clip.key, record_truth(specification, clip.item, simulation)
-        return None if self._recorder is None else self._recorder[1]
 
 
 def _record(key: str, clip: Clip, seed: int) -> SampleRecord:
