@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, ClassVar
 
 from texvent.config import check_range
 from texvent.errors import ConfigError
@@ -46,9 +46,9 @@ class DetectionData:
 
 SCHEDULE = Schedule(
     epochs=30,
-    batch_size=8,
+    batch_size=4,
     optimizer="adamw",
-    learning_rate=5e-4,
+    learning_rate=2e-3,
     weight_decay=1e-2,
     clip_gradient=1.0,
     decay="cosine",
@@ -59,6 +59,7 @@ SCHEDULE = Schedule(
 class DetectionConfig(TrainingConfig):
     """A detector: RVT-T, the smallest of RVT's networks."""
 
+    extra: ClassVar[str] = EXTRA
     schedule: Schedule = SCHEDULE
     data: DetectionData = field(default_factory=DetectionData)
     flip_x: bool = True
