@@ -42,7 +42,7 @@ class ShardTask:
         """True for a shard of videos."""
         return self.shards[0].variant == VIDEOS
 
-    def run(self) -> tuple[ShardRecord, ...]:
+    def run(self) -> list[ShardRecord]:
         """Make the shards in this process.
 
         Raises:

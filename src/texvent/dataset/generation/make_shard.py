@@ -5,10 +5,11 @@ from __future__ import annotations
 import hashlib
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
-from contextlib import ExitStack, contextmanager
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from contextlib import ExitStack, closing
 from dataclasses import replace
 from functools import partial
+from itertools import groupby, zip_longest
 from pathlib import Path
 from typing import Any
 
@@ -58,17 +59,17 @@ Make = Callable[[], tuple[Members, dict[str, Any]]]
 
 def make_together(
     recipe: Recipe, folder: Path, shards: Sequence[Shard], *, retry_failed: bool = False
-) -> tuple[ShardRecord, ...]:
+) -> list[ShardRecord]:
     """Make the shards of one place in several variants, whatever is left of an earlier attempt.
 
-    A scene is rendered once for all of them. The samples of a shard depend on the recipe and the
-    shard alone, so that making it again, with others or without, gives equal bytes.
+    A scene is rendered once for all of them. The bytes of a shard depend on the recipe and the
+    shard alone, so that making it again, with others or without, replaces equal bytes.
 
     Args:
         recipe: of the data set.
         folder: of the data set.
         shards: which; they differ in their variants.
-        retry_failed: keep the samples of shards that are there, and make only failed ones.
+        retry_failed: keep the samples of the shards that are there, and make only failed ones.
 
     Returns:
         Their records, in the same order.
@@ -76,49 +77,62 @@ def make_together(
     Raises:
         ConfigError, OutputError, MissingDependencyError: what all samples would meet.
     """
-    with ExitStack() as files:
-        makers = [
-            files.enter_context(_open_shard(recipe, folder, shard, retry_failed=retry_failed))
-            for shard in shards
-        ]
-        for clip in recipe.clips_of(shards[0]):
-            frames = KeptFrames()
-            for maker in makers:
-                maker.add(clip, frames)
-    return tuple(maker.record for maker in makers)
+    frames, records = KeptFrames(), list[ShardRecord]()
+    with ExitStack() as stack:
+        runs = (_make_shard(recipe, folder, one, frames, records, retry_failed) for one in shards)
+        for _ in zip_longest(*(stack.enter_context(closing(run)) for run in runs)):
+            frames.clear()
+    return records
 
 
-@contextmanager
-def _open_shard(
-    recipe: Recipe, folder: Path, shard: Shard, *, retry_failed: bool
-) -> Iterator[_ShardMaker]:
-    """A shard to add clips to; when the block ends, the file is written, then its record."""
-    path = folder / shard.path
+def _make_shard(
+    recipe: Recipe,
+    folder: Path,
+    shard: Shard,
+    frames: KeptFrames,
+    records: list[ShardRecord],
+    retry_failed: bool,
+) -> Generator[None]:
+    """Make a shard and add its record to `records`; pauses after every clip."""
+    path, seconds = folder / shard.path, 0.0
     old = read_record(path) if retry_failed else None
     kept = {one.key: one for one in old.samples if one.status != FAILED} if old else {}
     path.parent.mkdir(parents=True, exist_ok=True)
+    samples: list[SampleRecord] = []
     with atomic_file(path, overwrite=True) as part:
         with part.open("wb") as file, tempfile.TemporaryDirectory() as scratch:
-            maker = _ShardMaker(recipe, folder, shard, Path(scratch), TarShardWriter(file), kept)
-            yield maker
-            maker.close()
+            writer = TarShardWriter(file)
+            makers = _ShardSamples(recipe, folder, shard, Path(scratch), frames)
+            for _, of_clip in groupby(makers, lambda one: one[0].clip):
+                started = time.perf_counter()
+                for planned, make in of_clip:
+                    old_sample = kept.get(planned.key)
+                    if old_sample is None:
+                        sample = _made(planned, make, writer)
+                    else:
+                        sample = _keep(path, old_sample, writer)
+                    samples.append(sample)
+                seconds += time.perf_counter() - started
+                yield
+            writer.close()
         with part.open("rb") as file:
             sha256, size = hashlib.file_digest(file, "sha256").hexdigest(), part.stat().st_size
         # Killed after the next line, the shard counts as not made; the record of other samples must
         # not stand beside a new file, which may be as long.
         record_path(path).unlink(missing_ok=True)
-    maker.record = ShardRecord(
+    record = ShardRecord(
         name=shard.name,
         split=shard.split,
         variant=shard.variant,
         identity=recipe.identity,
         sha256=sha256,
         bytes=size,
-        samples=tuple(maker.samples),
-        seconds=round(maker.seconds, 3),
+        samples=tuple(samples),
+        seconds=round(seconds, 3),
         versions={"texvent": full_version(), "numpy": np.__version__},
     )
-    write_record(path, maker.record)
+    write_record(path, record)
+    records.append(record)
 
 
 def is_complete(recipe: Recipe, folder: Path, shard: Shard) -> ShardRecord | None:
@@ -157,69 +171,36 @@ def _made(record: SampleRecord, make: Make, writer: TarShardWriter) -> SampleRec
     return replace(record, **facts, members=places, warnings=tuple(found))
 
 
-class _ShardMaker:
-    """Adds the samples of a shard, clip by clip, to its file.
-
-    Attributes:
-        samples: records of all samples so far.
-        seconds: working time so far, s.
-        record: of the shard, once it is complete.
-    """
-
-    record: ShardRecord
+class _ShardSamples:
+    """The samples of a shard: a record that lacks its results, and a `Make`, for each."""
 
     def __init__(
-        self,
-        recipe: Recipe,
-        folder: Path,
-        shard: Shard,
-        scratch: Path,
-        writer: TarShardWriter,
-        kept: Mapping[str, SampleRecord],
+        self, recipe: Recipe, folder: Path, shard: Shard, scratch: Path, frames: KeptFrames
     ) -> None:
-        self._recipe, self._shard, self._scratch = recipe, shard, scratch
-        self._path, self._writer, self._kept = folder / shard.path, writer, kept
+        self._recipe, self._shard, self._scratch, self._frames = recipe, shard, scratch, frames
         self._labels = {label: number for number, label in enumerate(recipe.items.labels)}
         self._stored: StoredVideos | None = None
         if recipe.stores_videos and shard.variant != VIDEOS:
             self._stored = StoredVideos(folder, replace(shard, variant=VIDEOS), scratch)
-        self.samples: list[SampleRecord] = []
-        self.seconds = 0.0
 
-    def add(self, clip: Clip, frames: KeptFrames) -> None:
-        """Make the samples of a clip; those that were kept are copied."""
-        started = time.perf_counter()
-        for planned, make in self._samples_of(clip, frames):
-            old = self._kept.get(planned.key)
-            self.samples.append(
-                _made(planned, make, self._writer)
-                if old is None
-                else _keep(self._path, old, self._writer)
+    def __iter__(self) -> Iterator[tuple[SampleRecord, Make]]:
+        for clip in self._recipe.clips_of(self._shard):
+            if self._shard.variant == VIDEOS:
+                yield _record(clip.key, clip, clip.seed), partial(self._make_video, clip)
+                continue
+            variant = self._recipe.variants[self._shard.variant]
+            settings = clip_settings(
+                self._recipe.specification,
+                variant,
+                clip,
+                self._recipe.command,
+                is_stored=self._stored is not None,
             )
-        self.seconds += time.perf_counter() - started
-
-    def close(self) -> None:
-        """End the file."""
-        self._writer.close()
-
-    def _samples_of(self, clip: Clip, frames: KeptFrames) -> Iterator[tuple[SampleRecord, Make]]:
-        """A record that lacks its results, and a `Make`, for each sample."""
-        if self._shard.variant == VIDEOS:
-            yield _record(clip.key, clip, clip.seed), partial(self._make_video, clip)
-            return
-        variant = self._recipe.variants[self._shard.variant]
-        settings = clip_settings(
-            self._recipe.specification,
-            variant,
-            clip,
-            self._recipe.command,
-            is_stored=self._stored is not None,
-        )
-        for number in range(variant.seeds):
-            key = digest([clip.key, variant.name, number])[:KEY_DIGITS]
-            seed = simulation_seed(clip, number)
-            make = partial(self._make_events, key, clip, with_seed(settings, seed), frames)
-            yield _record(key, clip, seed), make
+            for number in range(variant.seeds):
+                key = digest([clip.key, variant.name, number])[:KEY_DIGITS]
+                seed = simulation_seed(clip, number)
+                make = partial(self._make_events, key, clip, with_seed(settings, seed))
+                yield _record(key, clip, seed), make
 
     def _make_video(self, clip: Clip) -> tuple[Members, dict[str, Any]]:
         settings = video_settings(self._recipe.specification, clip, self._recipe.command)
@@ -235,11 +216,11 @@ class _ShardMaker:
         )
 
     def _make_events(
-        self, key: str, clip: Clip, settings: Settings, frames: KeptFrames
+        self, key: str, clip: Clip, settings: Settings
     ) -> tuple[Members, dict[str, Any]]:
         item, specification = clip.item, self._recipe.specification
         if self._stored is None:
-            simulation = prepare_clip(self._recipe, clip, settings, frames)
+            simulation = prepare_clip(self._recipe, clip, settings, self._frames)
         else:
             video = fit_to_sensor(self._stored.open(clip), settings)
             simulation = prepare_video(video, settings, prompt=item.prompt)

@@ -57,6 +57,10 @@ class KeptFrames:
         values = {one.name: getattr(video, one.name) for one in fields(video)}
         return _SharedVideo(**values, kept=self)
 
+    def clear(self) -> None:
+        """Forget the clip."""
+        self.values, self.bytes = {}, 0
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class _SharedVideo(ProceduralVideo):
