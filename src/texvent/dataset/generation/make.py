@@ -67,15 +67,14 @@ class Work:
     complete: dict[Shard, Counter[str]] = field(default_factory=dict)
     """Complete shards: status → number of samples."""
     todo: list[ShardTask] = field(default_factory=list)
-    """Shards of events, in order; those that show the same rendered clips together."""
-    videos_todo: list[ShardTask] = field(default_factory=list)
+    """Shards in order, those of videos first; those that show the same rendered clips together."""
     failures: dict[Shard, str] = field(default_factory=dict)
     """Shards that could not be made."""
 
     @property
     def to_make(self) -> int:
-        """Shards of `todo` and `videos_todo`."""
-        return sum(len(task.shards) for task in (*self.todo, *self.videos_todo))
+        """Number of shards of `todo`."""
+        return sum(len(task.shards) for task in self.todo)
 
 
 def find_work(
@@ -96,7 +95,7 @@ def find_work(
     which, parts = part
     if not 1 <= which <= parts:
         raise ConfigError(f"shards is {which}/{parts}; it must be K/N with 1 ≤ K ≤ N")
-    work = Work()
+    work, renders = Work(), not (recipe.items.are_videos or recipe.stores_videos)
     together: dict[Any, list[Shard]] = {}
     for stage in recipe.stages:
         for number, shard in enumerate(recipe.shards(stage)):
@@ -105,13 +104,12 @@ def find_work(
             record = is_complete(recipe, folder, shard)
             again = retry_failed and record is not None and record.count(FAILED) > 0
             if record is None or again:
-                place = number if recipe.renders else (stage, number)
+                place = number if renders else (stage, number)
                 together.setdefault((place, again), []).append(shard)
             else:
                 work.complete[shard] = record.statuses
     for (_, again), shards in together.items():
-        task = ShardTask(folder, tuple(shards), retry_failed=again)
-        (work.videos_todo if task.is_video else work.todo).append(task)
+        work.todo.append(ShardTask(folder, tuple(shards), retry_failed=again))
     return work
 
 
@@ -126,14 +124,13 @@ def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
     Raises:
         ConfigError, OutputError, MissingDependencyError: what all shards would meet.
     """
-    waiting: dict[Shard, list[ShardTask]] = {}
-    running = len(work.videos_todo)
-    for task in work.videos_todo:
-        waiting[task.shards[0]] = []
-        engine.submit(task)
+    waiting: dict[Shard, list[ShardTask]] = {
+        task.shards[0]: [] for task in work.todo if task.is_video
+    }
+    running = 0
     for task in work.todo:
         of_video = waiting.get(replace(task.shards[0], variant=VIDEOS))
-        if of_video is not None:
+        if of_video is not None and not task.is_video:
             of_video.append(task)
             continue
         engine.submit(task)

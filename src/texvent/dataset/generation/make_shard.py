@@ -284,7 +284,6 @@ class StoredVideos:
         if record is None:
             raise InputError(f"{self._path} is not made yet; make the shards of videos first")
         self._samples = {sample.key: sample for sample in record.samples}
-        self._open: tuple[str, FrameStream] | None = None
 
     def open(self, clip: Clip) -> FrameStream:
         """The video of a clip.
@@ -292,8 +291,6 @@ class StoredVideos:
         Raises:
             InputError: it could not be made.
         """
-        if self._open is not None and self._open[0] == clip.key:
-            return self._open[1]
         sample = self._samples[clip.key]
         if sample.status != MADE:
             raise InputError(f"its video was not made: {sample.reason}")
@@ -302,5 +299,4 @@ class StoredVideos:
         video = reopen(place)
         if video is None:
             raise InputError(f"{self._path} holds no video for {clip.key}")
-        self._open = (clip.key, video.with_metadata(stored=str(self._shard.path)))
-        return self._open[1]
+        return video.with_metadata(stored=str(self._shard.path))

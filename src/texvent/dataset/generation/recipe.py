@@ -107,11 +107,6 @@ class Recipe:
         return not renders_instants(GENERATORS.load(name))
 
     @property
-    def renders(self) -> bool:
-        """True if the variants of a clip are simulated from the frames of one rendered scene."""
-        return not (self.items.are_videos or self.stores_videos)
-
-    @property
     def prompt_settings(self) -> Settings:
         """The settings that all prompts share; ranges are left out."""
         options = self.specification.options

@@ -28,7 +28,7 @@ from texvent.sensor import as_size
 from texvent.settings.resolution import Settings
 from texvent.truth.boxes import SIZE_CLASSES, detection_target, size_classes
 from texvent.truth.clip import ClipTruth
-from texvent.video import Frame, FrameStream, Motion
+from texvent.video import Frame, Motion
 from texvent.video_check.checks import evaluate
 from texvent.video_check.measurements import VideoMeasurer
 
@@ -43,23 +43,15 @@ MOST_BYTES = 2**29
 that is rendered again."""
 
 
-@dataclass
 class KeptFrames:
     """What was rendered of a clip; rendered again, it would be equal to the last bit."""
 
-    values: dict[Any, Any] = field(default_factory=dict)
-    bytes: int = 0
-
-    def share(self, video: FrameStream) -> FrameStream:
-        """A rendered video of the clip that takes what is kept; any other as it is."""
-        if not isinstance(video, ProceduralVideo):
-            return video
-        values = {one.name: getattr(video, one.name) for one in fields(video)}
-        return _SharedVideo(**values, kept=self)
+    def __init__(self) -> None:
+        self.clear()
 
     def clear(self) -> None:
         """Forget the clip."""
-        self.values, self.bytes = {}, 0
+        self.values, self.bytes = dict[Any, Any](), 0
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -68,13 +60,13 @@ class _SharedVideo(ProceduralVideo):
 
     def _once(self, *key: Any, make: Callable[[], Any], bytes_per_pixel: int = 24) -> Any:
         kept, key = self.kept, (*key, self.size, self.transfer)
-        if key not in kept.values:
-            value, size = make(), bytes_per_pixel * self.size.width * self.size.height
-            if kept.bytes + size > MOST_BYTES:
-                return value
+        if key in kept.values:
+            return kept.values[key]
+        value, size = make(), bytes_per_pixel * self.size.width * self.size.height
+        if kept.bytes + size <= MOST_BYTES:
             kept.bytes += size
             kept.values[key] = value
-        return kept.values[key]
+        return value
 
     def _render(self, memory: FrameMemory, t_us: int) -> tuple[NDArray[Any], NDArray[Any]]:
         make = partial(super()._render, memory, t_us)
@@ -109,7 +101,10 @@ def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings, frames: KeptFra
     if recipe.items.are_videos:
         return prepare_source(clip.item.video, settings, prompt=prompt, video_seed=clip.seed)
     video = text_to_video(clip.item.subject, with_seed(settings, clip.seed))
-    return prepare_video(frames.share(video), settings, prompt=prompt)
+    if isinstance(video, ProceduralVideo):
+        parts = {one.name: getattr(video, one.name) for one in fields(video)}
+        video = _SharedVideo(**parts, kept=frames)
+    return prepare_video(video, settings, prompt=prompt)
 
 
 def with_seed(settings: Settings, seed: int) -> Settings:

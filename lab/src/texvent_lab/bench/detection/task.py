@@ -10,7 +10,6 @@ may be binned.
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, ClassVar, Self
@@ -139,8 +138,7 @@ class DetectionTask:
                 chosen.append({stage: one[rows] for stage, one in features.items()})
                 boxes += [targets(clips[n], window, bool(flips[n])) for n in rows]
         joined = {stage: torch.cat([one[stage] for one in chosen]) for stage in chosen[0]}
-        with cached_memory():
-            return run_head(network, joined, _padded(boxes).to(device))[1]["loss"]
+        return run_head(network, joined, _padded(boxes).to(device))[1]["loss"]
 
     def validate(
         self, network: Any, device: Any, *, workers: int
@@ -221,17 +219,6 @@ def run_head(
     with torch.autocast(inputs[2].device.type, enabled=False):
         found: tuple[Tensor, Any] = network.forward_detect(inputs, targets)
     return found
-
-
-@contextmanager
-def cached_memory() -> Iterator[None]:
-    """Keep torch's cache of GPU memory: evlib's loss empties it for each image, which is slow."""
-    cuda = require("torch", extra=EXTRA).cuda
-    empty_cache, cuda.empty_cache = cuda.empty_cache, lambda: None
-    try:
-        yield
-    finally:
-        cuda.empty_cache = empty_cache
 
 
 def targets(clip: Clip, window: int, flip: bool) -> NDArray[np.float32]:
