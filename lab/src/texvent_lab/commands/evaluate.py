@@ -50,7 +50,7 @@ def run(arguments: Sequence[str]) -> int:
         description=DESCRIPTION,
     )
     kind = TASKS.load(options.task)
-    require("torch", extra=kind.extra)
+    require("torch", extra=kind.packages)
     if options.out is not None:
         check_output(options.out, overwrite=options.overwrite)
     from texvent_lab.train.run import evaluate_from_file  # brings torch

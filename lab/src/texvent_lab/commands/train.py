@@ -49,7 +49,7 @@ def run(arguments: Sequence[str]) -> int:
         description=DESCRIPTION,
     )
     kind = TASKS.load(options.task)
-    require("torch", extra=kind.extra)
+    require("torch", extra=kind.packages)
     from texvent_lab.train.loop import HIDDEN
     from texvent_lab.train.run import train_from_file  # brings torch
 

@@ -127,8 +127,8 @@ class TrainingConfig:
         ConfigError: a value out of range.
     """
 
-    extra: ClassVar[str] = EXTRA
-    """What brings the packages of the task."""
+    packages: ClassVar[str] = EXTRA
+    """The extra that brings those of the task."""
 
     seed: int = 0
     """Of the initial weights, the order of samples and their augmentation."""

@@ -85,14 +85,16 @@ class _SharedVideo(ProceduralVideo):
         yield from self._once(*key, make=make, bytes_per_pixel=4 * len(times_us))
 
 
-def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings, frames: KeptFrames) -> Simulation:
+def prepare_clip(
+    recipe: Recipe, clip: Clip, settings: Settings, frames: KeptFrames | None = None
+) -> Simulation:
     """A clip made ready; its video has the clip's seed, its simulation that of the settings.
 
     Args:
         recipe: of the data set.
         clip: which.
         settings: of the variant.
-        frames: what other simulations of the clip have rendered.
+        frames: what other simulations of the clip have rendered; None: it is not kept.
 
     Raises:
         TexventError: the video cannot be read or made.
@@ -101,7 +103,7 @@ def prepare_clip(recipe: Recipe, clip: Clip, settings: Settings, frames: KeptFra
     if recipe.items.are_videos:
         return prepare_source(clip.item.video, settings, prompt=prompt, video_seed=clip.seed)
     video = text_to_video(clip.item.subject, with_seed(settings, clip.seed))
-    if isinstance(video, ProceduralVideo):
+    if isinstance(video, ProceduralVideo) and frames is not None:
         parts = {one.name: getattr(video, one.name) for one in fields(video)}
         video = _SharedVideo(**parts, kept=frames)
     return prepare_video(video, settings, prompt=prompt)

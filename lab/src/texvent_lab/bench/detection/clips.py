@@ -128,7 +128,7 @@ def bin_pixels(histogram: NDArray[np.uint8], binning: int) -> NDArray[np.uint8]:
     padded = np.pad(histogram, margins)
     channels, height, width = padded.shape
     cells = padded.reshape(channels, height // binning, binning, width // binning, binning)
-    return np.minimum(cells.sum(axis=(2, 4)), 255).astype(np.uint8)
+    return np.asarray(np.minimum(cells.sum(axis=(2, 4)), 255), np.uint8)
 
 
 def scale(boxes: NDArray[np.void], factor: float) -> NDArray[np.void]:

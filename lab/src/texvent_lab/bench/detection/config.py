@@ -59,7 +59,7 @@ SCHEDULE = Schedule(
 class DetectionConfig(TrainingConfig):
     """A detector: RVT-T, the smallest of RVT's networks."""
 
-    extra: ClassVar[str] = EXTRA
+    packages: ClassVar[str] = EXTRA
     schedule: Schedule = SCHEDULE
     data: DetectionData = field(default_factory=DetectionData)
     flip_x: bool = True
