@@ -67,10 +67,13 @@ class DetectionConfig(TrainingConfig):
 
     def make_task(self) -> Task:
         """See `TrainingConfig`."""
-        if self.data.folder is None:
+        folder, data = self.data.folder, self.data
+        if folder is None:
             raise ConfigError(
                 "data.folder is missing; name what texvent dataset export --layout rvt wrote"
             )
+        from texvent_lab.bench.detection.clips import read_classes, read_clips
         from texvent_lab.bench.detection.task import DetectionTask  # brings torch
 
-        return DetectionTask(self)
+        classes = read_classes(folder)
+        return DetectionTask(self, classes, read_clips(folder, data.validation_split, data.binning))

@@ -37,10 +37,9 @@ from texvent.runtime.progress import NO_PROGRESS
 from texvent_lab.bench.detection.clips import bin_pixels, read_clips, scale
 from texvent_lab.bench.detection.config import EXTRA, DetectionConfig, DetectionData
 from texvent_lab.bench.detection.labels import IGNORED, read_street_labels
-from texvent_lab.bench.detection.precision import Estimate, average_precision, bootstrap
+from texvent_lab.bench.detection.precision import ALL, Estimate, average_precision, bootstrap
 from texvent_lab.bench.detection.results import ArmScore, DetectionReport
 from texvent_lab.bench.detection.task import (
-    DetectionTask,
     as_boxes,
     detect_clips,
     detect_last,
@@ -139,8 +138,8 @@ def run_detection(
         progress(f"{score.arm}, seed {score.seed}: AP50 {score.ap50['all']['value']:.3f}")
         scores.append(score)
     return DetectionReport(
-        environment=describe_environment() | {"gpu": _gpu_name(hardware)},
-        protocol=_protocol(plan, arms),
+        environment=describe_environment(),
+        protocol=_protocol(plan, arms, hardware),
         scores=scores,
         seconds=time.perf_counter() - start,
     )
@@ -148,11 +147,8 @@ def run_detection(
 
 def make_clips(plan: DetectionPlan, arms: Sequence[str], *, jobs: int, progress: Progress) -> None:
     """Make the same clips in every arm, and export what RVT reads."""
-    whole, folder = (
-        with_count(read_specification(plan.specification), plan.clips),
-        plan.work / "clips",
-    )
-    work = dataset.make(whole, folder, workers=jobs)
+    folder, whole = plan.work / "clips", read_specification(plan.specification)
+    work = dataset.make(with_count(whole, plan.clips), folder, workers=jobs)
     if work.failures:
         raise TexventError(f"clips could not be made: {next(iter(work.failures.values()))}")
     stored = StoredDataset.open(folder)
@@ -177,14 +173,9 @@ def train_and_test(plan: DetectionPlan, hardware: Hardware, arm: str, seed: int)
     """Train a network, or go on, and score its best epoch; the scores are kept beside it."""
     folder = plan.work / "networks" / f"{arm}-{seed}"
     config, started = plan.training(arm, seed), time.perf_counter()
-    task = DetectionTask(config)
+    task, tables = config.make_task(), plain(config)
     state = train(
-        task,
-        plan.schedule,
-        folder,
-        tables=plain(config),
-        hardware=hardware,
-        progress=NO_PROGRESS,
+        task, plan.schedule, folder, tables=tables, hardware=hardware, progress=NO_PROGRESS
     )
     if (folder / SCORES_FILE).is_file():
         return ArmScore(**json.loads((folder / SCORES_FILE).read_text(encoding="utf-8")))
@@ -192,7 +183,7 @@ def train_and_test(plan: DetectionPlan, hardware: Hardware, arm: str, seed: int)
     network.load_state_dict(state.best)
     network.to(device).eval()
     with hardware.autocast(device):
-        score = score_network(network, task, config, device, arm=arm, seed=seed)
+        score = score_network(network, config, device, arm)
     score = dataclasses.replace(
         score,
         best_epoch=state.best_epoch,
@@ -204,12 +195,10 @@ def train_and_test(plan: DetectionPlan, hardware: Hardware, arm: str, seed: int)
     return score
 
 
-def score_network(
-    network: Any, task: DetectionTask, config: DetectionConfig, device: Any, *, arm: str, seed: int
-) -> ArmScore:
+def score_network(network: Any, config: DetectionConfig, device: Any, arm: str) -> ArmScore:
     """AP of a network on the unseen clips of its arm, and on the street where it is pulled."""
-    folder = Path(config.data.folder or "")
-    binning = config.data.binning
+    folder, binning = Path(config.data.folder or ""), config.data.binning
+    classes = CLASSES.split(",")
     clips = read_clips(folder, "test", binning)
     found = scale(detect_clips(network, clips, device), binning)
     truth = scale(join_boxes([one.boxes for one in clips]), binning)
@@ -217,21 +206,19 @@ def score_network(
     block = min(MOST_WINDOWS, len(np.unique(truth["t"])))
     return ArmScore(
         arm=arm,
-        seed=seed,
+        seed=config.seed,
         clips={name: _count(folder / name) for name in ("train", "val", "test")},
         events=float(np.median(events)),
         boxes=int((truth["class_confidence"] > IGNORED).sum()),
-        ap=average_precision(found, truth, classes=task.classes),
+        ap=average_precision(found, truth, classes=classes),
         ap50=_ends(
-            bootstrap(found, truth, classes=task.classes, iou=AP50, block=block, samples=SAMPLES)
+            bootstrap(found, truth, classes=classes, iou=AP50, block=block, samples=SAMPLES)
         ),
         ap50_by_size={
-            name: average_precision(
-                *_of_size(found, truth, limits), classes=task.classes, iou=AP50
-            )["all"]
+            name: average_precision(*_of_size(found, truth, limits), classes=classes, iou=AP50)[ALL]
             for name, limits in SIZES.items()
         },
-        street=score_street(network, task.classes, device, binning),
+        street=score_street(network, classes, device, binning),
     )
 
 
@@ -288,17 +275,14 @@ def _detect_street(
         yield as_boxes(detect_last(network, windows, device), t_us, windows[0].shape[1:])
 
 
-def _gpu_name(hardware: Hardware) -> str | None:
-    torch = require("torch", extra=EXTRA)
-    is_gpu = hardware.find_device().type == "cuda"
-    return str(torch.cuda.get_device_name()) if is_gpu else None
-
-
-def _protocol(plan: DetectionPlan, arms: Sequence[str]) -> dict[str, Any]:
+def _protocol(plan: DetectionPlan, arms: Sequence[str], hardware: Hardware) -> dict[str, Any]:
+    cuda = require("torch", extra=EXTRA).cuda
     options = {one.name: one.options for one in read_specification(plan.specification).variants}
     return {
         "network": "RVT-T of evlib, YOLOX head, from random weights",
         "schedule": plain(plan.schedule),
+        "precision": hardware.precision,
+        "gpu": cuda.get_device_name() if hardware.find_device().type == "cuda" else None,
         "clips": plain(DetectionData(passes=plan.passes)),
         "arms": {arm: dict(options[arm]) for arm in arms},
         "boxes at rest": "ignored",

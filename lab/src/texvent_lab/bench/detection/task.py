@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,6 @@ from texvent_lab.bench.detection.clips import (
     WINDOW_US,
     Clip,
     dense,
-    read_classes,
     read_clips,
 )
 from texvent_lab.bench.detection.config import EXTRA, DetectionConfig
@@ -77,26 +76,12 @@ class DetectionTask:
 
     score: ClassVar[str] = "AP50"
 
-    def __init__(self, config: DetectionConfig) -> None:
-        """Open the validation clips.
-
-        Raises:
-            InputError, FileFormatError: they are missing or damaged.
-        """
-        self._config, self._folder = config, Path(config.data.folder or "")
-        self.classes = read_classes(self._folder)
-        self._validation = read_clips(
-            self._folder, config.data.validation_split, config.data.binning
-        )
-        self._clips: list[Clip] = []
-
-    @classmethod
-    def of(cls, config: DetectionConfig, classes: Sequence[str], clips: list[Clip]) -> Self:
-        """A task of clips in memory, which it trains on and scores."""
-        task = cls.__new__(cls)
-        task._config, task.classes = config, tuple(classes)
-        task._clips = task._validation = clips
-        return task
+    def __init__(
+        self, config: DetectionConfig, classes: tuple[str, ...], clips: list[Clip]
+    ) -> None:
+        """A task of clips that are scored, and learned until `batches` reads those for that."""
+        self._config, self.classes = config, classes
+        self._validation = self._clips = clips
 
     def make_network(self) -> Any:
         """See `Task`."""
@@ -106,12 +91,12 @@ class DetectionTask:
     def batches(self, *, workers: int) -> Batches:
         """See `Task`."""
         data, schedule = self._config.data, self._config.schedule
-        found = read_clips(self._folder, data.split, data.binning)
+        found = read_clips(Path(data.folder or ""), data.split, data.binning)
         self._clips = [one for one in found if one.learnable]
         sizes = {one.shape[1:] for one in (*self._clips, *self._validation)}
         if not self._clips or len(sizes) > 1:
             raise InputError(
-                f"{self._folder} has clips of {len(sizes)} sizes, {len(self._clips)} of them with "
+                f"{data.folder} has clips of {len(sizes)} sizes, {len(self._clips)} of them with "
                 "moving boxes; export clips of one sensor, with boxes of the detector's classes"
             )
         make = DrawnClips(self._clips, data.length, data.windows, self._config.flip_x)
