@@ -78,8 +78,10 @@ def make_together(
         ConfigError, OutputError, MissingDependencyError: what all samples would meet.
     """
     frames, records = KeptFrames(), list[ShardRecord]()
+    seeds = sum(recipe.variants[one.variant].seeds for one in shards if one.variant != VIDEOS)
+    shared = frames if seeds > 1 else None
     with ExitStack() as stack:
-        runs = (_make_shard(recipe, folder, one, frames, records, retry_failed) for one in shards)
+        runs = (_make_shard(recipe, folder, one, shared, records, retry_failed) for one in shards)
         for _ in zip_longest(*(stack.enter_context(closing(run)) for run in runs)):
             frames.clear()
     return records
@@ -89,7 +91,7 @@ def _make_shard(
     recipe: Recipe,
     folder: Path,
     shard: Shard,
-    frames: KeptFrames,
+    frames: KeptFrames | None,
     records: list[ShardRecord],
     retry_failed: bool,
 ) -> Generator[None]:
@@ -175,7 +177,7 @@ class _ShardSamples:
     """The samples of a shard: a record that lacks its results, and a `Make`, for each."""
 
     def __init__(
-        self, recipe: Recipe, folder: Path, shard: Shard, scratch: Path, frames: KeptFrames
+        self, recipe: Recipe, folder: Path, shard: Shard, scratch: Path, frames: KeptFrames | None
     ) -> None:
         self._recipe, self._shard, self._scratch, self._frames = recipe, shard, scratch, frames
         self._labels = {label: number for number, label in enumerate(recipe.items.labels)}
