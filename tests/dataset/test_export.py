@@ -85,7 +85,7 @@ def test_a_second_run_goes_on_and_another_export_is_refused(cars: Path, tmp_path
     assert (done.samples, done.kept) == (6, 5)
     assert gone.exists()
     assert kept.stat().st_mtime_ns == before
-    with pytest.raises(OutputError, match="holds something else"):
+    with pytest.raises(OutputError, match="variant was paper, is esim"):
         export(made, "hdf5", out, variant="esim")
     with pytest.raises(InputError, match=r"has 2 variants \(paper, esim\)"):
         export(made, "hdf5", tmp_path / "other")

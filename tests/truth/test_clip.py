@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import io
+import itertools
 import json
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -30,12 +30,9 @@ def read(files: Files, **facts: Any) -> ClipTruth:
 def stored() -> Files:
     video = board_video(duration=0.12)
     recorder = TruthRecorder(video, tuple(CLIP_FILES), {"cone": "hazard", "box": "obstacle"})
-    frames = list(video)
-    for frame in (*frames[:2], video.at(60_000), *frames):  # a run that was stopped, then another
+    for frame in (*itertools.islice(video, 2), video.at(60_000), *itertools.islice(video, 2, None)):
         recorder.add(frame)
     files = recorder.finish()
-    recorder.add(replace(frames[-1], t_us=160_000))
-    assert recorder.finish() is files
     return {**files, "json": json.dumps({"truth": recorder.facts}).encode()}
 
 

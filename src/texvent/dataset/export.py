@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from texvent._registry import suggest
+from texvent.batch.manifest import describe_differences
 from texvent.dataset.layouts.boxes import ClassList
 from texvent.dataset.layouts.checks import check_layout, doubts_of, find_classes, find_recipe
 from texvent.dataset.layouts.coco import COCO
@@ -131,8 +132,12 @@ def _begin(
     }
     path = folder / NOTE_FILE
     try:
-        if path.is_file() and json.loads(path.read_text("utf-8")) == note:
+        before = json.loads(path.read_text("utf-8")) if path.is_file() else None
+        if before == note:
             return
+        if isinstance(before, dict):
+            change = describe_differences(before, note)
+            raise OutputError(f"{folder} is another export: {change}; name a new folder with -o")
         if folder.exists() and any(folder.iterdir()):
             raise OutputError(f"{folder} holds something else; name a new folder with -o")
         folder.mkdir(parents=True, exist_ok=True)

@@ -53,20 +53,17 @@ class TruthRecorder:
         self._times: list[int] = []
         self._rows: dict[str, dict[str, list[Any]]] = {}
         self._boxes, self._visibility = np.empty(0, BOX_RECORD), np.empty(0, np.float32)
-        self._files: dict[str, bytes] | None = None
         self.facts: dict[str, Any] = {}
 
     def add(self, frame: Frame) -> None:
-        """Take a dense frame; truth is recorded of source frames, of each once, until `finish`.
+        """Take a dense frame; truth is recorded of source frames.
 
         Raises:
             InputError: the frame does not bring the truth that is wanted.
         """
-        if not frame.is_source or self._files is not None:
+        if not frame.is_source:
             return
         if self._pending is not None:
-            if frame.t_us <= self._pending.t_us:
-                return
             self._record(self._pending, frame.t_us)
         self._pending = frame
 
@@ -76,13 +73,8 @@ class TruthRecorder:
         Raises:
             InputError: as `add`, and as `Labels.place`.
         """
-        if self._files is None:
-            if self._pending is not None:
-                self._record(self._pending, None)
-            self._files = self._write()
-        return self._files
-
-    def _write(self) -> dict[str, bytes]:
+        if self._pending is not None:
+            self._record(self._pending, None)
         source = self._source
         classes = dict(enumerate(self._names)) if self._names else source.classes
         self.facts = {

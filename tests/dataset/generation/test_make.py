@@ -16,7 +16,7 @@ from tests.dataset.generation.small_sets import clips_recipe, digests, make
 
 import texvent
 from texvent.batch.engines import ProcessEngine
-from texvent.dataset.generation import make_shard
+from texvent.dataset.generation import make_shard, sample
 from texvent.dataset.generation.make import find_work
 from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.sample import simulate_sample
@@ -48,14 +48,14 @@ def test_a_sample_is_what_a_run_of_its_options_gives(cars: Path) -> None:
     shard = cars / "esim" / "train-000000.tar"
     record = read_record(shard)
     assert record is not None
-    sample = record.samples[0]
-    members = read_members(shard, sample.members)
+    one = record.samples[0]
+    members = read_members(shard, one.members)
     facts = json.loads(members["json"])
     columns = {name: np.load(io.BytesIO(members[f"{name}.npy"])) for name in "xytp"}
     tables = facts["settings"]
     events = texvent.generate(
         facts["prompt"],
-        seed=sample.seed,
+        seed=one.seed,
         simulator="esim",
         contrast_threshold=tables["simulate"]["contrast_threshold_on"],
         **SMALL,
@@ -63,11 +63,11 @@ def test_a_sample_is_what_a_run_of_its_options_gives(cars: Path) -> None:
     for name in "xytp":
         np.testing.assert_array_equal(columns[name], getattr(events, name))
     assert columns["t"].dtype == np.uint32
-    assert members["txt"].decode() == sample.prompt
-    assert members["cls"] == str(("bus", "car").index(sample.label or "")).encode()
-    assert facts["events"] == len(events) == sample.events
+    assert members["txt"].decode() == one.prompt
+    assert members["cls"] == str(("bus", "car").index(one.label or "")).encode()
+    assert facts["events"] == len(events) == one.events
     with tarfile.open(shard) as tar:
-        assert [one.name for one in tar][:4] == [f"{sample.key}.{name}.npy" for name in "xytp"]
+        assert [member.name for member in tar][:4] == [f"{one.key}.{name}.npy" for name in "xytp"]
 
 
 def test_the_videos_of_variants_are_the_same_and_simulations_differ(cars: Path) -> None:
@@ -89,6 +89,26 @@ def test_the_videos_of_variants_are_the_same_and_simulations_differ(cars: Path) 
     assert len(thresholds) == 2
 
 
+@pytest.mark.parametrize("most_bytes", [40_000, sample.MOST_BYTES])
+def test_variants_that_share_frames_are_what_each_is_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, most_bytes: int
+) -> None:
+    monkeypatch.setattr(sample, "MOST_BYTES", most_bytes)
+    variants = {
+        "still": {"interpolate": "none", "simulator": "esim"},
+        "dense": {"fixed_count": 3, "seeds": 2},
+        "sparse": {"max_intermediate": 1, "simulator": "v2e"},
+        "small": {"sensor": "16x12"},
+    }
+    few = {"sources": [{"prompts": ["a red car drives left"]}], "splits": {"train": 1.0},
+           "truth": ["boxes", "flow"]}  # fmt: skip
+    make(recipe_of(**few, variants=variants), tmp_path / "all")
+    for name, options in variants.items():
+        make(recipe_of(**few, variants={name: options}), tmp_path / name)
+        for shard, alone in digests(tmp_path / name).items():
+            assert digests(tmp_path / "all")[shard] == alone
+
+
 def test_as_many_events_as_are_allowed_are_kept() -> None:
     settings = resolve("generate", {**SMALL, "simulator": "esim"})
     simulation = text_to_events("a red car drives left", settings)
@@ -105,9 +125,9 @@ def test_only_what_is_missing_is_made(cars: Path, tmp_path: Path) -> None:
     (folder / "esim" / "test-000000.json").unlink()
     (folder / "paper" / "train-000000.tar").write_bytes(b"cut off")
     work = find_work(load_recipe(folder), folder)
-    assert [str(task.shard.path) for task in work.todo] == [
-        "paper/train-000000.tar",
-        "esim/test-000000.tar",
+    assert [[str(one.path) for one in task.shards] for task in work.todo] == [
+        ["paper/train-000000.tar"],
+        ["esim/test-000000.tar"],
     ]
     make(load_recipe(folder), folder)
     assert digests(folder) == digests(cars)
@@ -231,7 +251,7 @@ def test_a_record_of_before_never_stands_beside_the_new_file(tmp_path: Path) -> 
     assert counts[FAILED] == 1
     bad.write_bytes(good)
     (task,) = find_work(recipe, folder, retry_failed=True).todo
-    shard = folder / task.shard.path
+    shard = folder / task.shards[0].path
     with pytest.MonkeyPatch.context() as patch:
 
         def killed(*words: object) -> None:
@@ -239,7 +259,7 @@ def test_a_record_of_before_never_stands_beside_the_new_file(tmp_path: Path) -> 
 
         patch.setattr(make_shard, "write_record", killed)
         with pytest.raises(KeyboardInterrupt):
-            make_shard.make_shard(recipe, folder, task.shard, retry_failed=True)
+            make_shard.make_together(recipe, folder, task.shards, retry_failed=True)
     assert shard.exists()
     assert not shard.with_suffix(".json").exists()
     assert len(find_work(recipe, folder).todo) == 1

@@ -80,11 +80,11 @@ def video_recipe(folder: Path, videos: int) -> Recipe:
 
 def test_a_node_without_the_folder_is_named(cluster: Any, tmp_path: Path) -> None:
     with closing(RayEngine(cluster.address)) as engine:
-        engine.submit(ShardTask(tmp_path / "elsewhere", Shard("paper", "train", 0)))
+        engine.submit(ShardTask(tmp_path / "elsewhere", (Shard("paper", "train", 0),)))
         with pytest.raises(OutputError, match="elsewhere is not here; all workers need") as found:
             engine.next()
         (tmp_path / "local").mkdir()
-        engine.submit(ShardTask(tmp_path / "local", Shard("paper", "train", 0)))
+        engine.submit(ShardTask(tmp_path / "local", (Shard("paper", "train", 0),)))
         with pytest.raises(ConfigError, match="holds no data set of texvent"):
             engine.next()
     assert str(found.value).startswith(f"node {socket.gethostname()}: ")

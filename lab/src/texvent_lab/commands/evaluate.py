@@ -10,6 +10,7 @@ from typing import ClassVar
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
+from texvent.extending import require
 from texvent.io.atomic import check_output
 from texvent_lab.registries import TASKS
 from texvent_lab.train.schedule import Hardware
@@ -49,6 +50,7 @@ def run(arguments: Sequence[str]) -> int:
         description=DESCRIPTION,
     )
     kind = TASKS.load(options.task)
+    require("torch", extra=kind.packages)
     if options.out is not None:
         check_output(options.out, overwrite=options.overwrite)
     from texvent_lab.train.run import evaluate_from_file  # brings torch

@@ -10,6 +10,7 @@ from typing import ClassVar
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
+from texvent.extending import require
 from texvent.runtime.displays.console_progress import ConsoleProgress
 from texvent_lab.registries import TASKS
 from texvent_lab.train.schedule import Hardware
@@ -48,6 +49,7 @@ def run(arguments: Sequence[str]) -> int:
         description=DESCRIPTION,
     )
     kind = TASKS.load(options.task)
+    require("torch", extra=kind.packages)
     from texvent_lab.train.loop import HIDDEN
     from texvent_lab.train.run import train_from_file  # brings torch
 

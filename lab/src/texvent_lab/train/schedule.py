@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +18,8 @@ from texvent.simulate.random.draws import frame_key, frame_keys
 if TYPE_CHECKING:
     from texvent_lab.train.task import Task
 
-EXTRA = "train"
-"""The texvent extra that brings torch and matplotlib."""
+EXTRA = "texvent-lab[train]"
+"""What brings torch and matplotlib."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -88,7 +88,8 @@ class Hardware:
     device: Literal["auto", "cpu", "cuda"] = "auto"
     """auto is the GPU if torch finds one."""
     precision: Literal["float32", "bfloat16"] = "float32"
-    """Number type of the network's computation; bfloat16 is for GPUs (mixed precision)."""
+    """Number type of the network's computation; bfloat16 (mixed precision) is for GPUs, and for
+    CPUs with AMX."""
     workers: int = 0
     """Processes that make batches; 0: this one."""
 
@@ -125,6 +126,9 @@ class TrainingConfig:
     Raises:
         ConfigError: a value out of range.
     """
+
+    packages: ClassVar[str] = EXTRA
+    """The extra that brings those of the task."""
 
     seed: int = 0
     """Of the initial weights, the order of samples and their augmentation."""

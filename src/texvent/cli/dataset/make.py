@@ -89,7 +89,7 @@ def run_make(arguments: Sequence[str]) -> int:
         ConsoleProgress(is_quiet=options.quiet) as progress,
     ):
         later.callback(remove_dead_parts, recipe, folder)
-        total = len(work.complete) + len(work.todo) + len(work.videos_todo)
+        total = len(work.complete) + work.to_make
         progress.advance("shards", len(work.complete), total)
 
         def note(outcome: Outcome) -> None:
@@ -101,18 +101,17 @@ def run_make(arguments: Sequence[str]) -> int:
 
 
 def _announce(outcome: Outcome, progress: Progress) -> None:
-    """Print the result of a shard."""
-    shard, record = outcome.task.shard, outcome.result
-    if record is None:
+    """Print the results of shards."""
+    for shard in outcome.task.shards if outcome.failure is not None else ():
         progress.announce(f"failed   {shard.path}: {outcome.failure}")
-        return
-    for sample in record.samples:
-        if sample.status == FAILED:
-            progress.announce(f"failed   {shard.path} {sample.key}: {sample.reason}")
-    progress.announce(
-        f"made     {shard.path}: {record.count(MADE)} samples, {record.events:,} events, "
-        f"{record.seconds:.1f} s"
-    )
+    for shard, record in zip(outcome.task.shards, outcome.result or (), strict=False):
+        for sample in record.samples:
+            if sample.status == FAILED:
+                progress.announce(f"failed   {shard.path} {sample.key}: {sample.reason}")
+        progress.announce(
+            f"made     {shard.path}: {record.count(MADE)} samples, {record.events:,} events, "
+            f"{record.seconds:.1f} s"
+        )
 
 
 @contextlib.contextmanager
@@ -147,7 +146,7 @@ def _open(options: MakeOptions) -> tuple[Recipe, Path]:
 
 
 def _engine(options: MakeOptions, work: Work) -> Engine:
-    shards = len(work.todo) + len(work.videos_todo)
+    shards = work.to_make
     if options.ray is not None and shards:
         from texvent.dataset.generation.ray_cluster import RayEngine
 

@@ -79,7 +79,8 @@ def try_samples(
     def note(outcome: Outcome) -> None:
         if outcome.failure is not None:
             raise TexventError(f"the trial failed: {outcome.failure}")
-        records[outcome.task.shard.variant].append(outcome.result)
+        for shard, record in zip(outcome.task.shards, outcome.result, strict=True):
+            records[shard.variant].append(record)
         progress.advance("trial", sum(map(len, records.values())), len(chosen) * len(records))
 
     with (

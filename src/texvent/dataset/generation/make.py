@@ -7,10 +7,11 @@ from collections.abc import Callable
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from texvent.batch.engines import Engine, Outcome, local_engine
 from texvent.batch.prompts import refuse_prompts
-from texvent.dataset.generation.make_shard import is_complete, make_shard
+from texvent.dataset.generation.make_shard import is_complete, make_together
 from texvent.dataset.generation.recipe import (
     SPECIFICATION_FILE,
     VIDEOS,
@@ -30,19 +31,19 @@ OnOutcome = Callable[[Outcome], None]
 
 @dataclass(frozen=True)
 class ShardTask:
-    """A shard to make, for an engine."""
+    """A shard to make, or those of one place in several variants, for an engine."""
 
     folder: Path
-    shard: Shard
+    shards: tuple[Shard, ...]
     retry_failed: bool = False
 
     @property
     def is_video(self) -> bool:
         """True for a shard of videos."""
-        return self.shard.variant == VIDEOS
+        return self.shards[0].variant == VIDEOS
 
-    def run(self) -> ShardRecord:
-        """Make the shard in this process.
+    def run(self) -> list[ShardRecord]:
+        """Make the shards in this process.
 
         Raises:
             ConfigError, OutputError, MissingDependencyError: what all shards would meet.
@@ -56,7 +57,7 @@ class ShardTask:
             recipe = load_recipe_once(self.folder)
         except TexventError as error:
             raise ConfigError(str(error)) from error
-        return make_shard(recipe, self.folder, self.shard, retry_failed=self.retry_failed)
+        return make_together(recipe, self.folder, self.shards, retry_failed=self.retry_failed)
 
 
 @dataclass
@@ -66,10 +67,14 @@ class Work:
     complete: dict[Shard, Counter[str]] = field(default_factory=dict)
     """Complete shards: status → number of samples."""
     todo: list[ShardTask] = field(default_factory=list)
-    """Shards of events, in order."""
-    videos_todo: list[ShardTask] = field(default_factory=list)
+    """Shards in order, those of videos first; those that show the same rendered clips together."""
     failures: dict[Shard, str] = field(default_factory=dict)
     """Shards that could not be made."""
+
+    @property
+    def to_make(self) -> int:
+        """Number of shards of `todo`."""
+        return sum(len(task.shards) for task in self.todo)
 
 
 def find_work(
@@ -90,18 +95,21 @@ def find_work(
     which, parts = part
     if not 1 <= which <= parts:
         raise ConfigError(f"shards is {which}/{parts}; it must be K/N with 1 ≤ K ≤ N")
-    work = Work()
+    work, renders = Work(), not (recipe.items.are_videos or recipe.stores_videos)
+    together: dict[Any, list[Shard]] = {}
     for stage in recipe.stages:
-        tasks = work.videos_todo if stage == VIDEOS else work.todo
         for number, shard in enumerate(recipe.shards(stage)):
             if number % parts != which - 1:
                 continue
             record = is_complete(recipe, folder, shard)
             again = retry_failed and record is not None and record.count(FAILED) > 0
             if record is None or again:
-                tasks.append(ShardTask(folder, shard, retry_failed=again))
+                place = number if renders else (stage, number)
+                together.setdefault((place, again), []).append(shard)
             else:
                 work.complete[shard] = record.statuses
+    for (_, again), shards in together.items():
+        work.todo.append(ShardTask(folder, tuple(shards), retry_failed=again))
     return work
 
 
@@ -111,19 +119,18 @@ def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
     Args:
         work: what is to do; what is done is noted there.
         engine: what makes it.
-        on_outcome: called for every shard.
+        on_outcome: called for every task.
 
     Raises:
         ConfigError, OutputError, MissingDependencyError: what all shards would meet.
     """
-    waiting: dict[Shard, list[ShardTask]] = {}
-    running = len(work.videos_todo)
-    for task in work.videos_todo:
-        waiting[task.shard] = []
-        engine.submit(task)
+    waiting: dict[Shard, list[ShardTask]] = {
+        task.shards[0]: [] for task in work.todo if task.is_video
+    }
+    running = 0
     for task in work.todo:
-        of_video = waiting.get(replace(task.shard, variant=VIDEOS))
-        if of_video is not None:
+        of_video = waiting.get(replace(task.shards[0], variant=VIDEOS))
+        if of_video is not None and not task.is_video:
             of_video.append(task)
             continue
         engine.submit(task)
@@ -131,12 +138,14 @@ def make_shards(work: Work, engine: Engine, on_outcome: OnOutcome) -> None:
     while running:
         outcome = engine.next()
         running -= 1
-        shard = outcome.task.shard
+        shards = outcome.task.shards
         if outcome.failure is not None:
-            work.failures[shard] = outcome.failure
+            work.failures.update(dict.fromkeys(shards, outcome.failure))
         else:
-            work.complete[shard] = outcome.result.statuses
-            for task in waiting.pop(shard, ()):
+            work.complete.update(
+                (s, r.statuses) for s, r in zip(shards, outcome.result, strict=True)
+            )
+            for task in waiting.pop(shards[0], ()):
                 engine.submit(task)
                 running += 1
         on_outcome(outcome)
@@ -194,7 +203,7 @@ def make(
     recipe, folder = Recipe.of(specification), Path(folder).absolute()
     begin(recipe, folder)
     work = find_work(recipe, folder, retry_failed=retry_failed)
-    total = len(work.complete) + len(work.todo) + len(work.videos_todo)
+    total = len(work.complete) + work.to_make
     with open_progress(progress) as display, closing(local_engine(workers)) as engine:
         make_shards(
             work, engine, lambda outcome: display.advance("shards", len(work.complete), total)

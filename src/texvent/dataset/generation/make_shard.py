@@ -5,11 +5,13 @@ from __future__ import annotations
 import hashlib
 import tempfile
 import time
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Generator, Iterator, Mapping, Sequence
+from contextlib import ExitStack, closing
 from dataclasses import replace
 from functools import partial
+from itertools import groupby, zip_longest
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +20,7 @@ from texvent.batch.engines import ENDING_ALL
 from texvent.batch.identity import digest
 from texvent.dataset.generation.recipe import VIDEOS, Recipe, Shard
 from texvent.dataset.generation.sample import (
+    KeptFrames,
     count_boxes,
     prepare_clip,
     record_truth,
@@ -42,39 +45,58 @@ from texvent.dataset.specification.items import KEY_DIGITS
 from texvent.errors import InputError, TexventError, warnings_to
 from texvent.generate.videos.stored_video import EXTENSION, reopen, write_stream
 from texvent.io.atomic import atomic_file
-from texvent.pipeline import Simulation, fit_to_sensor
+from texvent.pipeline import fit_to_sensor
 from texvent.run.prepare import make_video, prepare_video
 from texvent.scenes.report import REPORT_KEY
 from texvent.settings.resolution import Settings
 from texvent.truth.clip import ClipTruth
 from texvent.video import FrameStream
 
-if TYPE_CHECKING:
-    from texvent.truth.recorder import TruthRecorder
-
 Members = Mapping[str, bytes]
 Make = Callable[[], tuple[Members, dict[str, Any]]]
 """Gives the members of a sample, none of one that is left out, and further facts for its record."""
 
 
-def make_shard(
-    recipe: Recipe, folder: Path, shard: Shard, *, retry_failed: bool = False
-) -> ShardRecord:
-    """Make a shard, whatever is left of an earlier attempt.
+def make_together(
+    recipe: Recipe, folder: Path, shards: Sequence[Shard], *, retry_failed: bool = False
+) -> list[ShardRecord]:
+    """Make the shards of one place in several variants, whatever is left of an earlier attempt.
 
-    Its bytes depend on the recipe and the shard alone, so that making it twice replaces equal
-    bytes.
+    A scene is rendered once for all of them. The bytes of a shard depend on the recipe and the
+    shard alone, so that making it again, with others or without, replaces equal bytes.
 
     Args:
         recipe: of the data set.
         folder: of the data set.
-        shard: which.
-        retry_failed: keep the samples of the shard that is there, and make only failed ones.
+        shards: which; they differ in their variants.
+        retry_failed: keep the samples of the shards that are there, and make only failed ones.
+
+    Returns:
+        Their records, in the same order.
 
     Raises:
         ConfigError, OutputError, MissingDependencyError: what all samples would meet.
     """
-    path, started = folder / shard.path, time.perf_counter()
+    frames, records = KeptFrames(), list[ShardRecord]()
+    seeds = sum(recipe.variants[one.variant].seeds for one in shards if one.variant != VIDEOS)
+    shared = frames if seeds > 1 else None
+    with ExitStack() as stack:
+        runs = (_make_shard(recipe, folder, one, shared, records, retry_failed) for one in shards)
+        for _ in zip_longest(*(stack.enter_context(closing(run)) for run in runs)):
+            frames.clear()
+    return records
+
+
+def _make_shard(
+    recipe: Recipe,
+    folder: Path,
+    shard: Shard,
+    frames: KeptFrames | None,
+    records: list[ShardRecord],
+    retry_failed: bool,
+) -> Generator[None]:
+    """Make a shard and add its record to `records`; pauses after every clip."""
+    path, seconds = folder / shard.path, 0.0
     old = read_record(path) if retry_failed else None
     kept = {one.key: one for one in old.samples if one.status != FAILED} if old else {}
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -82,13 +104,18 @@ def make_shard(
     with atomic_file(path, overwrite=True) as part:
         with part.open("wb") as file, tempfile.TemporaryDirectory() as scratch:
             writer = TarShardWriter(file)
-            for planned, make in _ShardSamples(recipe, folder, shard, Path(scratch)):
-                old_sample = kept.get(planned.key)
-                if old_sample is None:
-                    sample = _made(planned, make, writer)
-                else:
-                    sample = _keep(path, old_sample, writer)
-                samples.append(sample)
+            makers = _ShardSamples(recipe, folder, shard, Path(scratch), frames)
+            for _, of_clip in groupby(makers, lambda one: one[0].clip):
+                started = time.perf_counter()
+                for planned, make in of_clip:
+                    old_sample = kept.get(planned.key)
+                    if old_sample is None:
+                        sample = _made(planned, make, writer)
+                    else:
+                        sample = _keep(path, old_sample, writer)
+                    samples.append(sample)
+                seconds += time.perf_counter() - started
+                yield
             writer.close()
         with part.open("rb") as file:
             sha256, size = hashlib.file_digest(file, "sha256").hexdigest(), part.stat().st_size
@@ -103,11 +130,11 @@ def make_shard(
         sha256=sha256,
         bytes=size,
         samples=tuple(samples),
-        seconds=round(time.perf_counter() - started, 3),
+        seconds=round(seconds, 3),
         versions={"texvent": full_version(), "numpy": np.__version__},
     )
     write_record(path, record)
-    return record
+    records.append(record)
 
 
 def is_complete(recipe: Recipe, folder: Path, shard: Shard) -> ShardRecord | None:
@@ -149,11 +176,12 @@ def _made(record: SampleRecord, make: Make, writer: TarShardWriter) -> SampleRec
 class _ShardSamples:
     """The samples of a shard: a record that lacks its results, and a `Make`, for each."""
 
-    def __init__(self, recipe: Recipe, folder: Path, shard: Shard, scratch: Path) -> None:
-        self._recipe, self._shard, self._scratch = recipe, shard, scratch
+    def __init__(
+        self, recipe: Recipe, folder: Path, shard: Shard, scratch: Path, frames: KeptFrames | None
+    ) -> None:
+        self._recipe, self._shard, self._scratch, self._frames = recipe, shard, scratch, frames
         self._labels = {label: number for number, label in enumerate(recipe.items.labels)}
         self._stored: StoredVideos | None = None
-        self._recorder: tuple[str, TruthRecorder] | None = None
         if recipe.stores_videos and shard.variant != VIDEOS:
             self._stored = StoredVideos(folder, replace(shard, variant=VIDEOS), scratch)
 
@@ -194,11 +222,11 @@ class _ShardSamples:
     ) -> tuple[Members, dict[str, Any]]:
         item, specification = clip.item, self._recipe.specification
         if self._stored is None:
-            simulation = prepare_clip(self._recipe, clip, settings)
+            simulation = prepare_clip(self._recipe, clip, settings, self._frames)
         else:
             video = fit_to_sensor(self._stored.open(clip), settings)
             simulation = prepare_video(video, settings, prompt=item.prompt)
-        recorder = self._truth_recorder(clip, simulation)
+        recorder = record_truth(specification, item, simulation) if specification.truth else None
         on_frame = None if recorder is None else recorder.add
         simulated = simulate_sample(simulation, specification.filters, on_frame)
         known = {
@@ -235,13 +263,6 @@ class _ShardSamples:
         )
         return members, {**known, **count_boxes(ClipTruth(members.__getitem__, key))}
 
-    def _truth_recorder(self, clip: Clip, simulation: Simulation) -> TruthRecorder | None:
-        """Recorder of the truth of a clip, one for all of its seeds; None where none is wanted."""
-        specification = self._recipe.specification
-        if specification.truth and (self._recorder is None or self._recorder[0] != clip.key):
-            self._recorder = clip.key, record_truth(specification, clip.item, simulation)
-        return None if self._recorder is None else self._recorder[1]
-
 
 def _record(key: str, clip: Clip, seed: int) -> SampleRecord:
     item = clip.item
@@ -265,7 +286,6 @@ class StoredVideos:
         if record is None:
             raise InputError(f"{self._path} is not made yet; make the shards of videos first")
         self._samples = {sample.key: sample for sample in record.samples}
-        self._open: tuple[str, FrameStream] | None = None
 
     def open(self, clip: Clip) -> FrameStream:
         """The video of a clip.
@@ -273,8 +293,6 @@ class StoredVideos:
         Raises:
             InputError: it could not be made.
         """
-        if self._open is not None and self._open[0] == clip.key:
-            return self._open[1]
         sample = self._samples[clip.key]
         if sample.status != MADE:
             raise InputError(f"its video was not made: {sample.reason}")
@@ -283,5 +301,4 @@ class StoredVideos:
         video = reopen(place)
         if video is None:
             raise InputError(f"{self._path} holds no video for {clip.key}")
-        self._open = (clip.key, video.with_metadata(stored=str(self._shard.path)))
-        return self._open[1]
+        return video.with_metadata(stored=str(self._shard.path))

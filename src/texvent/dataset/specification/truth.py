@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from texvent._registry import GENERATORS, suggest
 from texvent.dataset.specification.items import Items
@@ -13,6 +15,10 @@ from texvent.errors import ConfigError, InputError, shown
 from texvent.generate.scene_input import list_nouns
 from texvent.settings.resolution import resolve
 from texvent.truth.layout import check_generator
+from texvent.video import FrameStream
+
+if TYPE_CHECKING:
+    from texvent.truth.labels import Labels
 
 OPTIONS_OF_VIDEOS = {
     "flow": ("motion",),
@@ -86,6 +92,14 @@ def _check_videos(specification: Specification, *, are_labelled: bool) -> None:
             raise ConfigError(f"truth {part} is not known of videos; {remedy}{also}")
 
 
+def _check_frames(labels: Labels, video: FrameStream, count: int) -> None:
+    """Refuse labels that do not fit to the frames; where `count` says so, frames are counted."""
+    try:
+        labels.place(np.arange(count), labels.size, {})
+    except InputError:
+        labels.place(np.arange(sum(1 for _ in video)), labels.size, {})
+
+
 def _names_of_labels(specification: Specification, items: Items) -> tuple[str, ...]:
     """Read the labels of all videos: the names of their classes, all where no video can be opened.
 
@@ -112,10 +126,12 @@ def _names_of_labels(specification: Specification, items: Items) -> tuple[str, .
     names = dict[str, None]()
     for item in items.all:
         try:
-            size = open_frames(item.video, capture).size
+            video = open_frames(item.video, capture)
         except InputError:
             continue  # which its sample says
-        labels = read_labels(Path(item.boxes or ""), size)
+        labels = read_labels(Path(item.boxes or ""), video.size)
+        if video.frame_count is not None and capture.stop is None:
+            _check_frames(labels, video, video.frame_count)
         if item.box_rate is not None and not labels.boxes["track_id"].all():
             raise ConfigError(
                 f"box_rate interpolates along tracks, and {labels.path} has boxes without one; "

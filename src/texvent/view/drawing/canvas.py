@@ -84,7 +84,7 @@ def draw_arrow(
 
 
 def draw_label(
-    image: Image, text: str, corner: tuple[int, int], colour: Colour, *, height: int = 10
+    image: Image, text: str, corner: tuple[int, int], colour: Colour, *, height: int
 ) -> None:
     """A word on a coloured strip above the corner, or below it at the image's edge."""
     x, y = corner

@@ -78,8 +78,10 @@ class Annotations:
             corners = (box.x0 * factor, box.y0 * factor, box.x1 * factor - 1, box.y1 * factor - 1)
             draw_frame(image, corners, BOX_COLOUR)
         # Labels last, so that no box is drawn over them.
+        height = max(6, min(10, image.shape[1] // 64))
         for box in self.boxes:
-            draw_label(image, box.class_name, (box.x0 * factor, box.y0 * factor), BOX_COLOUR)
+            corner = box.x0 * factor, box.y0 * factor
+            draw_label(image, box.class_name, corner, BOX_COLOUR, height=height)
 
 
 def annotations_at(video: GroundTruthStream, t_us: int, overlay: Overlay) -> Annotations:

@@ -31,7 +31,7 @@ NOTE_FILE = "texvent-export.json"
 
 @dataclass(frozen=True, eq=False)
 class Clip:
-    """Histograms of successive windows, and the boxes at their ends."""
+    """Histograms of successive windows, and the boxes at their ends, in cells of some pixels."""
 
     key: str
     shape: tuple[int, int, int, int]
@@ -57,6 +57,13 @@ class Clip:
         channels, height, width = histograms[0].shape
         shape = (len(histograms), channels, height, width)
         return cls(key, shape, np.concatenate(places), np.concatenate(counts), tuple(boxes))
+
+    def part(self, first: int, count: int) -> Clip:
+        """`count` windows from number `first` on, or as many as there are."""
+        boxes, size = self.boxes[first : first + count], int(np.prod(self.shape[1:]))
+        start, stop = np.searchsorted(self.places, [first * size, (first + count) * size])
+        places = self.places[start:stop] - first * size
+        return Clip(self.key, (len(boxes), *self.shape[1:]), places, self.counts[start:stop], boxes)
 
     @property
     def learnable(self) -> list[int]:
@@ -87,8 +94,8 @@ def read_classes(folder: Path) -> tuple[str, ...]:
     return classes
 
 
-def read_clips(folder: Path, split: str) -> list[Clip]:
-    """All clips of a split, in the order of their names.
+def read_clips(folder: Path, split: str, binning: int) -> list[Clip]:
+    """All clips of a split, in the order of their names, in cells of `binning` pixels a side.
 
     Raises:
         InputError: there are none.
@@ -100,10 +107,10 @@ def read_clips(folder: Path, split: str) -> list[Clip]:
     if not paths:
         raise InputError(f"there are no clips in {place}; make and export the split {split} first")
     source_type = require("evlib.data.sources", extra=EXTRA).PreprocessedH5Source
-    return [_read(source_type, path) for path in paths]
+    return [_read(source_type, path, binning) for path in paths]
 
 
-def _read(source_type: Any, path: Path) -> Clip:
+def _read(source_type: Any, path: Path, binning: int) -> Clip:
     source = source_type(path, REPRESENTATION, downsample_by_2=False)
     try:
         count = source.window_count()
@@ -111,7 +118,25 @@ def _read(source_type: Any, path: Path) -> Clip:
         rows = [source.read_window_gt(number) for number in range(count)]
     except (OSError, ValueError, KeyError) as error:
         raise FileFormatError(f"{path} is damaged ({one_line(error)})") from error
-    return Clip.of(path.name, histograms, mark_resting([_as_boxes(one) for one in rows]))
+    boxes = [scale(one, 1 / binning) for one in mark_resting([_as_boxes(one) for one in rows])]
+    return Clip.of(path.name, [bin_pixels(one, binning) for one in histograms], boxes)
+
+
+def bin_pixels(histogram: NDArray[np.uint8], binning: int) -> NDArray[np.uint8]:
+    """A histogram [channels, height, width] of cells, whose counts are added, up to 255."""
+    margins = ((0, 0), *((0, -side % binning) for side in histogram.shape[1:]))
+    padded = np.pad(histogram, margins)
+    channels, height, width = padded.shape
+    cells = padded.reshape(channels, height // binning, binning, width // binning, binning)
+    return np.asarray(np.minimum(cells.sum(axis=(2, 4)), 255), np.uint8)
+
+
+def scale(boxes: NDArray[np.void], factor: float) -> NDArray[np.void]:
+    """Boxes in other units of length."""
+    scaled = boxes.copy()
+    for side in "xywh":
+        scaled[side] *= factor
+    return scaled
 
 
 def _as_boxes(rows: NDArray[np.void] | None) -> NDArray[np.void]:

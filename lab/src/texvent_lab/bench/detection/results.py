@@ -26,8 +26,8 @@ class ArmScore:
     """Of the test clips, at ends of windows; those at rest left out."""
     ap: Mapping[str, float]
     """Class → average precision over overlaps of .5 to .95; "all" is the mean."""
-    ap50: Mapping[str, float]
-    """The same at an overlap of .5."""
+    ap50: Mapping[str, Mapping[str, float]]
+    """The same at an overlap of .5, with low and high of the 95 % interval."""
     ap50_by_size: Mapping[str, float]
     street: Mapping[str, Mapping[str, float]] | None
     """AP50 and AP of cars on a recorded street: value, low and high of the 95 % interval."""
@@ -56,16 +56,18 @@ def detection_table(report: DetectionReport) -> str:
     for score in report.scores:
         arms.setdefault(score.arm, []).append(score)
     classes = [name for name in report.scores[0].ap50 if name != "all"]
-    titles = ["trained on", "events", "AP", "AP50", *classes]
+    titles = ["trained on", "events", "AP", "AP50 [95 %]", *classes]
     titles += [f"{size}" for size in report.scores[0].ap50_by_size]
     titles.append("recorded street, car AP50 [95 %]")
     rows = []
     for arm, scores in arms.items():
         cells = [f"{scores[0].events:,.0f}"]
         cells += [_mean([one.ap["all"] for one in scores])]
-        cells += [_mean([one.ap50[name] for one in scores]) for name in ("all", *classes)]
+        cells += [", ".join(_interval(one.ap50["all"]) for one in scores)]
+        cells += [_mean([one.ap50[name]["value"] for one in scores]) for name in classes]
         cells += [_mean([one.ap50_by_size[n] for one in scores]) for n in scores[0].ap50_by_size]
-        rows.append([arm, *cells, ", ".join(_street(one) for one in scores)])
+        street = (_interval(one.street["AP50"]) if one.street else "–" for one in scores)
+        rows.append([arm, *cells, ", ".join(street)])
     return markdown_table(titles, rows)
 
 
@@ -75,8 +77,5 @@ def _mean(values: list[float]) -> str:
     return f"{found.mean:.3f}{error}" if found.defined else "–"
 
 
-def _street(score: ArmScore) -> str:
-    if score.street is None:
-        return "–"
-    one = score.street["AP50"]
+def _interval(one: Mapping[str, float]) -> str:
     return f"{one['value']:.3f} [{one['low']:.3f}, {one['high']:.3f}]"

@@ -34,13 +34,12 @@ from texvent.io.files import open_events
 from texvent.options.values import plain
 from texvent.represent.histogram import stacked_histogram
 from texvent.runtime.progress import NO_PROGRESS
-from texvent_lab.bench.detection.clips import read_clips
+from texvent_lab.bench.detection.clips import bin_pixels, read_clips, scale
 from texvent_lab.bench.detection.config import EXTRA, DetectionConfig, DetectionData
 from texvent_lab.bench.detection.labels import IGNORED, read_street_labels
-from texvent_lab.bench.detection.precision import average_precision, bootstrap
+from texvent_lab.bench.detection.precision import ALL, Estimate, average_precision, bootstrap
 from texvent_lab.bench.detection.results import ArmScore, DetectionReport
 from texvent_lab.bench.detection.task import (
-    DetectionTask,
     as_boxes,
     detect_clips,
     detect_last,
@@ -61,6 +60,8 @@ SIZES: Mapping[str, tuple[float, float]] = {
     "large": (96.0**2, np.inf),
 }
 """COCO's sizes, by the area of a box, px²."""
+SAMPLES = 200
+"""Of the bootstrap over unseen clips."""
 MOST_WINDOWS = 10
 """Memory of a detector before an instant of the street, in windows: that of a training clip."""
 
@@ -134,26 +135,25 @@ def run_detection(
     todo = [(plan, hardware, arm, seed) for seed in range(plan.seeds) for arm in arms]
     scores = []
     for score in run_jobs(train_and_test, todo, jobs):
-        progress(f"{score.arm}, seed {score.seed}: AP50 {score.ap50['all']:.3f}")
+        progress(f"{score.arm}, seed {score.seed}: AP50 {score.ap50['all']['value']:.3f}")
         scores.append(score)
     return DetectionReport(
-        environment=describe_environment() | {"gpu": _gpu_name(hardware)},
-        protocol=_protocol(plan, arms),
+        environment=describe_environment(),
+        protocol=_protocol(plan, arms, hardware),
         scores=scores,
         seconds=time.perf_counter() - start,
     )
 
 
 def make_clips(plan: DetectionPlan, arms: Sequence[str], *, jobs: int, progress: Progress) -> None:
-    """Make the same clips in every arm, each in a folder of its own, and export what RVT reads."""
-    whole = with_count(read_specification(plan.specification), plan.clips)
+    """Make the same clips in every arm, and export what RVT reads."""
+    folder, whole = plan.work / "clips", read_specification(plan.specification)
+    work = dataset.make(with_count(whole, plan.clips), folder, workers=jobs)
+    if work.failures:
+        raise TexventError(f"clips could not be made: {next(iter(work.failures.values()))}")
+    stored = StoredDataset.open(folder)
     for arm in arms:
-        variants = tuple(one for one in whole.variants if one.name == arm)
-        folder = plan.work / "clips" / arm
-        work = dataset.make(dataclasses.replace(whole, variants=variants), folder, workers=jobs)
-        if work.failures:
-            raise TexventError(f"clips could not be made: {next(iter(work.failures.values()))}")
-        done = export(StoredDataset.open(folder), "rvt", plan.work / "rvt" / arm, classes=CLASSES)
+        done = export(stored, "rvt", plan.work / "rvt" / arm, variant=arm, classes=CLASSES)
         progress(f"{arm}: {done.samples} clips")
 
 
@@ -173,14 +173,9 @@ def train_and_test(plan: DetectionPlan, hardware: Hardware, arm: str, seed: int)
     """Train a network, or go on, and score its best epoch; the scores are kept beside it."""
     folder = plan.work / "networks" / f"{arm}-{seed}"
     config, started = plan.training(arm, seed), time.perf_counter()
-    task = DetectionTask(config)
+    task, tables = config.make_task(), plain(config)
     state = train(
-        task,
-        plan.schedule,
-        folder,
-        tables=plain(config),
-        hardware=hardware,
-        progress=NO_PROGRESS,
+        task, plan.schedule, folder, tables=tables, hardware=hardware, progress=NO_PROGRESS
     )
     if (folder / SCORES_FILE).is_file():
         return ArmScore(**json.loads((folder / SCORES_FILE).read_text(encoding="utf-8")))
@@ -188,7 +183,7 @@ def train_and_test(plan: DetectionPlan, hardware: Hardware, arm: str, seed: int)
     network.load_state_dict(state.best)
     network.to(device).eval()
     with hardware.autocast(device):
-        score = score_network(network, task, config, device, arm=arm, seed=seed)
+        score = score_network(network, config, device, arm)
     score = dataclasses.replace(
         score,
         best_epoch=state.best_epoch,
@@ -200,30 +195,30 @@ def train_and_test(plan: DetectionPlan, hardware: Hardware, arm: str, seed: int)
     return score
 
 
-def score_network(
-    network: Any, task: DetectionTask, config: DetectionConfig, device: Any, *, arm: str, seed: int
-) -> ArmScore:
+def score_network(network: Any, config: DetectionConfig, device: Any, arm: str) -> ArmScore:
     """AP of a network on the unseen clips of its arm, and on the street where it is pulled."""
-    folder = Path(config.data.folder or "")
-    clips = read_clips(folder, "test")
-    found = detect_clips(network, clips, device)
-    truth = join_boxes([one.boxes for one in clips])
+    folder, binning = Path(config.data.folder or ""), config.data.binning
+    classes = CLASSES.split(",")
+    clips = read_clips(folder, "test", binning)
+    found = scale(detect_clips(network, clips, device), binning)
+    truth = scale(join_boxes([one.boxes for one in clips]), binning)
     events = [int(one.counts.sum()) for one in clips]
+    block = min(MOST_WINDOWS, len(np.unique(truth["t"])))
     return ArmScore(
         arm=arm,
-        seed=seed,
+        seed=config.seed,
         clips={name: _count(folder / name) for name in ("train", "val", "test")},
         events=float(np.median(events)),
         boxes=int((truth["class_confidence"] > IGNORED).sum()),
-        ap=average_precision(found, truth, classes=task.classes),
-        ap50=average_precision(found, truth, classes=task.classes, iou=AP50),
+        ap=average_precision(found, truth, classes=classes),
+        ap50=_ends(
+            bootstrap(found, truth, classes=classes, iou=AP50, block=block, samples=SAMPLES)
+        ),
         ap50_by_size={
-            name: average_precision(
-                *_of_size(found, truth, limits), classes=task.classes, iou=AP50
-            )["all"]
+            name: average_precision(*_of_size(found, truth, limits), classes=classes, iou=AP50)[ALL]
             for name, limits in SIZES.items()
         },
-        street=score_street(network, task.classes, device),
+        street=score_street(network, classes, device, binning),
     )
 
 
@@ -245,49 +240,50 @@ def _of_size(
 
 
 def score_street(
-    network: Any, classes: Sequence[str], device: Any
+    network: Any, classes: Sequence[str], device: Any, binning: int
 ) -> Mapping[str, Mapping[str, float]] | None:
     """AP50 and AP of cars on the recorded street, with 95 % intervals; None if it is not pulled."""
     path = find_pulled(STREET)
     if path is None:
         return None
     truth = read_street_labels(classes)
-    found = np.concatenate(list(_detect_street(network, path, np.unique(truth["t"]), device)))
-    scores = {
-        "AP50": bootstrap(found, truth, classes=classes, iou=AP50),
-        "AP": bootstrap(found, truth, classes=classes),
-    }
+    detections = _detect_street(network, path, np.unique(truth["t"]), device, binning)
+    found = scale(np.concatenate(list(detections)), binning)
     return {
-        name: {end: float(getattr(one["car"], end)) for end in ("value", "low", "high")}
-        for name, one in scores.items()
+        "AP50": _ends(bootstrap(found, truth, classes=classes, iou=AP50))["car"],
+        "AP": _ends(bootstrap(found, truth, classes=classes))["car"],
     }
+
+
+def _ends(scores: Mapping[str, Estimate]) -> dict[str, dict[str, float]]:
+    ends = ("value", "low", "high")
+    return {name: {end: getattr(one, end) for end in ends} for name, one in scores.items()}
 
 
 def _detect_street(
-    network: Any, path: Path, instants_us: NDArray[np.int64], device: Any
+    network: Any, path: Path, instants_us: NDArray[np.int64], device: Any, binning: int
 ) -> Iterator[NDArray[np.void]]:
-    """Detections at each instant, after the windows before it."""
+    """Detections at each instant, after the windows before it, in cells."""
     events = open_events(path).collect()
     for t_us in map(int, instants_us):
         count = min(MOST_WINDOWS, max(1, (t_us - int(events.t[0])) // WINDOW_US))
         ends = [t_us - WINDOW_US * number for number in reversed(range(count))]
-        windows = [stacked_histogram(events.cut(end - WINDOW_US, end + 1)) for end in ends]
-        found = detect_last(network, windows, device)
-        yield as_boxes(found, t_us, events.size.shape)
+        windows = [
+            bin_pixels(stacked_histogram(events.cut(end - WINDOW_US, end + 1)), binning)
+            for end in ends
+        ]
+        yield as_boxes(detect_last(network, windows, device), t_us, windows[0].shape[1:])
 
 
-def _gpu_name(hardware: Hardware) -> str | None:
-    torch = require("torch", extra=EXTRA)
-    is_gpu = hardware.find_device().type == "cuda"
-    return str(torch.cuda.get_device_name()) if is_gpu else None
-
-
-def _protocol(plan: DetectionPlan, arms: Sequence[str]) -> dict[str, Any]:
+def _protocol(plan: DetectionPlan, arms: Sequence[str], hardware: Hardware) -> dict[str, Any]:
+    cuda = require("torch", extra=EXTRA).cuda
     options = {one.name: one.options for one in read_specification(plan.specification).variants}
     return {
         "network": "RVT-T of evlib, YOLOX head, from random weights",
         "schedule": plain(plan.schedule),
-        "passes per epoch": plan.passes,
+        "precision": hardware.precision,
+        "gpu": cuda.get_device_name() if hardware.find_device().type == "cuda" else None,
+        "clips": plain(DetectionData(passes=plan.passes)),
         "arms": {arm: dict(options[arm]) for arm in arms},
         "boxes at rest": "ignored",
     }

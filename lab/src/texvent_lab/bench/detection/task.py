@@ -3,16 +3,16 @@
 Source: M. Gehrig, D. Scaramuzza, "Recurrent vision transformers for object detection with event
 cameras", CVPR 2023; Z. Ge et al., "YOLOX: exceeding YOLO series in 2021", whose head and loss it
 has. Network, head and loss are evlib's.
-Deviations: memory starts empty in every clip; no zoom; the head computes in float32 always.
+Deviations: memory starts empty in every clip; no zoom; the head computes in float32 always; pixels
+may be binned.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, ClassVar, Self
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -25,7 +25,6 @@ from texvent_lab.bench.detection.clips import (
     WINDOW_US,
     Clip,
     dense,
-    read_classes,
     read_clips,
 )
 from texvent_lab.bench.detection.config import EXTRA, DetectionConfig
@@ -34,15 +33,15 @@ from texvent_lab.bench.detection.precision import ALL, average_precision
 from texvent_lab.networks.layers import make_seeded
 from texvent_lab.train.task import Batches
 
-CLASSES = "classes"
-"""Of the weights file: names of the classes."""
-STRIDE, SPLIT = 32, 2
-"""Of the last stage, px; windows of attention along each side there."""
+CLASSES, BINNING = "classes", "binning"
+"""Of the weights file: names of the classes, and pixels along a side of a cell."""
+STRIDE = 32
+"""Of the last stage, cells; one window of attention is as large as that stage."""
 LEAST_CONFIDENCE, MOST_OVERLAP = 0.01, 0.45
 """Of detections; more overlap with a surer one of the same class removes one."""
 CLIP_US = 10_000_000
 """Distance of clips on the common clock of their boxes, µs."""
-NUMBER, FLIP, LEARNED = "number", "flip", "learned"
+NUMBER, FLIP, FIRST, LEARNED = "number", "flip", "first", "learned"
 
 
 @dataclass(frozen=True)
@@ -50,6 +49,7 @@ class DrawnClips:
     """Training clips by number; see `MakeSample`."""
 
     clips: Sequence[Clip]
+    length: int
     windows: int
     flips: bool
 
@@ -60,11 +60,15 @@ class DrawnClips:
         return " ".join(names)
 
     def __call__(self, number: int, chance: np.random.Generator) -> Mapping[str, Any]:
-        """The number of a clip, whether it is mirrored, and the windows that are learned."""
+        """A clip, whether it is mirrored, its first window, and those learned, from there on."""
         place = number % len(self.clips)
-        windows = chance.choice(self.clips[place].learnable, self.windows)
+        learnable = np.array(self.clips[place].learnable)
+        last = chance.choice(learnable)
+        first = max(last + 1 - self.length, 0)
+        seen = learnable[(learnable >= first) & (learnable <= last)]
+        learned = chance.choice(seen, self.windows) - first
         flip = self.flips and bool(chance.random() < 0.5)
-        return {NUMBER: place, FLIP: np.bool_(flip), LEARNED: windows.astype(np.int64)}
+        return {NUMBER: place, FLIP: np.bool_(flip), FIRST: np.int64(first), LEARNED: learned}
 
 
 class DetectionTask:
@@ -72,24 +76,12 @@ class DetectionTask:
 
     score: ClassVar[str] = "AP50"
 
-    def __init__(self, config: DetectionConfig) -> None:
-        """Open the validation clips.
-
-        Raises:
-            InputError, FileFormatError: they are missing or damaged.
-        """
-        self._config, self._folder = config, Path(config.data.folder or "")
-        self.classes = read_classes(self._folder)
-        self._validation = read_clips(self._folder, config.data.validation_split)
-        self._clips: list[Clip] = []
-
-    @classmethod
-    def of(cls, config: DetectionConfig, classes: Sequence[str], clips: list[Clip]) -> Self:
-        """A task of clips in memory, which it trains on and scores."""
-        task = cls.__new__(cls)
-        task._config, task.classes = config, tuple(classes)
-        task._clips = task._validation = clips
-        return task
+    def __init__(
+        self, config: DetectionConfig, classes: tuple[str, ...], clips: list[Clip]
+    ) -> None:
+        """A task of clips that are scored, and learned until `batches` reads those for that."""
+        self._config, self.classes = config, classes
+        self._validation = self._clips = clips
 
     def make_network(self) -> Any:
         """See `Task`."""
@@ -99,22 +91,26 @@ class DetectionTask:
     def batches(self, *, workers: int) -> Batches:
         """See `Task`."""
         data, schedule = self._config.data, self._config.schedule
-        found = read_clips(self._folder, data.split)
+        found = read_clips(Path(data.folder or ""), data.split, data.binning)
         self._clips = [one for one in found if one.learnable]
         sizes = {one.shape[1:] for one in (*self._clips, *self._validation)}
         if not self._clips or len(sizes) > 1:
             raise InputError(
-                f"{self._folder} has clips of {len(sizes)} sizes, {len(self._clips)} of them with "
+                f"{data.folder} has clips of {len(sizes)} sizes, {len(self._clips)} of them with "
                 "moving boxes; export clips of one sensor, with boxes of the detector's classes"
             )
-        make = DrawnClips(self._clips, data.windows, self._config.flip_x)
+        make = DrawnClips(self._clips, data.length, data.windows, self._config.flip_x)
         count = len(self._clips) * data.passes
         return Batches(make, count, schedule.batch_size, self._config.seed, workers=0)
 
     def loss(self, network: Any, batch: Mapping[str, Any], device: Any) -> Tensor:
         """YOLOX's loss in the windows that are learned, with the memory of all before them."""
         torch = require("torch", extra=EXTRA)
-        clips = [self._clips[number] for number in batch[NUMBER].tolist()]
+        length, starts = self._config.data.length, batch[FIRST].tolist()
+        clips = [
+            self._clips[number].part(first, length)
+            for number, first in zip(batch[NUMBER].tolist(), starts, strict=True)
+        ]
         flips, learned = batch[FLIP], batch[LEARNED].tolist()
         histograms = dense(clips, device)
         histograms[flips.to(device)] = histograms[flips.to(device)].flip(-1)
@@ -127,8 +123,7 @@ class DetectionTask:
                 chosen.append({stage: one[rows] for stage, one in features.items()})
                 boxes += [targets(clips[n], window, bool(flips[n])) for n in rows]
         joined = {stage: torch.cat([one[stage] for one in chosen]) for stage in chosen[0]}
-        with cached_memory():
-            return run_head(network, joined, _padded(boxes).to(device))[1]["loss"]
+        return run_head(network, joined, _padded(boxes).to(device))[1]["loss"]
 
     def validate(
         self, network: Any, device: Any, *, workers: int
@@ -145,14 +140,15 @@ class DetectionTask:
     def published(self, network: Any) -> Mapping[str, Any]:
         """Evlib's names."""
         tensors = {name: one.detach().cpu() for name, one in network.state_dict().items()}
-        return {STATE: tensors, CLASSES: list(self.classes)}
+        return {STATE: tensors, CLASSES: list(self.classes), BINNING: self._config.data.binning}
 
     def read(self, network: Any, content: Mapping[str, Any], path: Path) -> None:
         """See `Task`."""
-        if tuple(content.get(CLASSES, ())) != self.classes:
+        found, binning = tuple(content.get(CLASSES, ())), self._config.data.binning
+        if (found, content.get(BINNING)) != (self.classes, binning):
             raise FileFormatError(
-                f"{path} has no weights for the classes {', '.join(self.classes)}; texvent train "
-                "detection writes them as weights.pt"
+                f"{path} has no weights for binning {binning} and the classes "
+                f"{', '.join(self.classes)}; texvent train detection writes them as weights.pt"
             )
         try:
             network.load_state_dict(content[STATE])
@@ -165,11 +161,11 @@ def make_detector(classes: int, size: tuple[int, int], seed: int) -> Any:
 
     Args:
         classes: number of them.
-        size: height and width of the sensor, px, which choose the windows of attention.
+        size: height and width of the histograms, cells, which choose the windows of attention.
         seed: of the weights.
     """
     models = require("evlib.models.rvt", extra=EXTRA)
-    part = tuple(-(-side // (STRIDE * SPLIT)) for side in size)
+    part = tuple(-(-side // STRIDE) for side in size)
     return make_seeded(
         lambda: models.RVT(variant="tiny", num_classes=classes, partition_size=part), seed
     )
@@ -208,17 +204,6 @@ def run_head(
     with torch.autocast(inputs[2].device.type, enabled=False):
         found: tuple[Tensor, Any] = network.forward_detect(inputs, targets)
     return found
-
-
-@contextmanager
-def cached_memory() -> Iterator[None]:
-    """Keep torch's cache of GPU memory: evlib's loss empties it for each image, which is slow."""
-    cuda = require("torch", extra=EXTRA).cuda
-    empty_cache, cuda.empty_cache = cuda.empty_cache, lambda: None
-    try:
-        yield
-    finally:
-        cuda.empty_cache = empty_cache
 
 
 def targets(clip: Clip, window: int, flip: bool) -> NDArray[np.float32]:
@@ -284,12 +269,12 @@ def _predict(network: Any, histograms: Tensor) -> Iterator[list[Tensor | None]]:
 
 
 def as_boxes(found: Tensor | None, t_us: int, size: Sequence[int]) -> NDArray[np.void]:
-    """Detections of evlib as `BOX_RECORD`, cut at the edges of the sensor.
+    """Detections of evlib as `BOX_RECORD`, cut at the edges of the histograms.
 
     Args:
         found: [n, 7] left, top, right, bottom, objectness, class confidence, class; None for none.
         t_us: their time.
-        size: height and width of the sensor, px.
+        size: height and width of the histograms, cells.
     """
     if found is None:
         return np.zeros(0, BOX_RECORD)

@@ -29,7 +29,7 @@ class DetectionOptions:
 
     positional: ClassVar[tuple[str, ...]] = ("specification",)
     main_options: ClassVar[tuple[str, ...]] = (
-        *("specification", "work", "clips", "arms", "epochs", "jobs", "out", "overwrite"),
+        *("work", "clips", "arms", "epochs", "jobs", "precision", "out", "overwrite"),
     )
 
     specification: Path = REQUIRED
@@ -46,7 +46,7 @@ class DetectionOptions:
     """Scored and stored states of a training."""
     passes: int = 1
     """Passes over the training clips in an epoch."""
-    batch_size: int = 8
+    batch_size: int = 4
     """Clips per step."""
     jobs: int = 1
     """Processes that make clips; as many networks are trained at once."""
