@@ -43,11 +43,11 @@ UNKNOWN = -(1 << 30)
 """Probe value of lattice points that no wanted pixel needs, and of what is not known."""
 Codes = NDArray[np.int32]
 """Surfaces with what they are lit by, as probes tell them."""
-MIXED = 8
+MIXED = 6
 """Surfaces of a pixel that are remembered."""
 BLOCK = 4
 """Side of the blocks of pixels that share what is near them; divides `TILE`."""
-NEARBY = 24
+NEARBY = 12
 """Surfaces near a block that are remembered."""
 _CODES_AT = NEARBY_HEAD + NEARBY
 """Where the codes begin in the list of what is near."""
