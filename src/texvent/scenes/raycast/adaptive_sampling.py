@@ -17,16 +17,13 @@ from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
-from texvent.scenes.raycast.addresses import list_at, shape_at
 from texvent.scenes.raycast.lamps.glow import add_glows
 from texvent.scenes.raycast.lamps.light import ALL_LIGHTS, LIT_BITS, SUN, lit_by
 from texvent.scenes.raycast.puffs import through_puffs
 from texvent.scenes.raycast.records import Record
 from texvent.scenes.raycast.shading.lighting import shade_hit
 from texvent.scenes.raycast.trace import (
-    ANYTHING,
     CODES,
-    NEARBY_HEAD,
     background_hit,
     first_hit,
     hit_again,
@@ -37,20 +34,11 @@ from texvent.scenes.raycast.trace import (
 from texvent.scenes.raycast.vectors import scaled
 from texvent.scenes.scene import Colour, Float64Array
 
-_THIN = -(1 << 29)
+_THIN = -(1 << 40)
 """Probe value that agrees with nothing: something thin is near."""
-UNKNOWN = -(1 << 30)
-"""Probe value of lattice points that no wanted pixel needs, and of what is not known."""
-Codes = NDArray[np.int32]
-"""Surfaces with what they are lit by, as probes tell them."""
-MIXED = 6
-"""Surfaces of a pixel that are remembered."""
-BLOCK = 4
-"""Side of the blocks of pixels that share what is near them; divides `TILE`."""
-NEARBY = 12
-"""Surfaces near a block that are remembered."""
-_CODES_AT = NEARBY_HEAD + NEARBY
-"""Where the codes begin in the list of what is near."""
+UNKNOWN = -(1 << 41)
+"""Probe value of lattice points that no wanted pixel needs, and of pixels with several surfaces."""
+Codes = NDArray[np.int64]
 _BISECTIONS = 6
 """Steps that place an edge between two probes: to 1/128 pixel with two probes per pixel side."""
 _MAX_EDGES = 4
@@ -62,33 +50,11 @@ _SOFT_CLIP_START = 0.75
 
 
 @jit(error_model="numpy", inner=True)
-def _lights(
-    instant: Record,
-    place: tuple[float, float],
-    hit: tuple[float, int, int],
-    surface: int,
-    wanted: int,
-    nearby: int,
-) -> tuple[int, bool]:
-    """As `lit_by`: lights that reach a surface everywhere near a place, or nowhere, do so there."""
-    low, high = ALL_LIGHTS, 0
-    if nearby != ANYTHING:
-        for index in range(_CODES_AT, _CODES_AT + list_at(nearby, 1)):
-            code = list_at(nearby, index)
-            if code >> LIT_BITS == surface:
-                low &= code
-                high |= code & ALL_LIGHTS
-    lit, thin = lit_by(instant, place[0], place[1], hit, wanted & (low ^ high))
-    return lit | wanted & low & high, thin
-
-
-@jit(error_model="numpy", inner=True)
-def _probe(instant: Record, x: float, y: float, nearby: int) -> int:
+def _probe(instant: Record, x: float, y: float) -> int:
     """What is at image point (x, y), as one number: surface, face, and what it is lit by."""
-    depth, number, face, _ = first_hit(instant, x, y, nearby)
-    surface = surface_code(instant, number, face)
-    lit = _lights(instant, (x, y), (depth, number, face), surface, ALL_LIGHTS, nearby)[0]
-    return (surface << LIT_BITS) + lit
+    depth, number, face, _ = first_hit(instant, x, y)
+    lit = lit_by(instant, x, y, (depth, number, face), ALL_LIGHTS)[0]
+    return (surface_code(instant, number, face) << LIT_BITS) + lit
 
 
 @jit(error_model="numpy", inner=True)
@@ -170,19 +136,14 @@ def _mean_light(instant: Record, shares: Float64Array, count: int) -> Colour:
 
 @jit(error_model="numpy", inner=True)
 def _sample_pixel(
-    instant: Record,
-    column: int,
-    row: int,
-    pattern: Float64Array,
-    shares: Float64Array,
-    nearby: int,
-) -> int:
-    """Shares of a pixel with something thin in it, from the samples of `pattern`; their number."""
+    instant: Record, column: int, row: int, pattern: Float64Array, shares: Float64Array
+) -> Colour:
+    """Mean light over a pixel with something thin in it, from the samples of `pattern`."""
     count = 0
     for index in range(len(pattern)):
         x, y = column + pattern[index, 0], row + pattern[index, 1]
-        count = _add_share(shares, count, _probe(instant, x, y, nearby), 1.0, (x, y))
-    return count
+        count = _add_share(shares, count, _probe(instant, x, y), 1.0, (x, y))
+    return _mean_light(instant, shares, count)
 
 
 @jit(error_model="numpy", inner=True)
@@ -198,7 +159,6 @@ def _find_edge(
     ends: tuple[tuple[float, float], tuple[float, float]],
     low: float,
     probes: tuple[int, int],
-    nearby: int,
 ) -> tuple[float, int]:
     """Where a line leaves the surface `probes[0]`, and what comes next.
 
@@ -210,7 +170,7 @@ def _find_edge(
     for _ in range(_BISECTIONS):
         middle = 0.5 * (low + high)
         x, y = _between(ends[0], ends[1], middle)
-        depth, number, face, _ = first_hit(instant, x, y, nearby)
+        depth, number, face, _ = first_hit(instant, x, y)
         code = surface_code(instant, number, face)
         reached = probes[0] & changed
         if code == surface and changed:  # else there is no need to know about shadow
@@ -225,7 +185,7 @@ def _find_edge(
         is_other = beyond >> LIT_BITS != probes[1] >> LIT_BITS
         lamps = (probes[0] ^ probes[1]) & ALL_LIGHTS & ~SUN
         wanted = ALL_LIGHTS if is_other or lamps else SUN
-        lit, _ = _lights(instant, place, hit, beyond >> LIT_BITS, wanted, nearby)
+        lit, _ = lit_by(instant, place[0], place[1], hit, wanted)
         beyond = beyond & ~wanted | lit & wanted
     return 0.5 * (low + high), beyond
 
@@ -238,7 +198,6 @@ def _add_line(
     ends: tuple[tuple[float, float], tuple[float, float]],
     probes: tuple[int, int],
     share: float,
-    nearby: int,
 ) -> int:
     """Add the pieces of a line between two lattice points to the surfaces they show.
 
@@ -250,7 +209,7 @@ def _add_line(
         if probe == probes[1]:
             break
         first = low
-        low, beyond = _find_edge(instant, ends, low, (probe, probes[1]), nearby)
+        low, beyond = _find_edge(instant, ends, low, (probe, probes[1]))
         place = _between(start, stop, 0.5 * (first + low))
         count = _add_share(shares, count, probe, share * (low - first), place)
         probe = beyond
@@ -260,14 +219,9 @@ def _add_line(
 
 @jit(error_model="numpy", inner=True)
 def _split_pixel(
-    instant: Record,
-    column: int,
-    row: int,
-    probes: NDArray[np.int64],
-    shares: Float64Array,
-    nearby: int,
-) -> int:
-    """Shares of a pixel with an edge in it; their number.
+    instant: Record, column: int, row: int, probes: NDArray[np.int64], shares: Float64Array
+) -> Colour:
+    """Mean light over a pixel with an edge in it.
 
     `probes` [k, k] is what is at the lattice points in and around the pixel, `shares` [any, 6]
     scratch space. The pixel is cut into lines between lattice points, in the direction that
@@ -293,29 +247,19 @@ def _split_pixel(
                 first, second = probes[piece, line], probes[piece + 1, line]
                 start = (column + line / last, row + piece / last)
                 stop = (start[0], row + (piece + 1) / last)
-            ends, pair = (start, stop), (first, second)
-            count = _add_line(instant, shares, count, ends, pair, share, nearby)
-    return count
+            count = _add_line(instant, shares, count, (start, stop), (first, second), share)
+    return _mean_light(instant, shares, count)
 
 
 @jit(error_model="numpy", inner=True)
-def _needed_by(wanted: NDArray[np.bool_], j: int, i: int, samples: int) -> tuple[int, int]:
-    """Row and column of a wanted pixel at lattice point (j, i) of a tile; (-1, -1) for none."""
+def _is_needed(wanted: NDArray[np.bool_], j: int, i: int, samples: int) -> bool:
+    """Whether a wanted pixel lies at lattice point (j, i) of a tile."""
     height, width = wanted.shape
     for row in range(max((j - 1) // samples, 0), min(j // samples + 1, height)):
         for column in range(max((i - 1) // samples, 0), min(i // samples + 1, width)):
             if wanted[row, column]:
-                return row, column
-    return -1, -1
-
-
-@jit(error_model="numpy", inner=True)
-def _near(nearby: Codes, row: int, column: int) -> int:
-    """Address of the list of what is near a pixel, or `ANYTHING`."""
-    y, x = row // BLOCK, column // BLOCK
-    if len(nearby) == 0 or nearby[y, x, 0] < 0:
-        return ANYTHING
-    return int(nearby.ctypes.data) + 4 * nearby.shape[2] * (y * nearby.shape[1] + x)
+                return True
+    return False
 
 
 @jit(error_model="numpy", inner=True)
@@ -325,7 +269,6 @@ def _probe_tile(
     wanted: NDArray[np.bool_],
     samples: int,
     probes: NDArray[np.int64],
-    nearby: Codes,
 ) -> None:
     """Probe the wanted pixels of a tile, given its left and top edges in pixels, on a lattice.
 
@@ -335,20 +278,17 @@ def _probe_tile(
     left, top = corner
     for j in range(wanted.shape[0] * samples + 1):
         for i in range(wanted.shape[1] * samples + 1):
-            row, column = _needed_by(wanted, j, i, samples)
-            if row < 0:
+            if not _is_needed(wanted, j, i, samples):
                 probes[j, i] = UNKNOWN
                 continue
-            near = _near(nearby, top + row, left + column)
             x, y = left + i / samples, top + j / samples
-            depth, number, face, thin = first_hit(instant, x, y, near)
+            depth, number, face, thin = first_hit(instant, x, y)
             surface = surface_code(instant, number, face)
             is_odd = (i + j) % 2 == 1
             if not thin and i > 0 and is_odd and probes[j, i - 1] >> LIT_BITS == surface:
                 probes[j, i] = probes[j, i - 1]
                 continue
-            hit = depth, number, face
-            lit, thin_shadow = _lights(instant, (x, y), hit, surface, ALL_LIGHTS, near)
+            lit, thin_shadow = lit_by(instant, x, y, (depth, number, face), ALL_LIGHTS)
             probes[j, i] = _THIN if thin or thin_shadow else (surface << LIT_BITS) + lit
 
 
@@ -360,7 +300,6 @@ def _probe_shadows(
     lattice: tuple[int, int],
     probes: NDArray[np.int64],
     around: NDArray[np.int64],
-    nearby: int,
 ) -> None:
     """Write the probes of a pixel to `around`, and look for shadow where they took over another.
 
@@ -376,7 +315,7 @@ def _probe_shadows(
                     differs = around[row, column] ^ around[j, i]
                     is_sure &= differs == 0 or differs >> LIT_BITS != 0
             if not is_sure:
-                around[j, i] = _probe(instant, left + i / last, top + j / last, nearby)
+                around[j, i] = _probe(instant, left + i / last, top + j / last)
 
 
 @jit(error_model="numpy", inner=True)
@@ -402,34 +341,6 @@ def _any_thin(probes: NDArray[np.int64], top: int, left: int, samples: int) -> b
     return False
 
 
-@jit(error_model="numpy", inner=True)
-def _remember(shares: Float64Array, count: int, codes: Codes) -> None:
-    """Write the surfaces of a pixel to its codes [`MIXED`], where there is room for them."""
-    for index in range(min(count, MIXED)):
-        codes[index] = int(shares[index, 0])
-    if count < MIXED:
-        codes[count] = UNKNOWN
-    elif count > MIXED:
-        codes[0] = UNKNOWN
-
-
-@jit(error_model="numpy", inner=True)
-def _sort_nearby(
-    instant: Record, nearby: Codes, rows: tuple[int, int], columns: tuple[int, int]
-) -> None:
-    """Sort the shapes near each block of a tile front to back."""
-    for y in range(rows[0] // BLOCK, (rows[1] - 1) // BLOCK + 1):
-        for x in range(columns[0] // BLOCK, (columns[1] - 1) // BLOCK + 1):
-            shapes = nearby[y, x, NEARBY_HEAD:_CODES_AT]
-            for index in range(1, nearby[y, x, 0]):
-                number, place = shapes[index], index
-                depth = shape_at(instant.shapes, number).depth
-                while place > 0 and shape_at(instant.shapes, shapes[place - 1]).depth > depth:
-                    shapes[place] = shapes[place - 1]
-                    place -= 1
-                shapes[place] = number
-
-
 @jit(error_model="numpy")
 def render_rows(
     instants: NDArray[Any],
@@ -438,7 +349,6 @@ def render_rows(
     pattern: Float64Array,
     wanted: NDArray[np.bool_],
     codes: Codes,
-    nearby: Codes,
     image: Float64Array,
 ) -> None:
     """Fill the wanted pixels in some rows of an image.
@@ -449,10 +359,8 @@ def render_rows(
         samples: probes per pixel side.
         pattern: [k, 2] sample positions in [0, 1)² for pixels with something thin.
         wanted: [H, W] which pixels to fill.
-        codes: [H, W, `MIXED`] the surfaces of a pixel, each with what it is lit by; `UNKNOWN` after
-            the last one, and first where they are not known. A single one is not looked for again.
-            What is found in wanted pixels is written.
-        nearby: of `list_nearby`, sorted front to back here; of length 0: nothing is known.
+        codes: [H, W] the one surface that fills a pixel and what it is lit by, where that is known;
+            `UNKNOWN` elsewhere. What is found in wanted pixels is written.
         image: [H, W, 3] linear light, 1 is white; these rows are written.
     """
     instant = instants[0]
@@ -466,28 +374,22 @@ def render_rows(
         in_tile = wanted[top:bottom, left:right]
         if not in_tile.any():
             continue
-        in_doubt = in_tile & (codes[top:bottom, left:right, 0] == UNKNOWN)
-        if len(nearby):
-            _sort_nearby(instant, nearby, (top, bottom), (left, right))
-        _probe_tile(instant, (left, top), in_doubt, samples, probes, nearby)
+        in_doubt = in_tile & (codes[top:bottom, left:right] == UNKNOWN)
+        _probe_tile(instant, (left, top), in_doubt, samples, probes)
         for row in range(top, bottom):
             for column in range(left, right):
                 if not wanted[row, column]:
                     continue
                 j, i = (row - top) * samples, (column - left) * samples
                 if in_doubt[row - top, column - left] and _agree(probes, j, i, samples):
-                    codes[row, column, 0], codes[row, column, 1] = probes[j, i], UNKNOWN
-                if codes[row, column, 0] != UNKNOWN:
-                    light = _shade(instant, column + 0.5, row + 0.5, codes[row, column, 0])
+                    codes[row, column] = probes[j, i]
+                if codes[row, column] != UNKNOWN:
+                    light = _shade(instant, column + 0.5, row + 0.5, codes[row, column])
+                elif _any_thin(probes, j, i, samples):
+                    light = _sample_pixel(instant, column, row, pattern, shares)
                 else:
-                    near = _near(nearby, row, column)
-                    if _any_thin(probes, j, i, samples):
-                        count = _sample_pixel(instant, column, row, pattern, shares, near)
-                    else:
-                        _probe_shadows(instant, column, row, (j, i), probes, around, near)
-                        count = _split_pixel(instant, column, row, around, shares, near)
-                    light = _mean_light(instant, shares, count)
-                    _remember(shares, count, codes[row, column])
+                    _probe_shadows(instant, column, row, (j, i), probes, around)
+                    light = _split_pixel(instant, column, row, around, shares)
                 if instant.glow_count > 0:
                     light = add_glows(instant, column + 0.5, row + 0.5, light)
                 image[row, column, 0] = light[0]

@@ -17,14 +17,14 @@ import numpy as np
 
 from texvent.runtime.jit import jit
 from texvent.scenes.raycast.acceleration import TILE
-from texvent.scenes.raycast.adaptive_sampling import BLOCK, MIXED, NEARBY, UNKNOWN, Codes
-from texvent.scenes.raycast.lamps.light import LIT_BITS
-from texvent.scenes.raycast.render import Drawn, light_of_rows, unknown_codes, world_and_shapes
+from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes
+from texvent.scenes.raycast.render import Drawn, light_of_rows, world_and_shapes
 from texvent.scenes.raycast.reuse import Mask, changed_tiles
-from texvent.scenes.raycast.trace import CODES, NEARBY_HEAD
 from texvent.scenes.scene import Float32Array, Float64Array, Scene
 from texvent.sensor import SensorSize
 
+BLOCK = 4
+"""Side of the blocks of pixels that share their instants; divides `TILE`."""
 EVEN, EVEN_S = 0.03, 1.5e-4
 """A level that is foretold to this share of it changes evenly; in long intervals, where the same
 error shifts events further, to `EVEN_S` over the interval."""
@@ -90,15 +90,13 @@ class Between:
         start, stop = times_s[before.number], times_s[after.number]
         share = np.float32((times_s[number] - start) / (stop - start))
         luma = before.luma + share * (after.luma - before.luma)
-        codes = unknown_codes(self.size)
+        codes = np.full(self.size.shape, UNKNOWN)
         if blocks.any():
             moved = speeds * np.float32(steps)
             wanted = _pixels(blocks, self.size)
-            nearby = None
             if before.codes is not None and after.codes is not None:
-                nearby = np.empty((*blocks.shape, NEARBY_HEAD + 2 * NEARBY), np.int32)
-                list_nearby(before.codes, after.codes, blocks, moved, codes, nearby)
-            exact = self._luma(times_s[number], wanted, codes, nearby)
+                foretell_codes(before.codes, after.codes, wanted, moved, codes)
+            exact = self._luma(times_s[number], wanted, codes)
             uneven = np.zeros(self.size.shape, np.bool_)
             limit = np.float32(min(EVEN, EVEN_S / (stop - start)))
             uneven[wanted] = np.abs(exact - luma[wanted]) > limit * (exact + np.float32(DARK))
@@ -109,15 +107,11 @@ class Between:
         yield middle
         yield from self._divide(middle, after, blocks, speeds, times_s)
 
-    def _luma(
-        self, time_s: float, wanted: Mask, codes: Codes, nearby: Codes | None
-    ) -> Float32Array:
+    def _luma(self, time_s: float, wanted: Mask, codes: Codes) -> Float32Array:
         """Levels [k] of the wanted pixels at an instant."""
         world, size, samples = self._drawn(time_s).world, self.size, self.samples
         rows = (0, size.height)
-        light = light_of_rows(
-            world, rows, size, samples=samples, wanted=wanted, codes=codes, nearby=nearby
-        )
+        light = light_of_rows(world, rows, size, samples=samples, wanted=wanted, codes=codes)
         return self.luma_of(light[wanted])
 
     def _drawn(self, time_s: float) -> Drawn:
@@ -207,116 +201,35 @@ def widen_ways(speeds: Float32Array) -> Float32Array:
 
 
 @jit(error_model="numpy")
-def list_nearby(
-    before: Codes, after: Codes, blocks: Mask, moved: Float32Array, codes: Codes, nearby: Codes
+def foretell_codes(
+    before: Codes, after: Codes, wanted: Mask, moved: Float32Array, codes: Codes
 ) -> None:
-    """What may be seen in blocks between two instants.
+    """What fills whole pixels between two instants.
 
-    An edge that moves by `moved` at most, and is nowhere near a block at both ends of its way, does
-    not touch the block in between.
+    An edge that moves by `moved` at most, and is nowhere near a pixel at both ends of its way, does
+    not touch the pixel in between.
 
     Args:
-        before: [H, W, k] codes at the instant before.
-        after: [H, W, k] codes at the instant after.
-        blocks: [rows, columns] of blocks that are wanted.
+        before: [H, W] codes at the instant before.
+        after: [H, W] codes at the instant after.
+        wanted: [H, W] pixels.
         moved: [rows, columns] of blocks, px.
-        codes: [H, W, k] is written where it is certain: in wanted blocks where one surface fills a
-            pixel and those around it, in others where it is the same at both instants.
-        nearby: [rows, columns, n] is written for wanted blocks: number of shapes or -1 where they
-            are not known, number of codes, shapes and codes (`NEARBY` places each).
+        codes: [H, W] is written where it is certain.
     """
-    height, width = codes.shape[:2]
-    for block_y in range(blocks.shape[0]):
-        for block_x in range(blocks.shape[1]):
-            near = nearby[block_y, block_x]
-            near[0], near[1] = -1, 0
-            top, left = block_y * BLOCK, block_x * BLOCK
-            bottom, right = min(top + BLOCK, height), min(left + BLOCK, width)
-            if not blocks[block_y, block_x]:
-                for y in range(top, bottom):
-                    for x in range(left, right):
-                        _keep_equal(before[y, x], after[y, x], codes[y, x])
-                continue
-            way = moved[block_y, block_x]
-            if not way <= SURE_PX:
+    height, width = codes.shape
+    for y in range(height):
+        for x in range(width):
+            code = before[y, x]
+            way = moved[y // BLOCK, x // BLOCK]
+            if not wanted[y, x] or code == UNKNOWN or not way <= SURE_PX:
                 continue
             reach = 1 + int(0.5 * way)
-            rows = max(top - reach, 0), min(bottom + reach, height)
-            columns = max(left - reach, 0), min(right + reach, width)
-            is_known = _add_codes(before, rows, columns, near)
-            is_known = is_known and _add_codes(after, rows, columns, near)
-            if is_known:
-                _list_shapes(near)
-            for y in range(top, bottom):
-                for x in range(left, right):
-                    is_sure = is_known and near[1] == 1
-                    if not is_sure:
-                        rows = max(y - reach, 0), min(y + reach + 1, height)
-                        columns = max(x - reach, 0), min(x + reach + 1, width)
-                        is_sure = _is_filled(before, rows, columns, before[y, x, 0])
-                        is_sure = is_sure and _is_filled(after, rows, columns, before[y, x, 0])
-                    if is_sure:
-                        codes[y, x, 0], codes[y, x, 1] = before[y, x, 0], UNKNOWN
-
-
-@jit(error_model="numpy", inner=True)
-def _keep_equal(before: Codes, after: Codes, codes: Codes) -> None:
-    """Write the codes of a pixel where they are the same before and after."""
-    for index in range(MIXED):
-        if before[index] != after[index]:
-            codes[0] = UNKNOWN
-            return
-        codes[index] = before[index]
-        if before[index] == UNKNOWN:
-            return
-
-
-@jit(error_model="numpy", inner=True)
-def _is_filled(codes: Codes, rows: tuple[int, int], columns: tuple[int, int], code: int) -> bool:
-    """Whether one surface alone fills every pixel of a window."""
-    if code == UNKNOWN:
-        return False
-    for y in range(rows[0], rows[1]):
-        for x in range(columns[0], columns[1]):
-            if codes[y, x, 0] != code or codes[y, x, 1] != UNKNOWN:
-                return False
-    return True
-
-
-@jit(error_model="numpy", inner=True)
-def _add_codes(
-    codes: Codes, rows: tuple[int, int], columns: tuple[int, int], near: Codes
-) -> bool:
-    """Add the codes of a window to a list of what is near; False: too many, or not known."""
-    first = NEARBY_HEAD + NEARBY
-    for y in range(rows[0], rows[1]):
-        for x in range(columns[0], columns[1]):
-            if codes[y, x, 0] == UNKNOWN:
-                return False
-            for index in range(MIXED):
-                code = codes[y, x, index]
-                if code == UNKNOWN:
+            is_sure = True
+            for row in range(max(y - reach, 0), min(y + reach + 1, height)):
+                for column in range(max(x - reach, 0), min(x + reach + 1, width)):
+                    is_sure &= before[row, column] == code
+                    is_sure &= after[row, column] == code
+                if not is_sure:
                     break
-                place, last = first, first + near[1]
-                while place < last and near[place] != code:
-                    place += 1
-                if place == last:
-                    if near[1] == NEARBY:
-                        return False
-                    near[place] = code
-                    near[1] += 1
-    return True
-
-
-@jit(error_model="numpy", inner=True)
-def _list_shapes(near: Codes) -> None:
-    """Write the shapes of the codes near a block to its list."""
-    near[0] = 0
-    for index in range(near[1]):
-        number = (near[NEARBY_HEAD + NEARBY + index] >> LIT_BITS) // CODES
-        place, last = NEARBY_HEAD, NEARBY_HEAD + near[0]
-        while place < last and near[place] != number:
-            place += 1
-        if number >= 0 and place == last:
-            near[place] = number
-            near[0] += 1
+            if is_sure:
+                codes[y, x] = code

@@ -19,7 +19,6 @@ from texvent.scenes.raycast.addresses import list_at
 from texvent.scenes.raycast.records import World
 from texvent.scenes.raycast.render import world_and_shapes, world_at
 from texvent.scenes.raycast.trace import (
-    ANYTHING,
     SKY,
     background_hit,
     first_hit,
@@ -180,7 +179,7 @@ def cast_points(
     """
     instant = instants[0]
     for index in range(len(points)):
-        t, found, _, _ = first_hit(instant, points[index, 0], points[index, 1], ANYTHING)
+        t, found, _, _ = first_hit(instant, points[index, 0], points[index, 1])
         depth[index], number[index] = t, found
 
 

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from texvent.runtime.threads import run_parts
 from texvent.scenes.raycast.acceleration import TILE, Bins, build_world
-from texvent.scenes.raycast.adaptive_sampling import MIXED, UNKNOWN, Codes, render_rows
+from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes, render_rows
 from texvent.scenes.raycast.lamps.glow import see_glows
 from texvent.scenes.raycast.lamps.light import list_casters, order_lamps
 from texvent.scenes.raycast.puffs import describe_puffs
@@ -157,7 +157,6 @@ def light_of_rows(
     samples: int = 2,
     wanted: NDArray[np.bool_] | None = None,
     codes: Codes | None = None,
-    nearby: Codes | None = None,
 ) -> Float64Array:
     """Some rows of what `render_light` gives.
 
@@ -167,8 +166,7 @@ def light_of_rows(
         size: image size, pixels.
         samples: as for `render`.
         wanted: [H, W] which pixels to draw, the others have any value; None: all.
-        codes: what fills pixels, as for `render_rows`; None: nothing is known.
-        nearby: what is near blocks, as for `render_rows`; None: nothing is known.
+        codes: [H, W] what fills whole pixels, as for `render_rows`; None: nothing is known.
     """
     first, last = rows
     image = np.empty((last, size.width, 3), dtype=np.float64)
@@ -176,23 +174,15 @@ def light_of_rows(
     chosen = np.ascontiguousarray(
         np.ones((last, size.width), dtype=np.bool_) if wanted is None else wanted
     )
-    known = unknown_codes(SensorSize(size.width, last)) if codes is None else codes
-    near = np.empty((0, 0, 0), np.int32) if nearby is None else nearby
+    known = np.full((last, size.width), UNKNOWN) if codes is None else codes
     pattern = sample_pattern((4 * samples) ** 2)
 
     def draw(top: int) -> None:
         band = top, min(top + TILE, last)
-        render_rows(world.instant, band, samples, pattern, chosen, known, near, image)
+        render_rows(world.instant, band, samples, pattern, chosen, known, image)
 
     run_parts(draw, range(first, last, TILE))
     return image[first:]
-
-
-def unknown_codes(size: SensorSize) -> Codes:
-    """Codes of pixels of which nothing is known, as for `render_rows`."""
-    codes = np.empty((*size.shape, MIXED), np.int32)
-    codes[:, :, 0] = UNKNOWN
-    return codes
 
 
 def sample_pattern(count: int) -> Float64Array:

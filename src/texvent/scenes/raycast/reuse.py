@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from texvent.scenes.raycast.acceleration import CUBE, SUN_CELLS, TILE, screen_bounds
 from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes
 from texvent.scenes.raycast.records import INSTANT_RECORD, World
-from texvent.scenes.raycast.render import Drawn, light_of_rows, unknown_codes, world_and_shapes
+from texvent.scenes.raycast.render import Drawn, light_of_rows, world_and_shapes
 from texvent.scenes.raycast.trace import MESH, SHADOW_BIAS_M
 from texvent.scenes.raycast.vectors import NO_DISTORTION
 from texvent.scenes.scene import Float32Array, Float64Array, Ground, Primitives, Rays, Scene
@@ -72,11 +72,10 @@ class FrameMemory:
         last = self._last
         tiles = None if last is None else changed_tiles(last[0], drawn)
         wanted: Mask = np.ones(size.shape, dtype=np.bool_)
-        codes, pixels = unknown_codes(size), np.empty((*size.shape, 3), np.float32)
+        codes, pixels = np.full(size.shape, UNKNOWN), np.empty((*size.shape, 3), np.float32)
         if last is not None and tiles is not None and tiles.mean() <= MOST_CHANGED:
             wanted = tiles.repeat(TILE, axis=0).repeat(TILE, axis=1)[: size.height, : size.width]
-            codes, pixels = last[2].copy(), last[1].copy()
-            codes[wanted, 0] = UNKNOWN
+            codes, pixels = np.where(wanted, UNKNOWN, last[2]), last[1].copy()
         light = light_of_rows(
             drawn.world, (0, size.height), size, samples=samples, wanted=wanted, codes=codes
         )

@@ -171,8 +171,6 @@ CODES = 64
 BOX, MESH = 1, 4
 _NO_GROUND = 10
 _FLOOR = 6
-ANYTHING, NEARBY_HEAD = 0, 2
-"""No list of shapes near a point; numbers at its head: see `first_hit`."""
 SHADOW_BIAS_M = 2e-3
 """A shadow ray starts this far off the surface, so that rounding does not shade it."""
 
@@ -263,15 +261,8 @@ def shows_code(instant: Record, x: float, y: float, code: int) -> bool:
 
 
 @jit(error_model="numpy", inner=True)
-def first_hit(instant: Record, x: float, y: float, nearby: int) -> tuple[float, int, int, bool]:
+def first_hit(instant: Record, x: float, y: float) -> tuple[float, int, int, bool]:
     """What the ray through image point (x, y) meets first.
-
-    Args:
-        instant: the scene.
-        x: pixels from the left.
-        y: pixels from the top.
-        nearby: address of a list of the only shapes that may be seen there, front to back: how
-            many they are, `NEARBY_HEAD` - 1 other numbers, theirs; `ANYTHING`: those of the tile.
 
     Returns:
         (depth in metres, shape number or GROUND / SKY / ROOM / NOTHING, face, whether a thin
@@ -282,15 +273,10 @@ def first_hit(instant: Record, x: float, y: float, nearby: int) -> tuple[float, 
     if math.isnan(x):
         return math.inf, NOTHING, 0, False
     direction = plane_direction(instant, x, y)
+    cell = tile_at(instant, x, y)
     best, found, best_face = background_hit(instant, direction)
     thin = math.inf
-    if nearby == ANYTHING:
-        cell = tile_at(instant, x, y)
-        start, stop = list_at(lists, cell), list_at(lists, cell + 1)
-    else:
-        lists, start = nearby, NEARBY_HEAD
-        stop = start + list_at(nearby, 0)
-    for index in range(start, stop):
+    for index in range(list_at(lists, cell), list_at(lists, cell + 1)):
         shape = shape_at(instant.shapes, list_at(lists, index))
         if shape.depth >= best:
             break

@@ -336,7 +336,7 @@ def lit_by(
     Only the lights in `wanted` are looked for; only lamps that cast shadows count.
     """
     depth, number, face = hit
-    if wanted == 0 or number == SKY or (number == ROOM and instant.shadow_lamps == 0):
+    if number == SKY or (number == ROOM and instant.shadow_lamps == 0):
         return 0, False
     point = along(triple(instant.origin), ray_direction(instant, x, y), depth)
     normal = surface_normal(instant, number, face, point)
