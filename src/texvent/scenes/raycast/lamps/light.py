@@ -170,7 +170,7 @@ def in_beam(lamp: Any, boxes: Float64Array) -> NDArray[np.bool_]:
 
 @jit(error_model="numpy")
 def find_cells(boxes: Float64Array, rectangles: IntArray) -> Float64Array:
-    """Cells of the grid of directions that boxes around (0, 0, 0) cover, and how near they are.
+    """Cells of the grid of directions that boxes cover, and how near to its middle they are.
 
     Args:
         boxes: [n, 3, 4] half axes and middle, m.
@@ -186,7 +186,9 @@ def find_cells(boxes: Float64Array, rectangles: IntArray) -> Float64Array:
         middle = _along_diamond(box[0, 3], box[1, 3])
         first, last, reach = 0.0, 0.0, 0.0
         for corner in range(8):
-            x, y, _ = _corner(box, corner)
+            a, b, c = 1.0 - 2.0 * (corner & 1), 1.0 - (corner & 2), 1.0 - 0.5 * (corner & 4)
+            x = box[0, 3] + a * box[0, 0] + b * box[0, 1] + c * box[0, 2]
+            y = box[1, 3] + a * box[1, 0] + b * box[1, 1] + c * box[1, 2]
             turn = _along_diamond(x, y) - middle
             turn -= 4.0 * math.floor(0.25 * turn + 0.5)
             first, last, reach = min(first, turn), max(last, turn), max(reach, math.hypot(x, y))
@@ -204,17 +206,6 @@ def find_cells(boxes: Float64Array, rectangles: IntArray) -> Float64Array:
         rectangles[number, 3] = math.floor(LATITUDES * (0.5 + 0.5 * up) + 1e-6)
         nearest[number] = _distance(box, 3)
     return nearest
-
-
-@jit(error_model="numpy", inner=True)
-def _corner(box: Float64Array, number: int) -> Vector:
-    """One of the eight corners of a box."""
-    a, b, c = 1.0 - 2.0 * (number & 1), 1.0 - (number & 2), 1.0 - 0.5 * (number & 4)
-    return (
-        box[0, 3] + a * box[0, 0] + b * box[0, 1] + c * box[0, 2],
-        box[1, 3] + a * box[1, 0] + b * box[1, 1] + c * box[1, 2],
-        box[2, 3] + a * box[2, 0] + b * box[2, 1] + c * box[2, 2],
-    )
 
 
 @jit(error_model="numpy", inner=True)
