@@ -30,7 +30,7 @@ EVEN, EVEN_S = 0.03, 1.5e-4
 error shifts events further, to `EVEN_S` over the interval."""
 DARK = 30.0
 """Added to levels before they are compared, 0..255 scale."""
-FASTEST_PX = 2.0
+FASTEST_PX = 4.0
 """Blocks that something passes by more than this in an interval are drawn in its middle."""
 SURE_PX = 6.0
 """Motion in an interval, up to which what fills a pixel may follow from its ends."""

@@ -15,7 +15,7 @@ from texvent.runtime.threads import run_parts
 from texvent.scenes.raycast.acceleration import TILE, Bins, build_world
 from texvent.scenes.raycast.adaptive_sampling import UNKNOWN, Codes, render_rows
 from texvent.scenes.raycast.lamps.glow import see_glows
-from texvent.scenes.raycast.lamps.light import cover_with_balls, list_casters, order_lamps
+from texvent.scenes.raycast.lamps.light import list_casters, order_lamps
 from texvent.scenes.raycast.puffs import describe_puffs
 from texvent.scenes.raycast.records import World
 from texvent.scenes.scene import (
@@ -52,11 +52,7 @@ def light_up(
         return world
     instant = world.instant
     lamps, casting = order_lamps(environment.lamps, shadows=shadows)
-    inverse = world.shapes["inverse"]
-    grids = []
-    if casting:
-        balls = cover_with_balls(primitives)
-        grids = [list_casters(lamp, balls, primitives, inverse) for lamp in lamps[:casting]]
+    grids = [list_casters(lamp, world.shapes, primitives) for lamp in lamps[:casting]]
     instant["shadow_lamps"] = casting
     instant["lamp_cells"] = len(world.lists)
     puffs, tiles = describe_puffs(environment.puffs, rays, instant[0])

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.scenes.raycast.acceleration import CUBE, Bins, IntArray, bin_rectangles
+from texvent.scenes.raycast.acceleration import Bins, IntArray, bin_rectangles
 from texvent.scenes.raycast.addresses import lamp_at, list_at, shape_at
 from texvent.scenes.raycast.records import LAMP_RECORD, Record
 from texvent.scenes.raycast.trace import (
@@ -106,7 +106,6 @@ LONGITUDES, LATITUDES = 96, 64
 height."""
 MOST_SHADOW_LAMPS = 4
 """Lamps that can cast shadows at one instant."""
-_LONGEST_PIECES = 8
 
 
 def order_lamps(lamps: Float64Array, *, shadows: bool) -> tuple[NDArray[Any], int]:
@@ -120,115 +119,127 @@ def order_lamps(lamps: Float64Array, *, shadows: bool) -> tuple[NDArray[Any], in
     return rows[np.concatenate([casts, rest])], len(casts)
 
 
-Balls = tuple[IntArray, Float64Array, Float64Array]
-"""Balls that together hold shapes: [k] number of the shape, [k, 3] centre and [k] radius, m."""
-
-
-def cover_with_balls(primitives: Primitives) -> Balls:
-    """The shapes that may cast shadows, several balls for a long one; those that glow do not."""
-    chosen = np.flatnonzero(np.asarray(primitives.emission) <= 0.0)
-    linear = np.asarray(primitives.to_world, dtype=np.float64)[chosen, :, :3]
-    middle = np.asarray(primitives.to_world, dtype=np.float64)[chosen, :, 3]
-    lengths = np.linalg.norm(linear, axis=1)
-    longest = lengths.argmax(axis=1)
-    rows = np.arange(len(chosen))
-    second = np.sort(lengths, axis=1)[:, 1]
-    pieces = np.ceil(lengths[rows, longest] / np.maximum(second, 1e-9)).astype(np.int64)
-    pieces = np.clip(pieces, 1, _LONGEST_PIECES)
-    owner = np.repeat(rows, pieces)
-    step = np.arange(len(owner)) - np.repeat(np.cumsum(pieces) - pieces, pieces)
-    axis = linear[rows, :, longest]
-    place = (2.0 * step + 1.0) / pieces[owner] - 1.0
-    linear[rows, :, longest] = axis / pieces[:, None]
-    corners = np.einsum("nij,kj->nki", linear, CUBE)
-    radius = np.linalg.norm(corners, axis=2).max(axis=1)
-    return chosen[owner], middle[owner] + place[:, None] * axis[owner], radius[owner]
-
-
-def list_casters(lamp: Any, balls: Balls, primitives: Primitives, inverse: Float64Array) -> Bins:
+def list_casters(lamp: Any, shapes: NDArray[Any], primitives: Primitives) -> Bins:
     """The shapes that may stand in a lamp's light, by cells of directions from the lamp.
 
     Each is followed by its distance from the lamp, mm, and nearer ones come first: what is
-    farther than a surface cannot stand in its light. Shapes that hold the lamp or that its light
-    does not reach are left out.
+    farther than a surface cannot stand in its light. Shapes that glow, that hold the lamp or that
+    its light does not reach are left out.
 
     Args:
         lamp: `LAMP_RECORD`.
-        balls: of `cover_with_balls`.
+        shapes: [n] `SHAPE_RECORD`; what thin ones are widened by is known.
         primitives: the shapes.
-        inverse: [n, 3, 4] world → unit-shape coordinates.
     """
     place = lamp["place"]
-    local = inverse[:, :, :3] @ place + inverse[:, :, 3]
+    local = shapes["inverse"][:, :, :3] @ place + shapes["inverse"][:, :, 3]
     is_round = primitives.shape == Shape.ELLIPSOID
     extent = np.where(is_round, np.linalg.norm(local, axis=1), np.abs(local).max(axis=1))
-    numbers, centre, radius = balls
-    offset = centre - place
-    distance = np.linalg.norm(offset, axis=1)
-    near = (distance - radius < lamp["reach"]) & (extent[numbers] > 1.0)
+    numbers = np.flatnonzero((np.asarray(primitives.emission) <= 0.0) & (extent > 1.0))
+    boxes = np.asarray(primitives.to_world, dtype=np.float64)[numbers]
+    boxes[:, :, :3] /= shapes["shrink"][numbers][:, None, :]
+    boxes[:, :, 3] -= place
+    rectangles = np.empty((len(boxes), 4), np.int64)
+    nearest = find_cells(boxes, rectangles)
+    near = nearest < lamp["reach"]
     if lamp["full"] >= -1.0:
-        near &= in_beam(lamp, offset, distance, radius)
-    numbers, offset, distance, radius = (one[near] for one in (numbers, offset, distance, radius))
-    start_mm = np.floor(1e3 * np.maximum(distance - radius, 0.0)).astype(np.int64)
-    rectangles, owner = _rectangles(offset, distance, radius)
-    order = np.argsort(start_mm[owner], kind="stable")
-    rectangles, owner = rectangles[order], owner[order]
-    bins = bin_rectangles(rectangles, np.arange(len(owner)), LONGITUDES, LATITUDES)
-    shown = owner[bins.items]
-    items = np.empty((len(shown), 2), np.int32)
-    items[:, 0], items[:, 1] = numbers[shown], start_mm[shown]
+        near &= in_beam(lamp, boxes)
+    order = np.flatnonzero(near)
+    order = order[np.argsort(nearest[order], kind="stable")]
+    # A range of columns may go round past either edge of the grid.
+    around = rectangles[order] + LONGITUDES * np.array([[-1], [0], [1]])[:, :, None] * [1, 1, 0, 0]
+    touches = (around[:, :, 1] >= 0) & (around[:, :, 0] < LONGITUDES)
+    rank, turn = np.nonzero(touches.T)
+    bins = bin_rectangles(around[turn, rank], order[rank], LONGITUDES, LATITUDES)
+    items = np.empty((len(bins.items), 2), np.int32)
+    items[:, 0] = numbers[bins.items]
+    items[:, 1] = np.floor(1e3 * nearest[bins.items])
     return Bins(2 * bins.start, items.ravel(), LONGITUDES, LATITUDES)
 
 
-def in_beam(
-    lamp: Any, offset: Float64Array, distance: Float64Array, radius: Float64Array
-) -> NDArray[np.bool_]:
-    """Which balls the beam touches."""
-    angle = np.arccos(np.clip(offset @ lamp["beam"] / np.maximum(distance, 1e-9), -1.0, 1.0))
+def in_beam(lamp: Any, boxes: Float64Array) -> NDArray[np.bool_]:
+    """Which boxes, as for `find_cells`, the beam touches: tested by the balls around them."""
+    radius = np.sqrt((boxes[:, :, :3] ** 2).sum(axis=(1, 2)) * 3.0)
+    distance = np.linalg.norm(boxes[:, :, 3], axis=1)
+    cosine = boxes[:, :, 3] @ lamp["beam"] / np.maximum(distance, 1e-9)
+    angle = np.arccos(np.clip(cosine, -1.0, 1.0))
     width = np.arcsin(np.clip(radius / np.maximum(distance, 1e-9), 0.0, 1.0))
     touches = angle - width <= np.arccos(np.clip(lamp["dark"], -1.0, 1.0))
     return np.asarray(touches | (distance <= radius), dtype=np.bool_)
 
 
-def _rectangles(
-    offset: Float64Array, distance: Float64Array, radius: Float64Array
-) -> tuple[IntArray, IntArray]:
-    """Cells of the grid that balls cover: rectangles, and the ball that each belongs to."""
-    inside = distance <= radius * (1.0 + 1e-9)
-    safe = np.where(inside, 1.0, distance)
-    width = np.where(inside, np.pi, np.arcsin(np.clip(radius / np.maximum(safe, radius), 0, 1)))
-    latitude = np.arcsin(np.clip(offset[:, 2] / np.maximum(distance, 1e-12), -1.0, 1.0))
-    low = np.maximum(latitude - width, -0.5 * np.pi)
-    high = np.minimum(latitude + width, 0.5 * np.pi)
-    has_pole = inside | (np.abs(latitude) + width >= 0.5 * np.pi)
-    sine = np.sin(np.minimum(width, 0.5 * np.pi)) / np.maximum(np.cos(latitude), 1e-12)
-    turn = np.where(has_pole, np.pi, np.arcsin(np.clip(sine, 0.0, 1.0)))
-    longitude = np.arctan2(offset[:, 1], offset[:, 0])
-    count = np.arange(len(distance))
-    columns = LONGITUDES / 4.0
-    first = np.floor(_along_diamond(longitude - turn) * columns - 1e-6).astype(np.int64)
-    last = np.floor(_along_diamond(longitude + turn) * columns + 1e-6).astype(np.int64)
-    last = np.minimum(last, first + LONGITUDES - 1)
-    top = np.floor((0.5 + 0.5 * np.sin(low)) * LATITUDES - 1e-6).astype(np.int64)
-    bottom = np.floor((0.5 + 0.5 * np.sin(high)) * LATITUDES + 1e-6).astype(np.int64)
-    # A range of columns may go round past either edge of the grid.
-    pieces = [np.stack([first + turns, last + turns, top, bottom], axis=1)
-              for turns in (-LONGITUDES, 0, LONGITUDES)]  # fmt: skip
-    rectangles = np.concatenate(pieces)
-    owner = np.tile(count, len(pieces))
-    touches = (rectangles[:, 1] >= 0) & (rectangles[:, 0] < LONGITUDES)
-    return rectangles[touches], owner[touches]
+@jit(error_model="numpy")
+def find_cells(boxes: Float64Array, rectangles: IntArray) -> Float64Array:
+    """Cells of the grid of directions that boxes cover, and how near to its middle they are.
 
+    Args:
+        boxes: [n, 3, 4] half axes and middle, m.
+        rectangles: [n, 4] first and last column, beyond the grid where they go round, and first
+            and last row, are written.
 
-def _along_diamond(angle: Float64Array) -> Float64Array:
-    """Where a direction crosses the diamond |x| + |y| = 1: 0..4 for 0..2π, and so on.
-
-    It grows with the angle, and needs no trigonometry where the direction is known.
+    Returns:
+        [n] distances, m, at most those of their nearest points.
     """
-    x, y = np.cos(angle), np.sin(angle)
-    corner = y / (np.abs(x) + np.abs(y))
-    corner = np.where(x < 0.0, 2.0 - corner, np.where(y < 0.0, 4.0 + corner, corner))
-    return np.asarray(corner + 4.0 * np.floor(angle / (2.0 * np.pi)))
+    nearest = np.empty(len(boxes))
+    for number in range(len(boxes)):
+        box = boxes[number]
+        middle = _along_diamond(box[0, 3], box[1, 3])
+        first, last, reach = 0.0, 0.0, 0.0
+        for corner in range(8):
+            a, b, c = 1.0 - 2.0 * (corner & 1), 1.0 - (corner & 2), 1.0 - 0.5 * (corner & 4)
+            x = box[0, 3] + a * box[0, 0] + b * box[0, 1] + c * box[0, 2]
+            y = box[1, 3] + a * box[1, 0] + b * box[1, 1] + c * box[1, 2]
+            turn = _along_diamond(x, y) - middle
+            turn -= 4.0 * math.floor(0.25 * turn + 0.5)
+            first, last, reach = min(first, turn), max(last, turn), max(reach, math.hypot(x, y))
+        beside = _distance(box, 2)
+        if last - first >= 2.0:  # it is around the vertical
+            first, last, beside = -2.0, 2.0, 0.0
+        half = abs(box[2, 0]) + abs(box[2, 1]) + abs(box[2, 2])
+        low, high = box[2, 3] - half, box[2, 3] + half
+        down = low / (math.hypot(low, beside if low < 0.0 else reach) + 1e-300)
+        up = high / (math.hypot(high, beside if high > 0.0 else reach) + 1e-300)
+        rectangles[number, 0] = math.floor(0.25 * LONGITUDES * (middle + first) - 1e-6)
+        rectangles[number, 1] = math.floor(0.25 * LONGITUDES * (middle + last) + 1e-6)
+        rectangles[number, 1] = min(rectangles[number, 1], rectangles[number, 0] + LONGITUDES - 1)
+        rectangles[number, 2] = math.floor(LATITUDES * (0.5 + 0.5 * down) - 1e-6)
+        rectangles[number, 3] = math.floor(LATITUDES * (0.5 + 0.5 * up) + 1e-6)
+        nearest[number] = _distance(box, 3)
+    return nearest
+
+
+@jit(error_model="numpy")
+def _distance(box: Float64Array, axes: int) -> float:
+    """At most how far a box is from 0, in the plane of x and y (2 axes) or in space (3).
+
+    The farthest of the planes at right angles to its axes, or to the way to its middle, that hold
+    it off.
+    """
+    farthest = 0.0
+    for way in range(4):
+        length, gap, half = 1e-300, 0.0, 0.0
+        for axis in range(axes):
+            length += box[axis, way] * box[axis, way]
+            gap += box[axis, way] * box[axis, 3]
+        for side in range(3):
+            part = 0.0
+            for axis in range(axes):
+                part += box[axis, way] * box[axis, side]
+            half += abs(part)
+        farthest = max(farthest, (abs(gap) - half) / math.sqrt(length))
+    return farthest
+
+
+@jit(error_model="numpy")
+def _along_diamond(x: float, y: float) -> float:
+    """Where a direction crosses the diamond |x| + |y| = 1: 0..4 for 0..2π.
+
+    It grows with the angle, and needs no trigonometry.
+    """
+    corner = y / (abs(x) + abs(y) + 1e-300)
+    if x < 0.0:
+        return float(2.0 - corner)
+    return float(corner + 4.0 if y < 0.0 else corner)
 
 
 LIT_BITS = 1 + MOST_SHADOW_LAMPS
@@ -241,12 +252,7 @@ def direction_cell(towards: Vector, distance: float) -> int:
 
     Columns divide the outline of a diamond around the lamp, rows the height: see `lamps.light`.
     """
-    x, y = -towards[0], -towards[1]
-    corner = y / (abs(x) + abs(y) + 1e-300)
-    if x < 0.0:
-        corner = 2.0 - corner
-    elif y < 0.0:
-        corner += 4.0
+    corner = _along_diamond(-towards[0], -towards[1])
     height = 0.5 - 0.5 * towards[2] / distance
     column = min(int(corner * (0.25 * LONGITUDES)), LONGITUDES - 1)
     row = min(max(int(height * LATITUDES), 0), LATITUDES - 1)
