@@ -26,9 +26,9 @@ def absent():
 
 
 def test_small_rows_of_every_kind_become_tables(monkeypatch):
-    monkeypatch.setattr(kernels, "DENSITIES", (0.2,))
-    monkeypatch.setattr(kernels, "SIZES", (SensorSize(64, 48),))
-    rows = kernels.measure_kernels(kernels.Plan(frames=2, steps=1))
+    size, models = SensorSize(64, 48), ("texvent", "esim")
+    plan = kernels.Plan(frames=2, steps=1, models=models, sizes=(size,), densities=(0.2,))
+    rows = kernels.measure_kernels(plan)
     assert [(row["model"], row["way"]) for row in rows][:2] == [
         ("texvent", "clip"),
         ("texvent", "clips"),
@@ -50,6 +50,7 @@ def test_small_rows_of_every_kind_become_tables(monkeypatch):
     assert [row["model"] for row in steps] == ["texvent", "esim", "v2e"]
     assert all(0 < row["ms_median"] <= row["ms_p95"] for row in steps)
     document = {
+        "quick": False,
         "environment": describe_environment(),
         "load_at_start": 0.5,
         "load_at_end": 0.5,

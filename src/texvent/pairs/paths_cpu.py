@@ -81,9 +81,9 @@ def find_sweep(forward: Floats, backward: Floats) -> Floats:
         [H, W, 2] px, 0 where nothing does so; [0, 0, 2] where nothing does anywhere.
     """
     height, width, _ = forward.shape
-    sweep = np.empty((0, 0, 2), np.float32)
+    sweep, apart = np.empty((0, 0, 2), np.float32), np.empty(width, np.int64)
     for y in range(height):
-        for x in range(width):
+        for x in apart[: _list_apart(forward[y], backward[y], apart)]:
             u, v = forward[y, x, 0], forward[y, x, 1]
             length2 = u * u + v * v
             # Also false for a flow that is no number.
@@ -102,6 +102,23 @@ def find_sweep(forward: Floats, backward: Floats) -> Floats:
                 place = np.float32(y) + share * v, np.float32(x) + share * u
                 _write_sweep(sweep, forward, backward, place, (u, v))
     return sweep
+
+
+@jit(error_model="numpy")
+def _list_apart(forward: Floats, backward: Floats, apart: NDArray[np.int64]) -> int:
+    """List the columns of a row at which the flows may be those of two surfaces; how many."""
+    ahead, back, width = forward.reshape(-1), backward.reshape(-1), len(forward)
+    marks, is_any = np.empty(width, np.uint8), np.uint8(0)
+    for x in range(width):
+        u, v = ahead[2 * x] + back[2 * x], ahead[2 * x + 1] + back[2 * x + 1]
+        marks[x] = not u * u + v * v <= _CONTESTED
+        is_any |= marks[x]
+    number = 0
+    if is_any:
+        for x in range(width):
+            apart[number] = x
+            number += marks[x]
+    return number
 
 
 @jit(error_model="numpy")
@@ -155,22 +172,21 @@ def _apart2(flow: Floats, x: int, y: int, other: Vector) -> np.float32:
 def mark_contested(forward: Floats, backward: Floats, sweep: Floats) -> NDArray[np.uint8]:
     """Pixels whose path has to be chosen, [H · W]; empty if there are none."""
     height, width, _ = forward.shape
-    marks, number = np.zeros(height * width, np.uint8), 0
+    marks, apart = np.zeros(height * width, np.uint8), np.empty(width, np.int64)
+    swept, is_any = sweep.reshape(-1), False
+    for i in range(swept.size // 2):
+        marks[i] = (swept[2 * i] != _0) | (swept[2 * i + 1] != _0)
+        is_any |= marks[i] > 0
     for y in range(height):
-        for x in range(width):
+        for x in apart[: _list_apart(forward[y], backward[y], apart)]:
             u, v = forward[y, x, 0], forward[y, x, 1]
             p, q = backward[y, x, 0], backward[y, x, 1]
-            longest = min(max(u * u + v * v, p * p + q * q), _MOST)
-            is_swept = sweep.size > 0 and (sweep[y, x, 0] != _0 or sweep[y, x, 1] != _0)
-            is_contested = is_swept
-            limit = _RELATIVE * longest + _CONTESTED
-            if not is_swept and _apart2(backward, x, y, (-u, -v)) > limit:
-                is_contested = _is_met(forward, backward, x, y)
-                is_contested = is_contested or _is_met(backward, forward, x, y)
-            if is_contested:
-                marks[y * width + x] = 1
-                number += 1
-    return marks if number else marks[:0]
+            limit = _RELATIVE * min(max(u * u + v * v, p * p + q * q), _MOST) + _CONTESTED
+            if marks[y * width + x] or _apart2(backward, x, y, (-u, -v)) <= limit:
+                continue
+            if _is_met(forward, backward, x, y) or _is_met(backward, forward, x, y):
+                marks[y * width + x], is_any = 1, True
+    return marks if is_any else marks[:0]
 
 
 @jit

@@ -46,13 +46,13 @@ def refine(start: Floats, stop: Floats, flow: Floats) -> Floats:
     smoothness = np.zeros((2, height + 2, width + 2), np.float32)
     _weigh_smoothness(flow, smoothness)
     _invert(terms, smoothness)
-    now = np.zeros((2, height + 2, width + 2), np.float32)
-    then = np.zeros((2, height + 2, width + 2), np.float32)
+    now, moved = np.zeros((2, height + 2, width + 2), np.float32), np.empty((2, width), np.float32)
     _copy(flow, now, 0, 1)
-    for turn in range(2 * SWEEPS):
-        for y in range(height):
-            _relax(now, then, smoothness, terms, y, turn % 2)
-        now, then = then, now
+    # Each turn follows the one before a row behind: a few rows stay in the nearest cache.
+    for line in range(height + 2 * SWEEPS - 1):
+        for turn in range(2 * SWEEPS):
+            if 0 <= line - turn < height:
+                _relax(now, moved, smoothness, terms, line - turn, turn % 2)
     refined = np.empty(flow.shape, np.float32)
     _copy(now, refined, 1, 0)
     return refined
@@ -225,7 +225,7 @@ def _invert(terms: Floats, smoothness: Floats) -> None:
 
 @jit(error_model="numpy")
 def _relax(
-    now: Floats, then: Floats, smoothness: Floats, terms: Floats, y: int, colour: int
+    now: Floats, moved: Floats, smoothness: Floats, terms: Floats, y: int, colour: int
 ) -> None:
     """Over-relax the pixels of one colour in a row."""
     right, left = smoothness[0, y + 1, 1:], smoothness[0, y + 1]
@@ -233,7 +233,7 @@ def _relax(
     xx, xy, yy, side_x, side_y = terms[0, y], terms[1, y], terms[2, y], terms[3, y], terms[4, y]
     u, u_above, u_below = now[0, y + 1], now[0, y, 1:], now[0, y + 2, 1:]
     v, v_above, v_below = now[1, y + 1], now[1, y, 1:], now[1, y + 2, 1:]
-    new_u, new_v = then[0, y + 1, 1:], then[1, y + 1, 1:]
+    new_u, new_v = moved[0], moved[1]
     for x in range(xx.size):
         p = side_x[x] + (
             (left[x] * u[x] + right[x] * u[x + 2]) + (above[x] * u_above[x] + below[x] * u_below[x])
@@ -245,3 +245,6 @@ def _relax(
         du, dv = xx[x] * p + xy[x] * q - u[x + 1], xy[x] * p + yy[x] * q - v[x + 1]
         new_u[x] = u[x + 1] + (_RELAXATION * du if is_moved else _0)
         new_v[x] = v[x + 1] + (_RELAXATION * dv if is_moved else _0)
+    inner_u, inner_v = u[1:], v[1:]
+    for x in range(xx.size):
+        inner_u[x], inner_v[x] = new_u[x], new_v[x]

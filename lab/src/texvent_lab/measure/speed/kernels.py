@@ -10,6 +10,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
+from texvent.brightness import balanced_log
 from texvent.extending import SIMULATORS
 from texvent.sensor import SensorSize
 from texvent.video import Frame
@@ -24,17 +27,21 @@ THREADS = "TEXVENT_NUM_THREADS"
 
 @dataclass(frozen=True)
 class Plan:
-    """Frames, steps and models."""
+    """Sizes, densities, frames, steps and models."""
 
     frames: int
     """Frames that differ: together more than the caches hold, so that each comes from DRAM."""
     steps: int
     """Steps that are timed."""
-    models: tuple[str, ...] = ("texvent", "esim")
-    """One event per pixel and frame (the paper preset), and several."""
+    models: tuple[str, ...]
+    sizes: tuple[SensorSize, ...] = SIZES
+    densities: tuple[float, ...] = DENSITIES
 
 
-QUICK = Plan(frames=16, steps=24)
+QUICK = Plan(
+    frames=16, steps=24, models=("texvent", "esim"), sizes=SIZES[:1], densities=DENSITIES[2:3]
+)
+"""One event per pixel and frame (the paper preset), and several."""
 FULL = Plan(frames=48, steps=96, models=("texvent", "esim", "v2e", "voltmeter", "physical"))
 
 
@@ -79,7 +86,7 @@ def measure_kernels(plan: Plan) -> list[dict[str, Any]]:
     "clip" is one thread, frame by frame; "clips" two threads, each with a clip of its own.
     """
     rows = []
-    for size, density in itertools.product(SIZES, DENSITIES):
+    for size, density in itertools.product(plan.sizes, plan.densities):
         frames = jumping_pixels(size, density, plan.frames)
         for model in plan.models:
             with one_thread_per_frame():
@@ -109,3 +116,17 @@ def _in_two_threads(model: str, frames: Bytes, steps: int) -> dict[str, Any]:
 
         times = [seconds(both) / (per_chunk * len(runs)) for _ in range(chunks)]
     return quartiles(times, scale=1e3)
+
+
+def measure_definition() -> dict[str, Any]:
+    """Milliseconds per frame of Eq. 5 alone in NumPy, at the size and density of `QUICK`."""
+    config = SIMULATORS.load("texvent").presets["paper"]
+    clip = to_and_fro(jumping_pixels(QUICK.sizes[0], QUICK.densities[0], QUICK.frames))
+    reference = balanced_log(next(clip).luma, config.balance)
+
+    def step() -> None:
+        brightness = balanced_log(next(clip).luma, config.balance)
+        fires = np.abs(brightness - reference) >= config.contrast_threshold
+        reference[fires] = brightness[fires]
+
+    return quartiles([seconds(step) for _ in range(QUICK.steps)], scale=1e3)

@@ -8,6 +8,7 @@ a dependency; one that is missing is reported as such.
 from __future__ import annotations
 
 import argparse
+import functools
 import importlib
 import json
 import math
@@ -20,6 +21,8 @@ from dataclasses import dataclass, replace
 from importlib import metadata
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from texvent.extending import SIMULATORS
 from texvent.pipeline import video_to_events
@@ -37,7 +40,7 @@ from texvent_lab.measure.speed.timing import quartiles, rounded
 Simulate = Callable[[Video, float], int]
 """Frames and contrast threshold → number of events, all of them made and held in memory."""
 OWN_THRESHOLD = 0.2
-"""Contrast threshold of ours, and of a peer that runs as it is shipped."""
+"""Contrast threshold of ours."""
 LOWEST, HIGHEST, CLOSE, MAX_TRIALS = 0.01, 3.0, 0.02, 12
 """Thresholds that are tried; relative difference of two event counts that counts as equal."""
 ONE_THREAD = dict.fromkeys(
@@ -54,8 +57,6 @@ class Peer:
     package: str
     prepare: Callable[[], Simulate]
     """Import the package and return the simulator; ImportError where it is not installed."""
-    is_matched: bool = True
-    """Whether its threshold is set to give as many events as ours."""
 
     @property
     def version(self) -> str | None:
@@ -114,6 +115,7 @@ def _model(name: str, preset: str) -> Simulate:
 def _with_flow(clip: Video, threshold: float) -> int:
     options = {
         "preset": "paper", "interpolate": "flow", "noise": "none", "contrast_threshold": threshold,
+        "detect_cuts": False,  # most pairs of the heavy clip would count as cuts, and have no flow
     }  # fmt: skip
     steps = video_to_events(clip, resolve("simulate", options)).steps()
     return sum(len(packet) for _, packet in steps)
@@ -130,9 +132,6 @@ CORES = (
 ADAPTIVE = Peer(
     "eventcv, adaptive (its default)", "eventcv", _eventcv(upsample="adaptive", **QUIET)
 )
-SHIPPED = Peer(
-    "eventcv, all defaults (adaptive, with its noise)", "eventcv", _eventcv(), is_matched=False
-)
 OURS = {
     "texvent, paper preset": ("texvent", "paper"),
     "texvent, default": ("texvent", "accurate"),
@@ -142,20 +141,29 @@ OURS = {
 
 
 def measure_peers(*, quick: bool, video: Path | None) -> list[dict[str, Any]]:
-    """All rows: cores on heavy motion and on real video, and whole runs with interpolation."""
-    rounds = 3 if quick else 15
-    heavy = embedded_heavy_clip()
-    dense = dense_video(source_frames(video or EXCERPT, 3 if quick else 13), 13 if quick else 81)
-    clips = {"heavy": heavy, "real video, 200 fps": dense}
+    """All rows: cores on heavy motion and on real video, and whole runs with interpolation.
+
+    Args:
+        quick: the heavy clip alone, three times.
+        video: real video; None: an excerpt that the tests have.
+    """
+    rounds, clips = 3 if quick else 15, {"heavy": embedded_heavy_clip()}
+    with_flow = clips.copy()
+    if not quick:
+        source = source_frames(video or EXCERPT, 13)
+        clips["real video, 200 fps"] = dense_video(source, 81)
+        grey = np.stack([np.rint(frame.luma) for frame in source]).astype(np.uint8)
+        with_flow["real video"] = Video(grey, source.times_us)
     rows = [
         measure_duel(clip, name, ours, _model(*model), CORES, rounds=rounds)
         for ours, model in OURS.items()
         for name, clip in clips.items()
     ]
     ours = "texvent, paper preset, with flow"
-    for name, peer in (("heavy", ADAPTIVE), ("heavy, as shipped", SHIPPED)):
-        rows.append(measure_duel(heavy, name, ours, _with_flow, (peer,), rounds=rounds))
-    return rows
+    return rows + [
+        measure_duel(clip, name, ours, _with_flow, (ADAPTIVE,), rounds=rounds)
+        for name, clip in with_flow.items()
+    ]
 
 
 def measure_duel(
@@ -194,7 +202,7 @@ def measure_duel(
         except ImportError as error:
             row |= {"installed": False, "problem": f"not installed ({error})"}
             continue
-        add(row, simulate, *_match(simulate, clip, target if peer.is_matched else None))
+        add(row, simulate, *match_count(functools.partial(simulate, clip), target))
     times: list[list[float]] = [[] for _ in calls]
     for _ in range(rounds):
         for own_times, (_, call) in zip(times, calls, strict=True):
@@ -205,13 +213,6 @@ def measure_duel(
         row["ms_per_pair"] = quartiles(own_times, scale=1e3 / pairs)
     return {"clip": name, "size": str(clip.size), "pairs": pairs, "ours": our_row,
             "peers": peer_rows}  # fmt: skip
-
-
-def _match(simulate: Simulate, clip: Video, target: int | None) -> tuple[float, int]:
-    """Threshold and events of a peer; None: at the threshold of ours."""
-    if target is None:
-        return OWN_THRESHOLD, simulate(clip, OWN_THRESHOLD)
-    return match_count(lambda threshold: simulate(clip, threshold), target)
 
 
 def match_count(count_of: Callable[[float], int], target: int) -> tuple[float, int]:

@@ -132,9 +132,9 @@ def write_video(path: Path, frames: Bytes) -> Path:
     return path
 
 
-def measure_startup(*, quick: bool) -> dict[str, Any]:
+def measure_startup() -> dict[str, Any]:
     """Times from launch, s."""
-    repeats = 3 if quick else 9
+    repeats = 9
     report: dict[str, Any] = {
         f"{name}_cpu_s": quartiles([_cpu_seconds(words) for _ in range(repeats)])
         for name, words in {

@@ -7,6 +7,8 @@ from typing import Any
 from texvent_lab.bench.document import markdown_table
 
 Document = dict[str, Any]
+CORE, WITH_FLOW = 3.0, 0.3
+"""Least ratios of a peer's time over ours."""
 STARTUP = {
     "help_cpu_s": "`texvent --help`, CPU",
     "generate_help_cpu_s": "`texvent generate --help`, CPU",
@@ -18,7 +20,12 @@ STARTUP = {
 
 def as_markdown(document: Document) -> str:
     """All tables of a document."""
-    parts = [_conditions(document), _kernels(document), _runs(document), _peers(document)]
+    parts = [_conditions(document), _kernels(document), _peers(document)]
+    if "definition" in document:  # not in older results
+        parts.append(_bounds(document))
+    if document["quick"]:
+        return "\n".join(parts)
+    parts.append(_runs(document))
     if "steps" in document:  # not in older results
         parts.append(_steps(document))
     startup = document["startup"]
@@ -80,6 +87,32 @@ def _steps(document: Document) -> str:
     ]  # fmt: skip
     head = ("model", "size", "events", "ms, median", "ms, 95 %")
     return f"## Steps of `texvent.EventCamera`\n\n{markdown_table(head, rows)}"
+
+
+def _bounds(document: Document) -> str:
+    """Ratios that hold on any machine, with room for noise; one that is missed is marked."""
+    kernel = {
+        row["model"]: row
+        for row in document["kernels"]
+        if (row["size"], row["density"], row["way"]) == ("346x260", 0.05, "clip")
+    }
+    rows = []
+
+    def add(ratio: str, value: float, bound: float) -> None:
+        rows.append((ratio, f"{value:.3g}", f"{bound:g}", "" if value >= bound else "**missed**"))
+
+    numpy_ms = document["definition"]["median"]
+    add("Eq. 5 in NumPy over the kernel", numpy_ms / kernel["texvent"]["ms_per_frame"]["median"], 5)
+    for model, bound in (("texvent", 30.0), ("esim", 20.0)):
+        add(f"{model}, events per microsecond", kernel[model]["mevents_per_s"], bound)
+    for row in document["peers"]:
+        ours = row["ours"]
+        bound = WITH_FLOW if "flow" in ours["name"] else CORE
+        for peer in row["peers"]:
+            if peer["installed"]:
+                ratio = peer["ms_per_pair"]["median"] / ours["ms_per_pair"]["median"]
+                add(f"{row['clip']}: {peer['name']} over {ours['name']}", ratio, bound)
+    return f"## Bounds\n\n{markdown_table(('ratio', 'measured', 'at least', ''), rows)}"
 
 
 def _peers(document: Document) -> str:
