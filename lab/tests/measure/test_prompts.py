@@ -1,4 +1,4 @@
-"""Prompts for grading: public ones drawn by digest, strips, sums of grades."""
+"""Prompts for grading: strips, sums of grades."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ import sys
 import cv2
 import pytest
 
-from texvent_lab.measure.prompts import public, score
+from texvent_lab.measure.prompts import score
 from texvent_lab.measure.prompts.__main__ import main
 from texvent_lab.measure.prompts.score import Share
-from texvent_lab.measure.prompts.sheet import read_prompts
 
 GRADES = """id,style,nouns_asked,nouns_shown,motion,silently_wrong,fully_right,fully_reported,stand_in,grade,remark
 a,short,2,2,yes,no,yes,no,no,5,
@@ -20,7 +19,6 @@ b,short,3,1,partly,yes,no,no,no,2,no dog
 c,long,1,0,no,0,0,1,1,0,
 d,long,2,2,none,,1,,,4,
 """  # noqa: E501  # a row of a table
-SUBJECTS = [f"a thing of number {number}" for number in range(400)]
 
 
 def run(monkeypatch: pytest.MonkeyPatch, *words: object) -> int:
@@ -70,38 +68,3 @@ def test_strips_are_drawn_with_the_report(tmp_path, monkeypatch, capsys):
     (tmp_path / "p.csv").write_text("id,prompt\n../a,a dog\n")
     assert run(monkeypatch, *words) == 2
     assert "line 2: id is '../a'" in capsys.readouterr().err
-
-
-def test_draws_of_public_prompts_share_no_subject(tmp_path, monkeypatch, capsys):
-    styled = [f"{one}, {style}" for one in SUBJECTS for style in ("in oil", "zoom in")]
-    long = [f"{one} moves {'slowly ' * 20}along" for one in SUBJECTS]
-    captions = {"annotations": [{"caption": f" {one}\n"} for one in SUBJECTS]}
-    sources = {
-        "vbench": "\n".join(styled),
-        "moviegen": "\n".join(["a short one", "a pleasant stroll " * 9, *long]),
-        "coco": json.dumps(captions),
-    }
-    words: list[object] = []
-    for name, text in sources.items():
-        (tmp_path / name).write_text(text)
-        words += [f"--{name}", tmp_path / name]
-    assert run(monkeypatch, "public", *words, "-o", tmp_path / "out") == 0
-    assert "0 of them those that were graded" in capsys.readouterr().out
-    draws = [read_prompts(tmp_path / "out" / f"{name}.csv") for name in public.DRAWS]
-    for rows in draws:
-        styles = [style for style in public.STYLES for _ in range(public.PER_DRAW)]
-        assert [row.style for row in rows] == styles
-    every = [row for rows in draws for row in rows]
-    assert len({row.id for row in every}) == len(every)
-    assert not any("stroll" in row.prompt for row in every)
-    for style in public.STYLES:
-        subjects = [
-            {public.subject_of(row.prompt) for row in rows if row.style == style} for rows in draws
-        ]
-        assert len(set.union(*subjects)) == sum(len(one) for one in subjects)
-
-
-def test_the_order_of_the_lines_does_not_matter():
-    drawn = public.draw(SUBJECTS, "short", "test")
-    assert drawn == public.draw(SUBJECTS[::-1] * 2, "short", "test")
-    assert drawn[0].id == "V41"

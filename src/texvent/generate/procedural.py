@@ -150,17 +150,14 @@ class ProceduralVideo(NotebookFrames):
         memory = self._make_memory()
         for index in range(first, self.frame_count):
             t_us = frame_time_us(index, self.fps)
-            pixels, codes = self._render(memory, t_us)
+            pixels, codes = memory.render(t_us / MICROSECONDS)
             motion = self._motion(index) if self.has_motion else None
             yield SceneFrame(pixels, t_us, motion=motion, transfer=self.transfer, codes=codes)
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
-        pixels, _ = self._render(self._memory, t_us)
+        pixels, _ = self._memory.render(t_us / MICROSECONDS)
         return Frame(pixels, t_us, is_source=False, transfer=self.transfer)
-
-    def _render(self, memory: FrameMemory, t_us: int) -> tuple[NDArray[Any], NDArray[Any]]:
-        return memory.render(t_us / MICROSECONDS)
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         """Depth, ids and boxes at `t0_us`, and optical flow from there to `t1_us`."""

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 from texvent.errors import TexventError
-from texvent_lab.measure.prompts import public, score, sheet
+from texvent_lab.measure.prompts import score, sheet
 
 
 def main() -> int:
@@ -29,12 +29,6 @@ def _parser() -> argparse.ArgumentParser:
     one.add_argument("-o", "--out", type=Path, required=True, help="folder")
     one.add_argument("--jobs", type=int, default=1, help="processes")
     one.set_defaults(run=sheet.run)
-    one = commands.add_parser("public", help="draw the prompts of VBench, Movie Gen and COCO")
-    one.add_argument("--vbench", type=Path, required=True, help="all_dimension.txt")
-    one.add_argument("--moviegen", type=Path, required=True, help="MovieGenVideoBench.txt")
-    one.add_argument("--coco", type=Path, required=True, help="captions_val2017.json")
-    one.add_argument("-o", "--out", type=Path, required=True, help="folder")
-    one.set_defaults(run=public.run)
     one = commands.add_parser("score", help="the table of a grader's sheet")
     one.add_argument("grades", type=Path, help=".csv; columns: " + ", ".join(score.COLUMNS))
     one.set_defaults(run=score.run)

@@ -267,8 +267,7 @@ def _blocked(
 
     Shapes beyond the share `near` of the way belong to the lamp itself.
     """
-    lists = instant.lists
-    thin = False
+    lists, thin = instant.lists, False
     reach_mm = 1e3 * math.sqrt(dot(towards, towards))
     for index in range(list_at(lists, cell), list_at(lists, cell + 1), 2):
         if list_at(lists, index + 1) > reach_mm:
