@@ -150,14 +150,17 @@ class ProceduralVideo(NotebookFrames):
         memory = self._make_memory()
         for index in range(first, self.frame_count):
             t_us = frame_time_us(index, self.fps)
-            pixels, codes = memory.render(t_us / MICROSECONDS)
+            pixels, codes = self._render(memory, t_us)
             motion = self._motion(index) if self.has_motion else None
             yield SceneFrame(pixels, t_us, motion=motion, transfer=self.transfer, codes=codes)
 
     def at(self, t_us: int) -> Frame:
         """The frame at `t_us`, [H, W, 3] float32 RGB on the 0..255 scale, `is_source` False."""
-        pixels, _ = self._memory.render(t_us / MICROSECONDS)
+        pixels, _ = self._render(self._memory, t_us)
         return Frame(pixels, t_us, is_source=False, transfer=self.transfer)
+
+    def _render(self, memory: FrameMemory, t_us: int) -> tuple[NDArray[Any], NDArray[Any]]:
+        return memory.render(t_us / MICROSECONDS)
 
     def ground_truth(self, t0_us: int, t1_us: int) -> GroundTruth:
         """Depth, ids and boxes at `t0_us`, and optical flow from there to `t1_us`."""
@@ -193,7 +196,6 @@ class ProceduralVideo(NotebookFrames):
         Light that beats is drawn at every instant: two frames and their middle may all show the
         same moment of its beat.
         """
-        images: Iterator[NDArray[np.float32]]
         if self.flicker_hz is not None:
             images = (float_luma(self.at(t_us)) for t_us in times_us)
         else:

@@ -25,6 +25,7 @@ from texvent.dataset.reading.stored_dataset import StoredDataset
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Filters
 from texvent.errors import ConfigError, FileFormatError, OutputError
+from texvent.generate.procedural import ProceduralVideo
 from texvent.pipeline import text_to_events
 from texvent.settings.resolution import resolve
 
@@ -94,6 +95,13 @@ def test_variants_that_share_frames_are_what_each_is_alone(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, most_bytes: int
 ) -> None:
     monkeypatch.setattr(sample, "MOST_BYTES", most_bytes)
+    rendered, render = [], ProceduralVideo._render
+
+    def count(self: ProceduralVideo, memory: Any, t_us: int) -> Any:
+        rendered.append((self.size, t_us))
+        return render(self, memory, t_us)
+
+    monkeypatch.setattr(ProceduralVideo, "_render", count)
     variants = {
         "still": {"interpolate": "none", "simulator": "esim"},
         "dense": {"fixed_count": 3, "seeds": 2},
@@ -103,6 +111,8 @@ def test_variants_that_share_frames_are_what_each_is_alone(
     few = {"sources": [{"prompts": ["a red car drives left"]}], "splits": {"train": 1.0},
            "truth": ["boxes", "flow"]}  # fmt: skip
     make(recipe_of(**few, variants=variants), tmp_path / "all")
+    if most_bytes > 40_000:
+        assert len(rendered) == len(set(rendered)) > 0
     for name, options in variants.items():
         make(recipe_of(**few, variants={name: options}), tmp_path / name)
         for shard, alone in digests(tmp_path / name).items():

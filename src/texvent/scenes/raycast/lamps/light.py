@@ -151,9 +151,7 @@ def list_casters(lamp: Any, shapes: NDArray[Any], primitives: Primitives) -> Bin
     touches = (around[:, :, 1] >= 0) & (around[:, :, 0] < LONGITUDES)
     rank, turn = np.nonzero(touches.T)
     bins = bin_rectangles(around[turn, rank], order[rank], LONGITUDES, LATITUDES)
-    items = np.empty((len(bins.items), 2), np.int32)
-    items[:, 0] = numbers[bins.items]
-    items[:, 1] = np.floor(1e3 * nearest[bins.items])
+    items = np.stack([numbers, np.floor(1e3 * nearest)], axis=1)[bins.items].astype(np.int32)
     return Bins(2 * bins.start, items.ravel(), LONGITUDES, LATITUDES)
 
 
