@@ -104,7 +104,7 @@ def find_sweep(forward: Floats, backward: Floats) -> Floats:
     return sweep
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _list_apart(forward: Floats, backward: Floats, apart: NDArray[np.int64]) -> int:
     """List the columns of a row at which the flows may be those of two surfaces; how many."""
     ahead, back, width = forward.reshape(-1), backward.reshape(-1), len(forward)
@@ -121,7 +121,7 @@ def _list_apart(forward: Floats, backward: Floats, apart: NDArray[np.int64]) -> 
     return number
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _is_met(flow: Floats, other: Floats, x: int, y: int) -> bool:
     """Whether the flow of a pixel leads to one whose flow leads back, within a pixel."""
     height, width, _ = flow.shape
@@ -135,7 +135,7 @@ def _is_met(flow: Floats, other: Floats, x: int, y: int) -> bool:
     return bool(_apart2(other, column, row, (-u, -v)) <= _VISIBLE_RELATIVE * length2 + _1)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _write_sweep(
     sweep: Floats, forward: Floats, backward: Floats, place: Vector, path: Vector
 ) -> None:
@@ -156,12 +156,12 @@ def _write_sweep(
                 held[0], held[1] = u, v
 
 
-@jit
+@jit(inner=True)
 def _nearest(place: np.float32) -> int:
     return int(np.floor(place + _HALF))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _apart2(flow: Floats, x: int, y: int, other: Vector) -> np.float32:
     """Squared distance of the flow at a pixel from another one."""
     u, v = flow[y, x, 0] - other[0], flow[y, x, 1] - other[1]
@@ -189,7 +189,7 @@ def mark_contested(forward: Floats, backward: Floats, sweep: Floats) -> NDArray[
     return marks if is_any else marks[:0]
 
 
-@jit
+@jit(inner=True)
 def list_contested(
     marks: NDArray[np.uint8], pixel: Numbers, number: int, contested: Numbers
 ) -> None:
@@ -211,7 +211,7 @@ def list_contested(
     contested[0] = count
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def choose_path(
     forward: Floats, backward: Floats, sweep: Floats, pixel: Vector, position: np.float32
 ) -> Vector:
@@ -237,7 +237,7 @@ def choose_path(
     return best
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _confirmed(
     forward: Floats, backward: Floats, pixel: Vector, path: Vector, position: np.float32
 ) -> np.float32:

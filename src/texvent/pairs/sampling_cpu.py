@@ -74,7 +74,7 @@ class Corners(NamedTuple):
     """Bends along y of the corner and of its right neighbour."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def make_samples(room: int) -> Samples:
     """Room for the samples of `room` points."""
     return Samples(
@@ -88,7 +88,7 @@ def make_samples(room: int) -> Samples:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def make_corners(room: int) -> Corners:
     """Scratch memory for `room` points."""
     return Corners(
@@ -147,7 +147,7 @@ def _list_bends(image: Floats) -> Words:
     return levels.reshape(-1).view(np.uint64)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _bend_row(row: Floats, turns: Floats, bends: Floats) -> None:
     """Bends along x of a row; the last of them is not set. `turns` is scratch memory."""
     _turn(row, row[1:], row[2:], turns[1:])
@@ -156,14 +156,14 @@ def _bend_row(row: Floats, turns: Floats, bends: Floats) -> None:
         bends[x] = _QUARTER * (turns[x] + turns[x + 1])
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _turn(before: Floats, here: Floats, after: Floats, turns: Floats) -> None:
     """By how much the slope changes at pixels."""
     for x in range(after.size):
         turns[x] = (before[x] - here[x]) + (after[x] - here[x])
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sample(
     words: PixelWords, flows: Words, number: int, width: int, memory: tuple[Samples, Corners]
 ) -> None:
@@ -184,7 +184,7 @@ def sample(
         flow[k] = flows[np.uint64(nearest[k])]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _gather(words: PixelWords, corner: Numbers, number: int, width: int, out: Corners) -> None:
     (pixels, bends), (upper, lower, along, across) = words, out
     for k in range(number):
@@ -196,7 +196,7 @@ def _gather(words: PixelWords, corner: Numbers, number: int, width: int, out: Co
         along[k], across[k] = bends[here + here], bends[here + here + _ONE]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _mix_corners(corners: Corners, number: int, samples: Samples) -> None:
     us, vs, value = samples.u, samples.v, samples.value
     upper, lower = corners.upper.view(np.float32), corners.lower.view(np.float32)

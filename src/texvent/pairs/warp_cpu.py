@@ -154,7 +154,7 @@ def warp_pair(pair: WarpPair, positions: NDArray[np.float64]) -> Floats:
     return result
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _warp_rows(
     pair: WarpPair, top: int, bottom: int, positions: NDArray[np.float64], result: Floats
 ) -> None:
@@ -238,7 +238,7 @@ def take_points(pair: WarpPair, chosen: NDArray[np.int64], points: Points) -> No
     list_contested(pair.contested, pixel, chosen.size, contested)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _choose_paths(pair: WarpPair, points: Points, position: np.float32) -> None:
     """Give contested points the path at this instant, as if both flows agreed on it."""
     height, width = pair.first.shape
@@ -269,7 +269,7 @@ def warp_points(pair: WarpPair, room: Room, number: int, position: float, out: F
     _mix(points, in_first, in_second, number, place, out)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _locate(
     points: Points,
     number: int,
@@ -298,7 +298,7 @@ def _locate(
         nearest[k] = here + (width if down >= _HALF else np.int32(0)) + np.int32(right >= _HALF)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _mix(
     points: Points,
     in_first: Samples,

@@ -50,7 +50,7 @@ def make_level(image: Floats) -> Floats:
     return level
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _find_slopes(
     above: Floats, here: Floats, below: Floats, slope_x: Floats, slope_y: Floats
 ) -> None:

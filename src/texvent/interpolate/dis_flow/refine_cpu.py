@@ -58,7 +58,7 @@ def refine(start: Floats, stop: Floats, flow: Floats) -> Floats:
     return refined
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _copy(source: Floats, target: Floats, margin: int, new_margin: int) -> None:
     """Copy a flow into an array with another margin."""
     for axis in range(2):
@@ -94,7 +94,7 @@ def unconfirmed(start: Floats, stop: Floats, flow: Floats, back: Floats) -> Mask
     return found
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _linearize(start: Floats, stop: Floats, flow: Floats) -> Floats:
     """The data term: matrix (xx, xy, yy) and right side (x, y) of each pixel, [5, H, W]."""
     _, height, width = flow.shape
@@ -106,7 +106,7 @@ def _linearize(start: Floats, stop: Floats, flow: Floats) -> Floats:
     return terms
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _sample_along(start: Floats, stop: Floats, flow: Floats) -> tuple[Floats, Floats]:
     """Mean of both images along a flow, and the change from one to the other, [H, W]."""
     _, height, width = flow.shape
@@ -127,7 +127,7 @@ def _sample_along(start: Floats, stop: Floats, flow: Floats) -> tuple[Floats, Fl
     return middle, change
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _locate(
     u: Floats, v: Floats, y: int, shape: tuple[int, int], corner: Numbers, weights: Floats
 ) -> None:
@@ -143,7 +143,7 @@ def _locate(
         corner[x] = (np.int32(top) + np.int32(MARGIN)) * columns + np.int32(left) + np.int32(MARGIN)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _mix(corners: Floats, weights: Floats, here: Floats, middle: Floats, change: Floats) -> None:
     """Fill in the mean of both images, and the change from one to the other."""
     a, b, c, d = corners[0], corners[1], corners[2], corners[3]
@@ -156,7 +156,7 @@ def _mix(corners: Floats, weights: Floats, here: Floats, middle: Floats, change:
         change[x] = there - here[x]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _fill_data_term(
     rows: tuple[Floats, Floats, Floats],
     change: Floats,
@@ -189,7 +189,7 @@ def _fill_data_term(
         xy[x], yy[x] = strength * along * across, strength * across * across
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _weigh_smoothness(flow: Floats, smoothness: Floats) -> None:
     """Fill in the smoothness weights to the right and below, inside the image only."""
     _, height, width = flow.shape
@@ -209,7 +209,7 @@ def _weigh_smoothness(flow: Floats, smoothness: Floats) -> None:
                 down[x] = _0
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _invert(terms: Floats, smoothness: Floats) -> None:
     """Add the smoothness weights to each pixel's matrix, and invert it."""
     for y in range(terms.shape[1]):
@@ -223,7 +223,7 @@ def _invert(terms: Floats, smoothness: Floats) -> None:
             xx[x], xy[x], yy[x] = c / determinant, -b / determinant, a / determinant
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _relax(
     now: Floats, moved: Floats, smoothness: Floats, terms: Floats, y: int, colour: int
 ) -> None:

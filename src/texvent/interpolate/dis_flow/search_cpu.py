@@ -72,7 +72,7 @@ def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floa
     return found
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _compare(
     level: Floats, target: Floats, shape: tuple[int, int], here: tuple[int, int], flow: Vector
 ) -> Sums:
@@ -83,7 +83,7 @@ def _compare(
     return sums[0], sums[1] - sums[0] * sums[0] / _AREA, sums[2], sums[3]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, Sums]:
     """Flat index of the pixel up left of a place, and bilinear weights of it and the others.
 
@@ -97,7 +97,7 @@ def _place(shape: tuple[int, int], x: np.float32, y: np.float32) -> tuple[int, S
     return corner, ((_1 - u) * (_1 - v), u * (_1 - v), (_1 - u) * v, u * v)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _sum_slopes(
     level: Floats, target: Floats, shape: tuple[int, int], here: tuple[int, int], sums: Floats
 ) -> None:
@@ -117,7 +117,7 @@ def _sum_slopes(
     sums[0], sums[1], sums[2], sums[3], sums[4], sums[5] = xx, xy, yy, x, y, xx * yy - xy * xy
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _spread_of(level: Floats, shape: tuple[int, int], here: tuple[int, int]) -> np.float32:
     """Mean-free squares of a patch, summed."""
     place = (here[0] + MARGIN) * shape[1] + here[1] + MARGIN
@@ -126,7 +126,7 @@ def _spread_of(level: Floats, shape: tuple[int, int], here: tuple[int, int]) -> 
     return np.float32(squares - total * total / _AREA)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _search_integer(
     level: Floats, target: Floats, shape: tuple[int, int], here: tuple[int, int]
 ) -> Vector:
@@ -142,7 +142,7 @@ def _search_integer(
     return best
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _propagate(
     level: Floats,
     target: Floats,
@@ -179,7 +179,7 @@ def _propagate(
     return is_better
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _gauss_newton(
     level: Floats,
     target: Floats,

@@ -83,7 +83,7 @@ def draw(
     _hold(first.layers.value, second.layers.value, position, image)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _compose(
     position: np.float32,
     number: Numbers,
@@ -118,7 +118,7 @@ def _compose(
             image[y, x] = level
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _hold(first: Floats, second: Floats, position: np.float32, image: Floats) -> None:
     """Mix both frames in place where no path leads."""
     height, width = image.shape
@@ -128,7 +128,7 @@ def _hold(first: Floats, second: Floats, position: np.float32, image: Floats) ->
                 image[y, x] = first[y, x] + position * (second[y, x] - first[y, x])
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _covered(share_1: np.float32, share_2: np.float32, position: np.float32) -> np.float32:
     """Share of a pixel that the nearer layer covers.
 
@@ -140,7 +140,7 @@ def _covered(share_1: np.float32, share_2: np.float32, position: np.float32) -> 
     return min(mixed + doubt * (max(share_1, share_2) - mixed), np.float32(1.0))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _mix(
     share_1: np.float32,
     value_1: np.float32,
@@ -156,7 +156,7 @@ def _mix(
     return (weight_1 * value_1 + weight_2 * value_2) / total
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _gather(layers: Layers, places: Floats, index: int, pixels: Numbers) -> Floats:
     """Share and level of a layer in a frame.
 
@@ -198,7 +198,7 @@ def _gather(layers: Layers, places: Floats, index: int, pixels: Numbers) -> Floa
     return found
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _at_contour(
     layers: Layers,
     column: int,
@@ -238,7 +238,7 @@ def _at_contour(
     return share, light / share
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _filled(
     share: np.float32,
     step_x: int,
@@ -262,7 +262,7 @@ def _filled(
     return np.float32(min(max((share - start) / (stop - start), np.float32(0.0)), one))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _spline(spline: Floats, column: int, row: int, u: np.float32, v: np.float32) -> np.float32:
     """The cubic B-spline at (column + u, row + v), inside the image."""
     a0, a1, a2, a3 = _weights(u)
@@ -280,7 +280,7 @@ def _spline(spline: Floats, column: int, row: int, u: np.float32, v: np.float32)
     return total
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _weights(u: np.float32) -> tuple[np.float32, np.float32, np.float32, np.float32]:
     one, sixth = np.float32(1.0), np.float32(1.0 / 6.0)
     rest, u2 = one - u, u * u

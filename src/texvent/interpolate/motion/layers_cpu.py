@@ -136,7 +136,7 @@ def make_layers(image: Floats, order: Floats, vectors: Floats) -> Layers:
     return layers
 
 
-@jit
+@jit(inner=True)
 def _split_contour(
     image: Floats, vectors: Floats, layers: Layers, pixel: tuple[int, int], step: tuple[int, int]
 ) -> None:
@@ -172,7 +172,7 @@ def _split_contour(
     layers.other_share[y, x] = 1.0 if is_nearer else 1.0 - share
 
 
-@jit
+@jit(inner=True)
 def _across_contour(order: Floats, tolerance: Floats, x: int, y: int) -> tuple[int, int]:
     """Step to the neighbour across the highest step in depth; (0, 0) where there is none."""
     height, width = order.shape
@@ -188,7 +188,7 @@ def _across_contour(order: Floats, tolerance: Floats, x: int, y: int) -> tuple[i
     return step_x, step_y
 
 
-@jit
+@jit(inner=True)
 def _inner_light(
     image: Floats, layers: Layers, pixel: tuple[int, int], step: tuple[int, int]
 ) -> float:
@@ -225,7 +225,7 @@ def window_extremes(image: Floats) -> tuple[Floats, Floats]:
     return lowest, highest
 
 
-@jit
+@jit(inner=True)
 def _find_plain(order: Floats, tolerance: Floats) -> NDArray[np.bool_]:
     height, width = order.shape
     low, high = window_extremes(order)
@@ -246,7 +246,7 @@ def fit_spline(image: Floats) -> Floats:
     return _filter_down(np.ascontiguousarray(lines.T))
 
 
-@jit
+@jit(inner=True)
 def _filter_down(lines: Floats) -> Floats:
     """Filter along the first axis, in place."""
     count = len(lines)

@@ -90,7 +90,7 @@ def make_paths(
     return paths
 
 
-@jit
+@jit(inner=True)
 def _without_noise(vectors: Floats) -> Floats:
     """The vectors, with those shorter than `LEAST_MOTION_PX` set to 0."""
     result = vectors.copy()
@@ -101,7 +101,7 @@ def _without_noise(vectors: Floats) -> Floats:
     return result
 
 
-@jit
+@jit(inner=True)
 def _bend(path: Floats, vector: Floats, here: Floats, there: Floats, has_other: bool) -> None:
     """Add the terms of Everett's formula that bend the path."""
     length = math.hypot(here[0], here[1])
@@ -121,7 +121,7 @@ def _bend(path: Floats, vector: Floats, here: Floats, there: Floats, has_other: 
         path[4 + axis] = (b_other - b) / 6.0
 
 
-@jit
+@jit(inner=True)
 def _stretch(
     vectors: Floats, order: Floats, tolerance: np.float32, x: int, y: int, axis: int
 ) -> tuple[np.float32, np.float32]:
@@ -180,7 +180,7 @@ def list_fragments(layers: Layers, paths: Floats) -> Floats:
     return fragments
 
 
-@jit
+@jit(inner=True)
 def _write_fragment(
     fragments: Floats, k: int, pixel: tuple[int, int], paths: Floats, donor: tuple[int, int]
 ) -> None:

@@ -64,7 +64,7 @@ class Fragment(NamedTuple):
     """Of ln depth within its layer."""
 
 
-@jit
+@jit(inner=True)
 def make_nearest_layer(height: int, width: int) -> NearestLayer:
     """The nearest layer of an image in which nothing has been put yet."""
     return NearestLayer(
@@ -76,7 +76,7 @@ def make_nearest_layer(height: int, width: int) -> NearestLayer:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def splat(fragments: Floats, s: np.float32, index: int, visible: NearestLayer) -> None:
     """Collect all fragments of a frame at `s` of their paths, as if there were one layer.
 
@@ -107,7 +107,7 @@ def splat(fragments: Floats, s: np.float32, index: int, visible: NearestLayer) -
                 _add(places, row * width + column, index, fragment, across * down)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def number_overlaps(visible: NearestLayer) -> Numbers:
     """Number the pixels that two layers overlap, and clear their samples.
 
@@ -130,7 +130,7 @@ def number_overlaps(visible: NearestLayer) -> Numbers:
     return pixels[: count + 1].copy()
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def splat_overlaps(
     fragments: Floats,
     chosen: Numbers,
@@ -168,7 +168,7 @@ def splat_overlaps(
                     _add(occluded.places, overlap, index, fragment, across * down)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _fragment_at(fragments: Floats, k: int, s: np.float32) -> Fragment:
     """Fragment `k` at `s` of its path."""
     return Fragment(
@@ -180,7 +180,7 @@ def _fragment_at(fragments: Floats, k: int, s: np.float32) -> Fragment:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _rectangle(
     fragments: Floats, k: int, s: np.float32, x: np.float32, y: np.float32
 ) -> tuple[np.float32, np.float32, np.float32, np.float32]:
@@ -191,7 +191,7 @@ def _rectangle(
     return x + half - wide, x + half + wide, y + half - high, y + half + high
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _add(places: Floats, row: int, index: int, fragment: Fragment, weight: np.float32) -> None:
     places[row, index] += weight
     places[row, index + 1] -= weight * fragment.shift_x
@@ -200,7 +200,7 @@ def _add(places: Floats, row: int, index: int, fragment: Fragment, weight: np.fl
     places[row, index + 4] += weight * fragment.tolerance
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def find_overlapping_fragments(fragments: Floats, s: np.float32, number: Numbers) -> Numbers:
     """Indices of the fragments that may reach a pixel in which two layers meet."""
     height, width = number.shape

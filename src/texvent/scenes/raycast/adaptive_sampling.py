@@ -49,7 +49,7 @@ _SOFT_CLIP_START = 0.75
 """Light above this share of white is compressed instead of cut off."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _probe(instant: Record, x: float, y: float) -> int:
     """What is at image point (x, y), as one number: surface, face, and what it is lit by."""
     depth, number, face, _ = first_hit(instant, x, y)
@@ -57,7 +57,7 @@ def _probe(instant: Record, x: float, y: float) -> int:
     return (surface_code(instant, number, face) << LIT_BITS) + lit
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _soft_clip(light: float) -> float:
     """Linear light as a share of white: unchanged up to `_SOFT_CLIP_START`, then smoothly to 1."""
     if light <= _SOFT_CLIP_START:
@@ -66,7 +66,7 @@ def _soft_clip(light: float) -> float:
     return _SOFT_CLIP_START + room * (1.0 - math.exp((_SOFT_CLIP_START - light) / room))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _expose(instant: Record, light: Colour) -> Colour:
     red, green, blue = scaled(light, instant.exposure)
     if instant.highlights == 1:
@@ -74,7 +74,7 @@ def _expose(instant: Record, light: Colour) -> Colour:
     return _soft_clip(red), _soft_clip(green), _soft_clip(blue)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _shade(instant: Record, x: float, y: float, probe: int) -> Colour:
     """Exposed light at image point (x, y), where the surface `probe` is."""
     number, lit = (probe >> LIT_BITS) // CODES, probe & ALL_LIGHTS
@@ -89,7 +89,7 @@ def _shade(instant: Record, x: float, y: float, probe: int) -> Colour:
     return _expose(instant, light)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _add_share(
     shares: Float64Array, count: int, probe: int, share: float, place: tuple[float, float]
 ) -> int:
@@ -113,7 +113,7 @@ def _add_share(
     return count
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _mean_light(instant: Record, shares: Float64Array, count: int) -> Colour:
     """Mean light of a pixel that several surfaces share.
 
@@ -134,7 +134,7 @@ def _mean_light(instant: Record, shares: Float64Array, count: int) -> Colour:
     return red / total, green / total, blue / total
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _sample_pixel(
     instant: Record, column: int, row: int, pattern: Float64Array, shares: Float64Array
 ) -> Colour:
@@ -146,14 +146,14 @@ def _sample_pixel(
     return _mean_light(instant, shares, count)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _between(
     start: tuple[float, float], stop: tuple[float, float], share: float
 ) -> tuple[float, float]:
     return start[0] + share * (stop[0] - start[0]), start[1] + share * (stop[1] - start[1])
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _find_edge(
     instant: Record,
     ends: tuple[tuple[float, float], tuple[float, float]],
@@ -190,7 +190,7 @@ def _find_edge(
     return 0.5 * (low + high), beyond
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _add_line(
     instant: Record,
     shares: Float64Array,
@@ -217,7 +217,7 @@ def _add_line(
     return _add_share(shares, count, probes[1], share * (1.0 - low), place)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _split_pixel(
     instant: Record, column: int, row: int, probes: NDArray[np.int64], shares: Float64Array
 ) -> Colour:
@@ -251,7 +251,7 @@ def _split_pixel(
     return _mean_light(instant, shares, count)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _is_needed(wanted: NDArray[np.bool_], j: int, i: int, samples: int) -> bool:
     """Whether a wanted pixel lies at lattice point (j, i) of a tile."""
     height, width = wanted.shape
@@ -262,7 +262,7 @@ def _is_needed(wanted: NDArray[np.bool_], j: int, i: int, samples: int) -> bool:
     return False
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _probe_tile(
     instant: Record,
     corner: tuple[int, int],
@@ -292,7 +292,7 @@ def _probe_tile(
             probes[j, i] = _THIN if thin or thin_shadow else (surface << LIT_BITS) + lit
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _probe_shadows(
     instant: Record,
     left: int,
@@ -320,7 +320,7 @@ def _probe_shadows(
                 around[j, i] = _probe(instant, left + i / last, top + j / last)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
     """Whether all probes in and around one pixel saw the same surface, and nothing thin."""
     first = probes[top, left]
@@ -333,7 +333,7 @@ def _agree(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool
     return True
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _any_thin(probes: NDArray[np.int64], top: int, left: int, samples: int) -> bool:
     """Whether something thin is near one pixel."""
     for row in range(top, top + samples + 1):

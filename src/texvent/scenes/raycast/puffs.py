@@ -51,7 +51,7 @@ def density_integral(half: float, start: float, stop: float) -> float:
     return max(last - first, 0.0)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _puff_depth(puff: Record, direction: Vector, depth: float) -> tuple[float, Vector]:
     """(optical depth of one puff before `depth`, point of the ray nearest to its middle).
 
@@ -70,7 +70,7 @@ def _puff_depth(puff: Record, direction: Vector, depth: float) -> tuple[float, V
     return puff.thickness * metres * mass, place
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _with_detail(puff: Record, place: Vector, footprint: float) -> float:
     """Factor around 1: lumps in a puff, which fade where a pixel covers them."""
     if puff.detail == 0.0:
@@ -105,7 +105,7 @@ def optical_depth(instant: Record, u: float, v: float, depth: float) -> float:
     return total
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _puff_light(instant: Record, puff: Record, direction: Vector, place: Vector) -> Colour:
     """Light that a puff scatters and gives off towards the camera.
 
@@ -137,7 +137,7 @@ def _puff_light(instant: Record, puff: Record, direction: Vector, place: Vector)
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def through_puffs(instant: Record, x: float, y: float, depth: float, light: Colour) -> Colour:
     """What is left of a surface's light behind all puffs, with the light of the puffs.
 

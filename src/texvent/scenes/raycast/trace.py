@@ -34,7 +34,7 @@ _FLAT = 1e-300
 """Replaces a direction component of 0, so that dividing by it gives a huge number, not NaN."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def hit_ellipsoid(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where a ray enters the unit sphere: (parameter, face), (inf, 0) if it does not."""
     a, b, c = dot(d, d), dot(o, d), dot(o, o) - 1.0
@@ -47,7 +47,7 @@ def hit_ellipsoid(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     return t, FACE_SIDE
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def hit_box(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where a ray enters the cube |x|, |y|, |z| <= 1; faces are 0..5 = -x, +x, -y, +y, -z, +z."""
     enter, leave, face = -MISS, MISS, 0
@@ -67,7 +67,7 @@ def hit_box(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     return MISS, 0
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _hit_disc(o: Vector, d: Vector, height: float) -> float:
     """Where a ray crosses the unit disc at z = `height`; inf if it passes by."""
     if d[2] == 0.0:
@@ -77,7 +77,7 @@ def _hit_disc(o: Vector, d: Vector, height: float) -> float:
     return t if x * x + y * y <= 1.0 else MISS
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def hit_cylinder(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where a ray enters x² + y² <= 1, |z| <= 1: side 0, top 1, bottom 2."""
     a = d[0] * d[0] + d[1] * d[1]
@@ -99,7 +99,7 @@ def hit_cylinder(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     return MISS, FACE_SIDE
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def hit_cone(o: Vector, d: Vector, near: float) -> tuple[float, int]:
     """Where a ray enters the cone x² + y² <= ((1 - z) / 2)², |z| <= 1: side 0, base 2."""
     w, dw = 0.5 * (1.0 - o[2]), -0.5 * d[2]
@@ -182,7 +182,7 @@ def ray_direction(rays: Record, x: float, y: float) -> Vector:
     return plane_direction(rays, u, v)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def plane_direction(rays: Record, x: float, y: float) -> Vector:
     """Direction through a point of the image without distortion."""
     return (
@@ -192,7 +192,7 @@ def plane_direction(rays: Record, x: float, y: float) -> Vector:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _hit_one(instant: Record, shape: Record, direction: Vector) -> tuple[float, int, Vector]:
     """Where a camera ray meets one shape: depth, face (of a mesh: triangle), local direction."""
     d = turned(shape.inverse, direction)
@@ -203,14 +203,14 @@ def _hit_one(instant: Record, shape: Record, direction: Vector) -> tuple[float, 
     return t, face, d
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def hit_again(instant: Record, x: float, y: float, number: int) -> tuple[float, int]:
     """(depth, face) where the ray through (x, y) meets shape `number`, as if it stood alone."""
     t, face, _ = _hit_one(instant, shape_at(instant.shapes, number), ray_direction(instant, x, y))
     return t, face
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def widened_hit(shape: Record, o: Vector, d: Vector, near: float) -> float:
     """Where the ray from `o` meets a thin shape, widened; inf if even that misses.
 
@@ -221,7 +221,7 @@ def widened_hit(shape: Record, o: Vector, d: Vector, near: float) -> float:
     return hit_shape(kind, times(o, s), times(d, s), near)[0]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def is_between(instant: Record, shape: Record, o: Vector, d: Vector, far: float) -> bool:
     """Whether the ray `o + t · d`, in the shape's coordinates, meets it at 0 < t < `far`."""
     if shape.kind == MESH:
@@ -229,7 +229,7 @@ def is_between(instant: Record, shape: Record, o: Vector, d: Vector, far: float)
     return hit_shape(shape.kind, o, d, 0.0)[0] < far
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def surface_code(instant: Record, number: int, face: int) -> int:
     """One number for what was hit, which differs between neighbouring surfaces."""
     if number >= 0 and shape_at(instant.shapes, number).kind == MESH:
@@ -237,7 +237,7 @@ def surface_code(instant: Record, number: int, face: int) -> int:
     return number * CODES + face
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def tile_at(instant: Record, x: float, y: float) -> int:
     """The screen tile at a point of the image without distortion."""
     corner = instant.plane_corner
@@ -246,7 +246,7 @@ def tile_at(instant: Record, x: float, y: float) -> int:
     return int(row * instant.tile_columns + column)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def shows_code(instant: Record, x: float, y: float, code: int) -> bool:
     """Whether a mesh shows the surface of a `surface_code` at (x, y).
 
@@ -260,7 +260,7 @@ def shows_code(instant: Record, x: float, y: float, code: int) -> bool:
     return depth < math.inf and surface_code(instant, number, face) == code
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def first_hit(instant: Record, x: float, y: float) -> tuple[float, int, int, bool]:
     """What the ray through image point (x, y) meets first.
 
@@ -291,7 +291,7 @@ def first_hit(instant: Record, x: float, y: float) -> tuple[float, int, int, boo
     return best, found, best_face, thin < math.inf and thin <= best
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]:
     """(depth, GROUND / SKY / ROOM, face) of the background behind all shapes."""
     origin = instant.origin
@@ -312,7 +312,7 @@ def background_hit(instant: Record, direction: Vector) -> tuple[float, int, int]
     return depth, what, face
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _blocked_in_cell(instant: Record, cell: int, point: Vector, place: Vector) -> tuple[bool, bool]:
     """As `sun_blocked`, by the shapes that one cell of the sun grid lists.
 
@@ -335,7 +335,7 @@ def _blocked_in_cell(instant: Record, cell: int, point: Vector, place: Vector) -
     return False, thin
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sun_blocked(instant: Record, point: Vector) -> tuple[bool, bool]:
     """Whether a shape stands between a point and the sun, and whether a thin one is close to."""
     plane, sun, grid = instant.sun_plane, instant.sun, instant.sun_grid
@@ -353,7 +353,7 @@ def sun_blocked(instant: Record, point: Vector) -> tuple[bool, bool]:
     return blocked, thin or big_thin
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def surface_normal(instant: Record, number: int, face: int, point: Vector) -> Vector:
     """Unit normal of what was hit at `point`, metres."""
     if number in (GROUND, NOTHING):
@@ -368,7 +368,7 @@ def surface_normal(instant: Record, number: int, face: int, point: Vector) -> Ve
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def shadow_point(instant: Record, number: int, face: int, point: Vector) -> Vector:
     """Where shadow rays of a surface start: at its point, for a mesh where it would be smooth."""
     if number >= 0 and shape_at(instant.shapes, number).kind == MESH:
@@ -376,7 +376,7 @@ def shadow_point(instant: Record, number: int, face: int, point: Vector) -> Vect
     return point
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sun_reaches(instant: Record, point: Vector, normal: Vector) -> tuple[bool, bool]:
     """Whether direct light falls on a surface, and whether a thin shape's shadow is near."""
     if dot(instant.sun, normal) <= 0.0:

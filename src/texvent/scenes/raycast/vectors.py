@@ -12,43 +12,43 @@ from texvent.scenes.scene import Float64Array
 Vector = tuple[float, float, float]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def triple(values: Float64Array) -> Vector:
     """Three numbers of a record as a tuple."""
     return values[0], values[1], values[2]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def dot(a: Vector, b: Vector) -> float:
     """Scalar product."""
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def times(a: Vector, b: Vector) -> Vector:
     """Product, element by element."""
     return a[0] * b[0], a[1] * b[1], a[2] * b[2]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def scaled(a: Vector, factor: float) -> Vector:
     """All three times `factor`."""
     return a[0] * factor, a[1] * factor, a[2] * factor
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def along(start: Vector, step: Vector, share: float) -> Vector:
     """`start` + `share` · `step`."""
     return start[0] + share * step[0], start[1] + share * step[1], start[2] + share * step[2]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def unit(a: Vector) -> Vector:
     """The vector at length 1."""
     return scaled(a, 1.0 / math.sqrt(dot(a, a)))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def turned(m: Float64Array, v: Vector) -> Vector:
     """A [3, 4] map's linear part, applied to a direction."""
     return (
@@ -58,14 +58,14 @@ def turned(m: Float64Array, v: Vector) -> Vector:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def mapped(m: Float64Array, p: Vector) -> Vector:
     """A [3, 4] map, applied to a point."""
     x, y, z = turned(m, p)
     return x + m[0, 3], y + m[1, 3], z + m[2, 3]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def world_normal(m: Float64Array, n: Vector) -> Vector:
     """Unit normal in the world, from one in a shape's coordinates; `m` leads into these."""
     normal = (
@@ -76,7 +76,7 @@ def world_normal(m: Float64Array, n: Vector) -> Vector:
     return scaled(normal, 1.0 / math.sqrt(dot(normal, normal) + 1e-300))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def on_axis(axis: int, length: float) -> Vector:
     """A vector along one axis: 0 = x, 1 = y, 2 = z."""
     return (
@@ -89,7 +89,7 @@ def on_axis(axis: int, length: float) -> Vector:
 NO_DISTORTION, RADTAN = 0, 1
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _undistorted_radtan(k: Record, tx: float, ty: float) -> tuple[float, float]:
     k1, k2, p1, p2 = k[0], k[1], k[2], k[3]
     x, y = tx, ty
@@ -110,7 +110,7 @@ def _undistorted_radtan(k: Record, tx: float, ty: float) -> tuple[float, float]:
     return x, y
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _undistorted_equidistant(k: Record, tx: float, ty: float) -> tuple[float, float]:
     distorted = math.hypot(tx, ty)
     if distorted == 0.0:
@@ -130,7 +130,7 @@ def _undistorted_equidistant(k: Record, tx: float, ty: float) -> tuple[float, fl
     return tx * ratio, ty * ratio
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def plane_point(instant: Record, x: float, y: float) -> tuple[float, float]:
     """Where the ray through image point (x, y) meets the image without distortion, pixels.
 
@@ -147,7 +147,7 @@ def plane_point(instant: Record, x: float, y: float) -> tuple[float, float]:
     return u * lens[0] + lens[2], v * lens[1] + lens[3]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def pixel_steps(instant: Record, x: float, y: float) -> tuple[Vector, Vector]:
     """Change of direction from one pixel to the next at (x, y), to the right and down."""
     right, down = triple(instant.right), triple(instant.down)

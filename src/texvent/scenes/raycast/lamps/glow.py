@@ -135,7 +135,7 @@ def see_lamps(
         visible[index] = share
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _is_hidden(instant: Record, x: float, y: float, depth: float) -> bool:
     """Whether something nearer than `depth` is at a point of the image without distortion."""
     lists = instant.lists
@@ -153,14 +153,14 @@ def _is_hidden(instant: Record, x: float, y: float, depth: float) -> bool:
     return False
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _share_of_pixel(offset: float, spread: float) -> float:
     """Share of a normal distribution that falls on the pixel `offset` from its middle."""
     scale = 1.0 / (math.sqrt(2.0) * spread)
     return 0.5 * (math.erf((offset + 0.5) * scale) - math.erf((offset - 0.5) * scale))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _spot(dx: float, dy: float, spread: float, reach: float) -> float:
     """Share of a spot's light on the pixel at (dx, dy) from its middle."""
     if abs(dx) > reach + 0.5 or abs(dy) > reach + 0.5:
@@ -168,7 +168,7 @@ def _spot(dx: float, dy: float, spread: float, reach: float) -> float:
     return _share_of_pixel(dx, spread) * _share_of_pixel(dy, spread)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _glow_at(glow: Record, u: float, v: float) -> Colour:
     """Light of one glow on the pixel at (u, v) of the image without distortion."""
     dx, dy = u - glow.place[0], v - glow.place[1]
@@ -181,7 +181,7 @@ def _glow_at(glow: Record, u: float, v: float) -> Colour:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def add_glows(instant: Record, x: float, y: float, light: Colour) -> Colour:
     """A pixel's exposed light with all glows: each fills what is left to white, or is added."""
     u, v = plane_point(instant, x, y)

@@ -27,7 +27,7 @@ from texvent.scenes.raycast.vectors import Vector, along, dot, mapped, triple, t
 from texvent.scenes.scene import Colour, Float64Array, Primitives, Shape
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def beam_share(lamp: Record, away: Vector) -> float:
     """Share of a lamp's light that it sends along a unit vector: a beam with a soft edge."""
     if lamp.full < -1.0:
@@ -41,7 +41,7 @@ def beam_share(lamp: Record, away: Vector) -> float:
     return float(share * share * (3.0 - 2.0 * share))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def falloff(lamp: Record, towards: Vector) -> tuple[float, float]:
     """(light on a surface that faces the lamp, as a share of that at 1 m; distance in metres).
 
@@ -59,7 +59,7 @@ def falloff(lamp: Record, towards: Vector) -> tuple[float, float]:
     return share * window * window / (square + lamp.radius * lamp.radius), distance
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def towards_lamp(lamp: Record, point: Vector) -> Vector:
     """From a point to a lamp, metres."""
     return along(triple(lamp.place), point, -1.0)
@@ -90,7 +90,7 @@ def lamp_light(instant: Record, point: Vector, normal: Vector, lit: int) -> Colo
     return light
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def light_through(instant: Record, point: Vector) -> Colour:
     """Light of all lamps at a point in the air, from all sides, without shadows."""
     light = (0.0, 0.0, 0.0)
@@ -206,7 +206,7 @@ def find_cells(boxes: Float64Array, rectangles: IntArray) -> Float64Array:
     return nearest
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _distance(box: Float64Array, axes: int) -> float:
     """At most how far a box is from 0, in the plane of x and y (2 axes) or in space (3).
 
@@ -228,7 +228,7 @@ def _distance(box: Float64Array, axes: int) -> float:
     return farthest
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _along_diamond(x: float, y: float) -> float:
     """Where a direction crosses the diamond |x| + |y| = 1: 0..4 for 0..2π.
 
@@ -244,7 +244,7 @@ LIT_BITS = 1 + MOST_SHADOW_LAMPS
 """Bits of a probe that tell what light reaches a surface: the sun, then lamps."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def direction_cell(towards: Vector, distance: float) -> int:
     """The cell of a lamp's grid of directions that a surface is in; `towards` leads to the lamp.
 
@@ -257,7 +257,7 @@ def direction_cell(towards: Vector, distance: float) -> int:
     return row * LONGITUDES + column
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _blocked(
     instant: Record, cell: int, point: Vector, towards: Vector, near: float
 ) -> tuple[bool, bool]:
@@ -315,7 +315,7 @@ SUN = 1
 """The sun's bit."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def lit_by(
     instant: Record, x: float, y: float, hit: tuple[float, int, int], wanted: int
 ) -> tuple[int, bool]:

@@ -27,14 +27,14 @@ _SLACK = 1.0 + 8.0 * 2.0**-53
 _FLAT = 1e-300
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _component(v: Vector, axis: int) -> float:
     if axis == 0:
         return v[0]
     return v[1] if axis == 1 else v[2]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _hit_triangle(triangle: Record, o: Vector, shear: Vector, axes: tuple[int, int, int]) -> float:
     """Ray parameter at a triangle, from either side; inf if the ray misses it.
 
@@ -57,7 +57,7 @@ def _hit_triangle(triangle: Record, o: Vector, shear: Vector, axes: tuple[int, i
     return float((u * az + v * bz + w * cz) * shear[2] / total)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _meets_box(node: Record, o: Vector, inverse: Vector, near: float, far: float) -> bool:
     """Whether the ray is in a box between two parameters, with slack."""
     for axis in range(3):
@@ -68,7 +68,7 @@ def _meets_box(node: Record, o: Vector, inverse: Vector, near: float, far: float
     return near <= far
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def hit_mesh(
     instant: Record, root: int, o: Vector, d: Vector, near: float, any_hit: bool
 ) -> tuple[float, int]:
@@ -109,7 +109,7 @@ def hit_mesh(
     return hit
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _hit_leaf(
     triangles: int,
     node: Record,
@@ -127,7 +127,7 @@ def _hit_leaf(
     return best, found
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _long_axis_last(d: Vector) -> tuple[int, int, int]:
     x, y, z = abs(d[0]), abs(d[1]), abs(d[2])
     if x >= y and x >= z:
@@ -137,20 +137,20 @@ def _long_axis_last(d: Vector) -> tuple[int, int, int]:
     return 0, 1, 2
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def weights_at(triangle: Record, p: Vector) -> tuple[float, float, float]:
     """Barycentric weights of a point of a triangle's plane."""
     second, third = slopes_of(triangle, along(p, triple(triangle.corner[0]), -1.0))
     return 1.0 - second - third, second, third
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def cross(a: Vector, b: Vector) -> Vector:
     """Vector product."""
     return a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def slopes_of(triangle: Record, v: Vector) -> tuple[float, float]:
     """How the weights of a triangle's second and third corner change along a vector."""
     a = triple(triangle.corner[0])
@@ -161,7 +161,7 @@ def slopes_of(triangle: Record, v: Vector) -> tuple[float, float]:
     return dot(cross(v, e2), n) / square, dot(cross(e1, v), n) / square
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def mesh_normals(instant: Record, number: int, face: int, point: Vector) -> tuple[Vector, Vector]:
     """Unit normals of a mesh at a world point, towards the camera.
 
@@ -192,7 +192,7 @@ def mesh_normals(instant: Record, number: int, face: int, point: Vector) -> tupl
     return smooth, flat
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def smooth_point(instant: Record, number: int, face: int, point: Vector) -> Vector:
     """A point of a mesh moved out to the smooth surface that its corner normals stand for.
 

@@ -58,7 +58,7 @@ def strip_place(instant: Record, x: float, y: float) -> Strip:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _crossing_place(instant: Record, number: int, x: float, y: float) -> Strip:
     x0, y0, cosine, sine = instant.crossings[number]
     return (
@@ -69,7 +69,7 @@ def _crossing_place(instant: Record, number: int, x: float, y: float) -> Strip:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _feet(strip: Strip, patch: Patch) -> tuple[float, float]:
     """Metres that a pixel covers along and across a strip."""
     cosine, sine = strip[2], strip[3]
@@ -79,7 +79,7 @@ def _feet(strip: Strip, patch: Patch) -> tuple[float, float]:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _inside_share(instant: Record, strip: Strip, foot: float) -> float:
     """Share of a pixel that shows the strip rather than what lies beside it."""
     half = instant.road[2]
@@ -95,7 +95,7 @@ def _inside_share(instant: Record, strip: Strip, foot: float) -> float:
     return smooth((half + wobble - abs(strip[1])) / soft + 0.5)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _line_marks(strip: Strip, half: float, feet: tuple[float, float]) -> float:
     """Share of white paint: edge lines and a dashed middle line."""
     edge = box_coverage(abs(strip[1]), half - 3.0 * _LINE_M, half - 2.0 * _LINE_M, feet[1])
@@ -103,7 +103,7 @@ def _line_marks(strip: Strip, half: float, feet: tuple[float, float]) -> float:
     return max(edge, middle * square_wave(strip[0] / _DASH_M, feet[0] / _DASH_M))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _asphalt(instant: Record, x: float, y: float, axes: Patch, marks: float) -> Look:
     """Carriageway with worn paint; `marks` is its share of a pixel."""
     sample = sample_material(instant, instant.road_surface, x, y, axes, 1.0)
@@ -114,7 +114,7 @@ def _asphalt(instant: Record, x: float, y: float, axes: Patch, marks: float) -> 
     return colour, surface[1], surface[2]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _track(
     instant: Record, x: float, y: float, axes: Patch, strip: Strip, feet: tuple[float, float]
 ) -> Look:
@@ -127,7 +127,7 @@ def _track(
     return painted(sample, soil, scaled(soil, 1.3), factor)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _foam_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> float:
     """Share of foam on high waves: lines of it roll onto a shore, fewer far out."""
     if instant.wave_height <= 1.0 or instant.ground != _LAKE:
@@ -143,7 +143,7 @@ def _foam_share(instant: Record, strip: Strip, feet: tuple[float, float]) -> flo
     return 0.9 * near * (0.15 + (line - 0.15) * detail_fade(feet[1] / _BREAKERS_M))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _water(instant: Record, strip: Strip, axes: Patch, view_up: float, foam: float) -> Look:
     """Rippled water that flows along the strip and mirrors the sky."""
     speed = _FLOW_M_S if instant.ground == _RIVER else _DRIFT_M_S
@@ -161,7 +161,7 @@ def _water(instant: Record, strip: Strip, axes: Patch, view_up: float, foam: flo
     return mix(look[0], _FOAM, foam), 0.0, 0.0
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _carriageway(
     instant: Record,
     point: tuple[float, float],
@@ -180,7 +180,7 @@ def _carriageway(
     return _asphalt(instant, point[0], point[1], axes, marks)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _road_look(
     instant: Record, x: float, y: float, patch: Patch, axes: Patch, strip: Strip
 ) -> Look:
@@ -214,7 +214,7 @@ def _road_look(
     return mixed(_kerbed(land_look(instant, x, y, axes), instant, kerb), surface, covered)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _kerbed(land: Look, instant: Record, kerb: float) -> Look:
     if instant.ground != _CITY or kerb == 0.0:
         return land
@@ -222,7 +222,7 @@ def _kerbed(land: Look, instant: Record, kerb: float) -> Look:
     return colour, land[1], land[2]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def strip_look(
     instant: Record, x: float, y: float, patch: Patch, axes: Patch, view_up: float
 ) -> Look:
@@ -263,7 +263,7 @@ _CEILING = (1.7, 1.69, 1.64)
 """White, and lit from below by what floor and walls send back, which is not traced."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def ground_look(
     instant: Record, point: Vector, patch: tuple[Vector, Vector], view_up: float
 ) -> Look:
@@ -282,7 +282,7 @@ def ground_look(
     return land_look(instant, point[0], point[1], axes)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _box_share(place: tuple[float, float], half: tuple[float, float], feet: Colour) -> float:
     """Share of a pixel within a rectangle around (0, 0)."""
     return box_coverage(place[0], -half[0], half[0], feet[0]) * box_coverage(
@@ -290,7 +290,7 @@ def _box_share(place: tuple[float, float], half: tuple[float, float], feet: Colo
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _hang(
     instant: Record, wall: Colour, place: tuple[float, float], feet: Colour, side: int
 ) -> Colour:
@@ -320,7 +320,7 @@ def _hang(
     return mix(colour, inside, _box_share(at, half, feet))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def wall_look(
     instant: Record, point: Vector, face: int, patch: tuple[Vector, Vector]
 ) -> tuple[Colour, Vector]:

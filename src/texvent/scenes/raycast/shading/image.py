@@ -18,7 +18,7 @@ Footprint = tuple[tuple[float, float], tuple[float, float]]
 """Change of (u, v) from one pixel to the next, to the right and down."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def mesh_colour(
     instant: Record, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
 ) -> Colour:
@@ -56,7 +56,7 @@ def mesh_colour(
     return times(colour, image_colour(instant, triangle.image, u, v, footprint))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def shown_colour(
     instant: Record, number: int, face: int, point: Vector, patch: tuple[Vector, Vector]
 ) -> Colour:
@@ -81,7 +81,7 @@ def shown_colour(
     return mix(triple(shape.colour), colour, share)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _face_place(face: int, p: Vector) -> tuple[float, float]:
     """The image's right and down, of a point or a vector in a box's coordinates, seen from outside.
 
@@ -100,7 +100,7 @@ def _face_place(face: int, p: Vector) -> tuple[float, float]:
     return p[1], p[0]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _overlap(place: float, width: float) -> float:
     """Share of an interval of a width around a place that lies within 0..1."""
     half = 0.5 * max(width, 1e-12)
@@ -108,7 +108,7 @@ def _overlap(place: float, width: float) -> float:
     return min(max(inside / (2.0 * half), 0.0), 1.0)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def image_colour(instant: Record, number: int, u: float, v: float, footprint: Footprint) -> Colour:
     """Mean of an image over a pixel's footprint.
 
@@ -138,7 +138,7 @@ def image_colour(instant: Record, number: int, u: float, v: float, footprint: Fo
     return scaled(total, 1.0 / (rows * columns))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _trilinear(instant: Record, image: Record, u: float, v: float, level: float) -> Colour:
     level = min(level, image.levels - 1.0)
     low = int(level)
@@ -148,7 +148,7 @@ def _trilinear(instant: Record, image: Record, u: float, v: float, level: float)
     return colour
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _bilinear(instant: Record, image: Record, u: float, v: float, level: int) -> Colour:
     width, height = max(image.width >> level, 1), max(image.height >> level, 1)
     x, y = u * width - 0.5, v * height - 0.5
@@ -170,14 +170,14 @@ def _bilinear(instant: Record, image: Record, u: float, v: float, level: int) ->
     return mix(upper, lower, share_y)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _texel(index: int, count: int, repeats: int) -> int:
     if repeats:
         return index % count
     return min(max(index, 0), count - 1)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _at(instant: Record, index: int) -> Colour:
     texels = instant.texels
     return texel_at(texels, index), texel_at(texels, index + 1), texel_at(texels, index + 2)

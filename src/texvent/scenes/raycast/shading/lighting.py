@@ -44,7 +44,7 @@ FOAM_FROM, FOAM_STEEPNESS = 0.085, 5.0
 """Sum of the waves' heights over their lengths, per wave height, from which on crests foam."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -> Colour:
     """Moving waves that mirror the sky; waves smaller than a pixel fade out. High ones foam."""
     slope_x, slope_y, crest = 0.0, 0.0, 0.0
@@ -83,7 +83,7 @@ def sea_light(instant: Record, point: Colour, view: Colour, footprint: Colour) -
     return along(colour, sun_colour, 0.5 * max(shine, 0.0) ** 60)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def caustics(instant: Record, point: Colour, footprint: float) -> float:
     """Ripples of light that waves throw on what is under water: a factor around 1."""
     share = detail_fade(1.2 * footprint)
@@ -102,21 +102,21 @@ _FOG_HEIGHT_M = 40.0
 """Fog and water above this height do not count for rays that go up."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _add_fog(instant: Record, colour: Colour, distance: float) -> Colour:
     if instant.fog == 0.0:
         return colour
     return mix(triple(instant.fog_colour), colour, math.exp(-distance * instant.fog))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _sky_light(instant: Record, direction: Colour, pixel: float) -> Colour:
     """Sky in a unit direction, behind the fog."""
     path = _FOG_HEIGHT_M / max(abs(direction[2]), 1e-6)
     return _add_fog(instant, sky_colour(instant, direction, pixel), path)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _reflected(
     instant: Record, colour: Colour, point: Colour, normal: Colour, footprint: float, lit: int
 ) -> Colour:
@@ -132,7 +132,7 @@ def _reflected(
     return times(colour, along(light, lamps, 1.0))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _shape_light(
     instant: Record,
     hit: tuple[float, int, int],
@@ -155,7 +155,7 @@ def _shape_light(
     return along(light, colour, shape_at(instant.shapes, number).emission)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _ground_light(
     instant: Record,
     depth: float,
@@ -179,14 +179,14 @@ def _ground_light(
     return mix(light, triple(instant.sky_horizon), smooth((depth - 150.0) / 1500.0))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _angle_of_step(direction: Colour, step: Colour) -> float:
     """Angle by which a small step turns a direction, radians: |step × direction| / |direction|²."""
     square, along_it = dot(direction, direction), dot(direction, step)
     return math.sqrt(max(dot(step, step) * square - along_it * along_it, 0.0)) / square
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def shade_hit(instant: Record, x: float, y: float, hit: tuple[float, int, int], lit: int) -> Colour:
     """Linear light that reaches image point (x, y).
 

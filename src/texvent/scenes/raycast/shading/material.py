@@ -97,7 +97,7 @@ def patch_axes(patch: Patch) -> Patch:
     return long * x / size, long * y / size, long, short
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _eased(share: float, ease: float) -> float:
     """A weight between two texels: straight at ease 0, level at both of them at ease 1.
 
@@ -107,7 +107,7 @@ def _eased(share: float, ease: float) -> float:
     return share * ((1.0 - ease) + (ease * share) * (3.0 - 2.0 * share))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _corners(level: int, u: float, v: float, ease: float) -> tuple[Corners, Sample]:
     """Where the four texels around (u, v), in tiles, begin in the array, and their weights.
 
@@ -131,7 +131,7 @@ def _corners(level: int, u: float, v: float, ease: float) -> tuple[Corners, Samp
     return places, ((1.0 - across) * up, across * up, (1.0 - across) * down, across * down)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _add_texels(tile: int, level: int, place: Place, share: float, total: Sample) -> Sample:
     """`total` and `share` times the blend of a tile's texels at `place`."""
     corners, weights = _corners(level, place[0], place[1], place[2])
@@ -144,7 +144,7 @@ def _add_texels(tile: int, level: int, place: Place, share: float, total: Sample
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _taps(axes: Patch, most: int) -> tuple[int, float, float]:
     """How many averages along a patch's longer axis, which level they read, and with what ease.
 
@@ -185,7 +185,7 @@ def tile_average(tile: int, u: float, v: float, axes: Patch) -> Sample:
     return total
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _first_channel(tile: int, level: int, place: Place) -> float:
     """A tile's first channel at `place`."""
     corners, weights = _corners(level, place[0], place[1], place[2])
@@ -197,7 +197,7 @@ def _first_channel(tile: int, level: int, place: Place) -> float:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _tile_factor(tile: int, u: float, v: float, axes: Patch) -> float:
     """As `tile_average`, the first channel doubled: patterns of one colour share it evenly."""
     taps, level, ease = _taps(axes, _MAX_LARGE_TAPS)
@@ -215,7 +215,7 @@ def _tile_factor(tile: int, u: float, v: float, axes: Patch) -> float:
     return 2.0 * total / taps
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sample_material(
     instant: Record, texture: int, u: float, v: float, axes: Patch, fineness: float
 ) -> Sample:
@@ -241,7 +241,7 @@ def sample_material(
     return near[0] * factor, near[1] * factor, near[2], near[3]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _large_factor(instant: Record, number: int, place: tuple[float, float], axes: Patch) -> float:
     """Factor of a material's large patches; they are turned, so that tiles do not line up."""
     c, s = _LARGE_TURN
@@ -267,14 +267,14 @@ Look = tuple[Colour, float, float]
 """Reflectance, and slopes along x and y."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def painted(sample: Sample, first: Colour, second: Colour, factor: float) -> Look:
     """A material in two colours."""
     colour = along(scaled(first, factor * sample[0]), second, factor * sample[1])
     return colour, sample[2], sample[3]
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def mixed(first: Look, second: Look, share: float) -> Look:
     """`first` at share 0, `second` at share 1."""
     return (
@@ -284,7 +284,7 @@ def mixed(first: Look, second: Look, share: float) -> Look:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def land_look(instant: Record, x: float, y: float, axes: Patch) -> Look:
     """The ground's material at (x, y), metres; `axes` of the patch from `patch_axes`."""
     sample = sample_material(instant, instant.ground_surface, x, y, axes, 1.0)

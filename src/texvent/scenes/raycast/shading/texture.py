@@ -32,7 +32,7 @@ _STEEPEST = 0.04
 """A surface seen at less than this slope is taken to be at it, so that its patch stays finite."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def surface_patch(
     steps: tuple[Vector, Vector], direction: Vector, depth: float, normal: Vector
 ) -> tuple[Vector, Vector]:
@@ -52,7 +52,7 @@ def surface_patch(
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def patch_extent(patch: tuple[Vector, Vector]) -> Colour:
     """Metres that a patch spans in x and in y, and its longest side."""
     right, down = patch
@@ -60,7 +60,7 @@ def patch_extent(patch: tuple[Vector, Vector]) -> Colour:
     return abs(right[0]) + abs(down[0]), abs(right[1]) + abs(down[1]), math.sqrt(longest)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def surface_look(
     instant: Record, number: int, face: int, point: Vector, look: tuple[Vector, Vector, Vector]
 ) -> tuple[Colour, Vector]:
@@ -96,7 +96,7 @@ def surface_look(
     return mix(plain, triple(shape.second_colour), share), normal
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _material_look(
     instant: Record, number: int, point: Vector, look: tuple[Vector, Vector, Vector]
 ) -> tuple[Colour, Vector]:
@@ -133,7 +133,7 @@ def _material_look(
     return colour, unit(bent)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _facing_shares(x: float, y: float, z: float) -> Colour:
     """Shares of the views along three axes, for a surface whose normal has these components."""
     a, b, c = abs(x), abs(y), abs(z)
@@ -147,7 +147,7 @@ def _facing_shares(x: float, y: float, z: float) -> Colour:
     return a / total, b / total, c / total
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _pattern(texture: int, p: Colour, steps: Colour) -> float:
     """Share of the second colour at texture coordinates `p`, averaged over `steps`."""
     if texture == 2:

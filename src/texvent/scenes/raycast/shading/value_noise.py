@@ -15,7 +15,7 @@ from texvent.scenes.raycast.vectors import along, dot, scaled, triple
 from texvent.scenes.scene import Colour
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def lattice(x: int, y: int, z: int) -> float:
     """A fixed pseudo-random number in [0, 1) for each lattice point."""
     mixed = x * 0x2545F4914F6CDD1D + y * 0x369DEA0F31A53F85 + z * 0x27BB2EE687B0B0FD
@@ -27,7 +27,7 @@ def lattice(x: int, y: int, z: int) -> float:
     return (mixed & 0xFFFFFF) / 16777216.0
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def smooth(x: float) -> float:
     """0 below 0, 1 above 1, smooth between (continuous second derivative)."""
     if x <= 0.0:
@@ -79,7 +79,7 @@ def fractal_2d(x: float, y: float, octaves: int, footprint: float) -> float:
     return 1.6 * total
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _square_integral(x: float) -> float:
     """Integral from 0 to x of the square wave that is 1 on [0, 1/2) and 0 on [1/2, 1)."""
     whole = math.floor(x)
@@ -106,13 +106,13 @@ _CLOUD_SPEED = 0.012
 """Drift of the clouds, in cloud heights per second."""
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def mix(first: Colour, second: Colour, share: float) -> Colour:
     """`first` at share 0, `second` at share 1."""
     return along(scaled(first, 1.0 - share), second, share)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sky_gradient(instant: Record, height: float) -> Colour:
     """Clear sky where the ray's unit direction has this z: horizon at 0, zenith at 1."""
     return mix(
@@ -120,7 +120,7 @@ def sky_gradient(instant: Record, height: float) -> Colour:
     )
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _stars(x: float, y: float, z: float, pixel: float) -> float:
     """Light of the stars in a unit direction; each is a soft dot at least a pixel wide."""
     ax, ay, az = abs(x), abs(y), abs(z)
@@ -141,7 +141,7 @@ def _stars(x: float, y: float, z: float, pixel: float) -> float:
     return brightness * math.exp(-(du * du + dv * dv) / (2.0 * width * width))
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _cloud_cover(instant: Record, x: float, y: float, z: float, pixel: float) -> float:
     """Share of the sky that cloud hides in a unit direction with z > 0."""
     height = max(z, 0.02)
@@ -152,7 +152,7 @@ def _cloud_cover(instant: Record, x: float, y: float, z: float, pixel: float) ->
     return cover * smooth((z - 0.01) / 0.12)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def sky_colour(instant: Record, direction: Colour, pixel: float) -> Colour:
     """Light from the sky, before fog and exposure.
 
