@@ -57,8 +57,7 @@ def detection_table(report: DetectionReport) -> str:
         arms.setdefault(score.arm, []).append(score)
     classes = [name for name in report.scores[0].ap50 if name != "all"]
     titles = ["trained on", "events", "AP", "AP50 [95 %]", *classes]
-    titles += [f"{size}" for size in report.scores[0].ap50_by_size]
-    titles.append("recorded street, car AP50 [95 %]")
+    titles += [*report.scores[0].ap50_by_size, "recorded street, car AP50 [95 %]"]
     rows = []
     for arm, scores in arms.items():
         cells = [f"{scores[0].events:,.0f}"]

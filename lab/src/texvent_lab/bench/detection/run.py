@@ -124,12 +124,9 @@ def run_detection(
         progress: told of every step.
 
     Raises:
-        MissingDependencyError: evlib, torch or pycocotools is not installed.
         ConfigError, InputError, TexventError: a step cannot be done.
     """
     start = time.perf_counter()
-    for module in ("torch", "torchvision", "evlib.models.rvt", "pycocotools"):
-        require(module, extra=EXTRA)
     arms = plan.arms or plan.variants
     make_clips(plan, arms, jobs=jobs, progress=progress)
     todo = [(plan, hardware, arm, seed) for seed in range(plan.seeds) for arm in arms]

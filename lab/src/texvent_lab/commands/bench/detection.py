@@ -10,6 +10,7 @@ from typing import ClassVar
 from texvent.cli.notices import write_out
 from texvent.cli.option_types import REQUIRED
 from texvent.cli.options import parse_configs
+from texvent.extending import require
 from texvent_lab.commands.bench.bench import ResultOptions
 from texvent_lab.train.schedule import Hardware
 
@@ -61,7 +62,10 @@ def run(arguments: Sequence[str]) -> None:
         description=DESCRIPTION,
     )
     output.check()
-    from texvent_lab.bench.detection.config import SCHEDULE
+    from texvent_lab.bench.detection.config import EXTRA, SCHEDULE
+
+    for module in ("torch", "torchvision", "evlib.models.rvt", "pycocotools"):
+        require(module, extra=EXTRA)
     from texvent_lab.bench.detection.results import detection_table
     from texvent_lab.bench.detection.run import DetectionPlan, run_detection  # brings torch
 
