@@ -58,17 +58,12 @@ def test_small_rows_of_every_kind_become_tables(monkeypatch):
         "runs": [run],
         "steps": steps,
         "peers": [duel],
-        "startup": {
-            "help_cpu_s": SPREAD,
-            "generate_help_cpu_s": SPREAD,
-            "simulate_help_cpu_s": SPREAD,
-            "first_events_s": SPREAD,
-            "cold_first_events_s": 9.0,
-        },
+        "commands": [{"command": "demo", "cpu_s": 15.0, "clock_s": 9.5}],
     }
     text = as_markdown(document)
     assert "| texvent | 64x48 | 20.0% | clip |" in text
     assert "| not installed (no module) |" in text
+    assert "| demo | 15 | 9.5 |" in text
     assert f"| v2e | 64x48 | {steps[2]['events_per_step']:,.0f} | " in text
 
 

@@ -11,7 +11,7 @@ from typing import Any
 from texvent_lab.bench.document import describe_environment, read_document, write_document
 from texvent_lab.measure.speed.kernels import FULL, QUICK, measure_definition, measure_kernels
 from texvent_lab.measure.speed.peers import run_on_one_core
-from texvent_lab.measure.speed.runs import measure_runs, measure_startup, measure_steps
+from texvent_lab.measure.speed.runs import measure_commands, measure_runs, measure_steps
 from texvent_lab.measure.speed.tables import as_markdown
 
 
@@ -56,7 +56,7 @@ def measure(*, quick: bool, video: Path | None) -> dict[str, Any]:
     if not quick:
         document["runs"] = measure_runs(video, pairs=20)
         document["steps"] = measure_steps(steps=100)
-        document["startup"] = measure_startup()
+        document["commands"] = measure_commands(video)
     document["load_at_end"] = round(os.getloadavg()[0], 2)
     document["seconds"] = round(time.perf_counter() - started, 1)
     return document

@@ -1,4 +1,4 @@
-"""Whole runs: time per pair of source frames or step of an event camera, and from launch."""
+"""Whole runs: time per pair of source frames or step of an event camera, and of commands."""
 
 from __future__ import annotations
 
@@ -23,30 +23,41 @@ from texvent.pipeline import video_to_events
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
-from texvent_lab.measure.speed.scenes import EXCERPT, Bytes, embedded_heavy_clip, to_and_fro
-from texvent_lab.measure.speed.timing import quartiles, rounded, seconds
+from texvent_lab.measure.speed.scenes import (
+    EXCERPT,
+    HEAVY_SIZE,
+    Bytes,
+    embedded_heavy_clip,
+    to_and_fro,
+)
+from texvent_lab.measure.speed.timing import rounded, seconds
 
 WARM_UP_PAIRS = 2
 """Pairs that are not timed: kernels load."""
+REPEATS = 2
+"""Of a whole command; the faster run counts."""
 STEP_SIZES = (SensorSize(346, 260), SensorSize(640, 480))
 STEP_MODELS = ("texvent", "esim", "v2e")
 HD, HD_FPS = SensorSize(1280, 720), Fraction(25)
-CLIP_SIZE, CLIP_FRAMES = SensorSize(640, 360), 50
-"""Of the clip of two seconds whose first events are timed."""
-WATCHED_RUN = """
-import os, sys, time
-from texvent.cli.app import main
-from texvent.io.hdf5.storage import Hdf5Writer
-append = Hdf5Writer.append
-def watched(self, packet):
-    append(self, packet)
-    if len(packet):
-        os.write(1, str(time.time() - float(sys.argv[1])).encode())
-        os._exit(0)
-Hdf5Writer.append = watched
-main(["simulate", *sys.argv[2:], "-q", "--previews", "none"])
-"""
-"""Prints the time since launch, s, at which the first events reach the file, and stops there."""
+STILL_FRAMES = 60
+"""Of the clip of 2.36 s at 25 frames per second that the circuit model is timed on."""
+DEMO = ("generate", "a red car drives left past two trees at dusk")
+COMMANDS = {
+    "--help": ("--help",),
+    "demo": DEMO,
+    "demo, nothing compiled": DEMO,
+    "city driving at night, 1 s": ("generate", "city driving at night", "--duration", "1"),
+    "a fan, 1 s": ("generate", "a fan", "--duration", "1"),
+    "traffic at 640x480, .5 s": (
+        "generate", "cars drive past houses on a street", "--duration", "0.5",
+        "--sensor", "640x480", "--previews", "none",
+    ),
+    "physical, 2.36 s": ("simulate", "CLIP", "--simulator", "physical", "--previews", "none"),
+    "optical flow, 720p, 2 s": (
+        "simulate", "FILM", "--start", "1", "--stop", "3", "--previews", "none",
+    ),
+}  # fmt: skip
+"""Whole commands, whose kernels are compiled but for one."""
 
 
 def measure_runs(video: Path | None, *, pairs: int) -> list[dict[str, Any]]:
@@ -132,44 +143,35 @@ def write_video(path: Path, frames: Bytes) -> Path:
     return path
 
 
-def measure_startup() -> dict[str, Any]:
-    """Times from launch, s."""
-    repeats = 9
-    report: dict[str, Any] = {
-        f"{name}_cpu_s": quartiles([_cpu_seconds(words) for _ in range(repeats)])
-        for name, words in {
-            "help": ("--help",),
-            "generate_help": ("generate", "--help"),
-            "simulate_help": ("simulate", "--help"),
-        }.items()
-    }
+def measure_commands(video: Path | None) -> list[dict[str, Any]]:
+    """A row per command of `COMMANDS`: processor time and time of the clock, s.
+
+    Args:
+        video: 720p video of at least three seconds; None: no row of optical flow.
+    """
+    rows = []
     with tempfile.TemporaryDirectory() as folder:
-        frames = embedded_heavy_clip(CLIP_SIZE, CLIP_FRAMES).pixels
-        clip = write_video(Path(folder) / "two seconds.mp4", frames)
-        warm = [_first_events(clip, folder) for _ in range(repeats + 1)][1:]
-        report["first_events_s"] = quartiles(warm)
-        nothing_compiled = {"NUMBA_CACHE_DIR": f"{folder}/empty"}
-        report["cold_first_events_s"] = rounded(_first_events(clip, folder, nothing_compiled))
-    return report
+        frames = embedded_heavy_clip(HEAVY_SIZE, STILL_FRAMES).pixels
+        files = {"CLIP": write_video(Path(folder) / "clip.mp4", frames), "FILM": video}
+        for name, words in COMMANDS.items():
+            cold = "nothing compiled" in name
+            if video is None and "FILM" in words:
+                continue
+            own = [str(files.get(word, word)) for word in words]
+            own += ["-o", f"{folder}/out.h5", "--overwrite"] if len(words) > 1 else []
+            environment = {"NUMBA_CACHE_DIR": f"{folder}/empty"} if cold else {}
+            times = [_time_command(own, environment) for _ in range(1 if cold else REPEATS)]
+            cpu_s, clock_s = min(times)
+            rows.append({"command": name, "cpu_s": rounded(cpu_s), "clock_s": rounded(clock_s)})
+    return rows
 
 
-def _cpu_seconds(words: Sequence[str]) -> float:
-    """CPU time of one `texvent` command, user and system, s."""
-    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+def _time_command(words: Sequence[str], environment: dict[str, str]) -> tuple[float, float]:
+    """Processor time of one `texvent` command, user and system, and time of the clock, s."""
+    before, started = resource.getrusage(resource.RUSAGE_CHILDREN), time.perf_counter()
     command = [sys.executable, "-m", "texvent.cli.app", *words]
-    subprocess.run(command, stdout=subprocess.DEVNULL, check=True)
+    environment = {**os.environ, **environment}
+    subprocess.run(command, env=environment, capture_output=True, check=True)
     after = resource.getrusage(resource.RUSAGE_CHILDREN)
-    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
-
-
-def _first_events(clip: Path, folder: str, environment: dict[str, str] | None = None) -> float:
-    """Seconds from launch to the first events handed to the file."""
-    command = [sys.executable, "-c", WATCHED_RUN, str(time.time()), str(clip)]
-    done = subprocess.run(
-        [*command, "-o", f"{folder}/out.h5", "--overwrite"],
-        env={**os.environ, **(environment or {})},
-        capture_output=True,
-        text=True,
-        check=True,
-    )
-    return float(done.stdout)
+    cpu_s = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    return cpu_s, time.perf_counter() - started

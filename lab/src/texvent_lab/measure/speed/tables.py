@@ -9,13 +9,6 @@ from texvent_lab.bench.document import markdown_table
 Document = dict[str, Any]
 CORE, WITH_FLOW = 2.0, 0.25
 """Least ratios of a peer's time over ours."""
-STARTUP = {
-    "help_cpu_s": "`texvent --help`, CPU",
-    "generate_help_cpu_s": "`texvent generate --help`, CPU",
-    "simulate_help_cpu_s": "`texvent simulate --help`, CPU",
-    "first_events_s": "`texvent simulate` of a 2 s clip (640x360, heavy motion): first events",
-    "cold_first_events_s": "the same with no compiled kernel in the cache",
-}
 
 
 def as_markdown(document: Document) -> str:
@@ -28,12 +21,7 @@ def as_markdown(document: Document) -> str:
     parts.append(_runs(document))
     if "steps" in document:  # not in older results
         parts.append(_steps(document))
-    startup = document["startup"]
-    rows = [
-        (text, _spread(startup[name]) if isinstance(startup[name], dict) else f"{startup[name]:g}")
-        for name, text in STARTUP.items()
-    ]
-    return "\n".join([*parts, f"## Start-up, s\n\n{markdown_table(('command', 's'), rows)}"])
+    return "\n".join([*parts, _commands(document)])
 
 
 def _spread(quartiles: Document) -> str:
@@ -87,6 +75,14 @@ def _steps(document: Document) -> str:
     ]  # fmt: skip
     head = ("model", "size", "events", "ms, median", "ms, 95 %")
     return f"## Steps of `texvent.EventCamera`\n\n{markdown_table(head, rows)}"
+
+
+def _commands(document: Document) -> str:
+    rows = [
+        (row["command"], f"{row['cpu_s']:g}", f"{row['clock_s']:g}") for row in document["commands"]
+    ]
+    head = ("command", "processor time, s", "clock, s")
+    return f"## Whole commands\n\n{markdown_table(head, rows)}"
 
 
 def _bounds(document: Document) -> str:
