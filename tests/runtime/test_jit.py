@@ -97,6 +97,12 @@ def test_a_kernel_is_compiled_again_when_a_file_that_it_uses_changes(package):
         assert run(package) == (result, 0)
 
 
+def test_an_inner_function_is_not_kept_by_itself(package):
+    run(package)
+    kept = {file.name.split("-")[0] for file in package.rglob("*.nbi")}
+    assert kept == {"entry.run"}
+
+
 def test_a_kernel_is_read_from_disk_when_other_files_change(package):
     run(package)
     (package / "other.py").write_text("A = 2\n")

@@ -13,7 +13,10 @@ from typing import Any, TypeVar, overload
 
 import numba
 from numba import types
+from numba._dynfunc import make_function
 from numba.core.caching import FunctionCache, IndexDataCacheFile
+from numba.core.codegen import JITCodeLibrary
+from numba.core.compiler import Compiler
 
 from texvent.runtime.progress import tell_of_compilation
 
@@ -38,7 +41,8 @@ def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **o
     Args:
         function: what to compile.
         nogil: release the interpreter lock, so that threads work at the same time.
-        inner: only other kernels call it: it has no entry for Python and compiles sooner.
+        inner: only other kernels call it: it has neither an entry for Python nor machine code of
+            its own, and compiles sooner.
         **options: other options of `numba.njit`, such as `error_model`, `inline` and `parallel`.
 
     Returns:
@@ -46,11 +50,13 @@ def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **o
     """
     if inner:
         options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
+        options["pipeline_class"] = _InnerCompiler
 
     def decorate(function: Any) -> Any:
         kernel: Any = numba.njit(nogil=nogil, **options)(function)
         if hasattr(kernel, "py_func"):  # not with NUMBA_DISABLE_JIT=1
-            kernel._cache = _KernelCache(function)
+            if not inner:
+                kernel._cache = _KernelCache(function)
             kernel.get_call_template = functools.partial(_template_of, kernel)
         return kernel
 
@@ -65,6 +71,36 @@ def _template_of(kernel: Any, arguments: Any, keywords: Any) -> Any:
     arguments = tuple(_type_of(one) for one in arguments)
     keywords = {name: _type_of(one) for name, one in keywords.items()}
     return type(kernel).get_call_template(kernel, arguments, keywords)
+
+
+class _InnerLibrary(JITCodeLibrary):
+    """Code of an inner function, optimised for the kernels that call it, but not emitted."""
+
+    def _optimize_final_module(self) -> None:
+        # The kernels that it is linked into are optimised thoroughly.
+        codegen: Any = self._codegen
+        passes, builder = codegen._module_pass_manager(
+            loop_vectorize=False, slp_vectorize=False, opt=codegen._opt_level, cost="cheap"
+        )
+        passes.run(self._final_module, builder)
+
+    def _finalize_final_module(self) -> None:
+        self._finalize_dynamic_globals()  # type: ignore[no-untyped-call]
+        self._finalized = True
+
+
+class _InnerCompiler(Compiler):
+    def compile_extra(self, func: Any) -> Any:
+        library: Any = _InnerLibrary
+        self.state.library = library(self.state.targetctx.codegen(), func.__qualname__)
+        self.state.targetctx.get_executable = _without_entry
+        return super().compile_extra(func)  # type: ignore[no-untyped-call]
+
+
+def _without_entry(library: Any, description: Any, environment: Any) -> Any:
+    library.finalize()
+    name = description.qualname
+    return make_function(description.lookup_module(), name, "", 0, environment, (library,))
 
 
 class _KernelCache(FunctionCache):
