@@ -82,6 +82,11 @@ BYTES_PER_EVENT = 100
 """Memory of an event while its packet is made: columns as drawn, keys, sorted columns."""
 
 
+def most_events() -> int:
+    """Events of a packet that memory holds."""
+    return usable_bytes() // BYTES_PER_EVENT
+
+
 def check_event_number(number: float) -> None:
     """Refuse a packet that memory cannot hold, before there is any of it.
 
@@ -91,7 +96,7 @@ def check_event_number(number: float) -> None:
     Raises:
         InputError: it is above what `usable_bytes` holds.
     """
-    most = usable_bytes() // BYTES_PER_EVENT
+    most = most_events()
     if not number <= most:
         raise InputError(
             f"about {number:.2g} events come between two frames, and memory holds {most:.2g}; give "

@@ -145,7 +145,7 @@ class TriggerLevels:
         return luma.astype(np.float32, copy=False)
 
 
-BLOCK = 128
+BLOCK = 512
 """Pixels whose levels are set together."""
 _0, _1, _RUN = np.uint64(0), np.uint64(1), np.uint64(RUN)
 
@@ -239,7 +239,7 @@ def _set_levels(
         _take_exponentials(on, 1.0, first, size, up)
         _take_exponentials(off, -1.0, first, size, down)
         for j in range(size):
-            centre[j] = reference[pixel[first + j]]
+            centre[j] = reference[np.uint64(pixel[first + j])]
         for j in range(size):
             centre[j] = scale * exponential(centre[j])
         for j in range(size):
@@ -247,7 +247,8 @@ def _set_levels(
             least = below + MARGIN * (1.0 + abs(below))
             lowest[j], highest[j] = _as_luma(least, above - MARGIN * (1.0 + abs(above)), low)
         for j in range(size):
-            low[pixel[first + j]], high[pixel[first + j]] = lowest[j], highest[j]
+            i = np.uint64(pixel[first + j])
+            low[i], high[i] = lowest[j], highest[j]
 
 
 @jit(error_model="numpy")

@@ -37,10 +37,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array, balanced_log
-from texvent.runtime.jit import jit
 from texvent.runtime.kernel_arrays import read_only
-from texvent.simulate.crossing.trigger_levels import BLOCK, MARGIN, trigger_factors
-from texvent.simulate.kernels.elementary_cpu import exponential
+from texvent.simulate.crossing.trigger_levels import MARGIN, trigger_factors
 from texvent.simulate.texvent.config import TexventConfig
 from texvent.video import UINT16_PER_LEVEL
 
@@ -190,31 +188,14 @@ def update_reference(memory: Memory, intensity: Intensity, balance: float, share
         share: of the distance, above 0 up to 1.
     """
     for first in range(0, intensity.size, _CHUNK):
-        pixel = np.arange(first, min(first + _CHUNK, intensity.size))
         part = slice(first, first + _CHUNK)
         seen, level, table = intensity[part], memory.level[part], memory.table
-        brightness = table[seen] if table.size else balanced_log(seen, balance)
+        brightness = table.take(seen) if table.size else balanced_log(seen, balance)
         if share == 1:
             level[:] = brightness
         else:
             level += share * (brightness - level)
-        store_intensity(pixel, memory.level, memory.reference)
-
-
-@jit(error_model="numpy")
-def store_intensity(
-    pixel: NDArray[np.int64], level: Float64Array, reference: NDArray[np.float32]
-) -> None:
-    """Store the balanced intensity exp(level) of some pixels, for the scan."""
-    exponentials = np.empty(BLOCK)
-    for first in range(0, pixel.size, BLOCK):
-        size = min(BLOCK, pixel.size - first)
-        for j in range(size):
-            exponentials[j] = level[np.uint64(pixel[first + j])]
-        for j in range(size):
-            exponentials[j] = exponential(exponentials[j])
-        for j in range(size):
-            reference[np.uint64(pixel[first + j])] = exponentials[j]
+        np.exp(level, out=memory.reference[part])
 
 
 @functools.lru_cache(maxsize=16)

@@ -24,13 +24,13 @@ from texvent.simulate.kernels.active_pixels import (
     make_flags,
     number_of_lowest,
 )
+from texvent.simulate.kernels.elementary_cpu import exponential
 from texvent.simulate.texvent.pixel_memory import (
     FiredPixels,
     FireRule,
     Intensity,
     Memory,
     ScanLevels,
-    store_intensity,
 )
 from texvent.video import HIGHEST_INTENSITY, is_intensity
 
@@ -41,6 +41,8 @@ FEW = 6
 out those that cannot fire, as in moving texture most cannot."""
 _0, _1, _RUN = np.uint64(0), np.uint64(1), np.uint64(RUN)
 _BYTE = np.dtype(np.uint8)
+BLOCK = 256
+"""Pixels whose levels are moved together."""
 _CHUNK = 1 << 14
 """Pixels of float frames that are looked at together, twice: they stay in a near cache."""
 Int64Array = NDArray[np.int64]
@@ -184,7 +186,7 @@ def detect_events(
         return None
     fired = fired.first(found)
     if memory.level.size:
-        store_intensity(fired.pixel, memory.level, memory.reference)
+        _move_levels(fired.pixel, fired.change, rule, memory.level, memory.reference)
     return fired
 
 
@@ -267,19 +269,11 @@ def _settle_floats(
         if rule.has_line:
             start[found], stop[found], at_start[found] = befores[k], now, then
         found += _1
-        if level.size:
-            level[i] = now if not rule.is_step else _step(then, change, rule)
-        elif not rule.is_renewed:
+        if not level.size and not rule.is_renewed:
             reference[i] = frame[i]
+        elif level.size and not rule.is_step:
+            level[i] = now
     return np.int64(found)
-
-
-@jit(inline="always")
-def _step(level: float, change: float, rule: FireRule) -> float:
-    """The reference after its events: a threshold further for each."""
-    number = np.floor(abs(change) / rule.threshold) if rule.multi_event else 1.0
-    moved = number * rule.threshold
-    return level + moved if change > 0 else level - moved
 
 
 @jit
@@ -304,15 +298,47 @@ def _fire_integers(
             if has_line:
                 start[found], stop[found], at_start[found] = table[previous[i]], now, then
             fires = abs(change) >= rule.threshold
-            if fires and has_level:
-                level[i] = now if not rule.is_step else _step(then, change, rule)
-            elif fires and not rule.is_renewed:
-                reference[i] = frame[i]
+            if fires and not rule.is_renewed:
+                if not has_level:
+                    reference[i] = frame[i]
+                elif not rule.is_step:
+                    level[i] = now
             found += np.uint64(fires)
     if rule.is_renewed:
         _copy(frame, reference)
     _copy(frame, previous)
     return np.int64(found)
+
+
+@jit(error_model="numpy")
+def _move_levels(
+    pixel: Int64Array,
+    changes: Float64Array,
+    rule: FireRule,
+    level: Float64Array,
+    reference: NDArray[np.float32],
+) -> None:
+    """Move the levels of pixels that fired by δ for each event, or leave them where they are now.
+
+    Loops over a block each, which become vector instructions, also find their intensity.
+    """
+    own = np.empty(BLOCK)
+    for first in range(0, pixel.size, BLOCK):
+        pixels, change = pixel[first : first + BLOCK], changes[first : first + BLOCK]
+        for j in range(np.uint64(pixels.size)):
+            own[j] = level[np.uint64(pixels[j])]
+        if rule.is_step:
+            for j in range(np.uint64(pixels.size)):
+                size = abs(change[j])
+                number = np.floor(size / rule.threshold) if rule.multi_event else 1.0
+                moved = number * rule.threshold
+                own[j] += moved if change[j] > 0 else -moved
+            for j in range(np.uint64(pixels.size)):
+                level[np.uint64(pixels[j])] = own[j]
+        for j in range(np.uint64(pixels.size)):
+            own[j] = exponential(own[j])
+        for j in range(np.uint64(pixels.size)):
+            reference[np.uint64(pixels[j])] = own[j]
 
 
 @jit

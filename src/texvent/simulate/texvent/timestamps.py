@@ -134,7 +134,7 @@ def _list_others(
     layout: KeyLayout,
     keys: Uint64Array,
 ) -> None:
-    """Keys by pixel, at random times or at the end; `draws` are their key and the sensor's width."""
+    """Keys by pixel, at random times or at the end; `draws` are their key and a row's width."""
     (key, width), found = draws, 0
     for i in range(pixel.size):
         y = pixel[i] // width
