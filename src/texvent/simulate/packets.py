@@ -82,11 +82,6 @@ BYTES_PER_EVENT = 100
 """Memory of an event while its packet is made: columns as drawn, keys, sorted columns."""
 
 
-def most_events() -> int:
-    """Events of a packet that memory holds."""
-    return usable_bytes() // BYTES_PER_EVENT
-
-
 def check_event_number(number: float) -> None:
     """Refuse a packet that memory cannot hold, before there is any of it.
 
@@ -96,7 +91,7 @@ def check_event_number(number: float) -> None:
     Raises:
         InputError: it is above what `usable_bytes` holds.
     """
-    most = most_events()
+    most = usable_bytes() // BYTES_PER_EVENT
     if not number <= most:
         raise InputError(
             f"about {number:.2g} events come between two frames, and memory holds {most:.2g}; give "

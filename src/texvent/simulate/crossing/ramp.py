@@ -81,12 +81,12 @@ def list_crossing_keys(
     refractory: RefractoryPeriod,
 ) -> NDArray[np.uint64]:
     """Keys of all events, by pixel and then in time."""
-    number = add_up(changes.steps)
+    number = _add_up(changes.steps)
     check_event_number(number)
     keys = take_scratch(KEY_USES[0], number + FEW, np.uint64)
     list_crossings(pixel, changes, NO_LEVEL, layout, keys)
     if refractory.period_us > 0:
-        number = drop_refractory(pixel, changes.steps, fired_us, layout, refractory, keys)
+        number = _drop_refractory(pixel, changes.steps, fired_us, layout, refractory, keys)
     return keys[:number]
 
 
@@ -113,7 +113,7 @@ def count_crossings(changes: RampChanges, thresholds: Thresholds) -> None:
 
 
 @jit
-def add_up(steps: NDArray[np.int64]) -> int:
+def _add_up(steps: NDArray[np.int64]) -> int:
     """Number of all crossings."""
     total = 0
     for n in range(steps.size):
@@ -200,7 +200,7 @@ def key_at(fraction: float, pixel: int, kind: np.uint64, layout: KeyLayout) -> A
 
 
 @jit
-def drop_refractory(
+def _drop_refractory(
     pixel: NDArray[np.int64],
     steps: NDArray[np.int64],
     fired_us: NDArray[np.int64],

@@ -14,26 +14,16 @@ from numpy.typing import NDArray
 from texvent.runtime.jit import jit
 from texvent.runtime.kernel_arrays import take_scratch
 from texvent.simulate.crossing.ramp import (
-    FEW,
-    NO_LEVEL,
-    KeyLayout,
     RampChanges,
     RefractoryPeriod,
-    add_up,
     count_crossings,
-    drop_refractory,
     key_layout,
-    list_crossings,
+    list_crossing_keys,
 )
-from texvent.simulate.kernels.active_pixels import grown
-from texvent.simulate.kernels.radix_sort import KEY_USES, sort_keyed_events
-from texvent.simulate.packets import SortedEvents, check_event_number, most_events
+from texvent.simulate.kernels.radix_sort import sort_keyed_events
+from texvent.simulate.packets import SortedEvents
 from texvent.simulate.random.mismatch import Thresholds
 
-SOME = 1024
-"""Pixels that are gone through together: what is computed of them stays in the first cache."""
-USUAL = 3
-"""Events per pixel for which there is room at first."""
 Float64Array: TypeAlias = NDArray[np.float64]
 
 
@@ -91,56 +81,15 @@ def cross_thresholds(
     layout = key_layout(span_us, shape)
     # Numba leaves out branches for arguments that are None, but not for their fields.
     pixel, before, now, table, thresholds = pixels
-    keys = take_scratch(KEY_USES[0], USUAL * len(pixel) + FEW, np.uint64)
-    keys, number = _cross(
-        (pixel, before, now), table, thresholds, references, layout, refractory, most_events(), keys
+    start, stop, threshold = (
+        take_scratch(use, len(pixel), np.float64) for use in ("start", "stop", "threshold")
     )
-    check_event_number(number)
-    return sort_keyed_events(keys[:number], span_us, shape)
-
-
-@jit(error_model="numpy")
-def _cross(
-    pixels: tuple[NDArray[np.int64], NDArray[Any], NDArray[Any]],
-    table: Float64Array | None,
-    thresholds: Thresholds,
-    references: CrossingState,
-    layout: KeyLayout,
-    refractory: RefractoryPeriod,
-    most: int,
-    keys: NDArray[np.uint64],
-) -> tuple[NDArray[np.uint64], int]:
-    """Keys of all events, by pixel and then in time, and how many; ends beyond `most`.
-
-    Some pixels at a time, whose numbers stay in the first cache.
-    """
-    pixel, before, now = pixels
-    on, off = thresholds
-    room, found = (
-        RampChanges(np.empty(SOME), np.empty(SOME), np.empty(SOME), np.empty(SOME, np.int64)),
-        0,
-    )
-    for first in range(0, pixel.size, SOME):
-        part = slice(first, min(first + SOME, pixel.size))
-        size = part.stop - first
-        start, stop, threshold, steps = room
-        changes = RampChanges(start[:size], stop[:size], threshold[:size], steps[:size])
-        own = Thresholds(on[part], off[part]) if on.size > 1 else thresholds
-        _compare((pixel[part], before[part], now[part]), table, references.reference, changes)
-        count_crossings(changes, own)
-        number = add_up(changes.steps)
-        if found + number > most:
-            return keys, found + number
-        if found + number + FEW > keys.size:
-            keys = grown(keys, 2 * (found + number + FEW))
-        list_crossings(pixel[part], changes, NO_LEVEL, layout, keys[found:])
-        if refractory.period_us > 0:
-            number = drop_refractory(
-                pixel[part], changes.steps, references.fired_us, layout, refractory, keys[found:]
-            )
-        found += number
-        _step(pixel[part], changes, references.reference)
-    return keys, found
+    changes = RampChanges(start, stop, threshold, take_scratch("steps", len(pixel), np.int64))
+    _compare((pixel, before, now), table, references.reference, changes)
+    count_crossings(changes, thresholds)
+    keys = list_crossing_keys(pixel, changes, references.fired_us, layout, refractory)
+    _step(pixel, changes, references.reference)
+    return sort_keyed_events(keys, span_us, shape)
 
 
 @jit
