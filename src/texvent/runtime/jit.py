@@ -25,21 +25,18 @@ _IMPORT = re.compile(r"^(?:from ([\w.]+) import (\([^)]*\)|.*)|import ([\w.]+))"
 @overload
 def jit(function: Function, /) -> Function: ...
 @overload
-def jit(
-    *, nogil: bool = True, inner: bool = False, **options: Any
-) -> Callable[[Function], Function]: ...
-def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **options: Any) -> Any:
+def jit(*, inner: bool = False, **options: Any) -> Callable[[Function], Function]: ...
+def jit(function: Any = None, /, *, inner: bool = False, **options: Any) -> Any:
     """Compile a function with Numba at its first call; later processes read it from disk.
 
     It is compiled again when its file changes, or a file of its package (or of texvent) that its
     module imports, directly or through others: what a kernel calls and the constants it reads are
-    built into it. Arithmetic is IEEE (no fastmath).
+    built into it. Arithmetic is IEEE (no fastmath), and the interpreter lock is released.
 
     Args:
         function: what to compile.
-        nogil: release the interpreter lock, so that threads work at the same time.
         inner: only other kernels call it: it has no entry for Python and compiles sooner.
-        **options: other options of `numba.njit`, such as `error_model`, `inline` and `parallel`.
+        **options: other options of `numba.njit`, such as `error_model` and `inline`.
 
     Returns:
         The compiled function; the function itself with NUMBA_DISABLE_JIT=1.
@@ -48,7 +45,7 @@ def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **o
         options |= {"no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
     def decorate(function: Any) -> Any:
-        kernel: Any = numba.njit(nogil=nogil, **options)(function)
+        kernel: Any = numba.njit(nogil=True, **options)(function)
         if hasattr(kernel, "py_func"):  # not with NUMBA_DISABLE_JIT=1
             kernel._cache = _KernelCache(function)
             kernel.get_call_template = functools.partial(_template_of, kernel)

@@ -76,12 +76,13 @@ def key_layout(span_us: tuple[int, int], shape: tuple[int, int]) -> KeyLayout:
 def list_crossing_keys(
     pixel: NDArray[np.int64],
     changes: RampChanges,
+    thresholds: Thresholds,
     fired_us: NDArray[np.int64],
     layout: KeyLayout,
     refractory: RefractoryPeriod,
 ) -> NDArray[np.uint64]:
-    """Keys of all events, by pixel and then in time."""
-    number = _add_up(changes.steps)
+    """Keys of all events, by pixel and then in time; fills in thresholds and steps."""
+    number = _count_crossings(changes, thresholds)
     check_event_number(number)
     keys = take_scratch(KEY_USES[0], number + FEW, np.uint64)
     list_crossings(pixel, changes, NO_LEVEL, layout, keys)
@@ -91,10 +92,10 @@ def list_crossing_keys(
 
 
 @jit(error_model="numpy")
-def count_crossings(changes: RampChanges, thresholds: Thresholds) -> None:
-    """Fill in thresholds and steps."""
+def _count_crossings(changes: RampChanges, thresholds: Thresholds) -> int:
+    """Fill in thresholds and steps; the number of all crossings."""
     _, stop, threshold, steps = changes
-    on, off = thresholds
+    (on, off), number = thresholds, 0
     # Loops over few arrays each, which become vector instructions.
     if on.size == 1:
         single_on, single_off = on[0], off[0]
@@ -110,15 +111,8 @@ def count_crossings(changes: RampChanges, thresholds: Thresholds) -> None:
         count += 1.0 if change >= (count + 1.0) * size else 0.0
         count -= 1.0 if change < count * size else 0.0
         steps[n] = np.int64(count if stop[n] > 0 else -count)
-
-
-@jit
-def _add_up(steps: NDArray[np.int64]) -> int:
-    """Number of all crossings."""
-    total = 0
-    for n in range(steps.size):
-        total += abs(steps[n])
-    return total
+        number += np.int64(count)
+    return number
 
 
 @jit(error_model="numpy")
