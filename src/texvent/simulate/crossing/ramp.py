@@ -111,7 +111,7 @@ def _count_crossings(changes: RampChanges, thresholds: Thresholds) -> int:
         count += 1.0 if change >= (count + 1.0) * size else 0.0
         count -= 1.0 if change < count * size else 0.0
         steps[n] = np.int64(count if stop[n] > 0 else -count)
-        number += np.int64(count)
+        number += int(count)
     return number
 
 
@@ -156,7 +156,7 @@ def list_crossings(
 
 @jit(inline="always")
 def _line(
-    i: np.uint64,
+    i: Any,
     start: Float64Array,
     stop: Float64Array,
     reference: Float64Array,

@@ -29,6 +29,7 @@ RUN = 64
 # Numba turns a sum of uint64 and int64 into a float, so every constant is uint64. Pixels of a run
 # are counted in uint64 too: a number that cannot be negative needs no check for counting from the
 # end, and a loop without that check becomes vector instructions.
+_trailing_zeros: Any = trailing_zeros
 _0, _8, _56 = (np.uint64(number) for number in (0, 8, 56))
 _GATHER = np.uint64(sum(1 << (56 - 7 * byte) for byte in range(8)))
 """A word of eight bytes that are 0 or 1, times this, has them as bits in its highest byte."""
@@ -51,7 +52,7 @@ def number_of_lowest(bits: np.uint64) -> np.uint64:
 @overload(number_of_lowest, strict=False)
 def _compile_number_of_lowest(bits: Any) -> Any:
     """The same as one instruction."""
-    return lambda bits: trailing_zeros(bits)
+    return lambda bits: _trailing_zeros(bits)
 
 
 @jit

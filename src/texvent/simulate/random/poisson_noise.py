@@ -67,7 +67,8 @@ def draw_arrivals(
         columns = Arrivals(np.empty(room, np.int64), *(np.empty(room) for _ in range(3)))
         found = _draw_arrivals(cumulative_hz, float(duration_s), source, columns)
         if found <= room:
-            return Arrivals(*(column[:found] for column in columns))
+            pixel, fraction, kept, polarity = columns
+            return Arrivals(pixel[:found], fraction[:found], kept[:found], polarity[:found])
         room *= 2
 
 

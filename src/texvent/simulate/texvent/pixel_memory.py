@@ -24,7 +24,6 @@ table of 256 logarithms does that, for 16-bit ones one of 65,536; float frames t
 logarithm of the candidates. For 8-bit frames there is an even cheaper scan, on bytes: no pixel
 fires whose intensity differs from R by less than the smallest difference of any two levels that
 fires.
-
 """
 
 from __future__ import annotations

@@ -220,7 +220,7 @@ def _take_logs(use: str, intensity: Intensity, pixel: Int64Array, rule: FireRule
     """Brightness of some pixels, as `balanced_log` computes it."""
     brightness = take_scratch(f"{use} log", pixel.size, np.float64)
     _add_balance(read_only(intensity), pixel, rule.balance, brightness)
-    return np.log(brightness, out=brightness)
+    return np.asarray(np.log(brightness, out=brightness))
 
 
 @jit
@@ -246,7 +246,7 @@ def _find_candidates(arrays: ScanArrays, levels: ScanLevels, pixel: Int64Array) 
                 pixel[found] = first + number_of_lowest(bits)
                 bits &= bits - _1
                 found += _1
-    return np.int64(found)
+    return int(np.int64(found))
 
 
 @jit
@@ -273,7 +273,7 @@ def _settle_floats(
             reference[i] = frame[i]
         elif level.size and not rule.is_step:
             level[i] = now
-    return np.int64(found)
+    return int(np.int64(found))
 
 
 @jit
@@ -307,7 +307,7 @@ def _fire_integers(
     if rule.is_renewed:
         _copy(frame, reference)
     _copy(frame, previous)
-    return np.int64(found)
+    return int(np.int64(found))
 
 
 @jit(error_model="numpy")

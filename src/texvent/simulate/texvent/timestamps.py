@@ -91,7 +91,7 @@ def _count_steps(
     for i in range(changes.size):
         count = np.floor(abs(changes[i]) / threshold) if is_multi_event else 1.0
         steps[i] = np.int64(count if changes[i] > 0 else -count)
-        number += np.int64(count)
+        number += int(count)
     return number
 
 
