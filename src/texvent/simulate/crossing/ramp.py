@@ -1,8 +1,8 @@
 """Threshold crossings of brightness that changes in a straight line between two frames, compiled.
 
-ESIM and v2e share them. Both compare the brightness of a pixel with its reference, fire at every
-threshold that is crossed, and move the reference by one threshold per event. Crossings are counted
-first, then listed, each as one 64-bit key of `kernels.radix_sort`.
+ESIM and v2e share them, and the linear times of Texvent. A pixel fires at every threshold that its
+brightness crosses, and its reference moves by one threshold per event. Crossings are counted first,
+then listed, each as one 64-bit key of `kernels.radix_sort`.
 """
 
 from __future__ import annotations
