@@ -246,7 +246,9 @@ class EventStream(EventEdits):
 
     def without_label(self) -> EventStream:
         """The same events without the signal/noise column."""
-        return replace(self, label=None)
+        stream = object.__new__(type(self))
+        vars(stream).update(vars(self) | {"label": None})
+        return stream
 
     def with_ids(self, instance: NDArray[Any] | None, class_id: NDArray[Any] | None) -> EventStream:
         """The same events with other ids of their objects, [n] each; None: without."""

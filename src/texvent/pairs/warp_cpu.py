@@ -9,7 +9,6 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba
 import numpy as np
 from numpy.typing import NDArray
 
@@ -39,11 +38,12 @@ from texvent.pairs.sampling_cpu import (
 )
 from texvent.runtime.jit import jit
 from texvent.runtime.kernel_arrays import read_only
+from texvent.runtime.threads import count_threads, run_parts, split
 
 POINTS = 3072
 """About how many pixels are warped at a time: their data stays in the nearest caches."""
-BAND_ROWS = 32
-"""Rows that a thread takes at a time."""
+BAND_ROWS, PARTS_PER_THREAD = 32, 4
+"""Fewest rows that a thread takes at a time, and how often it takes some."""
 LANES = 64
 """Vector loops are fastest over a multiple of this length."""
 
@@ -140,7 +140,6 @@ def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Float
     return WarpPair(frames[0], frames[1], *prepared, words[0], words[1], sweep, contested)
 
 
-@jit(nogil=False, parallel=True)
 def warp_pair(pair: WarpPair, positions: NDArray[np.float64]) -> Floats:
     """`warp_between` of a pair that is prepared, at several positions: [n, H, W].
 
@@ -148,13 +147,15 @@ def warp_pair(pair: WarpPair, positions: NDArray[np.float64]) -> Floats:
     """
     height, width = pair.first.shape
     result = np.empty((positions.size, height, width), np.float32)
-    for band in numba.prange((height + BAND_ROWS - 1) // BAND_ROWS):
-        top, bottom = band * BAND_ROWS, min((band + 1) * BAND_ROWS, height)
-        _warp_rows(pair, top, bottom, positions, result)
+
+    def warp(rows: slice) -> None:
+        _warp_rows(pair, rows.start, rows.stop, positions, result)
+
+    run_parts(warp, split(height, PARTS_PER_THREAD * count_threads(), unit=BAND_ROWS))
     return result
 
 
-@jit(error_model="numpy", inner=True)
+@jit(error_model="numpy")
 def _warp_rows(
     pair: WarpPair, top: int, bottom: int, positions: NDArray[np.float64], result: Floats
 ) -> None:

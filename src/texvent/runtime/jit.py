@@ -28,22 +28,19 @@ _IMPORT = re.compile(r"^(?:from ([\w.]+) import (\([^)]*\)|.*)|import ([\w.]+))"
 @overload
 def jit(function: Function, /) -> Function: ...
 @overload
-def jit(
-    *, nogil: bool = True, inner: bool = False, **options: Any
-) -> Callable[[Function], Function]: ...
-def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **options: Any) -> Any:
+def jit(*, inner: bool = False, **options: Any) -> Callable[[Function], Function]: ...
+def jit(function: Any = None, /, *, inner: bool = False, **options: Any) -> Any:
     """Compile a function with Numba at its first call; later processes read it from disk.
 
     It is compiled again when its file changes, or a file of its package (or of texvent) that its
     module imports, directly or through others: what a kernel calls and the constants it reads are
-    built into it. Arithmetic is IEEE (no fastmath).
+    built into it. Arithmetic is IEEE (no fastmath), and the interpreter lock is released.
 
     Args:
         function: what to compile.
-        nogil: release the interpreter lock, so that threads work at the same time.
         inner: only other kernels call it: it has neither an entry for Python nor machine code of
             its own, and compiles sooner.
-        **options: other options of `numba.njit`, such as `error_model`, `inline` and `parallel`.
+        **options: other options of `numba.njit`, such as `error_model` and `inline`.
 
     Returns:
         The compiled function; the function itself with NUMBA_DISABLE_JIT=1.
@@ -53,7 +50,7 @@ def jit(function: Any = None, /, *, nogil: bool = True, inner: bool = False, **o
         options["pipeline_class"] = _InnerCompiler
 
     def decorate(function: Any) -> Any:
-        kernel: Any = numba.njit(nogil=nogil, **options)(function)
+        kernel: Any = numba.njit(nogil=True, **options)(function)
         if hasattr(kernel, "py_func"):  # not with NUMBA_DISABLE_JIT=1
             if not inner:
                 kernel._cache = _KernelCache(function)

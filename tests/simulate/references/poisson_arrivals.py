@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.simulate.kernels.elementary import natural_log
-from texvent.simulate.random.draws import draw_uniforms
+from texvent.simulate.random.draws import Purpose, draw_uniforms
 from texvent.simulate.random.poisson_noise import FIRST_DRAW, MOST_FRACTION, Arrivals
 
 
@@ -34,4 +34,6 @@ def draw_arrivals(
         column[own] = np.searchsorted(cumulative_hz[y], place[own], side="right")
     start = np.where(column > 0, cumulative_hz[row, column - 1], 0.0)
     fraction = (place - start) / (cumulative_hz[row, column] - start)
-    return Arrivals(row * width + column, np.minimum(fraction, MOST_FRACTION), order)
+    kept = draw_uniforms(key, row, stream, Purpose.NOISE_COUNT.draw(order))
+    polarity = draw_uniforms(key, row, stream, Purpose.NOISE_POLARITY.draw(order))
+    return Arrivals(row * width + column, np.minimum(fraction, MOST_FRACTION), kept, polarity)

@@ -23,7 +23,7 @@ def times(rule, changes, *, before=0.0, multi_event=False, stop_us=10_000) -> li
         timestamp_rule=rule, contrast_threshold=THRESHOLD, multi_event=multi_event
     )
     span = FrameInterval(0, stop_us, frame_key(0, 0))
-    x, _, t, _, _ = timestamp_events([fired], QUIET, config, span, (1, change.size))
+    x, _, t, _, _ = timestamp_events(fired, QUIET, config, span, (1, change.size))
     return t[np.lexsort((t, x))].tolist()
 
 

@@ -1,13 +1,12 @@
 """Threshold crossings of brightness that changes in a straight line between two frames, compiled.
 
-ESIM and v2e share them. Both compare the brightness of a pixel with its reference, fire at every
-threshold that is crossed, and move the reference by one threshold per event. Crossings are counted
-first, then listed, each as one 64-bit key of `kernels.radix_sort`.
+ESIM and v2e share them, and the linear times of Texvent. A pixel fires at every threshold that its
+brightness crosses, and its reference moves by one threshold per event. Crossings are counted first,
+then listed, each as one 64-bit key of `kernels.radix_sort`.
 """
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -32,9 +31,14 @@ class RefractoryPeriod(NamedTuple):
     fire in a later interval (v2e: the reference stays)."""
 
 
-_1, _2 = np.uint64(1), np.uint64(2)
+_0, _1, _2 = np.uint64(0), np.uint64(1), np.uint64(2)
 FEW = 2
 """Events that most pixels that fire have at most in an interval."""
+_FEW = np.uint64(FEW)
+BLOCK = 256
+"""Pixels whose first events are timed together."""
+NO_LEVEL = np.empty(0)
+"""Stands for references that changes have been taken against."""
 
 
 class RampChanges(NamedTuple):
@@ -72,22 +76,26 @@ def key_layout(span_us: tuple[int, int], shape: tuple[int, int]) -> KeyLayout:
 def list_crossing_keys(
     pixel: NDArray[np.int64],
     changes: RampChanges,
+    thresholds: Thresholds,
     fired_us: NDArray[np.int64],
     layout: KeyLayout,
     refractory: RefractoryPeriod,
 ) -> NDArray[np.uint64]:
-    """Keys of all events, by pixel and then in time."""
-    number = _add_up(changes.steps)
+    """Keys of all events, by pixel and then in time; fills in thresholds and steps."""
+    number = _count_crossings(changes, thresholds)
     check_event_number(number)
     keys = take_scratch(KEY_USES[0], number + FEW, np.uint64)
-    return keys[: _list_crossings(pixel, changes, fired_us, layout, refractory, keys)]
+    list_crossings(pixel, changes, NO_LEVEL, layout, keys)
+    if refractory.period_us > 0:
+        number = _drop_refractory(pixel, changes.steps, fired_us, layout, refractory, keys)
+    return keys[:number]
 
 
 @jit(error_model="numpy")
-def count_crossings(changes: RampChanges, thresholds: Thresholds) -> None:
-    """Fill in thresholds and steps."""
+def _count_crossings(changes: RampChanges, thresholds: Thresholds) -> int:
+    """Fill in thresholds and steps; the number of all crossings."""
     _, stop, threshold, steps = changes
-    on, off = thresholds
+    (on, off), number = thresholds, 0
     # Loops over few arrays each, which become vector instructions.
     if on.size == 1:
         single_on, single_off = on[0], off[0]
@@ -103,84 +111,111 @@ def count_crossings(changes: RampChanges, thresholds: Thresholds) -> None:
         count += 1.0 if change >= (count + 1.0) * size else 0.0
         count -= 1.0 if change < count * size else 0.0
         steps[n] = np.int64(count if stop[n] > 0 else -count)
-
-
-@jit
-def _add_up(steps: NDArray[np.int64]) -> int:
-    """Number of all crossings."""
-    total = 0
-    for n in range(steps.size):
-        total += abs(steps[n])
-    return total
+        number += int(count)
+    return number
 
 
 @jit(error_model="numpy")
-def _list_crossings(
+def list_crossings(
     pixel: NDArray[np.int64],
     changes: RampChanges,
+    reference: Float64Array,
+    layout: KeyLayout,
+    keys: NDArray[np.uint64],
+) -> None:
+    """Fill in the keys of all events, by pixel and then in time.
+
+    Args:
+        pixel: flat index, [n].
+        changes: brightness against the reference; or itself, if there are references.
+        reference: [n] log units, or `NO_LEVEL`.
+        layout: of the keys.
+        keys: room for all events and `FEW` more.
+    """
+    start, stop, thresholds, steps = changes
+    found, early = _0, np.empty((FEW, BLOCK), np.uint64)
+    for number in range(0, pixel.size, BLOCK):
+        first, last = np.uint64(number), np.uint64(min(number + BLOCK, pixel.size))
+        for k in range(FEW):
+            own = early[k]
+            for i in range(first, last):
+                line = _line(i, start, stop, reference, thresholds, steps)
+                own[i - first] = _key(line, k, pixel[i], layout)
+        for i in range(first, last):
+            # The first few always, also beyond the count: the end of a loop whose length differs
+            # from pixel to pixel is mispredicted. The next pixel overwrites what is too many.
+            for k in range(_FEW):
+                keys[found + k] = early[k, i - first]
+            count = np.uint64(abs(steps[i]))
+            if count > _FEW:
+                line = _line(i, start, stop, reference, thresholds, steps)
+                for k in range(_FEW, count):
+                    keys[found + k] = _key(line, k, pixel[i], layout)
+            found += count
+
+
+@jit(inline="always")
+def _line(
+    i: Any,
+    start: Float64Array,
+    stop: Float64Array,
+    reference: Float64Array,
+    thresholds: Float64Array,
+    steps: NDArray[np.int64],
+) -> Any:
+    """Start and stop of a pixel, its reference, and the signed threshold."""
+    step = thresholds[i] if steps[i] > 0 else -thresholds[i]
+    return start[i], stop[i], reference[i] if reference.size else 0.0, step
+
+
+@jit(inline="always")
+def _key(line: tuple[float, float, float, float], k: Any, pixel: int, layout: KeyLayout) -> Any:
+    """Key of a pixel's event number k: where a straight line reaches the (k + 1)-th threshold.
+
+    (R ± (k + 1)θ − start) / (stop − start) of the interval: exact for linear ramps, with any
+    residual carried over. A crossing before the interval (left over from it) is put at its start.
+
+    Source: ESIM (Rebecq, Gehrig and Scaramuzza, CoRL 2018).
+    """
+    start, stop, reference, step = line
+    level = reference + (k + 1.0) * step
+    is_before = start >= level if step > 0 else start <= level
+    fraction = min(max((level - start) / (stop - start), 0.0), 1.0)
+    fraction = 0.0 if is_before else 1.0 if stop == start else fraction
+    return key_at(fraction, pixel, np.uint64(step > 0) << _1, layout)
+
+
+@jit(inline="always")
+def key_at(fraction: float, pixel: int, kind: np.uint64, layout: KeyLayout) -> Any:
+    """Key of an event at a fraction 0..1 of the interval; `kind` has its p and label."""
+    duration = np.float64(layout.duration_us)
+    offset = np.int64(min(np.floor(fraction * duration), duration - 1.0))
+    return np.uint64(offset) << np.uint64(layout.low) | np.uint64(pixel) << _2 | kind
+
+
+@jit
+def _drop_refractory(
+    pixel: NDArray[np.int64],
+    steps: NDArray[np.int64],
     fired_us: NDArray[np.int64],
     layout: KeyLayout,
     refractory: RefractoryPeriod,
     keys: NDArray[np.uint64],
 ) -> int:
-    """Fill in the keys of all events, by pixel and then in time; how many there are."""
-    start, stop, thresholds, steps = changes
-    low, found = np.uint64(layout.low), 0
-    duration = np.float64(layout.duration_us)
+    """Drop events within refractory periods, and note the last ones; how many are left."""
+    found, listed = 0, 0
     for i in range(pixel.size):
-        is_on, count, threshold = steps[i] > 0, abs(steps[i]), thresholds[i]
-        # By a product: a branch on ON or OFF would be mispredicted too.
-        begin, end = math.copysign(1.0, stop[i]) * start[i], abs(stop[i])
-        place = np.uint64(pixel[i]) << _2 | np.uint64(is_on) << _1
-        # The first few always, also beyond the count: the end of a loop whose length differs
-        # from pixel to pixel is mispredicted. The next pixel overwrites what is too many.
-        for k in range(FEW):
-            keys[found + k] = _key((k + 1) * threshold, (begin, end), duration, low) | place
-        for k in range(FEW, count):
-            keys[found + k] = _key((k + 1) * threshold, (begin, end), duration, low) | place
-        if refractory.period_us > 0 and count > 0:
-            # Far apart in memory, so not even looked at where it does not matter.
-            last_us = fired_us[pixel[i]] - layout.start_us
-            if not _none_refractory(keys[found : found + FEW], count, last_us, refractory, low):
-                count = _drop_refractory(keys[found : found + count], last_us, refractory, low)
-                if not refractory.is_level_lost:
-                    steps[i] = count if is_on else -count
-            if count > 0:
-                fired_us[pixel[i]] = layout.start_us + np.int64(keys[found + count - 1] >> low)
-        found += count
-    return found
-
-
-@jit(inline="always")
-def _key(level: float, ends: tuple[float, float], duration: float, low: np.uint64) -> Any:
-    """Time at which the line from begin to end reaches a level, in the bits of a key."""
-    begin, end = ends
-    fraction = (level - begin) / (end - begin) if begin < level else 0.0
-    return np.uint64(np.int64(min(np.floor(fraction * duration), duration - 1.0))) << low
-
-
-@jit(inline="always")
-def _none_refractory(
-    keys: NDArray[np.uint64], count: int, last_us: int, refractory: RefractoryPeriod, low: np.uint64
-) -> bool:
-    """Whether none of at most `FEW` events is in a refractory period; False for more."""
-    is_allowed, before_us = bool(count <= FEW), last_us
-    for k in range(FEW):
-        offset_us = np.int64(keys[k] >> low)
-        is_allowed &= bool((k >= count) | (offset_us - before_us >= refractory.period_us))
-        before_us = int(offset_us)
-    return is_allowed
-
-
-@jit
-def _drop_refractory(
-    keys: NDArray[np.uint64], last_us: int, refractory: RefractoryPeriod, low: np.uint64
-) -> int:
-    """Drop a pixel's events within refractory periods; how many are left."""
-    found = 0
-    for key in keys:
-        offset_us = np.int64(key >> low)
-        if offset_us - last_us >= refractory.period_us:
-            keys[found], last_us = key, int(offset_us)
-            found += 1
+        count = abs(steps[i])
+        if count == 0:
+            continue
+        first, last_us = found, fired_us[pixel[i]] - layout.start_us
+        for k in range(listed, listed + count):
+            offset_us = np.int64(keys[k] >> np.uint64(layout.low))
+            if offset_us - last_us >= refractory.period_us:
+                keys[found], last_us = keys[k], offset_us
+                found += 1
+        listed += count
+        fired_us[pixel[i]] = layout.start_us + last_us
+        if not refractory.is_level_lost:
+            steps[i] = found - first if steps[i] > 0 else first - found
     return found

@@ -32,7 +32,7 @@ from texvent.simulate.kernels.active_pixels import (
     as_bits,
     list_marked_runs,
     make_flags,
-    number_of,
+    number_of_lowest,
 )
 from texvent.simulate.kernels.elementary_cpu import exponential
 from texvent.simulate.random.mismatch import Thresholds, thresholds_at
@@ -145,9 +145,9 @@ class TriggerLevels:
         return luma.astype(np.float32, copy=False)
 
 
-BLOCK = 128
+BLOCK = 512
 """Pixels whose levels are set together."""
-_0, _1 = np.uint64(0), np.uint64(1)
+_0, _1, _RUN = np.uint64(0), np.uint64(1), np.uint64(RUN)
 
 
 @jit
@@ -171,13 +171,12 @@ def _find_outside_levels(
     # Places are counted in uint64, which need no check for counting from the end.
     count = _0
     for k in range(run.size):
-        first, bits = np.uint64(run[k] * RUN), all_bits[k]
+        first, bits = np.uint64(run[k]) * _RUN, all_bits[k]
         while bits != _0:
-            lowest = bits & (~bits + _1)
-            i = first + np.uint64(number_of(lowest))
+            i = first + number_of_lowest(bits)
+            bits &= bits - _1
             pixel[count], before[count], now[count] = i, seen[i], luma[i]
             count += _1
-            bits ^= lowest
     for place in range(luma.size):
         seen[place] = luma[place]
     return int(count)
@@ -240,7 +239,7 @@ def _set_levels(
         _take_exponentials(on, 1.0, first, size, up)
         _take_exponentials(off, -1.0, first, size, down)
         for j in range(size):
-            centre[j] = reference[pixel[first + j]]
+            centre[j] = reference[np.uint64(pixel[first + j])]
         for j in range(size):
             centre[j] = scale * exponential(centre[j])
         for j in range(size):
@@ -248,7 +247,8 @@ def _set_levels(
             least = below + MARGIN * (1.0 + abs(below))
             lowest[j], highest[j] = _as_luma(least, above - MARGIN * (1.0 + abs(above)), low)
         for j in range(size):
-            low[pixel[first + j]], high[pixel[first + j]] = lowest[j], highest[j]
+            i = np.uint64(pixel[first + j])
+            low[i], high[i] = lowest[j], highest[j]
 
 
 @jit(error_model="numpy")

@@ -16,7 +16,6 @@ from texvent.runtime.kernel_arrays import take_scratch
 from texvent.simulate.crossing.ramp import (
     RampChanges,
     RefractoryPeriod,
-    count_crossings,
     key_layout,
     list_crossing_keys,
 )
@@ -86,8 +85,8 @@ def cross_thresholds(
     )
     changes = RampChanges(start, stop, threshold, take_scratch("steps", len(pixel), np.int64))
     _compare((pixel, before, now), table, references.reference, changes)
-    count_crossings(changes, thresholds)
-    keys = list_crossing_keys(pixel, changes, references.fired_us, layout, refractory)
+    fired_us = references.fired_us
+    keys = list_crossing_keys(pixel, changes, thresholds, fired_us, layout, refractory)
     _step(pixel, changes, references.reference)
     return sort_keyed_events(keys, span_us, shape)
 
@@ -103,7 +102,7 @@ def _compare(
     pixel, before, now = pixels
     start, stop, _, _ = changes
     for n in range(pixel.size):
-        level = reference[pixel[n]]
+        level = reference[np.uint64(pixel[n])]
         if table is not None:
             start[n], stop[n] = table[before[n]] - level, table[now[n]] - level
         else:
@@ -115,4 +114,4 @@ def _step(pixel: NDArray[np.int64], changes: RampChanges, reference: Float64Arra
     """Move the references by the thresholds crossed."""
     _, _, threshold, steps = changes
     for n in range(pixel.size):
-        reference[pixel[n]] += steps[n] * threshold[n]
+        reference[np.uint64(pixel[n])] += steps[n] * threshold[n]

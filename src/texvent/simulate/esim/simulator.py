@@ -135,5 +135,5 @@ def log_intensity(intensity: IntensityArray, log_eps: float) -> Float64Array:
     """
     if intensity.dtype == np.uint8:
         table = np.log(np.arange(256) / WHITE + log_eps)
-        return np.asarray(table[intensity])
+        return np.asarray(table.take(intensity))
     return np.asarray(np.log(intensity / np.float64(WHITE) + log_eps))

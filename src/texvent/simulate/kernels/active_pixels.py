@@ -14,6 +14,8 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
+from numba.cpython.unsafe.numbers import trailing_zeros
+from numba.extending import overload
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
@@ -27,13 +29,10 @@ RUN = 64
 # Numba turns a sum of uint64 and int64 into a float, so every constant is uint64. Pixels of a run
 # are counted in uint64 too: a number that cannot be negative needs no check for counting from the
 # end, and a loop without that check becomes vector instructions.
-_0, _8, _56, _58 = (np.uint64(number) for number in (0, 8, 56, 58))
+_trailing_zeros: Any = trailing_zeros
+_0, _8, _56 = (np.uint64(number) for number in (0, 8, 56))
 _GATHER = np.uint64(sum(1 << (56 - 7 * byte) for byte in range(8)))
 """A word of eight bytes that are 0 or 1, times this, has them as bits in its highest byte."""
-_DE_BRUIJN = np.uint64(0x03F79D71B4CB0A89)
-"""Its 64 runs of six bits are all different, so that a shift is known by the highest six."""
-_BIT_NUMBER = np.empty(64, np.uint8)
-_BIT_NUMBER[[int(_DE_BRUIJN) << bit >> 58 & 63 for bit in range(64)]] = np.arange(64)
 
 
 class MarkedRuns(NamedTuple):
@@ -45,10 +44,15 @@ class MarkedRuns(NamedTuple):
     """[m] which of their pixels: bit i for the i-th."""
 
 
-@jit(inline="always")
-def number_of(bit: np.uint64) -> Any:
-    """Number of the only bit that is set in a word."""
-    return _BIT_NUMBER[bit * _DE_BRUIJN >> _58]
+def number_of_lowest(bits: np.uint64) -> np.uint64:
+    """Number of the lowest bit that is set in a word, which is not 0."""
+    return np.uint64((int(bits) & -int(bits)).bit_length() - 1)
+
+
+@overload(number_of_lowest, strict=False)
+def _compile_number_of_lowest(bits: Any) -> Any:
+    """The same as one instruction."""
+    return lambda bits: _trailing_zeros(bits)
 
 
 @jit

@@ -23,8 +23,8 @@ Uint64Array = NDArray[np.uint64]
 # Numba turns a sum of uint64 and int64 into a float, so every constant is uint64.
 _1, _2, _NEXT = np.uint64(1), np.uint64(2), np.uint32(1)
 MOST_KEY_BITS = 64
-FEWEST_BITS, MOST_BITS = 8, 16
-"""Bits of a digit; 2¹⁶ counters of 32 bits fit the second cache. One digit of many bits beats two
+FEWEST_BITS, MOST_BITS = 8, 13
+"""Bits of a digit; 2¹³ counters of 32 bits fit the first cache. One digit of many bits beats two
 of half as many where there are about as many events as counters."""
 KEY_USES = ("keys", "sorted keys")
 """Of `scratch`: what is sorted, and room to sort it."""

@@ -55,6 +55,10 @@ class PhotoreceptorInput(NamedTuple):
 
     before: Luma
     """[n] luma at the start; a kernel overwrites it with `now`."""
+    brightness: Float64Array
+    """[n] brightness at the start, log units; the compiled kernel overwrites it too."""
+    cutoff: Float64Array
+    """[n] cutoff frequency at the start, 1/µs; likewise."""
     now: Luma
     """[n] luma at the end, of the same type."""
     optics: Optics
@@ -169,10 +173,10 @@ class InputFrames:
         self._optics = Optics(gamma, balance, cutoff_per_level, most_current)
         self._table = brightness_and_cutoff(np.arange(256.0), self._optics)
         self._seen: Luma = luma.reshape(-1).copy()
-
-    def brightness(self) -> Float64Array:
+        self.brightness, self._cutoff = brightness_and_cutoff(
+            self._seen.astype(np.float64), self._optics
+        )
         """`ln(α + I)` of the last frame, [n], log units."""
-        return brightness_and_cutoff(self._seen.astype(np.float64), self._optics)[0]
 
     def until(self, luma: IntensityArray) -> PhotoreceptorInput:
         """The input from the last frame to this one; a kernel makes this one the last.
@@ -186,7 +190,13 @@ class InputFrames:
             self._seen, now = self._seen.astype(np.float32), now.astype(np.float32)
         table = self._table if now.dtype == np.uint8 else None
         return PhotoreceptorInput(
-            self._seen, np.ascontiguousarray(now), self._optics, table, luma.shape
+            self._seen,
+            self.brightness,
+            self._cutoff,
+            np.ascontiguousarray(now),
+            self._optics,
+            table,
+            luma.shape,
         )
 
     def intensity(self, luma: NDArray[np.generic]) -> Float64Array:

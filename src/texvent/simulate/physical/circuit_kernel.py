@@ -84,7 +84,8 @@ def advance_pixels(
         noisy = slice(*np.searchsorted(noise.pixel, [first, last]))
         noise_times = (noise.t[noisy] - span_us[0]) * 2 + noise.p[noisy]
         keys: Uint64Array = _advance_blocks(
-            (light.before[part], read_only(light.now[part]), table, light.optics),
+            (light.before[part], light.brightness[part], light.cutoff[part]),
+            (read_only(light.now[part]), table, light.optics),
             mismatch.part(part),
             CircuitState(
                 state.output[part],
@@ -104,13 +105,14 @@ def advance_pixels(
 
 @jit(error_model="numpy")
 def _advance_blocks(
-    light: tuple[Luma, Luma, Float64Array | None, Optics],
+    start: tuple[Luma, Float64Array, Float64Array],
+    stop: tuple[Luma, Float64Array | None, Optics],
     mismatch: PixelMismatch,
     state: CircuitState,
     noise: tuple[NDArray[np.int64], NDArray[np.int64]],
     rules: EventRules,
 ) -> Uint64Array:
-    before, now, table, optics = light
+    (before, brightness, cutoff), (now, table, optics) = start, stop
     start_us, duration = rules.start_us, float(rules.duration_us)
     stop_us = start_us + rules.duration_us
     keys, found = np.empty(now.size // 16 + noise[0].size + 64, np.uint64), 0
@@ -126,9 +128,12 @@ def _advance_blocks(
         is_undisturbed = is_static and noise_first == noise_done
         if is_undisturbed and stop_us <= state.quiescent_until_us[first // BLOCK]:
             continue
-        _convert(before[first:last], table, optics, block.brightness, block.cutoff)
+        size = last - first
+        block.brightness[:size], block.cutoff[:size] = brightness[first:last], cutoff[first:last]
         _convert(now[first:last], table, optics, block.brightness_stop, block.cutoff_stop)
         before[first:last] = now[first:last]
+        brightness[first:last] = block.brightness_stop[:size]
+        cutoff[first:last] = block.cutoff_stop[:size]
         own = (
             PixelMismatch(
                 mismatch.threshold_on[first:last],
@@ -154,7 +159,7 @@ def _advance_blocks(
             loaded = 0
         load_lanes(work, loaded, (first, active, noise_first), block, own, noise, start_us)
         loaded += active
-        own[1].output[:] = block.output[: last - first]
+        own[1].output[:] = block.output[:size]
     events, made = advance_lanes(work, loaded, state, optics, noise[1], rules, events)
     keys, found = append_by_lane(events[:, :made], work.events[:loaded], keys, found)
     return keys[:found]
@@ -172,15 +177,22 @@ def _convert(
     if table is not None:
         for j in range(luma.size):
             brightness[j], cutoff[j] = table[0, luma[j]], table[1, luma[j]]
-    else:
-        for j in range(luma.size):
-            level: float = np.float64(luma[j])
-            if optics.gamma != 1.0:
-                exponent = optics.gamma * natural_log((level + ALMOST_BLACK) / WHITE)
-                level = WHITE * exponential(exponent)
-            current = optics.balance + level
-            brightness[j] = natural_log(current)
-            cutoff[j] = optics.cutoff_per_level * min(current, optics.most_current)
+        return
+    # A loop for each function: two in one need more registers than there are.
+    current, size = cutoff, luma.size
+    for j in range(size):
+        current[j] = luma[j]
+    if optics.gamma != 1.0:
+        for j in range(size):
+            current[j] = optics.gamma * natural_log((current[j] + ALMOST_BLACK) / WHITE)
+        for j in range(size):
+            current[j] = WHITE * exponential(current[j])
+    for j in range(size):
+        current[j] += optics.balance
+    for j in range(size):
+        brightness[j] = natural_log(current[j])
+    for j in range(size):
+        cutoff[j] = optics.cutoff_per_level * min(current[j], optics.most_current)
 
 
 @jit(error_model="numpy")
@@ -191,20 +203,21 @@ def _advance_without_events(
 
     Short loops over few arrays each: Numba fills vector registers in no others.
     """
-    size = output.size
+    size, low, high, after = output.size, block.low, block.high, block.output
+    begin, end, decay, gain = block.brightness, block.brightness_stop, block.decay, block.gain
     for j in range(size):
-        block.low[j] = min(output[j], min(block.brightness[j], block.brightness_stop[j]))
-        block.high[j] = max(output[j], max(block.brightness[j], block.brightness_stop[j]))
+        low[j] = min(output[j], min(begin[j], end[j]))
+        high[j] = max(output[j], max(begin[j], end[j]))
     if not is_limited:
-        block.output[:size] = block.brightness_stop[:size]
+        after[:size] = end[:size]
         return
+    cutoff, cutoff_stop = block.cutoff, block.cutoff_stop
     for j in range(size):
-        angle = (block.cutoff[j] + block.cutoff_stop[j]) * 0.5 * duration
-        block.decay[j], block.gain[j] = decay_and_gain(angle)
+        angle = (cutoff[j] + cutoff_stop[j]) * 0.5 * duration
+        decay[j], gain[j] = decay_and_gain(angle)
     for j in range(size):
-        begin, end = block.brightness[j], block.brightness_stop[j]
-        lag = block.decay[j] * (begin - output[j]) + block.gain[j] * (end - begin)
-        block.output[j] = end - (0.0 if abs(lag) < SETTLED else lag)
+        lag = decay[j] * (begin[j] - output[j]) + gain[j] * (end[j] - begin[j])
+        after[j] = end[j] - (0.0 if abs(lag) < SETTLED else lag)
 
 
 @jit(error_model="numpy")
@@ -215,27 +228,23 @@ def _list_active(
     noisy: NDArray[np.int64],
 ) -> int:
     """List the pixels that may fire, those with noise among them; return how many."""
-    mismatch, state = own
-    size = state.level.size
+    (on, off, leak), (_, level, since_us, _) = own
+    low, high, cannot_fire = block.low, block.high, block.cannot_fire
+    size, quiet = level.size, 0
     for j in range(size):
-        drift = np.float64(mismatch.leak[j]) * np.float64(stop_us - state.since_us[j])
+        drift = np.float64(leak[j]) * np.float64(stop_us - since_us[j])
         # Written so that a pixel held in reset, whose level is NaN, may fire.
-        block.cannot_fire[j] = block.high[j] - state.level[j] + drift < mismatch.threshold_on[j]
-    quiet = 0
-    for j in range(size):
-        cannot_fire = block.cannot_fire[j] & (
-            state.level[j] - block.low[j] < mismatch.threshold_off[j]
-        )
-        block.cannot_fire[j] = cannot_fire
-        quiet += cannot_fire
+        is_quiet = (high[j] - level[j] + drift < on[j]) & (level[j] - low[j] < off[j])
+        cannot_fire[j] = is_quiet
+        quiet += is_quiet
     if quiet == size and noisy.size == 0:
         return 0
     for k in range(noisy.size):
-        block.cannot_fire[noisy[k]] = False
+        cannot_fire[noisy[k]] = False
     active = 0
     for j in range(size):
         block.active[active] = j
-        active += not block.cannot_fire[j]
+        active += not cannot_fire[j]
     return active
 
 

@@ -65,8 +65,7 @@ class PhysicalPixels:
             cutoff_hz=config.cutoff_hz,
             cutoff_limit_hz=config.cutoff_limit_hz,
         )
-        output = self._frames.brightness()
-        level = output.copy()
+        output, level = self._frames.brightness.copy(), self._frames.brightness.copy()
         if config.initial_phase == "random":
             y, x = np.ogrid[: shape[0], : shape[1]]
             phase = draw_uniforms(sensor_key(seed), y, x, Purpose.PHASE.draw()).reshape(-1)
@@ -118,9 +117,8 @@ class PhysicalPixels:
 
         def rate_fraction(pixel: NDArray[np.int64]) -> Float64Array:
             """The noise curve at the pixels, the mean over both frames, relative to its top."""
-            start, stop = (
-                curve.rate_at(frames.intensity(luma[pixel])) for luma in (light.before, light.now)
-            )
+            luma = np.stack((light.before[pixel], light.now[pixel]))
+            start, stop = curve.rate_at(frames.intensity(luma))
             return np.asarray((start + stop) / (2.0 * curve.highest_hz))
 
         on_fraction = self._config.noise_on_fraction

@@ -47,7 +47,7 @@ class PhysicalSimulator(StreamingSimulator[PhysicalConfig]):
 
     config_type: ClassVar[type] = PhysicalConfig
     takes_linear: ClassVar[bool] = True
-    bytes_per_pixel: ClassVar[int] = 190
+    bytes_per_pixel: ClassVar[int] = 206
     benefits_from_denser_frames: ClassVar[bool] = True
     presets: ClassVar[Mapping[str, PhysicalConfig]] = PRESETS
     known_constants: ClassVar[Mapping[str, tuple[str, ...]]] = {

@@ -11,10 +11,13 @@ from numpy.typing import NDArray
 from texvent.runtime.jit import jit
 from texvent.simulate.kernels.elementary_cpu import natural_log
 from texvent.simulate.packets import FrameInterval, UnsortedEvents, check_event_number
-from texvent.simulate.random.draws import Purpose, draw_uniforms
+from texvent.simulate.random.draws import Purpose
 from texvent.simulate.random.draws_cpu import draw_uniform
 
-FIRST_DRAW: int = Purpose.NOISE_TIME.draw()
+FIRST_DRAW, KEPT_DRAW, POLARITY_DRAW = (
+    int(purpose.draw())
+    for purpose in (Purpose.NOISE_TIME, Purpose.NOISE_COUNT, Purpose.NOISE_POLARITY)
+)
 
 
 class Arrivals(NamedTuple):
@@ -24,8 +27,10 @@ class Arrivals(NamedTuple):
     """[n] flat index y · W + x."""
     fraction: NDArray[np.float64]
     """[n] when, as a share of the interval, 0 to below 1."""
-    order: NDArray[np.int64]
-    """[n] number of the arrival in its row, from 0; further draws are keyed by it."""
+    kept: NDArray[np.float64]
+    """[n] uniform in [0, 1), to decide whether it happens at the present rate."""
+    polarity: NDArray[np.float64]
+    """[n] uniform in [0, 1), to decide its polarity."""
 
 
 MOST_FRACTION = 1.0 - 2.0**-53
@@ -59,11 +64,11 @@ def draw_arrivals(
     mean = float(cumulative_hz[:, -1].sum()) * duration_s
     room, source = int(mean + SPREAD * np.sqrt(mean)) + 16, (key, int(stream))
     while True:
-        columns = Arrivals(np.empty(room, np.int64), np.empty(room), np.empty(room, np.int64))
+        columns = Arrivals(np.empty(room, np.int64), *(np.empty(room) for _ in range(3)))
         found = _draw_arrivals(cumulative_hz, float(duration_s), source, columns)
         if found <= room:
-            pixel, fraction, order = columns
-            return Arrivals(pixel[:found], fraction[:found], order[:found])
+            pixel, fraction, kept, polarity = columns
+            return Arrivals(pixel[:found], fraction[:found], kept[:found], polarity[:found])
         room *= 2
 
 
@@ -76,7 +81,8 @@ def _draw_arrivals(
 ) -> int:
     """Fill in the columns; how many arrivals there are, or more than there is room for."""
     # Arrays are taken out of tuples once: counting references for each arrival is slow.
-    pixel, fraction, order = columns
+    pixel, fraction, kept, polarity = columns
+    key, stream = source
     height, width = cumulative_hz.shape
     per_s, found = 1.0 / duration_s, 0
     gap = np.empty(GAPS)
@@ -94,7 +100,9 @@ def _draw_arrivals(
                 return found + 1
             x = _first_above(cumulative_hz, y, place, x, int(place * per_hz))
             start = cumulative_hz[y, x - 1] if x > 0 else 0.0
-            pixel[found], order[found] = y * width + x, number
+            pixel[found] = y * width + x
+            kept[found] = draw_uniform(key, y, stream, KEPT_DRAW + number)
+            polarity[found] = draw_uniform(key, y, stream, POLARITY_DRAW + number)
             fraction[found] = min((place - start) / (cumulative_hz[y, x] - start), MOST_FRACTION)
             found += 1
             number += 1
@@ -179,26 +187,15 @@ class PoissonNoise:
         if self.is_silent:
             return UnsortedEvents.none()
         check_event_number(float(self._cumulative_hz[:, -1].sum()) * interval.duration_s)
-        pixel, fraction, order = draw_arrivals(
+        pixel, fraction, kept, polarity = draw_arrivals(
             self._cumulative_hz, interval.duration_s, interval.key, self._stream
         )
-        row = pixel // self._cumulative_hz.shape[1]
         if rate_fraction is not None:
             # Thinning: keeping events of a Poisson process at random gives one of a lower rate.
-            chance = self._draw(interval, row, order, Purpose.NOISE_COUNT)
-            kept = chance < rate_fraction(pixel)
-            pixel, fraction, order, row = pixel[kept], fraction[kept], order[kept], row[kept]
+            stays = kept < rate_fraction(pixel)
+            pixel, fraction, polarity = pixel[stays], fraction[stays], polarity[stays]
         if isinstance(on_fraction, np.ndarray):
             on_fraction = on_fraction.reshape(-1)[pixel]
-        is_on = self._draw(interval, row, order, Purpose.NOISE_POLARITY) < on_fraction
+        is_on = polarity < on_fraction
         offset = np.floor(fraction * interval.duration_us).astype(np.int64)
         return UnsortedEvents.noise(pixel, interval.start_us + offset, is_on.astype(np.uint8))
-
-    def _draw(
-        self,
-        interval: FrameInterval,
-        row: NDArray[np.int64],
-        order: NDArray[np.int64],
-        purpose: Purpose,
-    ) -> Float64Array:
-        return draw_uniforms(interval.key, row, self._stream, purpose.draw(order))

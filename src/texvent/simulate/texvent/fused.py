@@ -90,7 +90,8 @@ class FusedPass:
             span = FrameInterval(*span_us, frame_key(self._seed, span_us[1]))
             luma_of = functools.partial(warp_pixels, motion, part)
             noise = draw_noise(self._config, span, size.width * size.height, luma_of)
-            x, y, t, p, label = timestamp_events(fired[part], noise, self._config, span, size.shape)
+            bands = FiredPixels(*map(np.concatenate, zip(*fired[part], strict=True)))
+            x, y, t, p, label = timestamp_events(bands, noise, self._config, span, size.shape)
             yield frame, EventStream.unchecked(x, y, t, p, size=size, label=label)
 
     def _levels(self, pair: FramePair, memory: Memory | None) -> ReferenceLevels:

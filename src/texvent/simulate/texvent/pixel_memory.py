@@ -24,7 +24,6 @@ table of 256 logarithms does that, for 16-bit ones one of 65,536; float frames t
 logarithm of the candidates. For 8-bit frames there is an even cheaper scan, on bytes: no pixel
 fires whose intensity differs from R by less than the smallest difference of any two levels that
 fires.
-
 """
 
 from __future__ import annotations
@@ -110,20 +109,15 @@ class Memory:
     """[n] intensity that each pixel compares with, of the frames' type; beside `level` float32,
     exp(level)."""
     previous: Intensity
-    """[n] intensity of the frame before, or [0] where times do not depend on it."""
+    """[n] intensity of the frame before, or [0] where times do not depend on it; of the frames'
+    type."""
     level: Float64Array
     """[n] reference brightness, or [0] where `reference` says it all."""
     table: Float64Array
     """Brightness of every intensity that an integer type has, or [0] for float32."""
-    work: Any = None
-    """Room that a backend keeps for its results; overwritten by each frame."""
-
-    def __getstate__(self) -> dict[str, Any]:
-        """State of a copy: all but the room for results."""
-        return vars(self) | {"work": None}
 
 
-_CHUNK = 1 << 16
+_CHUNK = 1 << 14
 """Pixels whose logarithms are taken at a time where all levels move."""
 _NOTHING = np.empty(0)
 
@@ -136,14 +130,14 @@ def init_memory(first: Intensity, config: TexventConfig) -> Memory:
         config: options; they decide what has to be remembered.
     """
     has_levels = needs_levels(config)
-    if has_levels:
+    if has_levels and first.dtype != np.uint8:
         first = as_luma(first)
     # The kernels write to these, so none may be the caller's array.
     memory = Memory(
-        reference=first.copy(),
+        reference=np.empty(first.size, np.float32) if has_levels else first.copy(),
         previous=np.empty(0, first.dtype) if config.timestamp_rule != "linear" else first.copy(),
         level=np.empty(first.size if has_levels else 0),
-        table=_NOTHING if has_levels else brightness_table(first.dtype.str, config.balance),
+        table=brightness_table(first.dtype.str, config.balance),
     )
     if has_levels:
         update_reference(memory, first, config.balance, 1.0)
@@ -181,27 +175,26 @@ def turn_to_float(memory: Memory) -> None:
     memory.reference = as_luma(memory.reference)
     memory.previous = as_luma(memory.previous)
     memory.table = _NOTHING
-    memory.work = None
 
 
-def update_reference(memory: Memory, luma: Intensity, balance: float, share: float) -> None:
+def update_reference(memory: Memory, intensity: Intensity, balance: float, share: float) -> None:
     """Move every pixel's reference towards the brightness of a frame.
 
     Args:
         memory: of pixels whose references are between intensities.
-        luma: of the frame, [n] float32.
+        intensity: of the frame, [n], of the type of `memory.previous`.
         balance: α, 0..255 scale.
         share: of the distance, above 0 up to 1.
     """
-    for first in range(0, luma.size, _CHUNK):
+    for first in range(0, intensity.size, _CHUNK):
         part = slice(first, first + _CHUNK)
-        brightness = balanced_log(luma[part], balance)
-        level = memory.level[part]
+        seen, level, table = intensity[part], memory.level[part], memory.table
+        brightness = table.take(seen) if table.size else balanced_log(seen, balance)
         if share == 1:
             level[:] = brightness
         else:
             level += share * (brightness - level)
-        memory.reference[part] = np.exp(level)
+        np.exp(level, out=memory.reference[part])
 
 
 @functools.lru_cache(maxsize=16)

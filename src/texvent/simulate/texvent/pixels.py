@@ -80,14 +80,17 @@ class SparsePixels:
         Raises:
             InputError: an intensity is NaN, infinite or negative; the pixels are then as they were.
         """
-        intensity = self._read(frame, where)
+        if frame.pixels.ndim != 2 or frame.pixels.dtype != np.float32:
+            # The kernels look at float32 luma themselves.
+            check_intensity(frame.pixels, where)
+        intensity = self._read(frame)
         share = self._schedule.share_after(frame.t_us, is_source=frame.is_source)
         fired = self._fire(intensity, share)
         if fired is None:
             raise bad_intensity(frame.pixels, where)
         self._schedule.pass_frame(frame.t_us, is_source=frame.is_source)
         noise = self._draw_noise(intensity, span)
-        x, y, t, p, label = timestamp_events([fired], noise, self._config, span, frame.size.shape)
+        x, y, t, p, label = timestamp_events(fired, noise, self._config, span, frame.size.shape)
         return EventStream.unchecked(x, y, t, p, size=frame.size, label=label)
 
     def ensure_reference(self) -> Memory:
@@ -103,12 +106,12 @@ class SparsePixels:
         Args:
             frame: a source frame.
         """
-        memory, luma = self._memory, as_luma(_native_intensity(frame))
+        memory, intensity = self._memory, self._read(frame)
         share = self._schedule.pass_frame(frame.t_us, is_source=frame.is_source)
         if share:
-            update_reference(memory, luma, self._config.balance, share)
+            update_reference(memory, intensity, self._config.balance, share)
         if memory.previous.size:
-            memory.previous[:] = luma
+            memory.previous[:] = intensity
 
     def _fire(self, intensity: Intensity, share: float) -> FiredPixels | None:
         """Eq. 5; None where an intensity is impossible."""
@@ -120,15 +123,12 @@ class SparsePixels:
             update_reference(memory, intensity, self._config.balance, share)
         return fired
 
-    def _read(self, frame: Frame, where: str) -> Intensity:
-        """The intensity of a frame in the type of the memory, [n] read-only."""
-        if frame.pixels.ndim != 2 or frame.pixels.dtype != np.float32:
-            # The kernels look at float32 luma themselves.
-            check_intensity(frame.pixels, where)
-        intensity = _native_intensity(frame)
-        if intensity.dtype == self._memory.reference.dtype:
+    def _read(self, frame: Frame) -> Intensity:
+        """The intensity of a frame in the type of those that the memory has seen, [n] read-only."""
+        intensity, kind = _native_intensity(frame), self._memory.previous.dtype
+        if intensity.dtype == kind:
             return intensity
-        if self._memory.reference.dtype != np.float32:
+        if kind != np.float32:
             turn_to_float(self._memory)
             self._levels = scan_levels(self._config, self._memory)
         return read_only(as_luma(intensity))
@@ -175,7 +175,7 @@ class ShakenPixels:
             reference += share * (before - reference)
         pixel, change = self._compare(shaken)
         fired = FiredPixels(pixel, change, before[pixel], shaken[pixel], reference[pixel])
-        x, y, t, p, label = timestamp_events([fired], QUIET, config, span, shape)
+        x, y, t, p, label = timestamp_events(fired, QUIET, config, span, shape)
         signal, change = self._compare(now)
         label[is_background(y.astype(np.int64) * shape[1] + x, signal)] = NOISE
         if config.reset == "current":

@@ -7,7 +7,6 @@ from a table for integers, from NumPy for floats, in a pass of their own.
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,7 +14,7 @@ from numpy.typing import NDArray
 
 from texvent.brightness import Float64Array
 from texvent.runtime.jit import jit
-from texvent.runtime.kernel_arrays import read_only
+from texvent.runtime.kernel_arrays import read_only, take_scratch
 from texvent.simulate.kernels.active_pixels import (
     RUN,
     ByteArray,
@@ -23,8 +22,9 @@ from texvent.simulate.kernels.active_pixels import (
     as_bits,
     list_marked_runs,
     make_flags,
-    number_of,
+    number_of_lowest,
 )
+from texvent.simulate.kernels.elementary_cpu import exponential
 from texvent.simulate.texvent.pixel_memory import (
     FiredPixels,
     FireRule,
@@ -39,7 +39,13 @@ LARGEST_FLOAT = np.float32(HIGHEST_INTENSITY).view(np.uint32)
 FEW = 6
 """Up to so many candidates of a run are looked up one by one; of more, trigger levels first leave
 out those that cannot fire, as in moving texture most cannot."""
-_0, _RUN, _BYTE = np.uint64(0), np.uint64(RUN), np.dtype(np.uint8)
+_0, _1, _RUN = np.uint64(0), np.uint64(1), np.uint64(RUN)
+_BYTE = np.dtype(np.uint8)
+BLOCK = 256
+"""Pixels whose levels are moved together."""
+_CHUNK = 1 << 14
+"""Pixels of float frames that are looked at together, twice: they stay in a near cache."""
+Int64Array = NDArray[np.int64]
 
 
 @jit
@@ -48,7 +54,7 @@ def mark_pixels(frame: Intensity, reference: Intensity, levels: ScanLevels) -> M
 
     Bytes are marked that differ by `levels.least` or more, as long as they are few of a run.
     """
-    is_marked, is_bytes = make_flags(frame.size), frame.dtype == _BYTE
+    is_marked, is_bytes = make_flags(frame.size), reference.dtype == _BYTE
     for number in range(frame.size // RUN):
         first, is_any = number * RUN, np.uint8(0)
         for i in range(first, first + RUN):
@@ -125,12 +131,6 @@ def largest_word(words: NDArray[np.uint32]) -> np.uint32:
     return largest
 
 
-Int64Array = NDArray[np.int64]
-_0, _1 = np.uint64(0), np.uint64(1)
-_CHUNK = 1 << 14
-"""Pixels of float frames that are looked at together, twice: they stay in a near cache."""
-
-
 class ScanArrays(NamedTuple):
     """All arrays as large as a frame."""
 
@@ -138,25 +138,18 @@ class ScanArrays(NamedTuple):
     reference: Intensity
     previous: Intensity
     """[0] unless events need it."""
+    level: Float64Array
+    """[0] unless references lie between intensities."""
 
 
 class _Logs(NamedTuple):
-    """Balanced intensities of the candidates of float frames, [n], and their logarithms."""
+    """Brightness of the candidates of float frames, [n], by NumPy's own logarithm."""
 
-    balanced: Float64Array
     now: Float64Array
     then: Float64Array
+    """[0] where `ScanArrays.level` has it."""
     before: Float64Array
     """[0] unless events need it."""
-
-
-class _Work(NamedTuple):
-    """Room for the worst case, all pixels; the system gives memory only to what is used."""
-
-    fired: FiredPixels
-    candidates: Int64Array
-    """[n], or [0] where tables serve; so are the logarithms."""
-    logs: _Logs
 
 
 def detect_events(
@@ -171,70 +164,63 @@ def detect_events(
         rule: what firing is, and what it does.
 
     Returns:
-        None where an intensity is NaN, infinite or negative; then nothing was changed.
+        None where an intensity is NaN, infinite or negative; then nothing was changed. The arrays
+        are scratch memory of this thread: the next call overwrites them.
 
     Equation: (5), section 3.2.2, as `pixel_memory` explains it.
     """
-    work: _Work = memory.work or _make_room(memory)
-    memory.work = work
-    arrays = ScanArrays(frame, memory.reference, memory.previous)
-    if not memory.table.size:
-        return _find_fired_floats(arrays, memory, levels, rule)
-    table, fired = memory.table, work.fired
-    if table.flags.writeable:
-        # Of a copied simulator; Numba would compile for it again.
-        table = memory.table = read_only(table)
-    found = _fire_integers(arrays, table, levels, rule, fired)
-    return fired.first(found)
+    pixels, lines = frame.size, memory.previous.size
+    # Room for all pixels; the system gives memory only to what is used.
+    columns = (take_scratch(f"fired {name}", lines, np.float64) for name in FiredPixels._fields[2:])
+    change = take_scratch("fired change", pixels, np.float64)
+    fired = FiredPixels(take_scratch("fired pixel", pixels, np.int64), change, *columns)
+    arrays = ScanArrays(frame, memory.reference, memory.previous, memory.level)
+    if memory.table.size:
+        if memory.table.flags.writeable:
+            # Of a copied simulator; Numba would compile for it again.
+            memory.table = read_only(memory.table)
+        found = _fire_integers(arrays, memory.table, levels, rule, fired)
+    else:
+        found = _fire_floats(arrays, levels, rule, fired)
+    if found < 0:
+        return None
+    fired = fired.first(found)
+    if memory.level.size:
+        _move_levels(fired.pixel, fired.change, rule, memory.level, memory.reference)
+    return fired
 
 
-def _find_fired_floats(
-    arrays: ScanArrays, memory: Memory, levels: ScanLevels, rule: FireRule
-) -> FiredPixels | None:
-    work: _Work = memory.work
-    fired, candidates, logs = work
+def _fire_floats(arrays: ScanArrays, levels: ScanLevels, rule: FireRule, out: FiredPixels) -> int:
+    """Let the pixels of float frames fire; how many did, or −1 where an intensity is impossible."""
+    frame, reference, previous, level = arrays
+    candidates = take_scratch("candidates", frame.size, np.int64)
     count = _find_candidates(arrays, levels, candidates)
     if count < 0:
-        if not is_intensity(arrays.frame):
-            return None
+        if not is_intensity(frame):
+            return -1
         # −0 is allowed; as 0 it passes.
-        return _find_fired_floats(
-            arrays._replace(frame=read_only(arrays.frame + np.float32(0.0))), memory, levels, rule
-        )
+        whole = arrays._replace(frame=read_only(frame + np.float32(0.0)))
+        return _fire_floats(whole, levels, rule, out)
     candidates = candidates[:count]
-    _take_logs(arrays.frame, candidates, rule, logs.balanced, logs.now)
-    if memory.level.size == 0:
-        _take_logs(memory.reference, candidates, rule, logs.balanced, logs.then)
+    nothing = candidates[:0]
+    logs = _Logs(
+        _take_logs("now", frame, candidates, rule),
+        _take_logs("then", reference, nothing if level.size else candidates, rule),
+        _take_logs("before", previous, candidates if rule.has_line else nothing, rule),
+    )
+    found = _settle_floats(arrays, candidates, logs, rule, out)
     if rule.has_line:
-        _take_logs(memory.previous, candidates, rule, logs.balanced, logs.before)
-    found = _settle_floats(arrays, candidates, logs, memory.level, rule, fired)
-    if rule.has_line:
-        memory.previous[:] = arrays.frame
+        previous[:] = frame
     if rule.is_renewed:
-        memory.reference[:] = arrays.frame
-    return fired.first(found)
+        reference[:] = frame
+    return found
 
 
-def _take_logs(
-    intensity: Intensity,
-    pixel: Int64Array,
-    rule: FireRule,
-    balanced: Float64Array,
-    brightness: Float64Array,
-) -> None:
-    """Brightness of some pixels as `balanced_log` computes it, by NumPy's own logarithm."""
-    _add_balance(read_only(intensity), pixel, rule.balance, balanced)
-    np.log(balanced[: pixel.size], out=brightness[: pixel.size])
-
-
-def _make_room(memory: Memory) -> _Work:
-    pixels, lines = memory.reference.size, memory.previous.size
-    start, stop, reference = (np.empty(lines) for _ in range(3))
-    places, change = np.empty(pixels, np.int64), np.empty(pixels)
-    fired = FiredPixels(places, change, start, stop, reference)
-    floats = 0 if memory.table.size else pixels
-    logs = (np.empty(size) for size in (floats, floats, floats, lines))
-    return _Work(fired, np.empty(floats, np.int64), _Logs(*logs))
+def _take_logs(use: str, intensity: Intensity, pixel: Int64Array, rule: FireRule) -> Float64Array:
+    """Brightness of some pixels, as `balanced_log` computes it."""
+    brightness = take_scratch(f"{use} log", pixel.size, np.float64)
+    _add_balance(read_only(intensity), pixel, rule.balance, brightness)
+    return np.asarray(np.log(brightness, out=brightness))
 
 
 @jit
@@ -242,26 +228,39 @@ def _add_balance(
     intensity: Intensity, pixel: Int64Array, balance: float, balanced: Float64Array
 ) -> None:
     for k in range(pixel.size):
-        balanced[k] = np.float64(intensity[pixel[k]]) + balance
+        balanced[k] = np.float64(intensity[np.uint64(pixel[k])]) + balance
+
+
+@jit
+def _find_candidates(arrays: ScanArrays, levels: ScanLevels, pixel: Int64Array) -> int:
+    """List the pixels of float frames that may fire; −1 if an intensity has a sign or no end."""
+    found = _0
+    for start in range(0, arrays.frame.size, _CHUNK):
+        frame, reference = arrays.frame[start : start + _CHUNK], arrays.reference[start:]
+        if largest_word(frame.view(np.uint32)) > LARGEST_FLOAT:
+            return -1
+        runs, words = mark_pixels(frame, reference, levels)
+        for k in range(runs.size):
+            first, bits = np.uint64(start) + np.uint64(runs[k]) * _RUN, words[k]
+            while bits != _0:
+                pixel[found] = first + number_of_lowest(bits)
+                bits &= bits - _1
+                found += _1
+    return int(np.int64(found))
 
 
 @jit
 def _settle_floats(
-    arrays: ScanArrays,
-    candidates: Int64Array,
-    logs: _Logs,
-    level: Float64Array,
-    rule: FireRule,
-    out: FiredPixels,
+    arrays: ScanArrays, candidates: Int64Array, logs: _Logs, rule: FireRule, out: FiredPixels
 ) -> int:
     """List the candidates that fire, and move what those pixels remember; how many there are."""
     # Arrays are taken out of their tuples once: counting references to them in the loop is slow.
-    frame, reference, _ = arrays
-    _, nows, thens, befores = logs
+    frame, reference, _, level = arrays
+    nows, thens, befores = logs
     pixel, changes, start, stop, at_start = out
-    found = 0
+    found = _0
     for k in range(candidates.size):
-        i, now = candidates[k], nows[k]
+        i, now = np.uint64(candidates[k]), nows[k]
         then = level[i] if level.size else thens[k]
         change = now - then
         if abs(change) < rule.threshold:
@@ -269,41 +268,12 @@ def _settle_floats(
         pixel[found], changes[found] = i, change
         if rule.has_line:
             start[found], stop[found], at_start[found] = befores[k], now, then
-        found += 1
-        if level.size:
-            level[i] = now if not rule.is_step else _step(then, change, rule)
-            reference[i] = np.float32(math.exp(level[i]))
-        elif not rule.is_renewed:
+        found += _1
+        if not level.size and not rule.is_renewed:
             reference[i] = frame[i]
-    return found
-
-
-@jit(inline="always")
-def _step(level: float, change: float, rule: FireRule) -> float:
-    """The reference after its events: a threshold further for each."""
-    number = math.floor(abs(change) / rule.threshold) if rule.multi_event else 1.0
-    moved = number * rule.threshold
-    return level + moved if change > 0 else level - moved
-
-
-@jit
-def _find_candidates(arrays: ScanArrays, levels: ScanLevels, pixel: Int64Array) -> int:
-    """List the pixels of float frames that may fire; −1 if an intensity has a sign or no end."""
-    found = 0
-    for first in range(0, arrays.frame.size, _CHUNK):
-        last = first + _CHUNK
-        frame, reference = arrays.frame[first:last], arrays.reference[first:last]
-        if largest_word(frame.view(np.uint32)) > LARGEST_FLOAT:
-            return -1
-        runs, words = mark_pixels(frame, reference, levels)
-        for k in range(runs.size):
-            bits = words[k]
-            while bits != _0:
-                bit = bits & (~bits + _1)
-                bits ^= bit
-                pixel[found] = first + runs[k] * RUN + number_of(bit)
-                found += 1
-    return found
+        elif level.size and not rule.is_step:
+            level[i] = now
+    return int(np.int64(found))
 
 
 @jit
@@ -311,29 +281,64 @@ def _fire_integers(
     arrays: ScanArrays, table: Float64Array, levels: ScanLevels, rule: FireRule, out: FiredPixels
 ) -> int:
     """Let the pixels of uint8 or uint16 frames fire; how many did."""
-    frame, reference, previous = arrays
-    pixel, change, start, stop, at_start = out
+    frame, reference, previous, level = arrays
+    pixel, changes, start, stop, at_start = out
     runs, words = mark_pixels(frame, reference, levels)
-    threshold, is_renewed, has_line, found = rule.threshold, rule.is_renewed, previous.size > 0, 0
+    has_line, has_level, found = previous.size > 0, level.size > 0, _0
     for k in range(runs.size):
-        bits = words[k]
+        first, bits = np.uint64(runs[k]) * _RUN, words[k]
         while bits != _0:
-            bit = bits & (~bits + _1)
-            bits ^= bit
-            i = runs[k] * RUN + number_of(bit)
-            now, then = table[frame[i]], table[reference[i]]
+            i = first + number_of_lowest(bits)
+            bits &= bits - _1
+            now = table[frame[i]]
+            then = level[i] if has_level else table[np.uint16(reference[i])]
+            change = now - then
             # Written always, kept if it fires: without a branch that cannot be foreseen.
-            pixel[found], change[found] = i, now - then
+            pixel[found], changes[found] = i, change
             if has_line:
                 start[found], stop[found], at_start[found] = table[previous[i]], now, then
-            fires = abs(now - then) >= threshold
-            if fires and not is_renewed:
-                reference[i] = frame[i]
-            found += int(fires)
-    if is_renewed:
+            fires = abs(change) >= rule.threshold
+            if fires and not rule.is_renewed:
+                if not has_level:
+                    reference[i] = frame[i]
+                elif not rule.is_step:
+                    level[i] = now
+            found += np.uint64(fires)
+    if rule.is_renewed:
         _copy(frame, reference)
     _copy(frame, previous)
-    return found
+    return int(np.int64(found))
+
+
+@jit(error_model="numpy")
+def _move_levels(
+    pixel: Int64Array,
+    changes: Float64Array,
+    rule: FireRule,
+    level: Float64Array,
+    reference: NDArray[np.float32],
+) -> None:
+    """Move the levels of pixels that fired by δ for each event, or leave them where they are now.
+
+    Loops over a block each, which become vector instructions, also find their intensity.
+    """
+    own = np.empty(BLOCK)
+    for first in range(0, pixel.size, BLOCK):
+        pixels, change = pixel[first : first + BLOCK], changes[first : first + BLOCK]
+        for j in range(np.uint64(pixels.size)):
+            own[j] = level[np.uint64(pixels[j])]
+        if rule.is_step:
+            for j in range(np.uint64(pixels.size)):
+                size = abs(change[j])
+                number = np.floor(size / rule.threshold) if rule.multi_event else 1.0
+                moved = number * rule.threshold
+                own[j] += moved if change[j] > 0 else -moved
+            for j in range(np.uint64(pixels.size)):
+                level[np.uint64(pixels[j])] = own[j]
+        for j in range(np.uint64(pixels.size)):
+            own[j] = exponential(own[j])
+        for j in range(np.uint64(pixels.size)):
+            reference[np.uint64(pixels[j])] = own[j]
 
 
 @jit

@@ -14,7 +14,6 @@ from texvent.simulate.crossing.ramp import (
     KeyLayout,
     RampChanges,
     RefractoryPeriod,
-    count_crossings,
     key_layout,
     list_crossing_keys,
 )
@@ -80,9 +79,10 @@ def emit_and_reset(
     )
     _take_thresholds(pixel, mismatch, on, off)
     changes = RampChanges(start, stop, threshold, take_scratch("steps", len(pixel), np.int64))
-    count_crossings(changes, Thresholds(on, off))
     refractory = RefractoryPeriod(rules.refractory_us, is_level_lost=False)
-    keys = list_crossing_keys(pixel, changes, last.fired_us, layout, refractory)
+    keys = list_crossing_keys(
+        pixel, changes, Thresholds(on, off), last.fired_us, layout, refractory
+    )
     _reset(keys, (pixel, changes), mismatch.leak, state, last, interval.stop_us)
     if len(noise.t):
         keys = merge_keys(keys, _keys_of(noise, layout), layout.low)
