@@ -11,7 +11,14 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.interpolate.dis_flow.definitions import CHANGED, PATCH, Floats, size_of
+from texvent.interpolate.dis_flow.definitions import (
+    CHANGED,
+    PATCH,
+    Floats,
+    is_large,
+    size_of,
+    step_of,
+)
 from texvent.interpolate.dis_flow.frame_motion import (
     NO_MOTIONS,
     Flows,
@@ -178,10 +185,13 @@ def match_level(
     start: Floats, stop: Floats, flow: Floats, is_coarsest: bool, motion: Floats | None = None
 ) -> Floats:
     """The flow from one level to another, from an initial flow: search, join, refine."""
-    patches = search(start, stop, flow, is_coarsest)
+    step = step_of(start)
+    patches = search(start, stop, flow, step, is_coarsest)
     if motion is not None:
-        patches = try_vectors(start, stop, patches, patch_vectors(motion, size_of(start)))
-    refined = refine(start, stop, join(start, stop, patches))
+        patches = try_vectors(start, stop, patches, step, patch_vectors(motion, start))
+    refined = join(start, stop, patches, step)
+    if not is_large(start):
+        refined = refine(start, stop, refined)
     if motion is None:
         return refined
     # Outside the view, brightness says nothing: what leaves it moves as the frame does.
