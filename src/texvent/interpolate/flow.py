@@ -68,7 +68,7 @@ class PairFlow:
         """Flow from first to second, and from second to first.
 
         Returns:
-            Two flows, [H, W, 2] float32 as (x, y), px.
+            Two flows, float32 as (x, y), px; see `DisFlow.both_ways`.
         """
         if self._flows is None or not self._is_of(first, second):
             levels = (

@@ -37,8 +37,9 @@ class MotionInterpolation:
     later: FloatImage
     """Luma of the later source frame, [H, W]."""
     flows: Flows | None
-    """Optical flow from earlier to later and back, [H, W, 2] float32 as (x, y), px. None: nothing
-    moves, the frames are blended in place."""
+    """Optical flow from earlier to later and back, [H, W, 2] float32 as (x, y), px, or a vector for
+    each 2×2 px: half as many rows and columns, rounded up. None: nothing moves, the frames are
+    blended in place."""
     times_us: Sequence[int]
     """Times of the intermediate frames, µs, strictly increasing."""
     positions: Sequence[float]

@@ -48,7 +48,7 @@ class Samples(NamedTuple):
     corner: Numbers
     """Flat index of the pixel up left of the place."""
     nearest: Numbers
-    """Flat index of the pixel nearest to the place."""
+    """Flat index of the vector of the pixel nearest to the place."""
     u: Floats
     """Distance of the place to the right of the corner, 0..1."""
     v: Floats
@@ -58,7 +58,7 @@ class Samples(NamedTuple):
     value: Floats
     """Intensity at the place."""
     flow: Words
-    """At the nearest pixel, px."""
+    """Of the nearest pixel, px."""
 
 
 class Corners(NamedTuple):
@@ -171,7 +171,7 @@ def sample(
 
     Args:
         words: the frame.
-        flows: [H · W] its flow, px.
+        flows: [h · w] its flow, px.
         number: of samples.
         width: of the frame, pixels.
         memory: the samples, and scratch memory.

@@ -69,9 +69,13 @@ class WarpPair(NamedTuple):
     second_pixels: Words
     second_bends: Words
     forward: Words
-    """[H · W] flow from first to second, (x, y), px."""
+    """[h · w] flow from first to second, (x, y), px."""
     backward: Words
-    """[H · W] flow from second to first."""
+    """[h · w] flow from second to first."""
+    columns: int
+    """w: vectors in a row of a flow."""
+    shift: int
+    """1 where a vector stands for 2×2 px, else 0; see `paths_cpu`."""
     sweep: Floats
     """Of `paths_cpu.find_sweep`."""
     contested: NDArray[np.uint8]
@@ -83,6 +87,8 @@ class Points(NamedTuple):
 
     pixel: Numbers
     """Flat index y · W + x."""
+    vector: Numbers
+    """Flat index of its flow."""
     x: Floats
     y: Floats
     forward_x: Floats
@@ -116,8 +122,9 @@ def warp_between(
     Args:
         first: the earlier frame, [H, W] float32, intensity.
         second: the later frame, [H, W] float32, intensity.
-        forward: flow from first to second, [H, W, 2] float32 as (x, y), px.
-        backward: flow from second to first, [H, W, 2] float32, px.
+        forward: flow from first to second, float32 as (x, y), px: [H, W, 2], or half as many rows
+            and columns (rounded up).
+        backward: flow from second to first, the same.
         position: τ, 0 = first, 1 = second.
 
     Returns:
@@ -135,9 +142,10 @@ def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Float
     prepared = *list_words(frames[0]), *list_words(frames[1])
     ahead, back = (read_only(np.ascontiguousarray(flow)) for flow in (forward, backward))
     words = [read_only(flow.reshape(-1).view(np.uint64)) for flow in (ahead, back)]
-    sweep = read_only(find_sweep(ahead, back))
-    contested = read_only(mark_contested(ahead, back, sweep))
-    return WarpPair(frames[0], frames[1], *prepared, words[0], words[1], sweep, contested)
+    columns, shift = ahead.shape[1], int(len(ahead) < len(first))
+    sweep = read_only(find_sweep(ahead, back, shift))
+    contested = read_only(mark_contested(ahead, back, sweep, shift))
+    return WarpPair(*frames, *prepared, *words, columns, shift, sweep, contested)
 
 
 @jit(nogil=False, parallel=True)
@@ -175,6 +183,7 @@ def make_room(number: int) -> Room:
     room = (number + LANES - 1) // LANES * LANES
     points = Points(
         np.zeros(room, np.int32),
+        np.zeros(room, np.int32),
         np.zeros(room, np.float32),
         np.zeros(room, np.float32),
         np.zeros(room, np.float32),
@@ -191,63 +200,66 @@ def make_room(number: int) -> Room:
 @jit
 def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
     """Set the points to all pixels of some rows."""
-    pixel, x, y, forward_x, forward_y, error_x, error_y, earlier, later, contested = points
-    first, second, forward, backward = pair.first, pair.second, pair.forward, pair.backward
-    width = first.shape[1]
+    pixel, vector, x, y, _, _, _, _, earlier, later, _ = points
+    shift, width = pair.shift, pair.first.shape[1]
     start, number = top * width, (bottom - top) * width
     # All arrays start at the first of these pixels: Numba allows for negative indices where the
     # loop's index has an offset.
-    pixels_first, pixels_second = first[top:bottom].reshape(-1), second[top:bottom].reshape(-1)
-    forward_flow = forward[start : start + number].view(np.float32)
-    backward_flow = backward[start : start + number].view(np.float32)
+    first, second = pair.first[top:bottom].reshape(-1), pair.second[top:bottom].reshape(-1)
     for row in range(bottom - top):
-        columns, rows = x[row * width : (row + 1) * width], y[row * width : (row + 1) * width]
+        inside = slice(row * width, (row + 1) * width)
+        columns, rows, vectors = x[inside], y[inside], vector[inside]
+        begin = ((top + row) >> shift) * pair.columns
         for k in range(width):
             columns[k], rows[k] = k, top + row
+            vectors[k] = begin + (k >> shift)
     for k in range(number):
         pixel[k] = start + k
-        earlier[k], later[k] = pixels_first[k], pixels_second[k]
-    for k in range(number):
-        forward_x[k], forward_y[k] = forward_flow[2 * k], forward_flow[2 * k + 1]
-    for k in range(number):
-        error_x[k], error_y[k] = (
-            forward_flow[2 * k] + backward_flow[2 * k],
-            forward_flow[2 * k + 1] + backward_flow[2 * k + 1],
-        )
-    list_contested(pair.contested, pixel, number, contested)
+        earlier[k], later[k] = first[k], second[k]
+    _take_flows(pair, number, points)
 
 
 @jit
 def take_points(pair: WarpPair, chosen: NDArray[np.int64], points: Points) -> None:
     """Set the points to some pixels, given by flat index."""
-    pixel, x, y, forward_x, forward_y, error_x, error_y, earlier, later, contested = points
+    pixel, vector, x, y, _, _, _, _, earlier, later, _ = points
     first, second = pair.first.reshape(-1), pair.second.reshape(-1)
-    forward_flow, backward_flow = pair.forward.view(np.float32), pair.backward.view(np.float32)
-    width = np.uint64(pair.first.shape[1])
+    width, shift = np.uint64(pair.first.shape[1]), np.uint64(pair.shift)
     for k in range(chosen.size):
         i = np.uint64(chosen[k])
         row = i // width
-        pixel[k], x[k], y[k] = i, i - row * width, row
+        column = i - row * width
+        pixel[k], x[k], y[k] = i, column, row
+        vector[k] = (row >> shift) * np.uint64(pair.columns) + (column >> shift)
         earlier[k], later[k] = first[i], second[i]
+    _take_flows(pair, chosen.size, points)
+
+
+@jit(error_model="numpy", inner=True)
+def _take_flows(pair: WarpPair, number: int, points: Points) -> None:
+    """Set the flows of the points, and list which of them are contested."""
+    _, vector, _, _, forward_x, forward_y, error_x, error_y, _, _, contested = points
+    forward, backward = pair.forward.view(np.float32), pair.backward.view(np.float32)
+    for k in range(number):
+        i = np.uint64(vector[k])
         j = i + i
-        forward_x[k], forward_y[k] = forward_flow[j], forward_flow[j + _ONE]
-        error_x[k], error_y[k] = (
-            forward_flow[j] + backward_flow[j],
-            forward_flow[j + _ONE] + backward_flow[j + _ONE],
-        )
-    list_contested(pair.contested, pixel, chosen.size, contested)
+        forward_x[k], forward_y[k] = forward[j], forward[j + _ONE]
+        error_x[k] = forward[j] + backward[j]
+        error_y[k] = forward[j + _ONE] + backward[j + _ONE]
+    list_contested(pair.contested, vector, number, contested)
 
 
 @jit(error_model="numpy", inner=True)
 def _choose_paths(pair: WarpPair, points: Points, position: np.float32) -> None:
     """Give contested points the path at this instant, as if both flows agreed on it."""
-    height, width = pair.first.shape
-    forward = pair.forward.view(np.float32).reshape((height, width, 2))
-    backward = pair.backward.view(np.float32).reshape((height, width, 2))
+    width = pair.columns
+    shape = pair.forward.size // width, width, 2
+    forward = pair.forward.view(np.float32).reshape(shape)
+    backward = pair.backward.view(np.float32).reshape(shape)
     for n in range(points.contested[0]):
         k = points.contested[n + 1]
         place = points.x[k], points.y[k]
-        path = choose_path(forward, backward, pair.sweep, place, position)
+        path = choose_path((forward, backward), pair.sweep, pair.shift, place, position)
         points.forward_x[k], points.forward_y[k] = path
         points.error_x[k], points.error_y[k] = _0, _0
 
@@ -260,8 +272,9 @@ def warp_points(pair: WarpPair, room: Room, number: int, position: float, out: F
     padded = (number + LANES - 1) // LANES * LANES
     if points.contested[0] > 0:
         _choose_paths(pair, points, place)
-    _locate(points, padded, shape, (place, -place), in_first)
-    _locate(points, padded, shape, (place, _1 - place), in_second)
+    flows = pair.columns, pair.shift
+    _locate(points, padded, shape, flows, (place, -place), in_first)
+    _locate(points, padded, shape, flows, (place, _1 - place), in_second)
     first = PixelWords(pair.first_pixels, pair.first_bends)
     second = PixelWords(pair.second_pixels, pair.second_bends)
     sample(first, pair.forward, number, shape[1], (in_first, corners))
@@ -274,14 +287,15 @@ def _locate(
     points: Points,
     number: int,
     shape: tuple[int, int],
+    flows: tuple[int, int],
     times: tuple[np.float32, np.float32],
     samples: Samples,
 ) -> None:
     """Find the places of points in a frame: the second of the times along their path."""
     position, share = times
-    pixel, column, row, forward_x, forward_y, error_x, error_y, _, _, _ = points
+    pixel, _, column, row, forward_x, forward_y, error_x, error_y, _, _, _ = points
     corner, nearest, u, v, outside, _, _ = samples
-    width = np.int32(shape[1])
+    width, columns, shift = np.int32(shape[1]), np.int32(flows[0]), np.int32(flows[1])
     last_column, last_row = np.float32(shape[1] - 1), np.float32(shape[0] - 1)
     for k in range(number):
         shift_x = share * (forward_x[k] - position * error_x[k])
@@ -293,9 +307,10 @@ def _locate(
         left, up = np.floor(x), np.floor(y)
         right, down = x - left, y - up
         u[k], v[k] = right, down
-        here = pixel[k] + np.int32(up) * width + np.int32(left)
-        corner[k] = here
-        nearest[k] = here + (width if down >= _HALF else np.int32(0)) + np.int32(right >= _HALF)
+        corner[k] = pixel[k] + np.int32(up) * width + np.int32(left)
+        near_row = np.int32(row[k] + up) + np.int32(down >= _HALF)
+        near_column = np.int32(column[k] + left) + np.int32(right >= _HALF)
+        nearest[k] = (near_row >> shift) * columns + (near_column >> shift)
 
 
 @jit(error_model="numpy", inner=True)
@@ -308,7 +323,7 @@ def _mix(
     out: Floats,
 ) -> None:
     """Mix the samples of both frames."""
-    _, _, _, forward_x, forward_y, error_x, error_y, earlier, later, _ = points
+    _, _, _, _, forward_x, forward_y, error_x, error_y, earlier, later, _ = points
     outside1, outside2 = in_first.outside, in_second.outside
     value1, value2 = in_first.value, in_second.value
     flow1, flow2 = in_first.flow.view(np.float32), in_second.flow.view(np.float32)

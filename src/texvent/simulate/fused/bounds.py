@@ -29,7 +29,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.runtime.kernel_arrays import read_only
 from texvent.simulate.crossing.trigger_levels import MARGIN
 
 Float32Array: TypeAlias = NDArray[np.float32]
@@ -40,29 +39,14 @@ LumaBounds: TypeAlias = Float32Array
 
 
 class PairArrays(NamedTuple):
-    """Two frames and the flow between them, read-only; see `MotionInterpolation`."""
+    """Two frames, and how far their pixels move; see `MotionInterpolation`."""
 
     earlier: Float32Array
     """[H, W] luma."""
     later: Float32Array
     """[H, W] luma."""
-    forward: Float32Array
-    """[H, W, 2] flow, px."""
-    backward: Float32Array
-    """[H, W, 2] flow, px."""
-
-
-def with_sweep(arrays: PairArrays, sweep: Float32Array) -> PairArrays:
-    """The arrays, with the longer of forward flow and sweep along each axis: for bounds.
-
-    Args:
-        arrays: of a pair.
-        sweep: [H, W, 2] px, or empty; see `pairs.paths_cpu`.
-    """
-    if sweep.size == 0:
-        return arrays
-    longer = np.where(np.abs(sweep) > np.abs(arrays.forward), sweep, arrays.forward)
-    return arrays._replace(forward=read_only(longer))
+    reach: Float32Array
+    """[2, h, w] `find_reach` of their flows."""
 
 
 class PreparedPair(NamedTuple):
@@ -129,22 +113,49 @@ Rows = tuple[
 
 
 @jit
+def find_reach(forward: Float32Array, backward: Float32Array, sweep: Float32Array) -> Float32Array:
+    """How far along x and y the samples of a pixel may be from it, [2, h, w] px.
+
+    Args:
+        forward: [h, w, 2] px; a vector stands for a pixel or for 2×2.
+        backward: the same.
+        sweep: [h, w, 2] px, or empty; see `pairs.paths_cpu`.
+    """
+    height, width, _ = forward.shape
+    reach = np.empty((2, height, width), np.float32)
+    for y in range(height):
+        ahead, back = forward[y].reshape(-1), backward[y].reshape(-1)
+        along, down = reach[0, y], reach[1, y]
+        for x in range(width):
+            along[x] = max(abs(ahead[2 * x]), abs(back[2 * x]))
+            down[x] = max(abs(ahead[2 * x + 1]), abs(back[2 * x + 1]))
+        if sweep.size:
+            swept = sweep[y].reshape(-1)
+            for x in range(width):
+                along[x] = max(along[x], abs(swept[2 * x]))
+                down[x] = max(down[x], abs(swept[2 * x + 1]))
+    return reach
+
+
+@jit
 def bound_cells(arrays: PairArrays) -> NDArray[np.float32]:
     """Darkest and brightest luma that the pixels of each cell can reach.
 
     Returns:
         [2, rows, W] float32: the lowest and the highest of each cell, for each of its columns.
     """
-    earlier, later, forward, backward = arrays
+    earlier, later, far = arrays
     height, width = earlier.shape
+    shift = int(far.shape[1] < height)
     down, across = (height + CELL - 1) // CELL, (width + CELL - 1) // CELL
     reachable = np.empty((2, down, width), np.float32)
     own = np.empty((down, across, 2), np.float32)
     reach = np.empty((down, across, 2), np.int64)
     for i in range(down):
         rows = slice(i * CELL, min((i + 1) * CELL, height))
-        flows = forward[rows], backward[rows]
-        _find_cell_extremes(earlier[rows], later[rows], flows, own[i], reach[i])
+        vectors = slice(i * CELL >> shift, (i + 1) * CELL >> shift)
+        _find_cell_extremes(earlier[rows], later[rows], own[i])
+        _find_cell_reach(far[:, vectors], CELL >> shift, reach[i])
     for i in range(down):
         for j in range(across):
             aside, above = reach[i, j]
@@ -163,31 +174,39 @@ def bound_cells(arrays: PairArrays) -> NDArray[np.float32]:
 def _find_cell_extremes(
     earlier: NDArray[np.float32],
     later: NDArray[np.float32],
-    flows: tuple[NDArray[np.float32], NDArray[np.float32]],
     own: NDArray[np.float32],
-    reach: NDArray[np.int64],
 ) -> None:
-    """Extremes of one row of cells, and how many cells away their flow leads along x and y."""
-    forward, backward = flows
+    """Extremes of one row of cells."""
     height, width = earlier.shape
     low, high = np.minimum(earlier[0], later[0]), np.maximum(earlier[0], later[0])
-    farthest = np.zeros(2 * width, np.float32)
-    for y in range(height):
+    for y in range(1, height):
         first, second = earlier[y], later[y]
         for x in range(width):
             low[x] = min(low[x], min(first[x], second[x]))
             high[x] = max(high[x], max(first[x], second[x]))
-        ahead, back = forward[y].reshape(-1), backward[y].reshape(-1)
-        for x in range(2 * width):
-            farthest[x] = max(farthest[x], max(abs(ahead[x]), abs(back[x])))
     for j in range(len(own)):
         start, stop = j * CELL, min((j + 1) * CELL, width)
         own[j, 0], own[j, 1] = low[start], high[start]
-        aside, above = farthest[2 * start], farthest[2 * start + 1]
         for x in range(start + 1, stop):
             own[j, 0], own[j, 1] = min(own[j, 0], low[x]), max(own[j, 1], high[x])
-            aside, above = max(aside, farthest[2 * x]), max(above, farthest[2 * x + 1])
-        reach[j, 0], reach[j, 1] = _count_cells(aside), _count_cells(above)
+
+
+@jit
+def _find_cell_reach(far: NDArray[np.float32], side: int, reach: NDArray[np.int64]) -> None:
+    """How many cells away the samples of a row of cells may be, along x and y."""
+    _, height, width = far.shape
+    farthest = far[:, 0].copy()
+    for y in range(1, height):
+        for axis in range(2):
+            row, most = far[axis, y], farthest[axis]
+            for x in range(width):
+                most[x] = max(most[x], row[x])
+    for j in range(len(reach)):
+        for axis in range(2):
+            length = farthest[axis, j * side]
+            for x in range(j * side + 1, min((j + 1) * side, width)):
+                length = max(length, farthest[axis, x])
+            reach[j, axis] = _count_cells(length)
 
 
 @jit
@@ -219,12 +238,13 @@ def list_active(
     Returns:
         How many there are.
     """
-    earlier, later, forward, backward = arrays
-    width = earlier.shape[1]
+    earlier, later, reach = arrays
+    height, width = earlier.shape
     low, high = np.empty(width, np.float32), np.empty(width, np.float32)
     first, second = _rows_around(earlier, row), _rows_around(later, row)
     reachable = bounds[0, row // CELL], bounds[1, row // CELL]
-    _bound_row(first, second, (forward[row], backward[row]), reachable, low, high)
+    shift = int(reach.shape[1] < height)
+    _bound_row(first, second, reach[:, row >> shift], reachable, low, high)
     level = levels.reference[row] if levels.reference.size else earlier[row] + levels.balance
     marks = np.empty(width, np.uint8)
     _mark(low, high, level, levels, marks)
@@ -264,21 +284,19 @@ def _mark(
 def _bound_row(
     first: Rows,
     second: Rows,
-    flows: tuple[NDArray[np.float32], NDArray[np.float32]],
+    reach: NDArray[np.float32],
     reachable: tuple[NDArray[np.float32], NDArray[np.float32]],
     low: NDArray[np.float32],
     high: NDArray[np.float32],
 ) -> None:
-    """Fill in bounds of a row: near ones where the flow is at most a pixel, else the cell's."""
+    """Fill in bounds of a row: near ones where it reaches at most a pixel, else the cell's."""
     width = low.size
     work = np.empty((4, width), np.float32)
     dx, dy, room_first, room_second = work[0], work[1], work[2], work[3]
     turns = np.zeros((2, width + 2), np.float32)
-    ahead, back = flows[0].reshape(-1), flows[1].reshape(-1)
     least, most = reachable
-    for x in range(width):
-        dx[x] = max(abs(ahead[2 * x]), abs(back[2 * x]))
-        dy[x] = max(abs(ahead[2 * x + 1]), abs(back[2 * x + 1]))
+    _spread(reach[0], dx)
+    _spread(reach[1], dy)
     _find_room(first[1:4], dx, dy, room_first)
     _find_room(second[1:4], dx, dy, room_second)
     _add_bends(first, dx, dy, turns, room_first)
@@ -290,6 +308,18 @@ def _bound_row(
         far = max(a[x] + room_first[x], b[x] + room_second[x])
         low[x] = near if is_near else least[x]
         high[x] = far if is_near else most[x]
+
+
+@jit
+def _spread(values: NDArray[np.float32], out: NDArray[np.float32]) -> None:
+    """Fill in a row with its values, or with each of them twice."""
+    if values.size == out.size:
+        out[:] = values
+        return
+    for x in range(out.size // 2):
+        out[2 * x] = values[x]
+        out[2 * x + 1] = values[x]
+    out[-1] = values[-1]
 
 
 @jit

@@ -29,8 +29,8 @@ from texvent.simulate.fused.bounds import (
     PreparedPair,
     ReferenceLevels,
     bound_cells,
+    find_reach,
     list_active,
-    with_sweep,
 )
 from texvent.simulate.kernels.active_pixels import grown
 
@@ -115,8 +115,8 @@ def arrays_of(motion: MotionInterpolation) -> PairArrays:
     """The arrays of a pair with flow, as kernels take them for bounds."""
     if motion.flows is None:
         raise ValueError("the frames of the pair are blended, and no pixel moves")
-    arrays = PairArrays(motion.earlier, motion.later, *motion.flows)
-    return with_sweep(arrays, motion.prepared.sweep)
+    reach = find_reach(*motion.flows, motion.prepared.sweep)
+    return PairArrays(motion.earlier, motion.later, reach)
 
 
 Columns = tuple[
