@@ -92,13 +92,13 @@ class MotionInterpolation:
         return next(self._draw(index, index + 1))
 
     def _draw(self, start: int, stop: int) -> Iterator[FloatImage]:
-        places = np.array(self.positions[start:stop], np.float64)
+        stop = min(stop, len(self))
         if self.flows is not None:
             from texvent.pairs import warp_cpu  # blending needs no Numba
 
-            yield from warp_cpu.warp_pair(self.prepared, places)
+            yield from warp_cpu.warp_pair(self.prepared, start, stop)
             return
-        for place in places.tolist():
+        for place in self.positions[start:stop]:
             yield self.earlier + np.float32(place) * (self.later - self.earlier)
 
     @cached_property
@@ -108,7 +108,7 @@ class MotionInterpolation:
             raise ValueError("the frames of the pair are blended, and no pixel moves")
         from texvent.pairs import warp_cpu  # as above
 
-        return warp_cpu.prepare_pair(self.earlier, self.later, *self.flows)
+        return warp_cpu.prepare_pair(self.earlier, self.later, *self.flows, self.positions)
 
 
 class UndrawnFrame(Frame):

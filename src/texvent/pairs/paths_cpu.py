@@ -179,58 +179,95 @@ def _apart2(flow: Floats, x: int, y: int, other: Vector) -> np.float32:
 
 
 @jit(error_model="numpy")
-def mark_contested(
-    forward: Floats, backward: Floats, sweep: Floats, shift: int
-) -> NDArray[np.uint8]:
-    """Vectors of pixels whose path has to be chosen, [h · w]; empty if there are none."""
+def number_contested(forward: Floats, backward: Floats, sweep: Floats, shift: int) -> Numbers:
+    """Numbers, from 1, of the vectors whose pixels' path has to be chosen; 0 elsewhere.
+
+    Returns:
+        [h · w]; empty if there are none.
+    """
     height, width, _ = forward.shape
     scale = _vectors_per_px(shift)
-    marks, apart = np.zeros(height * width, np.uint8), np.empty(width, np.int64)
-    swept, is_any = sweep.reshape(-1), False
+    numbers, apart = np.zeros(height * width, np.int32), np.empty(width, np.int64)
+    swept, count = sweep.reshape(-1), 0
     for i in range(swept.size // 2):
-        marks[i] = (swept[2 * i] != _0) | (swept[2 * i + 1] != _0)
-        is_any |= marks[i] > 0
+        if (swept[2 * i] != _0) | (swept[2 * i + 1] != _0):
+            count += 1
+            numbers[i] = count
     for y in range(height):
         for x in apart[: _list_apart(forward[y], backward[y], apart)]:
             u, v = forward[y, x, 0], forward[y, x, 1]
             p, q = backward[y, x, 0], backward[y, x, 1]
             limit = _RELATIVE * min(max(u * u + v * v, p * p + q * q), _MOST) + _CONTESTED
-            if marks[y * width + x] or _apart2(backward, x, y, (-u, -v)) <= limit:
+            if numbers[y * width + x] or _apart2(backward, x, y, (-u, -v)) <= limit:
                 continue
             if _is_met(forward, backward, x, y, scale) or _is_met(backward, forward, x, y, scale):
-                marks[y * width + x], is_any = 1, True
-    return marks if is_any else marks[:0]
+                count += 1
+                numbers[y * width + x] = count
+    return numbers if count else numbers[:0]
 
 
 @jit(inner=True)
 def list_contested(
-    marks: NDArray[np.uint8], vector: Numbers, number: int, contested: Numbers
+    numbers: Numbers, vector: Numbers, number: int, contested: Numbers
 ) -> None:
     """Fill in how many of some points are contested, then which.
 
     Args:
-        marks: of `mark_contested`.
+        numbers: of `number_contested`.
         vector: [n] flat index of each point's.
         number: how many points there are.
         contested: [n + 1].
     """
     contested[0] = 0
-    if marks.size == 0:
+    if numbers.size == 0:
         return
     count = 0
     for k in range(number):
         contested[count + 1] = k
-        count += marks[np.uint64(vector[k])]
+        count += numbers[np.uint64(vector[k])] > 0
     contested[0] = count
 
 
+@jit(error_model="numpy")
+def choose_paths(
+    flows: tuple[Floats, Floats], sweep: Floats, shift: int, numbers: Numbers, positions: Floats
+) -> Floats:
+    """The path through contested pixels that both flows confirm best.
+
+    Args:
+        flows: forward and backward, [h, w, 2] px.
+        sweep: of `find_sweep`.
+        shift: see above; one path is chosen for the middle of what a vector stands for.
+        numbers: of `number_contested`.
+        positions: [K] τ of the instants.
+
+    Returns:
+        [K, n, 2] px from the earlier to the later frame, by number.
+    """
+    width, count = flows[0].shape[1], 0
+    for i in range(numbers.size):
+        count = max(count, numbers[i])
+    chosen = np.empty((positions.size, count, 2), np.float32)
+    for i in range(numbers.size):
+        if numbers[i]:
+            cell = i % width, i // width
+            for k in range(positions.size):
+                path = _choose_path(flows, sweep, shift, cell, positions[k])
+                chosen[k, numbers[i] - 1, 0], chosen[k, numbers[i] - 1, 1] = path
+    return chosen
+
+
 @jit(error_model="numpy", inner=True)
-def choose_path(
-    flows: tuple[Floats, Floats], sweep: Floats, shift: int, pixel: Vector, position: np.float32
+def _choose_path(
+    flows: tuple[Floats, Floats],
+    sweep: Floats,
+    shift: int,
+    cell: tuple[int, int],
+    position: np.float32,
 ) -> Vector:
-    """The path through a pixel at an instant that both flows confirm best."""
-    forward, backward = flows
-    x, y = int(pixel[0]) >> shift, int(pixel[1]) >> shift
+    (x, y), (forward, backward) = cell, flows
+    middle = _HALF * np.float32(shift)
+    pixel = np.float32(x << shift) + middle, np.float32(y << shift) + middle
     u, v = forward[y, x, 0], forward[y, x, 1]
     p, q = backward[y, x, 0], backward[y, x, 1]
     best = u - position * (u + p), v - position * (v + q)

@@ -7,6 +7,7 @@ the result.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numba
@@ -20,22 +21,23 @@ from texvent.pairs.paths_cpu import (
     UNSEEN_WEIGHT,
     VISIBLE_PX2,
     VISIBLE_RELATIVE,
-    choose_path,
+    choose_paths,
     find_sweep,
     list_contested,
-    mark_contested,
+    number_contested,
 )
 from texvent.pairs.sampling_cpu import (
+    AFTER,
+    BEFORE,
     Corners,
     Floats,
     Numbers,
-    PixelWords,
     Samples,
     Words,
-    list_words,
     make_corners,
     make_samples,
     sample,
+    widen,
 )
 from texvent.runtime.jit import jit
 from texvent.runtime.kernel_arrays import read_only
@@ -62,12 +64,9 @@ class WarpPair(NamedTuple):
     """[H, W] the earlier frame, intensity."""
     second: Floats
     """[H, W] the later frame."""
-    first_pixels: Words
-    """Of `sampling_cpu.PixelWords`, of the earlier frame."""
-    first_bends: Words
-    """The same."""
-    second_pixels: Words
-    second_bends: Words
+    first_wide: Floats
+    """`sampling_cpu.widen` of the earlier frame."""
+    second_wide: Floats
     forward: Words
     """[h · w] flow from first to second, (x, y), px."""
     backward: Words
@@ -78,15 +77,17 @@ class WarpPair(NamedTuple):
     """1 where a vector stands for 2×2 px, else 0; see `paths_cpu`."""
     sweep: Floats
     """Of `paths_cpu.find_sweep`."""
-    contested: NDArray[np.uint8]
-    """Of `paths_cpu.mark_contested`."""
+    contested: Numbers
+    """Of `paths_cpu.number_contested`."""
+    positions: Floats
+    """[K] τ of the intermediate frames."""
+    chosen: Floats
+    """[K, n, 2] path at each of these through the contested pixels, by their number; px."""
 
 
 class Points(NamedTuple):
     """Pixels and their values that do not depend on the instant; [n], a multiple of `LANES`."""
 
-    pixel: Numbers
-    """Flat index y · W + x."""
     vector: Numbers
     """Flat index of its flow."""
     x: Floats
@@ -130,51 +131,53 @@ def warp_between(
     Returns:
         [H, W] float32, intensity.
     """
-    pair = prepare_pair(first, second, forward, backward)
-    image: Floats = warp_pair(pair, np.array([position]))[0]
+    pair = prepare_pair(first, second, forward, backward, [position])
+    image: Floats = warp_pair(pair, 0, 1)[0]
     return image
 
 
-def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Floats) -> WarpPair:
-    """Prepare what all intermediate frames of a pair share; see `warp_between`."""
+def prepare_pair(
+    first: Floats, second: Floats, forward: Floats, backward: Floats, positions: Sequence[float]
+) -> WarpPair:
+    """Prepare what the intermediate frames of a pair share; see `warp_between`."""
     # Read-only throughout, because Numba compiles for each kind of array again.
     frames = [read_only(first), read_only(second)]
-    prepared = *list_words(frames[0]), *list_words(frames[1])
+    wide = [read_only(widen(frame)) for frame in frames]
+    places = read_only(np.array(positions, np.float32))
     ahead, back = (read_only(np.ascontiguousarray(flow)) for flow in (forward, backward))
     words = [read_only(flow.reshape(-1).view(np.uint64)) for flow in (ahead, back)]
     columns, shift = ahead.shape[1], int(len(ahead) < len(first))
     sweep = read_only(find_sweep(ahead, back, shift))
-    contested = read_only(mark_contested(ahead, back, sweep, shift))
-    return WarpPair(*frames, *prepared, *words, columns, shift, sweep, contested)
+    contested = read_only(number_contested(ahead, back, sweep, shift))
+    chosen = read_only(choose_paths((ahead, back), sweep, shift, contested, places))
+    return WarpPair(*frames, *wide, *words, columns, shift, sweep, contested, places, chosen)
 
 
 @jit(nogil=False, parallel=True)
-def warp_pair(pair: WarpPair, positions: NDArray[np.float64]) -> Floats:
-    """`warp_between` of a pair that is prepared, at several positions: [n, H, W].
+def warp_pair(pair: WarpPair, start: int, stop: int) -> Floats:
+    """Intermediate frames of a pair from number `start` up to `stop`: [n, H, W]; see `warp_between`.
 
-    Some rows of all positions are computed together, while their data is in the nearest caches.
+    Some rows of all of them are computed together, while their data is in the nearest caches.
     """
     height, width = pair.first.shape
-    result = np.empty((positions.size, height, width), np.float32)
+    result = np.empty((stop - start, height, width), np.float32)
     for band in numba.prange((height + BAND_ROWS - 1) // BAND_ROWS):
         top, bottom = band * BAND_ROWS, min((band + 1) * BAND_ROWS, height)
-        _warp_rows(pair, top, bottom, positions, result)
+        _warp_rows(pair, top, bottom, start, result)
     return result
 
 
 @jit(error_model="numpy", inner=True)
-def _warp_rows(
-    pair: WarpPair, top: int, bottom: int, positions: NDArray[np.float64], result: Floats
-) -> None:
+def _warp_rows(pair: WarpPair, top: int, bottom: int, start: int, result: Floats) -> None:
     width = result.shape[2]
     step = max(POINTS // width, 1)
     room = make_room(min(step, bottom - top) * width)
     for row in range(top, bottom, step):
         end = min(row + step, bottom)
         take_rows(pair, row, end, room.points)
-        for k in range(positions.size):
+        for k in range(len(result)):
             out = result[k, row:end].reshape(-1)
-            warp_points(pair, room, (end - row) * width, positions[k], out)
+            warp_points(pair, room, (end - row) * width, start + k, out)
 
 
 @jit
@@ -182,7 +185,6 @@ def make_room(number: int) -> Room:
     """Scratch memory for `number` points; all start as the first pixel, so padding is valid."""
     room = (number + LANES - 1) // LANES * LANES
     points = Points(
-        np.zeros(room, np.int32),
         np.zeros(room, np.int32),
         np.zeros(room, np.float32),
         np.zeros(room, np.float32),
@@ -200,9 +202,9 @@ def make_room(number: int) -> Room:
 @jit
 def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
     """Set the points to all pixels of some rows."""
-    pixel, vector, x, y, _, _, _, _, earlier, later, _ = points
+    vector, x, y, _, _, _, _, earlier, later, _ = points
     shift, width = pair.shift, pair.first.shape[1]
-    start, number = top * width, (bottom - top) * width
+    number = (bottom - top) * width
     # All arrays start at the first of these pixels: Numba allows for negative indices where the
     # loop's index has an offset.
     first, second = pair.first[top:bottom].reshape(-1), pair.second[top:bottom].reshape(-1)
@@ -214,7 +216,6 @@ def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
             columns[k], rows[k] = k, top + row
             vectors[k] = begin + (k >> shift)
     for k in range(number):
-        pixel[k] = start + k
         earlier[k], later[k] = first[k], second[k]
     _take_flows(pair, number, points)
 
@@ -222,14 +223,14 @@ def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
 @jit
 def take_points(pair: WarpPair, chosen: NDArray[np.int64], points: Points) -> None:
     """Set the points to some pixels, given by flat index."""
-    pixel, vector, x, y, _, _, _, _, earlier, later, _ = points
+    vector, x, y, _, _, _, _, earlier, later, _ = points
     first, second = pair.first.reshape(-1), pair.second.reshape(-1)
     width, shift = np.uint64(pair.first.shape[1]), np.uint64(pair.shift)
     for k in range(chosen.size):
         i = np.uint64(chosen[k])
         row = i // width
         column = i - row * width
-        pixel[k], x[k], y[k] = i, column, row
+        x[k], y[k] = column, row
         vector[k] = (row >> shift) * np.uint64(pair.columns) + (column >> shift)
         earlier[k], later[k] = first[i], second[i]
     _take_flows(pair, chosen.size, points)
@@ -238,7 +239,7 @@ def take_points(pair: WarpPair, chosen: NDArray[np.int64], points: Points) -> No
 @jit(error_model="numpy", inner=True)
 def _take_flows(pair: WarpPair, number: int, points: Points) -> None:
     """Set the flows of the points, and list which of them are contested."""
-    _, vector, _, _, forward_x, forward_y, error_x, error_y, _, _, contested = points
+    vector, _, _, forward_x, forward_y, error_x, error_y, _, _, contested = points
     forward, backward = pair.forward.view(np.float32), pair.backward.view(np.float32)
     for k in range(number):
         i = np.uint64(vector[k])
@@ -250,35 +251,29 @@ def _take_flows(pair: WarpPair, number: int, points: Points) -> None:
 
 
 @jit(error_model="numpy", inner=True)
-def _choose_paths(pair: WarpPair, points: Points, position: np.float32) -> None:
+def _take_chosen(pair: WarpPair, points: Points, index: int) -> None:
     """Give contested points the path at this instant, as if both flows agreed on it."""
-    width = pair.columns
-    shape = pair.forward.size // width, width, 2
-    forward = pair.forward.view(np.float32).reshape(shape)
-    backward = pair.backward.view(np.float32).reshape(shape)
     for n in range(points.contested[0]):
         k = points.contested[n + 1]
-        place = points.x[k], points.y[k]
-        path = choose_path((forward, backward), pair.sweep, pair.shift, place, position)
-        points.forward_x[k], points.forward_y[k] = path
+        path = pair.chosen[index, pair.contested[points.vector[k]] - 1]
+        points.forward_x[k], points.forward_y[k] = path[0], path[1]
         points.error_x[k], points.error_y[k] = _0, _0
 
 
 @jit
-def warp_points(pair: WarpPair, room: Room, number: int, position: float, out: Floats) -> None:
-    """Intensity of the first `number` points at a position; fills in out[:number]."""
+def warp_points(pair: WarpPair, room: Room, number: int, index: int, out: Floats) -> None:
+    """Intensity of the first `number` points in an intermediate frame; fills in out[:number]."""
     points, in_first, in_second, corners = room
-    place, shape = np.float32(position), pair.first.shape
+    place, shape = pair.positions[index], pair.first.shape
     padded = (number + LANES - 1) // LANES * LANES
     if points.contested[0] > 0:
-        _choose_paths(pair, points, place)
+        _take_chosen(pair, points, index)
     flows = pair.columns, pair.shift
     _locate(points, padded, shape, flows, (place, -place), in_first)
     _locate(points, padded, shape, flows, (place, _1 - place), in_second)
-    first = PixelWords(pair.first_pixels, pair.first_bends)
-    second = PixelWords(pair.second_pixels, pair.second_bends)
-    sample(first, pair.forward, number, shape[1], (in_first, corners))
-    sample(second, pair.backward, number, shape[1], (in_second, corners))
+    wide = shape[1] + BEFORE + AFTER
+    sample(pair.first_wide, pair.forward, number, wide, (in_first, corners))
+    sample(pair.second_wide, pair.backward, number, wide, (in_second, corners))
     _mix(points, in_first, in_second, number, place, out)
 
 
@@ -293,9 +288,10 @@ def _locate(
 ) -> None:
     """Find the places of points in a frame: the second of the times along their path."""
     position, share = times
-    pixel, _, column, row, forward_x, forward_y, error_x, error_y, _, _, _ = points
+    _, column, row, forward_x, forward_y, error_x, error_y, _, _, _ = points
     corner, nearest, u, v, outside, _, _ = samples
-    width, columns, shift = np.int32(shape[1]), np.int32(flows[0]), np.int32(flows[1])
+    wide, before = np.int32(shape[1] + BEFORE + AFTER), np.int32(BEFORE)
+    columns, shift = np.int32(flows[0]), np.int32(flows[1])
     last_column, last_row = np.float32(shape[1] - 1), np.float32(shape[0] - 1)
     for k in range(number):
         shift_x = share * (forward_x[k] - position * error_x[k])
@@ -307,10 +303,10 @@ def _locate(
         left, up = np.floor(x), np.floor(y)
         right, down = x - left, y - up
         u[k], v[k] = right, down
-        corner[k] = pixel[k] + np.int32(up) * width + np.int32(left)
-        near_row = np.int32(row[k] + up) + np.int32(down >= _HALF)
-        near_column = np.int32(column[k] + left) + np.int32(right >= _HALF)
-        nearest[k] = (near_row >> shift) * columns + (near_column >> shift)
+        top, beside = np.int32(row[k] + up), np.int32(column[k] + left)
+        corner[k] = (top + before) * wide + beside + before
+        top, beside = top + np.int32(down >= _HALF), beside + np.int32(right >= _HALF)
+        nearest[k] = (top >> shift) * columns + (beside >> shift)
 
 
 @jit(error_model="numpy", inner=True)
@@ -323,7 +319,7 @@ def _mix(
     out: Floats,
 ) -> None:
     """Mix the samples of both frames."""
-    _, _, _, _, forward_x, forward_y, error_x, error_y, earlier, later, _ = points
+    _, _, _, forward_x, forward_y, error_x, error_y, earlier, later, _ = points
     outside1, outside2 = in_first.outside, in_second.outside
     value1, value2 = in_first.value, in_second.value
     flow1, flow2 = in_first.flow.view(np.float32), in_second.flow.view(np.float32)

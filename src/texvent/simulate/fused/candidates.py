@@ -22,7 +22,6 @@ from texvent.simulate.crossing.trigger_levels import MARGIN
 from texvent.simulate.fused.bounds import (
     CrossingCandidates,
     Float32Array,
-    Float64Array,
     Int64Array,
     LumaBounds,
     PairArrays,
@@ -83,11 +82,11 @@ def map_candidates(
         levels: what pixels are compared with.
         bounds: of `find_bounds`.
     """
-    arrays, positions = arrays_of(motion), np.array(motion.positions, np.float64)
+    arrays = arrays_of(motion)
     prepared = PreparedPair(motion.prepared, bounds)
 
     def decide_band(rows: tuple[int, int]) -> Decided:
-        return decide(find_in_rows(arrays, positions, levels, prepared, rows))
+        return decide(find_in_rows(arrays, levels, prepared, rows))
 
     height = len(arrays.earlier)
     number = max(count_threads(), math.ceil(arrays.earlier.size / BAND_PIXELS))
@@ -107,7 +106,7 @@ def warp_pixels(motion: MotionInterpolation, index: int, pixel: Int64Array) -> F
     """
     if index == len(motion):
         return motion.later.reshape(-1)[pixel]
-    warped: Float32Array = _warp_pixels(motion.prepared, motion.positions[index], pixel)
+    warped: Float32Array = _warp_pixels(motion.prepared, index, pixel)
     return warped
 
 
@@ -147,34 +146,25 @@ def estimate_active(arrays: PairArrays, levels: ReferenceLevels, bounds: LumaBou
 
 
 def find_in_rows(
-    arrays: PairArrays,
-    positions: Float64Array,
-    levels: ReferenceLevels,
-    prepared: PreparedPair,
-    rows: tuple[int, int],
+    arrays: PairArrays, levels: ReferenceLevels, prepared: PreparedPair, rows: tuple[int, int]
 ) -> CrossingCandidates:
     """The candidates of some rows; threads may compute different rows at the same time.
 
     Args:
         arrays: the pair.
-        positions: [K] τ of each intermediate instant.
         levels: what pixels are compared with.
         prepared: the pair prepared, and its `find_bounds`.
         rows: first row, and the one after the last.
     """
-    found, columns = _find(arrays, positions, levels, prepared, rows)
+    found, columns = _find(arrays, levels, prepared, rows)
     return CrossingCandidates(*columns).take(slice(found))
 
 
 @jit
 def _find(
-    arrays: PairArrays,
-    positions: Float64Array,
-    levels: ReferenceLevels,
-    prepared: PreparedPair,
-    rows: tuple[int, int],
+    arrays: PairArrays, levels: ReferenceLevels, prepared: PreparedPair, rows: tuple[int, int]
 ) -> tuple[int, Columns]:
-    width = arrays.earlier.shape[1]
+    width, parts = arrays.earlier.shape[1], prepared.pair.positions.size + 1
     found, columns = 0, _columns(FIRST_ROOM)
     room, warped = make_room(POINTS + width), np.empty(FIRST_ROOM, np.float32)
     memory = np.empty((2, POINTS + width), np.int64)
@@ -192,13 +182,13 @@ def _find(
             filled += number
             row += 1
         active = memory[0, :filled]
-        size = filled * (positions.size + 1)
+        size = filled * parts
         if size > warped.size:
             warped = np.empty(2 * size, np.float32)
         if found + size > columns[0].size:
             columns = _grown(columns, size)
-        lumas = warped[:size].reshape(positions.size + 1, filled)
-        _warp_active(prepared.pair, positions, active, room, lumas)
+        lumas = warped[:size].reshape(parts, filled)
+        _warp_active(prepared.pair, active, room, lumas)
         found = _list_candidates(arrays, levels, active, lumas, (columns, found))
     return found, columns
 
@@ -212,17 +202,13 @@ def _list_all(active: NDArray[np.int64]) -> int:
 
 @jit
 def _warp_active(
-    pair: WarpPair,
-    positions: Float64Array,
-    active: NDArray[np.int64],
-    room: Room,
-    lumas: NDArray[np.float32],
+    pair: WarpPair, active: NDArray[np.int64], room: Room, lumas: NDArray[np.float32]
 ) -> None:
     """Fill in the luma of active pixels [n] at the ends of the segments, [K + 1, n]."""
     take_points(pair, active, room.points)
-    for segment in range(positions.size):
-        warp_points(pair, room, active.size, positions[segment], lumas[segment])
-    lumas[positions.size] = room.points.later[: active.size]
+    for index in range(pair.positions.size):
+        warp_points(pair, room, active.size, index, lumas[index])
+    lumas[pair.positions.size] = room.points.later[: active.size]
 
 
 @jit
@@ -310,12 +296,12 @@ def _grown(columns: Columns, least: int) -> Columns:
 
 
 @jit
-def _warp_pixels(pair: WarpPair, position: float, pixel: NDArray[np.int64]) -> NDArray[np.float32]:
-    """Luma of some pixels of the intermediate frame at a position.
+def _warp_pixels(pair: WarpPair, index: int, pixel: NDArray[np.int64]) -> NDArray[np.float32]:
+    """Luma of some pixels of an intermediate frame.
 
     Args:
         pair: the pair, prepared.
-        position: τ, 0 = earlier, 1 = later.
+        index: number of the frame.
         pixel: [n] flat indices.
 
     Returns:
@@ -324,5 +310,5 @@ def _warp_pixels(pair: WarpPair, position: float, pixel: NDArray[np.int64]) -> N
     warped = np.empty(pixel.size, np.float32)
     room = make_room(pixel.size)
     take_points(pair, pixel, room.points)
-    warp_points(pair, room, pixel.size, position, warped)
+    warp_points(pair, room, pixel.size, index, warped)
     return warped
