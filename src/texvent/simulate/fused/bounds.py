@@ -17,12 +17,12 @@ of a pixel is between the darkest and the brightest that both frames have within
 * Up to 1 px of flow, a sample differs from the pixel itself by less than `|dx|` times the steps to
   its left and right neighbours (in the rows it may touch) plus `|dy|` times those up and down, plus
   the bends of the cubic sampling along x and y times at most `|dx|`, `|dy|` and 1/4.
-* Further out, the extremes over cells of `CELL` pixels that the flow of the pixel's cell reaches.
+* Further out, the extremes around the samples at each intermediate instant, for all the pixels of a
+  vector of the flow at once: their samples are as far away, rounded down, as those of the first.
 """
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -35,7 +35,7 @@ Float32Array: TypeAlias = NDArray[np.float32]
 Float64Array: TypeAlias = NDArray[np.float64]
 Int64Array: TypeAlias = NDArray[np.int64]
 LumaBounds: TypeAlias = Float32Array
-"""Darkest and brightest luma that each cell of a pair can reach; see `bound_cells`."""
+"""Darkest and brightest luma that pixels of a pair can reach; see `bound_paths`."""
 
 
 class PairArrays(NamedTuple):
@@ -91,10 +91,6 @@ class CrossingCandidates(NamedTuple):
         )
 
 
-CELL = 8
-"""Side of a cell, px."""
-FARTHEST = 8
-"""A flow that leads further than this many cells leaves its cell without bounds."""
 SLACK = 8.0 * MARGIN
 """Relative margin of trigger levels for rounding."""
 _QUARTER, _1 = np.float32(0.25), np.float32(1.0)
@@ -138,84 +134,157 @@ def find_reach(forward: Float32Array, backward: Float32Array, sweep: Float32Arra
 
 
 @jit
-def bound_cells(arrays: PairArrays) -> NDArray[np.float32]:
-    """Darkest and brightest luma that the pixels of each cell can reach.
+def bound_paths(pair: Any, arrays: PairArrays) -> Float32Array:
+    """Darkest and brightest luma that the pixels of each vector reach, [2, h, w].
 
-    Returns:
-        [2, rows, W] float32: the lowest and the highest of each cell, for each of its columns.
+    Args:
+        pair: `pairs.warp_cpu.WarpPair`.
+        arrays: the same pair. Vectors that reach at most a pixel count as at rest.
     """
-    earlier, later, far = arrays
-    height, width = earlier.shape
-    shift = int(far.shape[1] < height)
-    down, across = (height + CELL - 1) // CELL, (width + CELL - 1) // CELL
-    reachable = np.empty((2, down, width), np.float32)
-    own = np.empty((down, across, 2), np.float32)
-    reach = np.empty((down, across, 2), np.int64)
-    for i in range(down):
-        rows = slice(i * CELL, min((i + 1) * CELL, height))
-        vectors = slice(i * CELL >> shift, (i + 1) * CELL >> shift)
-        _find_cell_extremes(earlier[rows], later[rows], own[i])
-        _find_cell_reach(far[:, vectors], CELL >> shift, reach[i])
-    for i in range(down):
-        for j in range(across):
-            aside, above = reach[i, j]
-            low, high = own[i, j, 0], own[i, j, 1]
-            if max(aside, above) > FARTHEST:
-                low, high, aside, above = np.float32(0.0), np.float32(np.inf), 0, 0
-            for y in range(max(i - above, 0), min(i + above + 1, down)):
-                for x in range(max(j - aside, 0), min(j + aside + 1, across)):
-                    low, high = min(low, own[y, x, 0]), max(high, own[y, x, 1])
-            for column in range(j * CELL, min((j + 1) * CELL, width)):
-                reachable[0, i, column], reachable[1, i, column] = low, high
-    return reachable
-
-
-@jit
-def _find_cell_extremes(
-    earlier: NDArray[np.float32],
-    later: NDArray[np.float32],
-    own: NDArray[np.float32],
-) -> None:
-    """Extremes of one row of cells."""
-    height, width = earlier.shape
-    low, high = np.minimum(earlier[0], later[0]), np.maximum(earlier[0], later[0])
-    for y in range(1, height):
-        first, second = earlier[y], later[y]
+    _, height, width = arrays.reach.shape
+    first = np.empty((2, height, width), np.float32)
+    second, bounds = np.empty_like(first), np.empty_like(first)
+    _find_extremes(arrays.earlier, pair.shift, first[0], first[1])
+    _find_extremes(arrays.later, pair.shift, second[0], second[1])
+    words = _with_next(first[0], first[1]), _with_next(second[0], second[1])
+    paths = make_paths(width)
+    for y in range(height):
+        along, down, low, high = arrays.reach[0, y], arrays.reach[1, y], bounds[0, y], bounds[1, y]
         for x in range(width):
-            low[x] = min(low[x], min(first[x], second[x]))
-            high[x] = max(high[x], max(first[x], second[x]))
-    for j in range(len(own)):
-        start, stop = j * CELL, min((j + 1) * CELL, width)
-        own[j, 0], own[j, 1] = low[start], high[start]
-        for x in range(start + 1, stop):
-            own[j, 0], own[j, 1] = min(own[j, 0], low[x]), max(own[j, 1], high[x])
+            low[x] = min(first[0, y, x], second[0, y, x])
+            high[x] = max(first[1, y, x], second[1, y, x])
+        number = 0
+        for x in range(width):
+            paths.column[number] = x
+            number += not ((along[x] <= _1) & (down[x] <= _1))
+        if number:
+            _follow_paths(pair, words, y, number, paths, low, high)
+    return bounds
+
+
+class Paths(NamedTuple):
+    """Vectors of a row, and scratch memory; [n]."""
+
+    column: Int64Array
+    contested: NDArray[np.int32]
+    """Their number in `WarpPair.chosen`, from 1, or 0."""
+    vector: Float32Array
+    """[4, n] forward flow along x and y; its sum with the backward flow."""
+    path: Float32Array
+    """[2, n] at an instant, px."""
+    place: Int64Array
+    """Flat index of the vector that the first pixel's sample is at."""
+    found: NDArray[np.uint64]
+    """Extremes there."""
 
 
 @jit
-def _find_cell_reach(far: NDArray[np.float32], side: int, reach: NDArray[np.int64]) -> None:
-    """How many cells away the samples of a row of cells may be, along x and y."""
-    _, height, width = far.shape
-    farthest = far[:, 0].copy()
-    for y in range(1, height):
-        for axis in range(2):
-            row, most = far[axis, y], farthest[axis]
-            for x in range(width):
-                most[x] = max(most[x], row[x])
-    for j in range(len(reach)):
-        for axis in range(2):
-            length = farthest[axis, j * side]
-            for x in range(j * side + 1, min((j + 1) * side, width)):
-                length = max(length, farthest[axis, x])
-            reach[j, axis] = _count_cells(length)
+def make_paths(room: int) -> Paths:
+    """Room for some vectors."""
+    return Paths(
+        np.empty(room, np.int64),
+        np.empty(room, np.int32),
+        np.empty((4, room), np.float32),
+        np.empty((2, room), np.float32),
+        np.empty(room, np.int64),
+        np.empty(room, np.uint64),
+    )
 
 
 @jit
-def _count_cells(length: np.float32) -> int:
-    """Length of a flow, in cells."""
-    if length > CELL * FARTHEST:
-        return FARTHEST + 1
-    # A bilinear sample touches the pixel behind its position too.
-    return (math.ceil(length) + CELL) // CELL
+def _find_extremes(
+    image: Float32Array, shift: int, low: Float32Array, high: Float32Array
+) -> None:
+    """Fill in the darkest and brightest luma of the pixels of each vector."""
+    height, width = image.shape
+    if shift == 0:
+        low[:], high[:] = image, image
+        return
+    for y in range(len(low)):
+        upper, lower = image[2 * y], image[min(2 * y + 1, height - 1)]
+        least, most = low[y], high[y]
+        for x in range(width // 2):
+            a, b, c, d = upper[2 * x], upper[2 * x + 1], lower[2 * x], lower[2 * x + 1]
+            least[x], most[x] = min(min(a, b), min(c, d)), max(max(a, b), max(c, d))
+        if width % 2:
+            a, b = upper[width - 1], lower[width - 1]
+            least[width // 2], most[width // 2] = min(a, b), max(a, b)
+
+
+@jit
+def _with_next(low: Float32Array, high: Float32Array) -> NDArray[np.uint64]:
+    """Extremes of each vector's pixels and of the next ones to the right and below, [h · w]."""
+    height, width = low.shape
+    words = np.empty((height, 2 * width), np.float32)
+    least, most = np.empty(width, np.float32), np.empty(width, np.float32)
+    for y in range(height):
+        below = min(y + 1, height - 1)
+        for x in range(width):
+            least[x], most[x] = min(low[y, x], low[below, x]), max(high[y, x], high[below, x])
+        row, last = words[y], width - 1
+        for x in range(last):
+            row[2 * x] = min(least[x], least[x + 1])
+            row[2 * x + 1] = max(most[x], most[x + 1])
+        row[2 * last], row[2 * last + 1] = least[last], most[last]
+    return words.reshape(-1).view(np.uint64)
+
+
+@jit(error_model="numpy")
+def _follow_paths(
+    pair: Any,
+    words: tuple[NDArray[np.uint64], NDArray[np.uint64]],
+    row: int,
+    number: int,
+    paths: Paths,
+    low: Float32Array,
+    high: Float32Array,
+) -> None:
+    """Extend the extremes of some vectors of a row by those around their samples."""
+    column, contested, vector, path, _, found = paths
+    forward, backward = pair.forward.view(np.float32), pair.backward.view(np.float32)
+    start, is_any = row * pair.columns, False
+    for k in range(number):
+        i = start + column[k]
+        contested[k] = pair.contested[i] if pair.contested.size else 0
+        is_any |= contested[k] > 0
+        for axis in range(2):
+            vector[axis, k] = forward[2 * i + axis]
+            vector[axis + 2, k] = forward[2 * i + axis] + backward[2 * i + axis]
+    values = found.view(np.float32)
+    for index in range(pair.positions.size):
+        position = pair.positions[index]
+        for axis in range(2):
+            ahead, error, out = vector[axis], vector[axis + 2], path[axis]
+            for k in range(number):
+                out[k] = ahead[k] - position * error[k]
+        if is_any:
+            for k in range(number):
+                if contested[k]:
+                    path[0, k], path[1, k] = pair.chosen[index, contested[k] - 1]
+        for side in range(2):
+            share = -position if side == 0 else _1 - position
+            _look_up(pair, words[side], row, number, share, paths)
+            for k in range(number):
+                x = column[k]
+                low[x], high[x] = min(low[x], values[2 * k]), max(high[x], values[2 * k + 1])
+
+
+@jit(error_model="numpy", inner=True)
+def _look_up(
+    pair: Any, words: NDArray[np.uint64], row: int, number: int, share: np.float32, paths: Paths
+) -> None:
+    """Set the extremes around the samples of the paths, as `warp_cpu` places them."""
+    column, _, _, path, place, found = paths
+    along, down = path[0], path[1]
+    shift, columns, y = pair.shift, pair.columns, np.float32(row << pair.shift)
+    last_column, last_row = np.float32(pair.first.shape[1] - 1), np.float32(len(pair.first) - 1)
+    for k in range(number):
+        x = np.float32(column[k] << shift)
+        to_x = x + np.floor(min(max(-x, share * along[k]), last_column - x))
+        to_y = y + np.floor(min(max(-y, share * down[k]), last_row - y))
+        place[k] = (np.int64(to_y) >> shift) * columns + (np.int64(to_x) >> shift)
+    for k in range(number):
+        found[k] = words[np.uint64(place[k])]
 
 
 @jit
@@ -231,7 +300,7 @@ def list_active(
     Args:
         arrays: the pair.
         levels: what the pixels are compared with.
-        bounds: of `bound_cells`.
+        bounds: of `bound_paths`.
         row: which row.
         active: [W], filled in with their columns.
 
@@ -242,16 +311,17 @@ def list_active(
     height, width = earlier.shape
     low, high = np.empty(width, np.float32), np.empty(width, np.float32)
     first, second = _rows_around(earlier, row), _rows_around(later, row)
-    reachable = bounds[0, row // CELL], bounds[1, row // CELL]
-    shift = int(reach.shape[1] < height)
-    _bound_row(first, second, reach[:, row >> shift], reachable, low, high)
+    above = row >> int(reach.shape[1] < height)
+    _bound_row(first, second, reach[:, above], bounds[:, above], low, high)
     level = levels.reference[row] if levels.reference.size else earlier[row] + levels.balance
-    marks = np.empty(width, np.uint8)
-    _mark(low, high, level, levels, marks)
+    marks = np.zeros((width + 7) // 8, np.uint64)
+    _mark(low, high, level, levels, marks.view(np.uint8)[:width])
     number = 0
-    for x in range(width):
-        active[number] = x
-        number += marks[x]
+    for word in range(marks.size):
+        if marks[word]:
+            for x in range(8 * word, min(8 * word + 8, width)):
+                active[number] = x
+                number += marks.view(np.uint8)[x]
     return number
 
 
@@ -285,18 +355,20 @@ def _bound_row(
     first: Rows,
     second: Rows,
     reach: NDArray[np.float32],
-    reachable: tuple[NDArray[np.float32], NDArray[np.float32]],
+    bounds: NDArray[np.float32],
     low: NDArray[np.float32],
     high: NDArray[np.float32],
 ) -> None:
-    """Fill in bounds of a row: near ones where it reaches at most a pixel, else the cell's."""
+    """Fill in bounds of a row: near ones where it reaches at most a pixel, else the path's."""
     width = low.size
-    work = np.empty((4, width), np.float32)
+    work = np.empty((6, width), np.float32)
     dx, dy, room_first, room_second = work[0], work[1], work[2], work[3]
+    least, most = work[4], work[5]
     turns = np.zeros((2, width + 2), np.float32)
-    least, most = reachable
     _spread(reach[0], dx)
     _spread(reach[1], dy)
+    _spread(bounds[0], least)
+    _spread(bounds[1], most)
     _find_room(first[1:4], dx, dy, room_first)
     _find_room(second[1:4], dx, dy, room_second)
     _add_bends(first, dx, dy, turns, room_first)

@@ -27,7 +27,7 @@ from texvent.simulate.fused.bounds import (
     PairArrays,
     PreparedPair,
     ReferenceLevels,
-    bound_cells,
+    bound_paths,
     find_reach,
     list_active,
 )
@@ -60,7 +60,7 @@ def find_bounds(
     if motion.flows is None:
         return None
     arrays = arrays_of(motion)
-    bounds: LumaBounds = bound_cells(arrays)
+    bounds: LumaBounds = bound_paths(motion.prepared, arrays)
     share = estimate_active(arrays, levels(), bounds)
     return bounds if share < BUSY else None
 
