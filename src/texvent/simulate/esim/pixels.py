@@ -17,7 +17,7 @@ from texvent.simulate.fused.bounds import (
     CrossingCandidates,
     Float64Array,
     Int64Array,
-    LumaBounds,
+    BoundedPair,
     ReferenceLevels,
 )
 from texvent.simulate.fused.candidates import find_bounds, map_candidates
@@ -90,11 +90,11 @@ class EsimPixels:
         self._level = None
         return events
 
-    def find_bounds(self, pair: FramePair) -> LumaBounds | None:
+    def find_bounds(self, pair: FramePair) -> BoundedPair | None:
         """Luma bounds if the pair is better computed without drawing its frames, else None."""
         return find_bounds(pair.motion, self._levels)
 
-    def fuse(self, pair: FramePair, bounds: LumaBounds) -> list[SortedEvents]:
+    def fuse(self, pair: FramePair, bounds: BoundedPair) -> list[SortedEvents]:
         """Events of every segment of a pair, without drawing its frames.
 
         Args:
@@ -103,7 +103,7 @@ class EsimPixels:
         """
         edges_us, levels = pair.edges_us.tolist(), self._levels()
         split = functools.partial(self._split_by_segment, segments=len(edges_us) - 1)
-        bands = map_candidates(split, pair.motion, levels=levels, bounds=bounds)
+        bands = map_candidates(split, levels, bounds)
         # Found again from the references when a frame is stepped.
         self._triggers, self._last_luma = None, pair.second.luma
         refractory = RefractoryPeriod(self._config.refractory_period_us, is_level_lost=True)

@@ -34,27 +34,15 @@ from texvent.simulate.crossing.trigger_levels import MARGIN
 Float32Array: TypeAlias = NDArray[np.float32]
 Float64Array: TypeAlias = NDArray[np.float64]
 Int64Array: TypeAlias = NDArray[np.int64]
-LumaBounds: TypeAlias = Float32Array
-"""Darkest and brightest luma that pixels of a pair can reach; see `bound_paths`."""
-
-
-class PairArrays(NamedTuple):
-    """Two frames, and how far their pixels move; see `MotionInterpolation`."""
-
-    earlier: Float32Array
-    """[H, W] luma."""
-    later: Float32Array
-    """[H, W] luma."""
-    reach: Float32Array
-    """[2, h, w] `find_reach` of their flows."""
-
-
-class PreparedPair(NamedTuple):
-    """A pair, prepared for the search of candidates."""
+class BoundedPair(NamedTuple):
+    """Two frames and the motion between them, with bounds of what their pixels can reach."""
 
     pair: Any
-    """`pairs.warp_cpu.WarpPair` of its frames."""
-    bounds: LumaBounds
+    """`pairs.warp_cpu.WarpPair`."""
+    reach: Float32Array
+    """[2, h, w] how far along x and y the samples of a vector's pixels may be, px."""
+    bounds: Float32Array
+    """[2, h, w] darkest and brightest luma that they reach, of vectors that reach beyond a pixel."""
 
 
 class ReferenceLevels(NamedTuple):
@@ -109,47 +97,18 @@ Rows = tuple[
 
 
 @jit
-def find_reach(forward: Float32Array, backward: Float32Array, sweep: Float32Array) -> Float32Array:
-    """How far along x and y the samples of a pixel may be from it, [2, h, w] px.
-
-    Args:
-        forward: [h, w, 2] px; a vector stands for a pixel or for 2×2.
-        backward: the same.
-        sweep: [h, w, 2] px, or empty; see `pairs.paths_cpu`.
-    """
-    height, width, _ = forward.shape
-    reach = np.empty((2, height, width), np.float32)
-    for y in range(height):
-        ahead, back = forward[y].reshape(-1), backward[y].reshape(-1)
-        along, down = reach[0, y], reach[1, y]
-        for x in range(width):
-            along[x] = max(abs(ahead[2 * x]), abs(back[2 * x]))
-            down[x] = max(abs(ahead[2 * x + 1]), abs(back[2 * x + 1]))
-        if sweep.size:
-            swept = sweep[y].reshape(-1)
-            for x in range(width):
-                along[x] = max(along[x], abs(swept[2 * x]))
-                down[x] = max(down[x], abs(swept[2 * x + 1]))
-    return reach
-
-
-@jit
-def bound_paths(pair: Any, arrays: PairArrays) -> Float32Array:
-    """Darkest and brightest luma that the pixels of each vector reach, [2, h, w].
-
-    Args:
-        pair: `pairs.warp_cpu.WarpPair`.
-        arrays: the same pair. Vectors that reach at most a pixel count as at rest.
-    """
-    _, height, width = arrays.reach.shape
-    first = np.empty((2, height, width), np.float32)
-    second, bounds = np.empty_like(first), np.empty_like(first)
-    _find_extremes(arrays.earlier, pair.shift, first[0], first[1])
-    _find_extremes(arrays.later, pair.shift, second[0], second[1])
+def bound_paths(pair: Any) -> tuple[Float32Array, Float32Array]:
+    """Reach and bounds of a `BoundedPair`."""
+    width = pair.columns
+    reach = _find_reach(pair)
+    first, second = np.empty_like(reach), np.empty_like(reach)
+    bounds = np.empty_like(reach)
+    _find_extremes(pair.first, pair.shift, first[0], first[1])
+    _find_extremes(pair.second, pair.shift, second[0], second[1])
     words = _with_next(first[0], first[1]), _with_next(second[0], second[1])
     paths = make_paths(width)
-    for y in range(height):
-        along, down, low, high = arrays.reach[0, y], arrays.reach[1, y], bounds[0, y], bounds[1, y]
+    for y in range(reach.shape[1]):
+        along, down, low, high = reach[0, y], reach[1, y], bounds[0, y], bounds[1, y]
         for x in range(width):
             low[x] = min(first[0, y, x], second[0, y, x])
             high[x] = max(first[1, y, x], second[1, y, x])
@@ -159,7 +118,27 @@ def bound_paths(pair: Any, arrays: PairArrays) -> Float32Array:
             number += not ((along[x] <= _1) & (down[x] <= _1))
         if number:
             _follow_paths(pair, words, y, number, paths, low, high)
-    return bounds
+    return reach, bounds
+
+
+@jit
+def _find_reach(pair: Any) -> Float32Array:
+    """How far along x and y the samples of a vector's pixels may be from them, [2, h, w] px."""
+    width, height = pair.columns, pair.forward.size // pair.columns
+    forward, backward = pair.forward.view(np.float32), pair.backward.view(np.float32)
+    reach = np.empty((2, height, width), np.float32)
+    for y in range(height):
+        row = slice(2 * y * width, 2 * (y + 1) * width)
+        ahead, back, along, down = forward[row], backward[row], reach[0, y], reach[1, y]
+        for x in range(width):
+            along[x] = max(abs(ahead[2 * x]), abs(back[2 * x]))
+            down[x] = max(abs(ahead[2 * x + 1]), abs(back[2 * x + 1]))
+        if pair.sweep.size:
+            swept = pair.sweep[y].reshape(-1)
+            for x in range(width):
+                along[x] = max(along[x], abs(swept[2 * x]))
+                down[x] = max(down[x], abs(swept[2 * x + 1]))
+    return reach
 
 
 class Paths(NamedTuple):
@@ -289,30 +268,25 @@ def _look_up(
 
 @jit
 def list_active(
-    arrays: PairArrays,
-    levels: ReferenceLevels,
-    bounds: NDArray[np.float32],
-    row: int,
-    active: NDArray[np.int64],
+    bounded: BoundedPair, levels: ReferenceLevels, row: int, active: NDArray[np.int64]
 ) -> int:
     """Find the pixels of a row that may fire; the others cannot.
 
     Args:
-        arrays: the pair.
+        bounded: the pair.
         levels: what the pixels are compared with.
-        bounds: of `bound_paths`.
         row: which row.
         active: [W], filled in with their columns.
 
     Returns:
         How many there are.
     """
-    earlier, later, reach = arrays
-    height, width = earlier.shape
+    pair, reach, bounds = bounded
+    earlier, later, width = pair.first, pair.second, pair.first.shape[1]
     low, high = np.empty(width, np.float32), np.empty(width, np.float32)
     first, second = _rows_around(earlier, row), _rows_around(later, row)
-    above = row >> int(reach.shape[1] < height)
-    _bound_row(first, second, reach[:, above], bounds[:, above], low, high)
+    inside = row >> pair.shift
+    _bound_row(first, second, reach[:, inside], bounds[:, inside], low, high)
     level = levels.reference[row] if levels.reference.size else earlier[row] + levels.balance
     marks = np.zeros((width + 7) // 8, np.uint64)
     _mark(low, high, level, levels, marks.view(np.uint8)[:width])

@@ -20,15 +20,12 @@ from texvent.runtime.jit import jit
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.simulate.crossing.trigger_levels import MARGIN
 from texvent.simulate.fused.bounds import (
+    BoundedPair,
     CrossingCandidates,
     Float32Array,
     Int64Array,
-    LumaBounds,
-    PairArrays,
-    PreparedPair,
     ReferenceLevels,
     bound_paths,
-    find_reach,
     list_active,
 )
 from texvent.simulate.kernels.active_pixels import grown
@@ -45,8 +42,8 @@ Decided = TypeVar("Decided")
 
 def find_bounds(
     motion: MotionInterpolation, levels: Callable[[], ReferenceLevels]
-) -> LumaBounds | None:
-    """Luma bounds of a pair, if evaluating single pixels costs less than drawing its frames.
+) -> BoundedPair | None:
+    """A pair with bounds of its luma, if evaluating single pixels costs less than drawing it.
 
     Args:
         motion: of the pixels between the two frames.
@@ -59,18 +56,12 @@ def find_bounds(
     """
     if motion.flows is None:
         return None
-    arrays = arrays_of(motion)
-    bounds: LumaBounds = bound_paths(motion.prepared, arrays)
-    share = estimate_active(arrays, levels(), bounds)
-    return bounds if share < BUSY else None
+    bounded = BoundedPair(motion.prepared, *bound_paths(motion.prepared))
+    return bounded if estimate_active(bounded, levels()) < BUSY else None
 
 
 def map_candidates(
-    decide: Callable[[CrossingCandidates], Decided],
-    motion: MotionInterpolation,
-    *,
-    levels: ReferenceLevels,
-    bounds: LumaBounds,
+    decide: Callable[[CrossingCandidates], Decided], levels: ReferenceLevels, bounded: BoundedPair
 ) -> list[Decided]:
     """The results of a function for the candidates of each band of rows, from the top.
 
@@ -78,18 +69,15 @@ def map_candidates(
 
     Args:
         decide: called in threads, so it must change the pixels of its candidates only.
-        motion: of the pixels between the two frames; with flow.
         levels: what pixels are compared with.
-        bounds: of `find_bounds`.
+        bounded: of `find_bounds`.
     """
-    arrays = arrays_of(motion)
-    prepared = PreparedPair(motion.prepared, bounds)
 
     def decide_band(rows: tuple[int, int]) -> Decided:
-        return decide(find_in_rows(arrays, levels, prepared, rows))
+        return decide(find_in_rows(bounded, levels, rows))
 
-    height = len(arrays.earlier)
-    number = max(count_threads(), math.ceil(arrays.earlier.size / BAND_PIXELS))
+    height, width = bounded.pair.first.shape
+    number = max(count_threads(), math.ceil(height * width / BAND_PIXELS))
     step = math.ceil(height / number)
     return run_parts(
         decide_band, [(row, min(row + step, height)) for row in range(0, height, step)]
@@ -110,14 +98,6 @@ def warp_pixels(motion: MotionInterpolation, index: int, pixel: Int64Array) -> F
     return warped
 
 
-def arrays_of(motion: MotionInterpolation) -> PairArrays:
-    """The arrays of a pair with flow, as kernels take them for bounds."""
-    if motion.flows is None:
-        raise ValueError("the frames of the pair are blended, and no pixel moves")
-    reach = find_reach(*motion.flows, motion.prepared.sweep)
-    return PairArrays(motion.earlier, motion.later, reach)
-
-
 Columns = tuple[
     NDArray[np.int64],
     NDArray[np.int16],
@@ -133,38 +113,38 @@ the next row whose number is a multiple of `PROBE`."""
 
 
 @jit
-def estimate_active(arrays: PairArrays, levels: ReferenceLevels, bounds: LumaBounds) -> float:
+def estimate_active(bounded: BoundedPair, levels: ReferenceLevels) -> float:
     """Share of the pixels that may fire, 0..1, by every `SAMPLE`-th row."""
-    height, width = arrays.earlier.shape
+    height, width = bounded.pair.first.shape
     active = np.empty(width, np.int64)
     number, rows = 0, 0
     for row in range(min(SAMPLE // 2, height - 1), height, SAMPLE):
-        number += list_active(arrays, levels, bounds, row, active)
+        number += list_active(bounded, levels, row, active)
         rows += 1
     share: float = number / (rows * width)
     return share
 
 
 def find_in_rows(
-    arrays: PairArrays, levels: ReferenceLevels, prepared: PreparedPair, rows: tuple[int, int]
+    bounded: BoundedPair, levels: ReferenceLevels, rows: tuple[int, int]
 ) -> CrossingCandidates:
     """The candidates of some rows; threads may compute different rows at the same time.
 
     Args:
-        arrays: the pair.
+        bounded: the pair.
         levels: what pixels are compared with.
-        prepared: the pair prepared, and its `find_bounds`.
         rows: first row, and the one after the last.
     """
-    found, columns = _find(arrays, levels, prepared, rows)
+    found, columns = _find(bounded, levels, rows)
     return CrossingCandidates(*columns).take(slice(found))
 
 
 @jit
 def _find(
-    arrays: PairArrays, levels: ReferenceLevels, prepared: PreparedPair, rows: tuple[int, int]
+    bounded: BoundedPair, levels: ReferenceLevels, rows: tuple[int, int]
 ) -> tuple[int, Columns]:
-    width, parts = arrays.earlier.shape[1], prepared.pair.positions.size + 1
+    pair = bounded.pair
+    width, parts = pair.first.shape[1], pair.positions.size + 1
     found, columns = 0, _columns(FIRST_ROOM)
     room, warped = make_room(POINTS + width), np.empty(FIRST_ROOM, np.float32)
     memory = np.empty((2, POINTS + width), np.int64)
@@ -174,7 +154,7 @@ def _find(
         while row < rows[1] and filled < POINTS:
             # Where nearly all pixels may fire, the bounds of each are not worth computing.
             if number <= BUSY_ROW * width or row % PROBE == 0:
-                number = list_active(arrays, levels, prepared.bounds, row, memory[1])
+                number = list_active(bounded, levels, row, memory[1])
             else:
                 number = _list_all(memory[1, :width])
             for k in range(number):
@@ -188,8 +168,8 @@ def _find(
         if found + size > columns[0].size:
             columns = _grown(columns, size)
         lumas = warped[:size].reshape(parts, filled)
-        _warp_active(prepared.pair, active, room, lumas)
-        found = _list_candidates(arrays, levels, active, lumas, (columns, found))
+        _warp_active(pair, active, room, lumas)
+        found = _list_candidates(pair.first, levels, active, lumas, (columns, found))
     return found, columns
 
 
@@ -213,14 +193,19 @@ def _warp_active(
 
 @jit
 def _list_candidates(
-    arrays: PairArrays,
+    first: Float32Array,
     levels: ReferenceLevels,
     active: NDArray[np.int64],
     lumas: NDArray[np.float32],
     out: tuple[Columns, int],
 ) -> int:
     """List the candidates among some pixels behind those found; return how many there are."""
-    earlier = arrays.earlier.reshape(-1)
+    earlier = first.reshape(-1)
+    lowest, highest = lumas[0].copy(), lumas[0].copy()
+    for j in range(1, len(lumas)):
+        now = lumas[j]
+        for k in range(active.size):
+            lowest[k], highest[k] = min(lowest[k], now[k]), max(highest[k], now[k])
     reference, balance, up, down, is_step = levels
     references = reference.reshape(-1)
     (pixel, segment, befores, nows), found = out
@@ -229,6 +214,8 @@ def _list_candidates(
         before = earlier[i]
         level = references[i] if references.size else np.float64(before) + balance
         above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
+        if highest[k] + balance < above and lowest[k] + balance > below:
+            continue
         is_open: bool | np.bool_ = False
         for j in range(len(lumas)):
             now = lumas[j, k]

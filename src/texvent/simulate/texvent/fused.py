@@ -18,9 +18,9 @@ from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.crossing.trigger_levels import trigger_factors
 from texvent.simulate.fused.bounds import (
+    BoundedPair,
     CrossingCandidates,
     Int64Array,
-    LumaBounds,
     ReferenceLevels,
 )
 from texvent.simulate.fused.candidates import find_bounds, map_candidates, warp_pixels
@@ -52,8 +52,8 @@ class FusedPass:
         self._keeps_start = config.timestamp_rule == "linear"
         self._scratch: Float64Array = np.empty(0)
 
-    def find_bounds(self, pair: FramePair, memory: Memory | None) -> LumaBounds | None:
-        """Luma bounds if the pair is better computed without drawing its frames, else None.
+    def find_bounds(self, pair: FramePair, memory: Memory | None) -> BoundedPair | None:
+        """The pair with its bounds if it is better computed without drawing its frames, else None.
 
         Args:
             pair: not the first of a stream.
@@ -62,7 +62,7 @@ class FusedPass:
         return find_bounds(pair.motion, functools.partial(self._levels, pair, memory))
 
     def packets(
-        self, pair: FramePair, memory: Memory | None, bounds: LumaBounds
+        self, pair: FramePair, memory: Memory | None, bounds: BoundedPair
     ) -> Iterator[tuple[Frame, EventStream]]:
         """Every frame of a pair, undrawn, with the packet of events that ends at it.
 
@@ -77,7 +77,7 @@ class FusedPass:
         decide = functools.partial(
             self._decide, earlier=motion.earlier.reshape(-1), memory=memory, parts=len(motion) + 1
         )
-        bands = map_candidates(decide, motion, levels=self._levels(pair, memory), bounds=bounds)
+        bands = map_candidates(decide, self._levels(pair, memory), bounds)
         return self._timestamp(pair, list(zip(*bands, strict=True)), edges_us)
 
     def _timestamp(
