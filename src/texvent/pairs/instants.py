@@ -14,11 +14,6 @@ def position(first: Frame, second: Frame, t_us: int) -> float:
     return (t_us - first.t_us) / (second.t_us - first.t_us)
 
 
-def float_luma(frame: Frame) -> NDArray[np.float32]:
-    """Luma of a frame as float32, [H, W], 0..255 scale; 8-bit levels convert exactly."""
-    return np.ascontiguousarray(frame.luma, dtype=np.float32)
-
-
 def matching_luma(frame: Frame) -> PixelArray:
     """Luma as flow and scene changes are found in: `matching_levels` of it."""
     return matching_levels(frame.luma, frame.transfer)

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.pairs.instants import float_luma, position
+from texvent.pairs.instants import position
 from texvent.runtime.kernel_arrays import read_only
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
@@ -60,7 +60,7 @@ class MotionInterpolation:
     ) -> MotionInterpolation:
         """Intermediate frames at some times between two source frames."""
         places = [position(first, second, t_us) for t_us in times_us]
-        levels = float_luma(first), float_luma(second)
+        levels = first.float_luma, second.float_luma
         return cls(*levels, flows, tuple(times_us), places, first.transfer)
 
     @property

@@ -9,8 +9,7 @@ pixels around the place. Beyond its edges an image goes on straight.
 Source: the piecewise parabolic interpolator of Erup, Gardner and Harris (IEEE Transactions on
     Communications 41, 1993) with α = 1/4. The sum of both axes and the limit are ours.
 
-Gathering pixels is what costs time: it takes no vector instructions. So two neighbours are loaded
-together, as a word of two float32.
+Gathering pixels is what costs time, so neighbours are copied together.
 """
 
 from __future__ import annotations
@@ -33,7 +32,7 @@ Words = NDArray[np.uint64]
 BEFORE, AFTER = 1, 2
 """Pixels that a widened image has before the first and after the last one, along each axis."""
 _0, _QUARTER, _1 = np.float32(0.0), np.float32(0.25), np.float32(1.0)
-_ONE = np.uint64(1)
+_ONE, _FOUR = np.uint64(1), np.uint64(4)
 
 
 class Samples(NamedTuple):
@@ -56,18 +55,16 @@ class Samples(NamedTuple):
 
 
 class Corners(NamedTuple):
-    """Scratch memory: pixels p0 to p3 of four rows around the places, as words; [n]."""
+    """Scratch memory: pixels p1 and p2, or p0 to p3, of four rows around the places; flat."""
 
-    above: Words
-    """p1 and p2."""
-    upper_left: Words
-    """p0 and p1."""
-    upper_right: Words
-    """p2 and p3."""
-    lower_left: Words
-    lower_right: Words
-    below: Words
-    """p1 and p2."""
+    above: Floats
+    """[2 · n]"""
+    upper: Floats
+    """[4 · n]"""
+    lower: Floats
+    """[4 · n]"""
+    below: Floats
+    """[2 · n]"""
 
 
 @jit(error_model="numpy", inner=True)
@@ -88,12 +85,10 @@ def make_samples(room: int) -> Samples:
 def make_corners(room: int) -> Corners:
     """Scratch memory for `room` points."""
     return Corners(
-        np.empty(room, np.uint64),
-        np.empty(room, np.uint64),
-        np.empty(room, np.uint64),
-        np.empty(room, np.uint64),
-        np.empty(room, np.uint64),
-        np.empty(room, np.uint64),
+        np.empty(2 * room, np.float32),
+        np.empty(4 * room, np.float32),
+        np.empty(4 * room, np.float32),
+        np.empty(2 * room, np.float32),
     )
 
 
@@ -120,21 +115,30 @@ def widen(image: Floats) -> Floats:
     return wide.reshape(-1)
 
 
-def _load_pair(typing_context: Any, image: Any, index: Any) -> Any:
-    """Two neighbours of a flat float32 image as one uint64, from an index that may be odd."""
-    del typing_context
+def _copier(count: int) -> Any:
+    """A function for other compiled kernels that copies `count` neighbours at once."""
 
-    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
-        data = context.make_array(signature.args[0])(context, builder, arguments[0]).data
-        place = builder.bitcast(builder.gep(data, [arguments[1]]), ir.IntType(64).as_pointer())
-        word = builder.load(place)
-        word.align = 4
-        return word
+    def copy(typing_context: Any, image: Any, index: Any, out: Any, place: Any) -> Any:
+        del typing_context
 
-    return types.uint64(image, index), generate
+        def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
+            kind = ir.VectorType(ir.FloatType(), count).as_pointer()
+            start, stop = (
+                builder.bitcast(builder.gep(array.data, [arguments[k + 1]]), kind)
+                for k in (0, 2)
+                for array in [context.make_array(signature.args[k])(context, builder, arguments[k])]
+            )
+            row = builder.load(start)
+            row.align = 4
+            builder.store(row, stop).align = 4
+            return context.get_dummy_value()
+
+        return types.void(image, index, out, place), generate
+
+    return intrinsic(copy)
 
 
-load_pair: Any = intrinsic(_load_pair)
+copy_two, copy_four = _copier(2), _copier(4)
 
 
 @jit(error_model="numpy", inner=True)
@@ -160,36 +164,32 @@ def sample(
 
 @jit(error_model="numpy", inner=True)
 def _gather(image: Floats, corner: Numbers, number: int, width: int, out: Corners) -> None:
-    above, upper_left, upper_right, lower_left, lower_right, below = out
+    above, upper, lower, below = out
+    wide = np.uint64(width)
     for k in range(number):
         # Unsigned, or Numba allows for negative indices.
-        here = np.uint64(corner[k])
-        above[k] = load_pair(image, here - np.uint64(width))
-        upper_left[k] = load_pair(image, here - _ONE)
-        upper_right[k] = load_pair(image, here + _ONE)
-    for k in range(number):
-        here = np.uint64(corner[k] + width)
-        lower_left[k] = load_pair(image, here - _ONE)
-        lower_right[k] = load_pair(image, here + _ONE)
-        below[k] = load_pair(image, here + np.uint64(width))
+        here, first = np.uint64(corner[k]), np.uint64(k)
+        copy_two(image, here - wide, above, first + first)
+        copy_four(image, here - _ONE, upper, _FOUR * first)
+        here += wide
+        copy_four(image, here - _ONE, lower, _FOUR * first)
+        copy_two(image, here + wide, below, first + first)
 
 
 @jit(error_model="numpy", inner=True)
 def _mix_corners(corners: Corners, number: int, samples: Samples) -> None:
     us, vs, value = samples.u, samples.v, samples.value
-    above, below = corners.above.view(np.float32), corners.below.view(np.float32)
-    upper_1, upper_2 = corners.upper_left.view(np.float32), corners.upper_right.view(np.float32)
-    lower_1, lower_2 = corners.lower_left.view(np.float32), corners.lower_right.view(np.float32)
+    above, upper, lower, below = corners
     for k in range(number):
         u, v = us[k], vs[k]
-        a, b, c, d = upper_1[2 * k + 1], upper_2[2 * k], lower_1[2 * k + 1], lower_2[2 * k]
+        a, b, c, d = upper[4 * k + 1], upper[4 * k + 2], lower[4 * k + 1], lower[4 * k + 2]
         over, under = a + (b - a) * u, c + (d - c) * u
         straight = over + (under - over) * v
-        upper = _QUARTER * ((upper_1[2 * k] - a) + (upper_2[2 * k + 1] - b))
-        lower = _QUARTER * ((lower_1[2 * k] - c) + (lower_2[2 * k + 1] - d))
+        top = _QUARTER * ((upper[4 * k] - a) + (upper[4 * k + 3] - b))
+        bottom = _QUARTER * ((lower[4 * k] - c) + (lower[4 * k + 3] - d))
         left = _QUARTER * ((above[2 * k] - a) + (below[2 * k] - c))
         right = _QUARTER * ((above[2 * k + 1] - b) + (below[2 * k + 1] - d))
-        along, across = upper + (lower - upper) * v, left + (right - left) * u
+        along, across = top + (bottom - top) * v, left + (right - left) * u
         bent = straight - (u * (_1 - u) * along + v * (_1 - v) * across)
         least, most = min(min(a, b), min(c, d)), max(max(a, b), max(c, d))
         value[k] = min(max(bent, least), most)

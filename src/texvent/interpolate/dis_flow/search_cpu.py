@@ -60,20 +60,22 @@ def search(start: Floats, stop: Floats, flow: Floats, step: int, is_coarsest: bo
             )
             if is_coarsest:
                 own = _search_integer(level, target, shape, here)
-            found[row, column, 0], found[row, column, 1] = own
-            _, found[row, column, 2], _, _ = _compare(level, target, shape, here, own)
-            if found[row, column, 2] > _EXPLAINED:
-                _sum_slopes(level, target, shape, here, slopes[row, column])
-                _propagate(level, target, shape, here, found, (row, column, -1))
-                _gauss_newton(level, target, shape, here, own, slopes[row, column], found[row, column])
+            sums = _compare(level, target, shape, here, own)
+            patch, known = found[row, column], slopes[row, column]
+            patch[0], patch[1], patch[2] = own[0], own[1], sums[1]
+            if sums[1] > _EXPLAINED:
+                _sum_slopes(level, target, shape, here, known)
+                sums = _propagate(level, target, shape, here, sums, found, (row, column, -1))
+                _gauss_newton(level, target, shape, here, sums, own, known, patch)
     for row in range(down - 1, -1, -1):
         for column in range(across - 1, -1, -1):
             here, patch = (row * step, column * step), found[row, column]
-            own = patch[0], patch[1]
             if patch[2] <= _EXPLAINED:
                 continue
-            if _propagate(level, target, shape, here, found, (row, column, 1)):
-                _gauss_newton(level, target, shape, here, own, slopes[row, column], patch)
+            own, cost = (patch[0], patch[1]), patch[2]
+            sums = _propagate(level, target, shape, here, (_0, cost, _0, _0), found, (row, column, 1))
+            if sums[1] < cost:
+                _gauss_newton(level, target, shape, here, sums, own, slopes[row, column], patch)
     return found
 
 
@@ -153,9 +155,10 @@ def _propagate(
     target: Floats,
     shape: tuple[int, int],
     here: tuple[int, int],
+    sums: Sums,
     found: Floats,
     patch: tuple[int, int, int],
-) -> bool:
+) -> Sums:
     """Give a patch the flow of a neighbour, beside it or above or below, if it fits better.
 
     Args:
@@ -163,14 +166,15 @@ def _propagate(
         target: the other image, flat.
         shape: of both, with margins.
         here: row and column of the patch's first pixel.
+        sums: of `_compare` with its own flow.
         found: of all patches.
         patch: row and column in `found`, and the direction of its neighbours, −1 or 1.
 
     Returns:
-        Whether its flow has changed.
+        The sums with the flow that it has now.
     """
     row, column, direction = patch
-    own, is_better = found[row, column], False
+    own = found[row, column]
     for turn in range(2):
         i, j = (row, column + direction) if turn == 0 else (row + direction, column)
         if i < 0 or j < 0 or i >= found.shape[0] or j >= found.shape[1]:
@@ -178,11 +182,11 @@ def _propagate(
         u, v = found[i, j, 0], found[i, j, 1]
         if abs(u - own[0]) + abs(v - own[1]) < _SAME_FLOW:
             continue
-        _, cost, _, _ = _compare(level, target, shape, here, (u, v))
-        if cost < own[2]:
-            own[0], own[1], own[2] = u, v, cost
-            is_better = True
-    return is_better
+        other = _compare(level, target, shape, here, (u, v))
+        if other[1] < own[2]:
+            own[0], own[1], own[2] = u, v, other[1]
+            sums = other
+    return sums
 
 
 @jit(error_model="numpy", inner=True)
@@ -191,6 +195,7 @@ def _gauss_newton(
     target: Floats,
     shape: tuple[int, int],
     here: tuple[int, int],
+    sums: Sums,
     begin: Vector,
     known: Floats,
     own: Floats,
@@ -202,6 +207,7 @@ def _gauss_newton(
         target: the other image, flat.
         shape: of both, with margins.
         here: row and column of the patch's first pixel.
+        sums: of `_compare` with its own flow.
         begin: initial flow; the result stays within `MOST_DRIFT` of it.
         known: from `_sum_slopes`.
         own: flow and cost of the patch, changed.
@@ -209,7 +215,7 @@ def _gauss_newton(
     xx, xy, yy, x, y, determinant = known[0], known[1], known[2], known[3], known[4], known[5]
     if not determinant > _LEAST_DETERMINANT:
         return
-    mean, _, sum_x, sum_y = _compare(level, target, shape, here, (own[0], own[1]))
+    mean, _, sum_x, sum_y = sums
     for _ in range(MOST_STEPS):
         sum_x, sum_y = sum_x - mean * x / _AREA, sum_y - mean * y / _AREA
         du = (yy * sum_x - xy * sum_y) / determinant
@@ -244,11 +250,11 @@ def try_vectors(
                 if own[2] > _UNEXPLAINED * _spread_of(level, shape, here) + _NOISE_COST:
                     own[0], own[1], own[2] = u, v, _0
                 continue
-            _, cost, _, _ = _compare(level, target, shape, here, (u, v))
-            if cost < own[2] + _NOISE_COST:
-                own[0], own[1], own[2] = u, v, cost
+            sums = _compare(level, target, shape, here, (u, v))
+            if sums[1] < own[2] + _NOISE_COST:
+                own[0], own[1], own[2] = u, v, sums[1]
                 _sum_slopes(level, target, shape, here, known)
-                _gauss_newton(level, target, shape, here, (u, v), known, own)
+                _gauss_newton(level, target, shape, here, sums, (u, v), known, own)
     return found
 
 

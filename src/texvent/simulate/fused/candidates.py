@@ -105,7 +105,7 @@ Columns = tuple[
     NDArray[np.float32],
 ]
 FIRST_ROOM = 1024
-SAMPLE = 16
+SAMPLE = 32
 """Rows of which `estimate_active` looks at one."""
 BUSY_ROW, PROBE = 0.9, 8
 """After a row of which a larger share than `BUSY_ROW` is active, all pixels are evaluated up to
