@@ -30,7 +30,7 @@ from texvent.simulate.fused.bounds import (
 )
 from texvent.simulate.kernels.active_pixels import grown
 
-BAND_PIXELS = 1 << 16
+BAND_PIXELS = 1 << 18
 """Most pixels that a thread takes at a time: candidates are held band by band."""
 BUSY = 0.65
 """From this share of active pixels on, drawing the frames costs less: each pixel has to be warped
