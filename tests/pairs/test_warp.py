@@ -97,12 +97,12 @@ def test_some_points_of_an_image_are_those_of_the_whole_image():
     rng = np.random.default_rng(7)
     first, second = (rng.uniform(0, 255, (30, 21)).astype(np.float32) for _ in range(2))
     forward = rng.normal(0, 3, (30, 21, 2)).astype(np.float32)
-    pair = warp_cpu.prepare_pair(first, second, forward, -forward)
+    pair = warp_cpu.prepare_pair(first, second, forward, -forward, [0.2, 0.7])
     pixel = np.sort(rng.choice(630, 100, replace=False))
     room, shown = warp_cpu.make_room(pixel.size), np.empty(pixel.size, np.float32)
     warp_cpu.take_points(pair, pixel, room.points)
-    warp_cpu.warp_points(pair, room, pixel.size, 0.7, shown)
-    whole = warp_cpu.warp_pair(pair, np.array([0.2, 0.7]))
+    warp_cpu.warp_points(pair, room, pixel.size, 1, shown)
+    whole = warp_cpu.warp_pair(pair, 0, 2)
     np.testing.assert_array_equal(shown, whole[1].reshape(-1)[pixel])
 
 

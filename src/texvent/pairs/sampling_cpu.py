@@ -4,7 +4,7 @@ Along an axis, between pixels p1 and p2 with p0 and p3 beside them, a sample is 
 parabolas through p0, p1, p2 and through p1, p2, p3: `p1 + u (p2 − p1) − u (1 − u) s`, with the bend
 `s = (p0 − p1 − p2 + p3) / 4`. In two dimensions the bends of both axes, each mixed linearly along
 the other one, are taken off the bilinear sample; the result is limited to the range of the four
-pixels around the place. Beyond its edges an image goes on straight.
+pixels around the place, or two on a line between them. Beyond its edges an image goes on straight.
 
 Source: the piecewise parabolic interpolator of Erup, Gardner and Harris (IEEE Transactions on
     Communications 41, 1993) with α = 1/4. The sum of both axes and the limit are ours.
@@ -191,5 +191,8 @@ def _mix_corners(corners: Corners, number: int, samples: Samples) -> None:
         right = _QUARTER * ((above[2 * k + 1] - b) + (below[2 * k + 1] - d))
         along, across = top + (bottom - top) * v, left + (right - left) * u
         bent = straight - (u * (_1 - u) * along + v * (_1 - v) * across)
+        is_right, is_below = u > _0, v > _0
+        b, d = b if is_right else a, d if is_right else c
+        c, d = c if is_below else a, d if is_below else b
         least, most = min(min(a, b), min(c, d)), max(max(a, b), max(c, d))
         value[k] = min(max(bent, least), most)
