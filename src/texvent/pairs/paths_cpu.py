@@ -207,9 +207,7 @@ def number_contested(forward: Floats, backward: Floats, sweep: Floats, shift: in
 
 
 @jit(inner=True)
-def list_contested(
-    numbers: Numbers, vector: Numbers, number: int, contested: Numbers
-) -> None:
+def list_contested(numbers: Numbers, vector: Numbers, number: int, contested: Numbers) -> None:
     """Fill in how many of some points are contested, then which.
 
     Args:

@@ -204,9 +204,7 @@ def _total(patch: Floats) -> np.float32:
     return np.float32(columns[0] + columns[1])
 
 
-def try_vectors(
-    start: Floats, stop: Floats, patches: Floats, step: int, vectors: Floats
-) -> Floats:
+def try_vectors(start: Floats, stop: Floats, patches: Floats, step: int, vectors: Floats) -> Floats:
     """The patches, each with its vector if that fits no worse than its own flow."""
     found, (height, width) = patches.copy(), size_of(start)
     for i, j in np.ndindex(found.shape[:2]):

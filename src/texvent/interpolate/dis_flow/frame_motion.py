@@ -174,7 +174,8 @@ def vectors_at(motion: Floats, x: Floats, y: Floats) -> Floats:
 def patch_vectors(motion: Floats, level: Floats) -> Floats:
     """Displacement of the middle of each patch, [rows, columns, 2] px."""
     y, x = (
-        np.arange(0, side - PATCH + 1, step_of(level)).astype(np.float32) + np.float32((PATCH - side) / 2)
+        np.arange(0, side - PATCH + 1, step_of(level)).astype(np.float32)
+        + np.float32((PATCH - side) / 2)
         for side in size_of(level)
     )
     return vectors_at(motion, x, y[:, np.newaxis])

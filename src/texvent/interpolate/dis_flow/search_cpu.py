@@ -73,7 +73,9 @@ def search(start: Floats, stop: Floats, flow: Floats, step: int, is_coarsest: bo
             if patch[2] <= _EXPLAINED:
                 continue
             own, cost = (patch[0], patch[1]), patch[2]
-            sums = _propagate(level, target, shape, here, (_0, cost, _0, _0), found, (row, column, 1))
+            sums = _propagate(
+                level, target, shape, here, (_0, cost, _0, _0), found, (row, column, 1)
+            )
             if sums[1] < cost:
                 _gauss_newton(level, target, shape, here, sums, own, slopes[row, column], patch)
     return found
@@ -232,9 +234,7 @@ def _gauss_newton(
 
 
 @jit(error_model="numpy")
-def try_vectors(
-    start: Floats, stop: Floats, patches: Floats, step: int, vectors: Floats
-) -> Floats:
+def try_vectors(start: Floats, stop: Floats, patches: Floats, step: int, vectors: Floats) -> Floats:
     """The patches, each with its vector if that fits no worse than its own flow."""
     found, known = patches.copy(), np.empty(6, np.float32)
     level, target, shape = start.reshape(-1), stop.reshape(-1), start.shape[1:]

@@ -34,6 +34,8 @@ from texvent.simulate.crossing.trigger_levels import MARGIN
 Float32Array: TypeAlias = NDArray[np.float32]
 Float64Array: TypeAlias = NDArray[np.float64]
 Int64Array: TypeAlias = NDArray[np.int64]
+
+
 class BoundedPair(NamedTuple):
     """Two frames and the motion between them, with bounds of what their pixels can reach."""
 
@@ -171,9 +173,7 @@ def make_paths(room: int) -> Paths:
 
 
 @jit
-def _find_extremes(
-    image: Float32Array, shift: int, low: Float32Array, high: Float32Array
-) -> None:
+def _find_extremes(image: Float32Array, shift: int, low: Float32Array, high: Float32Array) -> None:
     """Fill in the darkest and brightest luma of the pixels of each vector."""
     height, width = image.shape
     if shift == 0:
