@@ -16,7 +16,8 @@ of a pixel is between the darkest and the brightest that both frames have within
 
 * Up to 1 px of flow, a sample differs from the pixel itself by less than `|dx|` times the steps to
   its left and right neighbours (in the rows it may touch) plus `|dy|` times those up and down, plus
-  the bends of the cubic sampling along x and y times at most `|dx|`, `|dy|` and 1/4.
+  the bends of the cubic sampling along x and y times at most `|dx|`, `|dy|` and 1/4. A bend is
+  `(p0 − p1 + p3 − p2) / 4`, at most half of the largest step between neighbours.
 * Further out, the extremes around the samples at each intermediate instant, for all the pixels of a
   vector of the flow at once: their samples are as far away, rounded down, as those of the first.
 """
@@ -83,7 +84,7 @@ class CrossingCandidates(NamedTuple):
 
 SLACK = 8.0 * MARGIN
 """Relative margin of trigger levels for rounding."""
-_QUARTER, _1 = np.float32(0.25), np.float32(1.0)
+_QUARTER, _HALF, _1 = np.float32(0.25), np.float32(0.5), np.float32(1.0)
 ROUNDING = np.float32(1e-6)
 """Largest excess of a rounded mean over its terms, as a share of the brightest; ten times the
 error of mixing float32."""
@@ -335,18 +336,15 @@ def _bound_row(
 ) -> None:
     """Fill in bounds of a row: near ones where it reaches at most a pixel, else the path's."""
     width = low.size
-    work = np.empty((6, width), np.float32)
-    dx, dy, room_first, room_second = work[0], work[1], work[2], work[3]
-    least, most = work[4], work[5]
-    turns = np.zeros((2, width + 2), np.float32)
+    work, steps = np.empty((7, width), np.float32), np.zeros((2, width + 3), np.float32)
+    dx, dy, least, most = work[0], work[1], work[2], work[3]
+    room_first, room_second, memory = work[4], work[5], (work[6], steps)
     _spread(reach[0], dx)
     _spread(reach[1], dy)
     _spread(bounds[0], least)
     _spread(bounds[1], most)
-    _find_room(first[1:4], dx, dy, room_first)
-    _find_room(second[1:4], dx, dy, room_second)
-    _add_bends(first, dx, dy, turns, room_first)
-    _add_bends(second, dx, dy, turns, room_second)
+    _find_room(first, dx, dy, memory, room_first)
+    _find_room(second, dx, dy, memory, room_second)
     a, b = first[2], second[2]
     for x in range(width):
         is_near = (dx[x] <= _1) & (dy[x] <= _1)
@@ -370,75 +368,39 @@ def _spread(values: NDArray[np.float32], out: NDArray[np.float32]) -> None:
 
 @jit
 def _find_room(
-    rows: tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]],
-    dx: NDArray[np.float32],
-    dy: NDArray[np.float32],
-    room: NDArray[np.float32],
-) -> None:
-    """Largest difference between a row's pixels and bilinear samples at most (dx, dy) away."""
-    above, here, below = rows
-    last = here.size - 1
-    for x in range(0, last + 1, max(last, 1)):  # the edges
-        left, right = max(x - 1, 0), min(x + 1, last)
-        aside = _step(above[left], above[x], above[right])
-        aside = max(aside, _step(here[left], here[x], here[right]))
-        aside = max(aside, _step(below[left], below[x], below[right]))
-        room[x] = dx[x] * aside + dy[x] * _step(above[x], here[x], below[x])
-    # Arrays that begin where they are read: Numba takes other indices for possibly negative.
-    above_1, here_1, below_1 = above[1:], here[1:], below[1:]
-    above_2, here_2, below_2 = above[2:], here[2:], below[2:]
-    dx, dy, room = dx[1:], dy[1:], room[1:]
-    for x in range(last - 1):
-        aside = _step(above[x], above_1[x], above_2[x])
-        aside = max(aside, _step(here[x], here_1[x], here_2[x]))
-        aside = max(aside, _step(below[x], below_1[x], below_2[x]))
-        room[x] = dx[x] * aside + dy[x] * _step(above_1[x], here_1[x], below_1[x])
-
-
-@jit(inline="always")
-def _step(before: np.float32, here: np.float32, after: np.float32) -> np.float32:
-    """The larger step from a pixel to its neighbours."""
-    return max(abs(before - here), abs(after - here))
-
-
-@jit
-def _add_bends(
     rows: Rows,
     dx: NDArray[np.float32],
     dy: NDArray[np.float32],
-    turns: NDArray[np.float32],
+    memory: tuple[NDArray[np.float32], NDArray[np.float32]],
     room: NDArray[np.float32],
 ) -> None:
-    """Add by how much a sample at most (dx, dy) away differs from the bilinear one, at most.
+    """Largest difference between a row's pixels and samples at most (dx, dy) away.
 
     Args:
         rows: rows of the image, [W] each.
         dx: [W] px.
         dy: [W] px.
-        turns: [2, W + 2] scratch memory; the first and last column are 0.
-        room: [W], added to.
+        memory: scratch memory, [W] and [2, W + 3], 0 at both ends of the latter.
+        room: [W], filled in.
     """
     above_2, above, here, below, below_2 = rows
-    along, across = turns[0, 1:], turns[1, 1:]
-    before_1, before_2, before_3 = above[1:], here[1:], below[1:]
-    after_1, after_2, after_3 = above[2:], here[2:], below[2:]
-    inner = along[1:]
-    for x in range(after_1.size):
-        # By how much the slope changes: at pixels of all three rows, along x.
-        upper = abs((above[x] - before_1[x]) + (after_1[x] - before_1[x]))
-        middle = abs((here[x] - before_2[x]) + (after_2[x] - before_2[x]))
-        lower = abs((below[x] - before_3[x]) + (after_3[x] - before_3[x]))
-        inner[x] = max(max(upper, lower), middle)
+    vertical, steps = memory
+    # From each pixel to the next one, the largest of three rows, from index 2 on.
+    along, down = steps[0, 2:], steps[1, 1:]
+    above_1, here_1, below_1 = above[1:], here[1:], below[1:]
+    for x in range(here.size - 1):
+        upper, lower = abs(above_1[x] - above[x]), abs(below_1[x] - below[x])
+        along[x] = max(max(upper, lower), abs(here_1[x] - here[x]))
     for x in range(here.size):
-        # Along y: in the middle row, plus that above or below.
-        upper = abs((above_2[x] - above[x]) + (here[x] - above[x]))
-        middle = abs((above[x] - here[x]) + (below[x] - here[x]))
-        lower = abs((here[x] - below[x]) + (below_2[x] - below[x]))
-        across[x] = middle + max(upper, lower)
-    left, right = turns[0], along[1:]
-    left_2, right_2 = turns[1], across[1:]
+        vertical[x] = max(abs(above[x] - here[x]), abs(below[x] - here[x]))
+        outer = max(abs(above_2[x] - above[x]), abs(below_2[x] - below[x]))
+        down[x] = max(vertical[x], outer)
+    left_2, left, right, right_2 = steps[0], steps[0, 1:], steps[0, 2:], steps[0, 3:]
+    down_left, down_right = steps[1], steps[1, 2:]
     for x in range(room.size):
-        bend = along[x] + max(left[x], right[x])
-        bend_2 = max(max(left_2[x], right_2[x]), across[x])
-        share, share_2 = min(dx[x], _QUARTER), min(dy[x], _QUARTER)
-        room[x] += _QUARTER * (share * bend + share_2 * bend_2)
+        aside = max(left[x], right[x])
+        # A bend is at most half of the largest step around.
+        bend = max(aside, max(left_2[x], right_2[x]))
+        bend_2 = max(down[x], max(down_left[x], down_right[x]))
+        bent = min(dx[x], _QUARTER) * bend + min(dy[x], _QUARTER) * bend_2
+        room[x] = dx[x] * aside + dy[x] * vertical[x] + _HALF * bent
