@@ -164,7 +164,8 @@ def sample_along(
     parabolas through p0, p1, p2 and through p1, p2, p3: `p1 + u (p2 − p1) − u (1 − u) s`, with the
     bend `s = (p0 − p1 − p2 + p3) / 4`. In two dimensions the bends of both axes, each mixed
     linearly along the other one, are taken off the bilinear sample; the result is limited to the
-    range of the four pixels around the place, or two on a line between them. Beyond its edges an image goes on straight.
+    range of the four pixels around the place, or two on a line between them. Beyond its edges an
+    image goes on straight.
 
     Args:
         image: [H, W].
@@ -244,8 +245,8 @@ def warp_between(
     Args:
         first: the earlier frame, [H, W], intensity.
         second: the later frame, [H, W], intensity.
-        forward: flow from first to second as (x, y), px: [H, W, 2], or half as many rows and columns
-            (rounded up), a vector for each 2×2 px.
+        forward: flow from first to second as (x, y), px: [H, W, 2], or half as many rows and
+            columns (rounded up), a vector for each 2×2 px.
         backward: flow from second to first, the same.
         position: τ, 0 = first, 1 = second.
 

@@ -7,10 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from tests.pairs import reference
+from tests.pairs.test_warp import warp_between
 
-from texvent.pairs import paths_cpu, warp_cpu
+from texvent.pairs import paths_cpu
 
-KERNELS = [reference.warp_between, warp_cpu.warp_between]
+KERNELS = [reference.warp_between, warp_between]
 
 
 def compiled_sweep(forward, backward):
@@ -83,6 +84,4 @@ def test_compiled_paths_equal_their_definition(seed, shape, shift, position):
     np.testing.assert_array_equal(sweep if sweep.size else np.zeros_like(forward), expected)
     images = rng.uniform(0, 255, (2, *shape)).astype(np.float32)
     arguments = *images, forward, backward, position
-    np.testing.assert_array_equal(
-        warp_cpu.warp_between(*arguments), reference.warp_between(*arguments)
-    )
+    np.testing.assert_array_equal(warp_between(*arguments), reference.warp_between(*arguments))

@@ -9,7 +9,13 @@ from tests.pairs import reference
 
 from texvent.pairs import warp_cpu
 
-KERNELS = [reference.warp_between, warp_cpu.warp_between]
+
+def warp_between(*arrays):
+    """One intermediate frame at the last argument, compiled."""
+    return warp_cpu.warp_pair(warp_cpu.prepare_pair(*arrays[:-1], arrays[-1:]), 0, 1)[0]
+
+
+KERNELS = [reference.warp_between, warp_between]
 kernels = pytest.mark.parametrize("warp", KERNELS, ids=["reference", "cpu"])
 
 
@@ -64,7 +70,7 @@ def test_compiled_kernel_is_the_same_with_one_and_two_threads():
     try:
         for count in (1, min(2, numba.config.NUMBA_NUM_THREADS)):
             numba.set_num_threads(count)
-            results.append(warp_cpu.warp_between(first, second, forward, backward, 0.3))
+            results.append(warp_between(first, second, forward, backward, 0.3))
     finally:
         numba.set_num_threads(threads)
     np.testing.assert_array_equal(*results)
@@ -108,6 +114,6 @@ def test_some_points_of_an_image_are_those_of_the_whole_image():
 
 def test_a_flow_that_is_no_number_does_no_harm():
     frame, flow = np.full((4, 5), 7, np.float32), constant_flow((4, 5), np.nan)
-    assert warp_cpu.warp_between(frame, frame, flow, flow, 0.5).shape == (4, 5)
+    assert warp_between(frame, frame, flow, flow, 0.5).shape == (4, 5)
     flow = constant_flow((4, 5), 1e30)
-    np.testing.assert_array_equal(warp_cpu.warp_between(frame, frame, flow, flow, 0.5), frame)
+    np.testing.assert_array_equal(warp_between(frame, frame, flow, flow, 0.5), frame)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.transfer import WHITE, Transfer, encode_srgb
 from texvent.video import Frame, PixelArray

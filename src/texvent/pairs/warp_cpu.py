@@ -115,31 +115,19 @@ class Room(NamedTuple):
     corners: Corners
 
 
-def warp_between(
-    first: Floats, second: Floats, forward: Floats, backward: Floats, position: float
-) -> Floats:
-    """The frame at `position` between two frames whose motion is known.
-
-    Args:
-        first: the earlier frame, [H, W] float32, intensity.
-        second: the later frame, [H, W] float32, intensity.
-        forward: flow from first to second, float32 as (x, y), px: [H, W, 2], or half as many rows
-            and columns (rounded up).
-        backward: flow from second to first, the same.
-        position: τ, 0 = first, 1 = second.
-
-    Returns:
-        [H, W] float32, intensity.
-    """
-    pair = prepare_pair(first, second, forward, backward, [position])
-    image: Floats = warp_pair(pair, 0, 1)[0]
-    return image
-
-
 def prepare_pair(
     first: Floats, second: Floats, forward: Floats, backward: Floats, positions: Sequence[float]
 ) -> WarpPair:
-    """Prepare what the intermediate frames of a pair share; see `warp_between`."""
+    """Prepare what the intermediate frames of a pair share.
+
+    Args:
+        first: the earlier frame, [H, W] float32, intensity.
+        second: the later frame, the same.
+        forward: flow from first to second, float32 as (x, y), px: [H, W, 2], or half as many rows
+            and columns (rounded up).
+        backward: flow from second to first, the same.
+        positions: τ of the intermediate frames, 0 = first, 1 = second.
+    """
     # Read-only throughout, because Numba compiles for each kind of array again.
     frames = [read_only(first), read_only(second)]
     wide = [read_only(widen(frame)) for frame in frames]
@@ -150,12 +138,15 @@ def prepare_pair(
     sweep = read_only(find_sweep(ahead, back, shift))
     contested = read_only(number_contested(ahead, back, sweep, shift))
     chosen = read_only(choose_paths((ahead, back), sweep, shift, contested, places))
-    return WarpPair(*frames, *wide, *words, columns, shift, sweep, contested, places, chosen)
+    return WarpPair(
+        *(frames[0], frames[1], wide[0], wide[1], words[0], words[1]),
+        *(columns, shift, sweep, contested, places, chosen),
+    )
 
 
 @jit(nogil=False, parallel=True)
 def warp_pair(pair: WarpPair, start: int, stop: int) -> Floats:
-    """Intermediate frames of a pair from number `start` up to `stop`: [n, H, W]; see `warp_between`.
+    """Intermediate frames of a pair from number `start` up to `stop`: [n, H, W] intensity.
 
     Some rows of all of them are computed together, while their data is in the nearest caches.
     """

@@ -12,8 +12,9 @@ level of an image pyramid, from the coarsest to half size:
    patch that it takes out of the view follows it if it was not found elsewhere.
 2. *Join.* The flow of a pixel is the weighted mean over the patches that contain it; those that
    fit the pixel better count more.
-3. *Refine*, except on large levels. One linearisation of brightness constancy with an edge-preserving smoothness term,
-   solved by a few sweeps of red-black over-relaxation (after Brox et al., 2004).
+3. *Refine*, except on large levels. One linearisation of brightness constancy with an
+   edge-preserving smoothness term, solved by a few sweeps of red-black over-relaxation (after Brox
+   et al., 2004).
 
 A *level* is [3, H + 32, W + 32] float32: an image with `MARGIN` repeated pixels at each edge, then
 its slopes to the right and downwards, levels per px. Flow is planar here: [2, H, W] float32, x

@@ -39,8 +39,8 @@ from texvent.runtime.memory import keep_freed_memory
 FlowArray = NDArray[np.float32]
 
 SMALL_SIDE_PX = 100
-"""Frames with a shorter side than this have a vector for each pixel, others for each 2×2: patches of
-8×8 px on half-size images are coarse for a small frame."""
+"""Frames with a shorter side than this have a vector for each pixel, others for each 2×2: patches
+of 8×8 px on half-size images are coarse for a small frame."""
 LEAST_SIDE_PX = 2 * PATCH
 """Smaller frames are padded to this side by repeating their edges."""
 MOTION_SIDE_PX = 400

@@ -18,7 +18,7 @@ of a pixel is between the darkest and the brightest that both frames have within
   its left and right neighbours (in the rows it may touch) plus `|dy|` times those up and down, plus
   the bends of the cubic sampling along x and y times at most `|dx|`, `|dy|` and 1/4. A bend is
   `(p0 − p1 + p3 − p2) / 4`, at most half of the largest step between neighbours.
-* Further out, the extremes around the samples at each intermediate instant, for all the pixels of a
+* Further out, the extremes around the samples at each intermediate instant, for all pixels of a
   vector of the flow at once: their samples are as far away, rounded down, as those of the first.
 """
 
@@ -109,7 +109,7 @@ def bound_paths(pair: Any) -> tuple[Float32Array, Float32Array]:
     _find_extremes(pair.first, pair.shift, first[0], first[1])
     _find_extremes(pair.second, pair.shift, second[0], second[1])
     words = _with_next(first[0], first[1]), _with_next(second[0], second[1])
-    paths = make_paths(width)
+    column = np.empty(width, np.int64)
     for y in range(reach.shape[1]):
         along, down, low, high = reach[0, y], reach[1, y], bounds[0, y], bounds[1, y]
         for x in range(width):
@@ -117,10 +117,10 @@ def bound_paths(pair: Any) -> tuple[Float32Array, Float32Array]:
             high[x] = max(first[1, y, x], second[1, y, x])
         number = 0
         for x in range(width):
-            paths.column[number] = x
+            column[number] = x
             number += not ((along[x] <= _1) & (down[x] <= _1))
         if number:
-            _follow_paths(pair, words, y, number, paths, low, high)
+            _follow_paths(pair, words, y, column[:number], low, high)
     return reach, bounds
 
 
@@ -142,35 +142,6 @@ def _find_reach(pair: Any) -> Float32Array:
                 along[x] = max(along[x], abs(swept[2 * x]))
                 down[x] = max(down[x], abs(swept[2 * x + 1]))
     return reach
-
-
-class Paths(NamedTuple):
-    """Vectors of a row, and scratch memory; [n]."""
-
-    column: Int64Array
-    contested: NDArray[np.int32]
-    """Their number in `WarpPair.chosen`, from 1, or 0."""
-    vector: Float32Array
-    """[4, n] forward flow along x and y; its sum with the backward flow."""
-    path: Float32Array
-    """[2, n] at an instant, px."""
-    place: Int64Array
-    """Flat index of the vector that the first pixel's sample is at."""
-    found: NDArray[np.uint64]
-    """Extremes there."""
-
-
-@jit
-def make_paths(room: int) -> Paths:
-    """Room for some vectors."""
-    return Paths(
-        np.empty(room, np.int64),
-        np.empty(room, np.int32),
-        np.empty((4, room), np.float32),
-        np.empty((2, room), np.float32),
-        np.empty(room, np.int64),
-        np.empty(room, np.uint64),
-    )
 
 
 @jit
@@ -214,57 +185,53 @@ def _follow_paths(
     pair: Any,
     words: tuple[NDArray[np.uint64], NDArray[np.uint64]],
     row: int,
-    number: int,
-    paths: Paths,
+    column: Int64Array,
     low: Float32Array,
     high: Float32Array,
 ) -> None:
-    """Extend the extremes of some vectors of a row by those around their samples."""
-    column, contested, vector, path, _, found = paths
-    forward, backward = pair.forward.view(np.float32), pair.backward.view(np.float32)
-    start, is_any = row * pair.columns, False
-    for k in range(number):
-        i = start + column[k]
-        contested[k] = pair.contested[i] if pair.contested.size else 0
-        is_any |= contested[k] > 0
-        for axis in range(2):
-            vector[axis, k] = forward[2 * i + axis]
-            vector[axis + 2, k] = forward[2 * i + axis] + backward[2 * i + axis]
+    """Extend the extremes of some vectors of a row, [n], by those around their samples."""
+    path = np.empty((2, column.size), np.float32)
+    place, found = np.empty(column.size, np.int64), np.empty(column.size, np.uint64)
     values = found.view(np.float32)
     for index in range(pair.positions.size):
-        position = pair.positions[index]
-        for axis in range(2):
-            ahead, error, out = vector[axis], vector[axis + 2], path[axis]
-            for k in range(number):
-                out[k] = ahead[k] - position * error[k]
-        if is_any:
-            for k in range(number):
-                if contested[k]:
-                    path[0, k], path[1, k] = pair.chosen[index, contested[k] - 1]
+        _take_paths(pair, row, column, index, path)
         for side in range(2):
-            share = -position if side == 0 else _1 - position
-            _look_up(pair, words[side], row, number, share, paths)
-            for k in range(number):
+            share = -pair.positions[index] if side == 0 else _1 - pair.positions[index]
+            _find_places(pair, row, column, share * path, place)
+            for k in range(column.size):
+                found[k] = words[side][np.uint64(place[k])]
+            for k in range(column.size):
                 x = column[k]
                 low[x], high[x] = min(low[x], values[2 * k]), max(high[x], values[2 * k + 1])
 
 
 @jit(error_model="numpy", inner=True)
-def _look_up(
-    pair: Any, words: NDArray[np.uint64], row: int, number: int, share: np.float32, paths: Paths
+def _take_paths(pair: Any, row: int, column: Int64Array, index: int, path: Float32Array) -> None:
+    """Set the paths of some vectors at an instant, [2, n] px, as `warp_cpu` takes them."""
+    forward, backward = pair.forward.view(np.float32), pair.backward.view(np.float32)
+    position, start = pair.positions[index], row * pair.columns
+    for k in range(column.size):
+        i = np.uint64(start + column[k])
+        for axis in range(2):
+            j = i + i + np.uint64(axis)
+            path[axis, k] = forward[j] - position * (forward[j] + backward[j])
+        if pair.contested.size and pair.contested[i]:
+            path[0, k], path[1, k] = pair.chosen[index, pair.contested[i] - 1]
+
+
+@jit(error_model="numpy", inner=True)
+def _find_places(
+    pair: Any, row: int, column: Int64Array, shift_px: Float32Array, place: Int64Array
 ) -> None:
-    """Set the extremes around the samples of the paths, as `warp_cpu` places them."""
-    column, _, _, path, place, found = paths
-    along, down = path[0], path[1]
+    """Find the vectors that samples of the first pixels of some are at, as `warp_cpu` does."""
+    along, down = shift_px[0], shift_px[1]
     shift, columns, y = pair.shift, pair.columns, np.float32(row << pair.shift)
     last_column, last_row = np.float32(pair.first.shape[1] - 1), np.float32(len(pair.first) - 1)
-    for k in range(number):
+    for k in range(column.size):
         x = np.float32(column[k] << shift)
-        to_x = x + np.floor(min(max(-x, share * along[k]), last_column - x))
-        to_y = y + np.floor(min(max(-y, share * down[k]), last_row - y))
+        to_x = x + np.floor(min(max(-x, along[k]), last_column - x))
+        to_y = y + np.floor(min(max(-y, down[k]), last_row - y))
         place[k] = (np.int64(to_y) >> shift) * columns + (np.int64(to_x) >> shift)
-    for k in range(number):
-        found[k] = words[np.uint64(place[k])]
 
 
 @jit

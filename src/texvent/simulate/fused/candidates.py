@@ -32,36 +32,18 @@ from texvent.simulate.kernels.active_pixels import grown
 
 BAND_PIXELS = 1 << 18
 """Most pixels that a thread takes at a time: candidates are held band by band."""
-BUSY = 0.65
-"""From this share of active pixels on, drawing the frames costs less: each pixel has to be warped
-at each instant either way, scanning whole frames is faster than evaluating pixels one by one, and
-no list of candidates has to be held (docs/design.md has the measurements)."""
-
 Decided = TypeVar("Decided")
 
 
-def find_bounds(
-    motion: MotionInterpolation, levels: Callable[[], ReferenceLevels]
-) -> BoundedPair | None:
-    """A pair with bounds of its luma, if evaluating single pixels costs less than drawing it.
-
-    Args:
-        motion: of the pixels between the two frames.
-        levels: gives what the pixels are compared with; not called where it makes no difference.
-
-    Returns:
-        What `map_candidates` takes; None where drawing costs less: a share of `BUSY` or more of
-        the pixels, estimated from a sample of rows, may fire; or nothing moves, so that a frame
-        costs next to nothing.
-    """
-    if motion.flows is None:
-        return None
-    bounded = BoundedPair(motion.prepared, *bound_paths(motion.prepared))
-    return bounded if estimate_active(bounded, levels()) < BUSY else None
+def bound_pair(motion: MotionInterpolation) -> BoundedPair:
+    """A pair with flow, with bounds of its luma."""
+    return BoundedPair(motion.prepared, *bound_paths(motion.prepared))
 
 
 def map_candidates(
-    decide: Callable[[CrossingCandidates], Decided], levels: ReferenceLevels, bounded: BoundedPair
+    decide: Callable[[CrossingCandidates], Decided],
+    levels: ReferenceLevels,
+    motion: MotionInterpolation,
 ) -> list[Decided]:
     """The results of a function for the candidates of each band of rows, from the top.
 
@@ -70,14 +52,15 @@ def map_candidates(
     Args:
         decide: called in threads, so it must change the pixels of its candidates only.
         levels: what pixels are compared with.
-        bounded: of `find_bounds`.
+        motion: of the pixels between the two frames; with flow.
     """
+    bounded = bound_pair(motion)
 
     def decide_band(rows: tuple[int, int]) -> Decided:
         return decide(find_in_rows(bounded, levels, rows))
 
-    height, width = bounded.pair.first.shape
-    number = max(count_threads(), math.ceil(height * width / BAND_PIXELS))
+    height = len(motion.earlier)
+    number = max(count_threads(), math.ceil(motion.earlier.size / BAND_PIXELS))
     step = math.ceil(height / number)
     return run_parts(
         decide_band, [(row, min(row + step, height)) for row in range(0, height, step)]
@@ -105,24 +88,6 @@ Columns = tuple[
     NDArray[np.float32],
 ]
 FIRST_ROOM = 1024
-SAMPLE = 32
-"""Rows of which `estimate_active` looks at one."""
-BUSY_ROW, PROBE = 0.9, 8
-"""After a row of which a larger share than `BUSY_ROW` is active, all pixels are evaluated up to
-the next row whose number is a multiple of `PROBE`."""
-
-
-@jit
-def estimate_active(bounded: BoundedPair, levels: ReferenceLevels) -> float:
-    """Share of the pixels that may fire, 0..1, by every `SAMPLE`-th row."""
-    height, width = bounded.pair.first.shape
-    active = np.empty(width, np.int64)
-    number, rows = 0, 0
-    for row in range(min(SAMPLE // 2, height - 1), height, SAMPLE):
-        number += list_active(bounded, levels, row, active)
-        rows += 1
-    share: float = number / (rows * width)
-    return share
 
 
 def find_in_rows(
@@ -148,15 +113,11 @@ def _find(
     found, columns = 0, _columns(FIRST_ROOM)
     room, warped = make_room(POINTS + width), np.empty(FIRST_ROOM, np.float32)
     memory = np.empty((2, POINTS + width), np.int64)
-    row, number = rows[0], 0
+    row = rows[0]
     while row < rows[1]:
         filled = 0
         while row < rows[1] and filled < POINTS:
-            # Where nearly all pixels may fire, the bounds of each are not worth computing.
-            if number <= BUSY_ROW * width or row % PROBE == 0:
-                number = list_active(bounded, levels, row, memory[1])
-            else:
-                number = _list_all(memory[1, :width])
+            number = list_active(bounded, levels, row, memory[1])
             for k in range(number):
                 memory[0, filled + k] = row * width + memory[1, k]
             filled += number
@@ -171,13 +132,6 @@ def _find(
         _warp_active(pair, active, room, lumas)
         found = _list_candidates(pair.first, levels, active, lumas, (columns, found))
     return found, columns
-
-
-@jit
-def _list_all(active: NDArray[np.int64]) -> int:
-    for column in range(active.size):
-        active[column] = column
-    return active.size
 
 
 @jit

@@ -18,12 +18,11 @@ from texvent.events import EventStream
 from texvent.pairs.frame_pair import FramePair
 from texvent.simulate.crossing.trigger_levels import trigger_factors
 from texvent.simulate.fused.bounds import (
-    BoundedPair,
     CrossingCandidates,
     Int64Array,
     ReferenceLevels,
 )
-from texvent.simulate.fused.candidates import find_bounds, map_candidates, warp_pixels
+from texvent.simulate.fused.candidates import map_candidates, warp_pixels
 from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.config import TexventConfig
@@ -52,32 +51,22 @@ class FusedPass:
         self._keeps_start = config.timestamp_rule == "linear"
         self._scratch: Float64Array = np.empty(0)
 
-    def find_bounds(self, pair: FramePair, memory: Memory | None) -> BoundedPair | None:
-        """The pair with its bounds if it is better computed without drawing its frames, else None.
-
-        Args:
-            pair: not the first of a stream.
-            memory: of the pixels; None where the cache forgets at every pair.
-        """
-        return find_bounds(pair.motion, functools.partial(self._levels, pair, memory))
-
     def packets(
-        self, pair: FramePair, memory: Memory | None, bounds: BoundedPair
+        self, pair: FramePair, memory: Memory | None
     ) -> Iterator[tuple[Frame, EventStream]]:
         """Every frame of a pair, undrawn, with the packet of events that ends at it.
 
         Args:
-            pair: not the first of a stream.
+            pair: not the first of a stream, with flow.
             memory: of the pixels, whose references this moves (before the first packet is read);
                 None where the cache forgets at every pair.
-            bounds: of `find_bounds`.
         """
         motion = pair.motion
         edges_us = pair.edges_us.tolist()
         decide = functools.partial(
             self._decide, earlier=motion.earlier.reshape(-1), memory=memory, parts=len(motion) + 1
         )
-        bands = map_candidates(decide, self._levels(pair, memory), bounds)
+        bands = map_candidates(decide, self._levels(pair, memory), motion)
         return self._timestamp(pair, list(zip(*bands, strict=True)), edges_us)
 
     def _timestamp(
