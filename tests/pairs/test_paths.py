@@ -14,10 +14,6 @@ from texvent.pairs import paths_cpu
 KERNELS = [reference.warp_between, warp_between]
 
 
-def compiled_sweep(forward, backward):
-    return paths_cpu.find_sweep(forward, backward, 0)
-
-
 def ball_flows(step, size=3, shape=(9, 24), x=2):
     """Flows of a small thing from column x on that moves right before a ground at rest."""
     forward, backward = np.zeros((2, *shape, 2), np.float32)
@@ -26,31 +22,31 @@ def ball_flows(step, size=3, shape=(9, 24), x=2):
     return forward, backward
 
 
-@pytest.mark.parametrize("find", [reference.find_sweep, compiled_sweep])
+@pytest.mark.parametrize("find", [reference.find_sweep, paths_cpu.find_sweep])
 def test_the_sweep_is_what_a_small_thing_passes_and_covers_in_neither_frame(find):
-    sweep = find(*ball_flows(12))
+    sweep = find(*ball_flows(12), 0)
     # In columns 2 to 4 it is at first, in 14 to 16 at last; it passes 5 to 13.
     assert (sweep[3:6, 5:14] == (12, 0)).all()
     assert not sweep[:, :5].any()
     assert not sweep[:, 14:].any()
 
 
-@pytest.mark.parametrize("find", [reference.find_sweep, compiled_sweep])
+@pytest.mark.parametrize("find", [reference.find_sweep, paths_cpu.find_sweep])
 def test_a_path_along_the_edge_stays_in_the_image(find):
     forward, backward = np.zeros((2, 3, 24, 2), np.float32)
     for row, slope in ((0, -0.4), (2, 0.4)):
         forward[row, 2], backward[row, 14] = (12, slope), (-12, -slope)
-    sweep = find(forward, backward)
+    sweep = find(forward, backward, 0)
     np.testing.assert_allclose(sweep[0, 3:14], np.tile(np.float32([12, -0.4]), (11, 1)))
     assert not sweep[1].any()
 
 
-@pytest.mark.parametrize("find", [reference.find_sweep, compiled_sweep])
+@pytest.mark.parametrize("find", [reference.find_sweep, paths_cpu.find_sweep])
 @pytest.mark.parametrize("backward", [-12, 0])
 def test_nothing_sweeps_where_all_moves_or_the_later_frame_contradicts(find, backward):
     forward = np.broadcast_to(np.float32([12, 0]), (9, 24, 2)).copy()
     other = np.broadcast_to(np.float32([backward, 0]), (9, 24, 2)).copy()
-    assert not find(forward, other).any()
+    assert not find(forward, other, 0).any()
 
 
 @pytest.mark.parametrize("warp", KERNELS, ids=["reference", "cpu"])

@@ -190,7 +190,7 @@ def make_room(number: int) -> Room:
     return Room(points, make_samples(room), make_samples(room), make_corners(room))
 
 
-@jit
+@jit(inner=True)
 def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
     """Set the points to all pixels of some rows."""
     vector, x, y, _, _, _, _, earlier, later, _ = points

@@ -18,11 +18,8 @@ def test_flow_is_the_same_with_one_and_two_threads(moving_texture, monkeypatch):
     np.testing.assert_array_equal(*flows)
 
 
-@pytest.mark.parametrize(
-    ("shape", "vectors"),
-    [((1, 1), (1, 1)), ((8, 300), (8, 300)), ((300, 8), (300, 8)), ((101, 133), (51, 67))],
-)
-def test_flow_is_finite_and_half_as_large_but_for_tiny_frames_and_strips(shape, vectors):
+@pytest.mark.parametrize(("shape", "vectors"), [((300, 8), (300, 8)), ((101, 133), (51, 67))])
+def test_flow_is_finite_and_half_as_large_but_for_strips(shape, vectors):
     first = np.random.default_rng(3).uniform(0, 255, shape).astype(np.float32)
     for flow in DisFlow().both_ways(first, np.roll(first, 1, axis=1)):
         assert flow.shape == (*vectors, 2)

@@ -45,7 +45,7 @@ class BoundedPair(NamedTuple):
     reach: Float32Array
     """[2, h, w] how far along x and y the samples of a vector's pixels may be, px."""
     bounds: Float32Array
-    """[2, h, w] darkest and brightest luma that they reach, of vectors that reach beyond a pixel."""
+    """[2, h, w] darkest and brightest luma that those reach that reach beyond a pixel."""
 
 
 class ReferenceLevels(NamedTuple):
@@ -124,7 +124,7 @@ def bound_paths(pair: Any) -> tuple[Float32Array, Float32Array]:
     return reach, bounds
 
 
-@jit
+@jit(inner=True)
 def _find_reach(pair: Any) -> Float32Array:
     """How far along x and y the samples of a vector's pixels may be from them, [2, h, w] px."""
     width, height = pair.columns, pair.forward.size // pair.columns
@@ -144,14 +144,14 @@ def _find_reach(pair: Any) -> Float32Array:
     return reach
 
 
-@jit
+@jit(inner=True)
 def _find_extremes(image: Float32Array, shift: int, low: Float32Array, high: Float32Array) -> None:
     """Fill in the darkest and brightest luma of the pixels of each vector."""
     height, width = image.shape
-    if shift == 0:
-        low[:], high[:] = image, image
-        return
-    for y in range(len(low)):
+    for y in range(0 if shift else height):
+        for x in range(width):
+            low[y, x], high[y, x] = image[y, x], image[y, x]
+    for y in range(len(low) if shift else 0):
         upper, lower = image[2 * y], image[min(2 * y + 1, height - 1)]
         least, most = low[y], high[y]
         for x in range(width // 2):
@@ -162,7 +162,7 @@ def _find_extremes(image: Float32Array, shift: int, low: Float32Array, high: Flo
             least[width // 2], most[width // 2] = min(a, b), max(a, b)
 
 
-@jit
+@jit(inner=True)
 def _with_next(low: Float32Array, high: Float32Array) -> NDArray[np.uint64]:
     """Extremes of each vector's pixels and of the next ones to the right and below, [h · w]."""
     height, width = low.shape
@@ -180,7 +180,7 @@ def _with_next(low: Float32Array, high: Float32Array) -> NDArray[np.uint64]:
     return words.reshape(-1).view(np.uint64)
 
 
-@jit(error_model="numpy")
+@jit(error_model="numpy", inner=True)
 def _follow_paths(
     pair: Any,
     words: tuple[NDArray[np.uint64], NDArray[np.uint64]],
@@ -197,7 +197,7 @@ def _follow_paths(
         _take_paths(pair, row, column, index, path)
         for side in range(2):
             share = -pair.positions[index] if side == 0 else _1 - pair.positions[index]
-            _find_places(pair, row, column, share * path, place)
+            _find_places(pair, row, column, (share, path), place)
             for k in range(column.size):
                 found[k] = words[side][np.uint64(place[k])]
             for k in range(column.size):
@@ -221,16 +221,20 @@ def _take_paths(pair: Any, row: int, column: Int64Array, index: int, path: Float
 
 @jit(error_model="numpy", inner=True)
 def _find_places(
-    pair: Any, row: int, column: Int64Array, shift_px: Float32Array, place: Int64Array
+    pair: Any,
+    row: int,
+    column: Int64Array,
+    shares: tuple[np.float32, Float32Array],
+    place: Int64Array,
 ) -> None:
     """Find the vectors that samples of the first pixels of some are at, as `warp_cpu` does."""
-    along, down = shift_px[0], shift_px[1]
+    share, (along, down) = shares[0], (shares[1][0], shares[1][1])
     shift, columns, y = pair.shift, pair.columns, np.float32(row << pair.shift)
     last_column, last_row = np.float32(pair.first.shape[1] - 1), np.float32(len(pair.first) - 1)
     for k in range(column.size):
         x = np.float32(column[k] << shift)
-        to_x = x + np.floor(min(max(-x, along[k]), last_column - x))
-        to_y = y + np.floor(min(max(-y, down[k]), last_row - y))
+        to_x = x + np.floor(min(max(-x, share * along[k]), last_column - x))
+        to_y = y + np.floor(min(max(-y, share * down[k]), last_row - y))
         place[k] = (np.int64(to_y) >> shift) * columns + (np.int64(to_x) >> shift)
 
 
@@ -275,7 +279,7 @@ def _rows_around(image: NDArray[np.float32], row: int) -> Rows:
     return outer[0], image[above], image[row], image[below], outer[1]
 
 
-@jit
+@jit(inner=True)
 def _mark(
     low: NDArray[np.float32],
     high: NDArray[np.float32],
@@ -292,7 +296,7 @@ def _mark(
         marks[x] = is_up | is_down
 
 
-@jit
+@jit(inner=True)
 def _bound_row(
     first: Rows,
     second: Rows,
@@ -321,19 +325,19 @@ def _bound_row(
         high[x] = far if is_near else most[x]
 
 
-@jit
+@jit(inner=True)
 def _spread(values: NDArray[np.float32], out: NDArray[np.float32]) -> None:
     """Fill in a row with its values, or with each of them twice."""
     if values.size == out.size:
-        out[:] = values
+        for x in range(out.size):
+            out[x] = values[x]
         return
     for x in range(out.size // 2):
-        out[2 * x] = values[x]
-        out[2 * x + 1] = values[x]
+        out[2 * x], out[2 * x + 1] = values[x], values[x]
     out[-1] = values[-1]
 
 
-@jit
+@jit(inner=True)
 def _find_room(
     rows: Rows,
     dx: NDArray[np.float32],

@@ -134,7 +134,7 @@ def _find(
     return found, columns
 
 
-@jit
+@jit(inner=True)
 def _warp_active(
     pair: WarpPair, active: NDArray[np.int64], room: Room, lumas: NDArray[np.float32]
 ) -> None:
@@ -145,7 +145,7 @@ def _warp_active(
     lumas[pair.positions.size] = room.points.later[: active.size]
 
 
-@jit
+@jit(inner=True)
 def _list_candidates(
     first: Float32Array,
     levels: ReferenceLevels,
@@ -155,8 +155,9 @@ def _list_candidates(
 ) -> int:
     """List the candidates among some pixels behind those found; return how many there are."""
     earlier = first.reshape(-1)
-    lowest, highest = lumas[0].copy(), lumas[0].copy()
-    for j in range(1, len(lumas)):
+    lowest = np.full(active.size, np.float32(np.inf))
+    highest = np.full(active.size, np.float32(-np.inf))
+    for j in range(len(lumas)):
         now = lumas[j]
         for k in range(active.size):
             lowest[k], highest[k] = min(lowest[k], now[k]), max(highest[k], now[k])
@@ -189,7 +190,7 @@ def _list_candidates(
     return found
 
 
-@jit
+@jit(inner=True)
 def _move(
     level: float,
     shifted: float,
@@ -218,7 +219,7 @@ def _move(
     return level, is_unclear
 
 
-@jit
+@jit(inner=True)
 def _columns(size: int) -> Columns:
     return (
         np.empty(size, np.int64),
@@ -228,7 +229,7 @@ def _columns(size: int) -> Columns:
     )
 
 
-@jit
+@jit(inner=True)
 def _grown(columns: Columns, least: int) -> Columns:
     """The same columns with more room."""
     pixel, segment, before, now = columns
