@@ -34,13 +34,6 @@ def test_a_ramp_moves_with_its_flow(warp):
 
 
 @kernels
-def test_without_motion_it_is_a_blend(warp):
-    first, second = np.full((2, 3), 40, np.float32), np.full((2, 3), 80, np.float32)
-    still = constant_flow((2, 3), 0.0)
-    np.testing.assert_allclose(warp(first, second, still, still, 0.25), 50.0)
-
-
-@kernels
 def test_flows_that_contradict_each_other_give_a_blend_in_place(warp):
     # Both directions claim 50 px to the right: the errors are 100 px on a path of 0 px.
     rng = np.random.default_rng(0)
