@@ -134,6 +134,11 @@ class Frame:
             return luma
         return np.asarray(luma, dtype=np.float32)
 
+    @cached_property
+    def float_luma(self) -> NDArray[np.float32]:
+        """Luma as float32, C-contiguous; 8-bit levels convert exactly."""
+        return np.ascontiguousarray(self.luma, dtype=np.float32)
+
 
 @runtime_checkable
 class FrameStream(Protocol):

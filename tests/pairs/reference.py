@@ -30,7 +30,7 @@ FloatArray = NDArray[Any]
 """float32; float64 to measure the rounding of float32."""
 
 
-def find_sweep(forward: FloatArray, backward: FloatArray) -> FloatArray:
+def find_sweep(forward: FloatArray, backward: FloatArray, shift: int = 0) -> FloatArray:
     """Motion of what passes each pixel between the frames but lies there in neither.
 
     Every pixel of the earlier frame whose motion the later frame confirms, and that shows something
@@ -38,14 +38,15 @@ def find_sweep(forward: FloatArray, backward: FloatArray) -> FloatArray:
     flow counts.
 
     Args:
-        forward: [H, W, 2] px.
-        backward: [H, W, 2] px.
+        forward: [h, w, 2] px.
+        backward: [h, w, 2] px.
+        shift: 0 where a vector stands for a pixel, 1 for 2×2: pixels above are then those.
 
     Returns:
-        [H, W, 2] px, 0 where nothing does so.
+        [h, w, 2] px, 0 where nothing does so.
     """
     kind, (height, width, _) = forward.dtype.type, forward.shape
-    sweep = np.zeros_like(forward)
+    sweep, scale = np.zeros_like(forward), kind(0.5**shift)
     for y, x in np.ndindex(height, width):
         flow = forward[y, x]
         length2 = _squared(flow)
@@ -53,11 +54,11 @@ def find_sweep(forward: FloatArray, backward: FloatArray) -> FloatArray:
             backward[y, x], -flow, length2
         ):
             continue
-        if not _is_met(forward, backward, x, y):
+        if not _is_met(forward, backward, x, y, scale):
             continue
-        steps = math.ceil(np.abs(flow).max())
+        steps = math.ceil(scale * np.abs(flow).max())
         for k in range(1, steps):
-            share = kind(k) / kind(steps)
+            share = scale * (kind(k) / kind(steps))
             along, down = kind(x) + share * flow[0], kind(y) + share * flow[1]
             for i in range(max(math.floor(down), 0), min(math.ceil(down) + 1, height)):
                 for j in range(max(math.floor(along), 0), min(math.ceil(along) + 1, width)):
@@ -68,33 +69,36 @@ def find_sweep(forward: FloatArray, backward: FloatArray) -> FloatArray:
     return sweep
 
 
-def choose_paths(forward: FloatArray, backward: FloatArray, position: float) -> FloatArray:
-    """The path through every pixel at an instant, [H, W, 2] px from the earlier to the later frame.
+def choose_paths(
+    forward: FloatArray, backward: FloatArray, position: float, shift: int = 0
+) -> FloatArray:
+    """The path of every vector at an instant, [h, w, 2] px from the earlier to the later frame.
 
     Args:
-        forward: flow from first to second, [H, W, 2] px.
-        backward: flow from second to first, [H, W, 2] px.
+        forward: flow from first to second, [h, w, 2] px.
+        backward: flow from second to first, [h, w, 2] px.
         position: τ, 0 = first, 1 = second, of the flows' type.
+        shift: of `find_sweep`.
     """
-    paths = forward - position * (forward + backward)
-    sweep = find_sweep(forward, backward)
+    paths, scale = forward - position * (forward + backward), forward.dtype.type(0.5**shift)
+    sweep = find_sweep(forward, backward, shift)
     for y, x in np.ndindex(paths.shape[:2]):
         ahead, back = forward[y, x], -backward[y, x]
         longest = max(_squared(ahead), _squared(back))
         is_contested = _differ(ahead, back, longest) and (
-            _is_met(forward, backward, x, y) or _is_met(backward, forward, x, y)
+            _is_met(forward, backward, x, y, scale) or _is_met(backward, forward, x, y, scale)
         )
         if not (is_contested or sweep[y, x].any()):
             continue
-        seen = _confirmed(forward, backward, (x, y), paths[y, x], position)
+        seen = _confirmed(forward, backward, (x, y), shift, paths[y, x], position)
         most = seen + forward.dtype.type(CLEARLY_BETTER)
         for path in (ahead, back):
-            seen = _confirmed(forward, backward, (x, y), path, position)
+            seen = _confirmed(forward, backward, (x, y), shift, path, position)
             if seen > most:
                 paths[y, x], most = path, seen
         if sweep[y, x].any():
             # What passes is in front.
-            seen = _confirmed(forward, backward, (x, y), sweep[y, x], position)
+            seen = _confirmed(forward, backward, (x, y), shift, sweep[y, x], position)
             if seen > SWEPT:
                 paths[y, x] = sweep[y, x]
     return paths
@@ -103,7 +107,8 @@ def choose_paths(forward: FloatArray, backward: FloatArray, position: float) -> 
 def _confirmed(
     forward: FloatArray,
     backward: FloatArray,
-    pixel: tuple[int, int],
+    vector: tuple[int, int],
+    shift: int,
     path: FloatArray,
     position: float,
 ) -> Any:
@@ -113,22 +118,23 @@ def _confirmed(
     visible = visible * visible
     total = kind(0)
     for flow, sign, share in ((forward, 1, -position), (backward, -1, kind(1) - position)):
-        column = _nearest(kind(pixel[0]) + share * path[0])
-        row = _nearest(kind(pixel[1]) + share * path[1])
+        # From the middle of what the vector stands for.
+        x, y = (kind((one << shift) + shift / 2) for one in vector)
+        column, row = _nearest(x + share * path[0]) >> shift, _nearest(y + share * path[1]) >> shift
         if 0 <= column < width and 0 <= row < height:
             error = _squared(flow[row, column] - sign * path)
             total = total + visible / (visible + error * error)
     return total
 
 
-def _is_met(flow: FloatArray, other: FloatArray, x: int, y: int) -> bool:
-    """Whether the flow of a pixel leads to one whose flow leads back, within a pixel."""
+def _is_met(flow: FloatArray, other: FloatArray, x: int, y: int, scale: Any) -> bool:
+    """Whether a vector leads to one that leads back, within a pixel."""
     kind, (height, width, _) = flow.dtype.type, flow.shape
     here = flow[y, x]
     length2 = _squared(here)
     if not length2 < MOST_PX2:
         return False
-    column, row = _nearest(kind(x) + here[0]), _nearest(kind(y) + here[1])
+    column, row = _nearest(kind(x) + scale * here[0]), _nearest(kind(y) + scale * here[1])
     if not (0 <= column < width and 0 <= row < height):
         return False
     return bool(_squared(other[row, column] + here) <= kind(VISIBLE_RELATIVE) * length2 + kind(1))
@@ -158,11 +164,12 @@ def sample_along(
     parabolas through p0, p1, p2 and through p1, p2, p3: `p1 + u (p2 − p1) − u (1 − u) s`, with the
     bend `s = (p0 − p1 − p2 + p3) / 4`. In two dimensions the bends of both axes, each mixed
     linearly along the other one, are taken off the bilinear sample; the result is limited to the
-    range of the four pixels around the place.
+    range of the four pixels around the place, or two on a line between them. Beyond its edges an
+    image goes on straight.
 
     Args:
         image: [H, W].
-        flow: [H, W, 2].
+        flow: [H, W, 2], or half as many rows and columns.
         shift: of each pixel's place, [H, W, 2] as (x, y), px.
 
     Returns:
@@ -191,32 +198,36 @@ def sample_along(
     along = bend_x[top, left] + (bend_x[bottom, left] - bend_x[top, left]) * v
     across = bend_y[top, left] + (bend_y[top, right] - bend_y[top, left]) * u
     sample = straight - (u * (1 - u) * along + v * (1 - v) * across)
+    # Pixels that it does not lie between do not count.
+    right, bottom = np.where(u > 0, right, left), np.where(v > 0, bottom, top)
+    corners = image[top, left], image[top, right], image[bottom, left], image[bottom, right]
     sample = np.clip(sample, np.minimum.reduce(corners), np.maximum.reduce(corners))
     nearest = np.where(v >= 0.5, bottom, top), np.where(u >= 0.5, right, left)
-    return sample, flow[nearest], outside <= 0.5
+    side = -(-height // len(flow))
+    return sample, flow[nearest[0] // side, nearest[1] // side], outside <= 0.5
 
 
 def find_bends(image: FloatArray) -> tuple[FloatArray, FloatArray]:
     """How far brightness between two neighbours bends, for `sample_along`.
-
-    A quarter of the sum of the changes of slope at both; at the edge the slope does not change.
 
     Args:
         image: [H, W].
 
     Returns:
         Between each pixel and its right neighbour, and between each and the one below, [H, W] each;
-        0 where there is no neighbour.
+        unused where there is no neighbour.
     """
     return _find_bends_along(image), _find_bends_along(image.T).T
 
 
 def _find_bends_along(image: FloatArray) -> FloatArray:
-    turns, bends = np.zeros_like(image), np.zeros_like(image)
-    middle = image[:, 1:-1]
-    turns[:, 1:-1] = (image[:, :-2] - middle) + (image[:, 2:] - middle)
-    bends[:, :-1] = 0.25 * (turns[:, :-1] + turns[:, 1:])
-    return bends
+    first, last = image[:, :1], image[:, -1:]
+    before = first + (first - image[:, 1:2]) if image.shape[1] > 1 else first
+    after = last + (last - image[:, -2:-1]) if image.shape[1] > 1 else last
+    wide = np.concatenate([before, image, after, after], axis=1)
+    return np.asarray(
+        0.25 * ((wide[:, :-3] - wide[:, 1:-2]) + (wide[:, 3:] - wide[:, 2:-1])), image.dtype
+    )
 
 
 def warp_between(
@@ -234,8 +245,9 @@ def warp_between(
     Args:
         first: the earlier frame, [H, W], intensity.
         second: the later frame, [H, W], intensity.
-        forward: flow from first to second, [H, W, 2] as (x, y), px.
-        backward: flow from second to first, [H, W, 2], px.
+        forward: flow from first to second as (x, y), px: [H, W, 2], or half as many rows and
+            columns (rounded up), a vector for each 2×2 px.
+        backward: flow from second to first, the same.
         position: τ, 0 = first, 1 = second.
 
     Returns:
@@ -248,7 +260,9 @@ def warp_between(
     """
     position = first.dtype.type(position)
     rest = first.dtype.type(1.0) - position
-    path = choose_paths(forward, backward, position)
+    shift, (height, width) = int(len(forward) < len(first)), first.shape
+    paths = choose_paths(forward, backward, position, shift)
+    path = paths.repeat(1 << shift, axis=0).repeat(1 << shift, axis=1)[:height, :width]
     length2 = np.minimum(_lengths2(path), MOST_PX2)
 
     a, path_first, is_in_first = sample_along(first, forward, -position * path)

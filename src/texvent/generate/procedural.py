@@ -24,7 +24,6 @@ from texvent.config import FPS_RANGE, check_range
 from texvent.errors import MOST_WORDS, ConfigError, InputError, warn
 from texvent.generate.scene_input import Subject, describe_subject, list_nouns, nouns_of, understand
 from texvent.options.values import plain
-from texvent.pairs.instants import float_luma
 from texvent.runtime.prefetch import prefetch
 from texvent.scenes.description import report_of
 from texvent.scenes.report import REPORT_KEY
@@ -197,7 +196,7 @@ class ProceduralVideo(NotebookFrames):
         same moment of its beat.
         """
         if self.flicker_hz is not None:
-            images = (float_luma(self.at(t_us)) for t_us in times_us)
+            images = (self.at(t_us).float_luma for t_us in times_us)
         else:
             images = prefetch(self._draw_between(first, second, times_us), depth=IMAGES_AHEAD)
         return (
@@ -217,8 +216,8 @@ class ProceduralVideo(NotebookFrames):
         speeds = block_speeds(self.size, start.forward, stop.backward)
         drawing = Between(self.scene, self.size, config.samples, config.shadows, luma)
         times = [t_us / MICROSECONDS for t_us in (first.t_us, *times_us, second.t_us)]
-        before = Instant(0, float_luma(first), getattr(first, "codes", None))
-        after = Instant(len(times) - 1, float_luma(second), getattr(second, "codes", None))
+        before = Instant(0, first.float_luma, getattr(first, "codes", None))
+        after = Instant(len(times) - 1, second.float_luma, getattr(second, "codes", None))
         return drawing.draw(before, after, speeds, times)
 
     def _motion(self, index: int) -> Motion:

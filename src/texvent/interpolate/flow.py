@@ -10,7 +10,7 @@ import numpy as np
 
 from texvent.config import InterpolateConfig
 from texvent.interpolate.dis_flow.estimator import DisFlow, FlowArray
-from texvent.pairs.instants import matching_luma
+from texvent.pairs.instants import matching_levels
 from texvent.pairs.motion_interpolation import MotionInterpolation
 from texvent.video import Frame, FrameStream
 
@@ -68,12 +68,10 @@ class PairFlow:
         """Flow from first to second, and from second to first.
 
         Returns:
-            Two flows, [H, W, 2] float32 as (x, y), px.
+            Two flows, float32 as (x, y), px; see `DisFlow.both_ways`.
         """
         if self._flows is None or not self._is_of(first, second):
-            levels = (
-                np.ascontiguousarray(matching_luma(one), np.float32) for one in (first, second)
-            )
+            levels = (matching_levels(one.float_luma, one.transfer) for one in (first, second))
             self._flows = self._dis.both_ways(*levels)
             self._pair = weakref.ref(first), weakref.ref(second)
         return self._flows
@@ -84,7 +82,7 @@ class PairFlow:
         Returns:
             Length of the `FAST_PERCENTILE` of the flow from first to second, px.
         """
-        forward, _ = self.both_ways(first, second)
+        forward = self.both_ways(first, second)[0][::2, ::2]  # neighbours move alike
         length = np.hypot(forward[..., 0], forward[..., 1])
         return float(np.percentile(length, FAST_PERCENTILE))
 

@@ -7,7 +7,6 @@ from typing import ClassVar
 
 from texvent.config import InterpolateConfig
 from texvent.errors import ConfigError
-from texvent.pairs.instants import float_luma
 from texvent.pairs.motion_interpolation import MotionInterpolation
 from texvent.video import Frame, FrameStream, RenderableStream
 
@@ -80,4 +79,4 @@ class ExactInterpolator:
         """
         for t_us in times_us:
             exact = self._stream.at(t_us)
-            yield Frame(float_luma(exact), t_us, is_source=False, transfer=exact.transfer)
+            yield Frame(exact.float_luma, t_us, is_source=False, transfer=exact.transfer)

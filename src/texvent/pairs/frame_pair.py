@@ -9,7 +9,6 @@ from typing import TypeAlias
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.pairs.instants import float_luma
 from texvent.pairs.motion_interpolation import MotionInterpolation
 from texvent.pairs.scene_change import SceneChange
 from texvent.video import Frame
@@ -85,5 +84,5 @@ def hold_earlier(first: Frame, second: Frame) -> MotionInterpolation:
     wait_us = min(CHANGE_DURATION_US, (second.t_us - first.t_us) // 2)
     times_us = (second.t_us - wait_us,) if wait_us > 0 else ()
     positions = (0.0,) * len(times_us)
-    levels = float_luma(first), float_luma(second)
+    levels = first.float_luma, second.float_luma
     return MotionInterpolation(*levels, None, times_us, positions, first.transfer)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.transfer import WHITE, Transfer, encode_srgb
 from texvent.video import Frame, PixelArray
@@ -12,11 +11,6 @@ from texvent.video import Frame, PixelArray
 def position(first: Frame, second: Frame, t_us: int) -> float:
     """τ in (0, 1): the share of the interval that has passed at `t_us`."""
     return (t_us - first.t_us) / (second.t_us - first.t_us)
-
-
-def float_luma(frame: Frame) -> NDArray[np.float32]:
-    """Luma of a frame as float32, [H, W], 0..255 scale; 8-bit levels convert exactly."""
-    return np.ascontiguousarray(frame.luma, dtype=np.float32)
 
 
 def matching_luma(frame: Frame) -> PixelArray:

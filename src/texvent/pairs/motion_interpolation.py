@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.pairs.instants import float_luma, position
+from texvent.pairs.instants import position
 from texvent.runtime.kernel_arrays import read_only
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
@@ -37,8 +37,9 @@ class MotionInterpolation:
     later: FloatImage
     """Luma of the later source frame, [H, W]."""
     flows: Flows | None
-    """Optical flow from earlier to later and back, [H, W, 2] float32 as (x, y), px. None: nothing
-    moves, the frames are blended in place."""
+    """Optical flow from earlier to later and back, [H, W, 2] float32 as (x, y), px, or a vector for
+    each 2×2 px: half as many rows and columns, rounded up. None: nothing moves, the frames are
+    blended in place."""
     times_us: Sequence[int]
     """Times of the intermediate frames, µs, strictly increasing."""
     positions: Sequence[float]
@@ -59,7 +60,7 @@ class MotionInterpolation:
     ) -> MotionInterpolation:
         """Intermediate frames at some times between two source frames."""
         places = [position(first, second, t_us) for t_us in times_us]
-        levels = float_luma(first), float_luma(second)
+        levels = first.float_luma, second.float_luma
         return cls(*levels, flows, tuple(times_us), places, first.transfer)
 
     @property
@@ -91,13 +92,13 @@ class MotionInterpolation:
         return next(self._draw(index, index + 1))
 
     def _draw(self, start: int, stop: int) -> Iterator[FloatImage]:
-        places = np.array(self.positions[start:stop], np.float64)
+        stop = min(stop, len(self))
         if self.flows is not None:
             from texvent.pairs import warp_cpu  # blending needs no Numba
 
-            yield from warp_cpu.warp_pair(self.prepared, places)
+            yield from warp_cpu.warp_pair(self.prepared, start, stop)
             return
-        for place in places.tolist():
+        for place in self.positions[start:stop]:
             yield self.earlier + np.float32(place) * (self.later - self.earlier)
 
     @cached_property
@@ -107,7 +108,7 @@ class MotionInterpolation:
             raise ValueError("the frames of the pair are blended, and no pixel moves")
         from texvent.pairs import warp_cpu  # as above
 
-        return warp_cpu.prepare_pair(self.earlier, self.later, *self.flows)
+        return warp_cpu.prepare_pair(self.earlier, self.later, *self.flows, self.positions)
 
 
 class UndrawnFrame(Frame):

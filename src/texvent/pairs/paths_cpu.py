@@ -11,6 +11,9 @@ The error of a flow is the distance between the path it claims (from the earlier
 frame) and the path that the flow of the other direction claims for the same point. Squared, e, and
 with a squared tolerance T, the flow is trusted by T² / (T² + e²): 1 for no error, 1/2 at the
 tolerance, falling to 0 with the fourth power of the error.
+
+A flow [h, w, 2] holds a vector, px, for each pixel, or for each 2×2: `shift` is 0 or 1, and that of
+pixel (y, x) is `flow[y >> shift, x >> shift]`.
 """
 
 from __future__ import annotations
@@ -70,17 +73,19 @@ _0, _HALF, _1 = np.float32(0.0), np.float32(0.5), np.float32(1.0)
 
 
 @jit(error_model="numpy")
-def find_sweep(forward: Floats, backward: Floats) -> Floats:
+def find_sweep(forward: Floats, backward: Floats, shift: int) -> Floats:
     """Motion of surfaces that pass a pixel between the frames but are there in neither.
 
     Args:
-        forward: [H, W, 2] px.
-        backward: [H, W, 2] px.
+        forward: [h, w, 2] px.
+        backward: [h, w, 2] px.
+        shift: see above.
 
     Returns:
-        [H, W, 2] px, 0 where nothing does so; [0, 0, 2] where nothing does anywhere.
+        [h, w, 2] px, 0 where nothing does so; [0, 0, 2] where nothing does anywhere.
     """
     height, width, _ = forward.shape
+    scale = _vectors_per_px(shift)
     sweep, apart = np.empty((0, 0, 2), np.float32), np.empty(width, np.int64)
     for y in range(height):
         for x in apart[: _list_apart(forward[y], backward[y], apart)]:
@@ -92,13 +97,13 @@ def find_sweep(forward: Floats, backward: Floats) -> Floats:
             limit = _RELATIVE * length2 + _CONTESTED
             if _apart2(backward, x, y, (-u, -v)) <= limit:
                 continue
-            if not _is_met(forward, backward, x, y):
+            if not _is_met(forward, backward, x, y, scale):
                 continue
             if sweep.size == 0:
                 sweep = np.zeros((height, width, 2), np.float32)
-            steps = math.ceil(max(abs(u), abs(v)))
+            steps = math.ceil(scale * max(abs(u), abs(v)))
             for k in range(1, steps):
-                share = np.float32(k) / np.float32(steps)
+                share = scale * (np.float32(k) / np.float32(steps))
                 place = np.float32(y) + share * v, np.float32(x) + share * u
                 _write_sweep(sweep, forward, backward, place, (u, v))
     return sweep
@@ -122,14 +127,14 @@ def _list_apart(forward: Floats, backward: Floats, apart: NDArray[np.int64]) -> 
 
 
 @jit(error_model="numpy", inner=True)
-def _is_met(flow: Floats, other: Floats, x: int, y: int) -> bool:
-    """Whether the flow of a pixel leads to one whose flow leads back, within a pixel."""
+def _is_met(flow: Floats, other: Floats, x: int, y: int, scale: np.float32) -> bool:
+    """Whether a vector leads to one that leads back, within a pixel."""
     height, width, _ = flow.shape
     u, v = flow[y, x, 0], flow[y, x, 1]
     length2 = u * u + v * v
     if not length2 < _MOST:
         return False
-    column, row = _nearest(np.float32(x) + u), _nearest(np.float32(y) + v)
+    column, row = _nearest(np.float32(x) + scale * u), _nearest(np.float32(y) + scale * v)
     if column < 0 or row < 0 or column >= width or row >= height:
         return False
     return bool(_apart2(other, column, row, (-u, -v)) <= _VISIBLE_RELATIVE * length2 + _1)
@@ -139,7 +144,7 @@ def _is_met(flow: Floats, other: Floats, x: int, y: int) -> bool:
 def _write_sweep(
     sweep: Floats, forward: Floats, backward: Floats, place: Vector, path: Vector
 ) -> None:
-    """Note a path in the pixels around a place whose own flows differ from it."""
+    """Note a path around a place, (row, column) of the flows, where these differ from it."""
     u, v = path
     length2 = u * u + v * v
     limit = _RELATIVE * length2 + _CONTESTED
@@ -157,6 +162,11 @@ def _write_sweep(
 
 
 @jit(inner=True)
+def _vectors_per_px(shift: int) -> np.float32:
+    return _HALF if shift else _1
+
+
+@jit(inner=True)
 def _nearest(place: np.float32) -> int:
     return int(np.floor(place + _HALF))
 
@@ -169,58 +179,97 @@ def _apart2(flow: Floats, x: int, y: int, other: Vector) -> np.float32:
 
 
 @jit(error_model="numpy")
-def mark_contested(forward: Floats, backward: Floats, sweep: Floats) -> NDArray[np.uint8]:
-    """Pixels whose path has to be chosen, [H · W]; empty if there are none."""
+def number_contested(forward: Floats, backward: Floats, sweep: Floats, shift: int) -> Numbers:
+    """Numbers, from 1, of the vectors whose pixels' path has to be chosen; 0 elsewhere.
+
+    Returns:
+        [h · w]; empty if there are none.
+    """
     height, width, _ = forward.shape
-    marks, apart = np.zeros(height * width, np.uint8), np.empty(width, np.int64)
-    swept, is_any = sweep.reshape(-1), False
+    scale = _vectors_per_px(shift)
+    numbers, apart = np.zeros(height * width, np.int32), np.empty(width, np.int64)
+    swept, count = sweep.reshape(-1), 0
     for i in range(swept.size // 2):
-        marks[i] = (swept[2 * i] != _0) | (swept[2 * i + 1] != _0)
-        is_any |= marks[i] > 0
+        if (swept[2 * i] != _0) | (swept[2 * i + 1] != _0):
+            count += 1
+            numbers[i] = count
     for y in range(height):
         for x in apart[: _list_apart(forward[y], backward[y], apart)]:
             u, v = forward[y, x, 0], forward[y, x, 1]
             p, q = backward[y, x, 0], backward[y, x, 1]
             limit = _RELATIVE * min(max(u * u + v * v, p * p + q * q), _MOST) + _CONTESTED
-            if marks[y * width + x] or _apart2(backward, x, y, (-u, -v)) <= limit:
+            if numbers[y * width + x] or _apart2(backward, x, y, (-u, -v)) <= limit:
                 continue
-            if _is_met(forward, backward, x, y) or _is_met(backward, forward, x, y):
-                marks[y * width + x], is_any = 1, True
-    return marks if is_any else marks[:0]
+            if _is_met(forward, backward, x, y, scale) or _is_met(backward, forward, x, y, scale):
+                count += 1
+                numbers[y * width + x] = count
+    return numbers if count else numbers[:0]
 
 
 @jit(inner=True)
-def list_contested(
-    marks: NDArray[np.uint8], pixel: Numbers, number: int, contested: Numbers
-) -> None:
+def list_contested(numbers: Numbers, vector: Numbers, number: int, contested: Numbers) -> None:
     """Fill in how many of some points are contested, then which.
 
     Args:
-        marks: of `mark_contested`.
-        pixel: [n] flat index of each point.
+        numbers: of `number_contested`.
+        vector: [n] flat index of each point's.
         number: how many points there are.
         contested: [n + 1].
     """
     contested[0] = 0
-    if marks.size == 0:
+    if numbers.size == 0:
         return
     count = 0
     for k in range(number):
         contested[count + 1] = k
-        count += marks[pixel[k]]
+        count += numbers[np.uint64(vector[k])] > 0
     contested[0] = count
 
 
+@jit(error_model="numpy")
+def choose_paths(
+    flows: tuple[Floats, Floats], sweep: Floats, shift: int, numbers: Numbers, positions: Floats
+) -> Floats:
+    """The path through contested pixels that both flows confirm best.
+
+    Args:
+        flows: forward and backward, [h, w, 2] px.
+        sweep: of `find_sweep`.
+        shift: see above; one path is chosen for the middle of what a vector stands for.
+        numbers: of `number_contested`.
+        positions: [K] τ of the instants.
+
+    Returns:
+        [K, n, 2] px from the earlier to the later frame, by number.
+    """
+    width, count = flows[0].shape[1], 0
+    for i in range(numbers.size):
+        count = max(count, numbers[i])
+    chosen = np.empty((positions.size, count, 2), np.float32)
+    for i in range(numbers.size):
+        if numbers[i]:
+            cell = i % width, i // width
+            for k in range(positions.size):
+                path = _choose_path(flows, sweep, shift, cell, positions[k])
+                chosen[k, numbers[i] - 1, 0], chosen[k, numbers[i] - 1, 1] = path
+    return chosen
+
+
 @jit(error_model="numpy", inner=True)
-def choose_path(
-    forward: Floats, backward: Floats, sweep: Floats, pixel: Vector, position: np.float32
+def _choose_path(
+    flows: tuple[Floats, Floats],
+    sweep: Floats,
+    shift: int,
+    cell: tuple[int, int],
+    position: np.float32,
 ) -> Vector:
-    """The path through a pixel at an instant that both flows confirm best."""
-    x, y = int(pixel[0]), int(pixel[1])
+    (x, y), (forward, backward) = cell, flows
+    middle = _HALF * np.float32(shift)
+    pixel = np.float32(x << shift) + middle, np.float32(y << shift) + middle
     u, v = forward[y, x, 0], forward[y, x, 1]
     p, q = backward[y, x, 0], backward[y, x, 1]
     best = u - position * (u + p), v - position * (v + q)
-    most = _confirmed(forward, backward, pixel, best, position) + _BETTER
+    most = _confirmed(flows, shift, pixel, best, position) + _BETTER
     for k in range(3):
         if k == 0:
             path = u, v
@@ -231,7 +280,7 @@ def choose_path(
             most = _SWEPT  # what passes is in front
         else:
             break
-        seen = _confirmed(forward, backward, pixel, path, position)
+        seen = _confirmed(flows, shift, pixel, path, position)
         if seen > most:
             best, most = path, seen
     return best
@@ -239,19 +288,22 @@ def choose_path(
 
 @jit(error_model="numpy", inner=True)
 def _confirmed(
-    forward: Floats, backward: Floats, pixel: Vector, path: Vector, position: np.float32
+    flows: tuple[Floats, Floats], shift: int, pixel: Vector, path: Vector, position: np.float32
 ) -> np.float32:
     """Agreement of the flows at both ends of a path with it, 0..2."""
     length2 = min(path[0] * path[0] + path[1] * path[1], _MOST)
     visible = _VISIBLE_RELATIVE * length2 + _VISIBLE_PX2
     visible = visible * visible
     rest, total = _1 - position, _0
+    forward, backward = flows
     height, width, _ = forward.shape
-    column, row = _nearest(pixel[0] - position * path[0]), _nearest(pixel[1] - position * path[1])
+    column = _nearest(pixel[0] - position * path[0]) >> shift
+    row = _nearest(pixel[1] - position * path[1]) >> shift
     if 0 <= column < width and 0 <= row < height:
         error = _apart2(forward, column, row, path)
         total += visible / (visible + error * error)
-    column, row = _nearest(pixel[0] + rest * path[0]), _nearest(pixel[1] + rest * path[1])
+    column = _nearest(pixel[0] + rest * path[0]) >> shift
+    row = _nearest(pixel[1] + rest * path[1]) >> shift
     if 0 <= column < width and 0 <= row < height:
         error = _apart2(backward, column, row, (-path[0], -path[1]))
         total += visible / (visible + error * error)

@@ -7,6 +7,7 @@ the result.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -19,22 +20,23 @@ from texvent.pairs.paths_cpu import (
     UNSEEN_WEIGHT,
     VISIBLE_PX2,
     VISIBLE_RELATIVE,
-    choose_path,
+    choose_paths,
     find_sweep,
     list_contested,
-    mark_contested,
+    number_contested,
 )
 from texvent.pairs.sampling_cpu import (
+    AFTER,
+    BEFORE,
     Corners,
     Floats,
     Numbers,
-    PixelWords,
     Samples,
     Words,
-    list_words,
     make_corners,
     make_samples,
     sample,
+    widen,
 )
 from texvent.runtime.jit import jit
 from texvent.runtime.kernel_arrays import read_only
@@ -62,27 +64,32 @@ class WarpPair(NamedTuple):
     """[H, W] the earlier frame, intensity."""
     second: Floats
     """[H, W] the later frame."""
-    first_pixels: Words
-    """Of `sampling_cpu.PixelWords`, of the earlier frame."""
-    first_bends: Words
-    """The same."""
-    second_pixels: Words
-    second_bends: Words
+    first_wide: Floats
+    """`sampling_cpu.widen` of the earlier frame."""
+    second_wide: Floats
     forward: Words
-    """[H · W] flow from first to second, (x, y), px."""
+    """[h · w] flow from first to second, (x, y), px."""
     backward: Words
-    """[H · W] flow from second to first."""
+    """[h · w] flow from second to first."""
+    columns: int
+    """w: vectors in a row of a flow."""
+    shift: int
+    """1 where a vector stands for 2×2 px, else 0; see `paths_cpu`."""
     sweep: Floats
     """Of `paths_cpu.find_sweep`."""
-    contested: NDArray[np.uint8]
-    """Of `paths_cpu.mark_contested`."""
+    contested: Numbers
+    """Of `paths_cpu.number_contested`."""
+    positions: Floats
+    """[K] τ of the intermediate frames."""
+    chosen: Floats
+    """[K, n, 2] path at each of these through the contested pixels, by their number; px."""
 
 
 class Points(NamedTuple):
     """Pixels and their values that do not depend on the instant; [n], a multiple of `LANES`."""
 
-    pixel: Numbers
-    """Flat index y · W + x."""
+    vector: Numbers
+    """Flat index of its flow."""
     x: Floats
     y: Floats
     forward_x: Floats
@@ -108,66 +115,61 @@ class Room(NamedTuple):
     corners: Corners
 
 
-def warp_between(
-    first: Floats, second: Floats, forward: Floats, backward: Floats, position: float
-) -> Floats:
-    """The frame at `position` between two frames whose motion is known.
+def prepare_pair(
+    first: Floats, second: Floats, forward: Floats, backward: Floats, positions: Sequence[float]
+) -> WarpPair:
+    """Prepare what the intermediate frames of a pair share.
 
     Args:
         first: the earlier frame, [H, W] float32, intensity.
-        second: the later frame, [H, W] float32, intensity.
-        forward: flow from first to second, [H, W, 2] float32 as (x, y), px.
-        backward: flow from second to first, [H, W, 2] float32, px.
-        position: τ, 0 = first, 1 = second.
-
-    Returns:
-        [H, W] float32, intensity.
+        second: the later frame, the same.
+        forward: flow from first to second, float32 as (x, y), px: [H, W, 2], or half as many rows
+            and columns (rounded up).
+        backward: flow from second to first, the same.
+        positions: τ of the intermediate frames, 0 = first, 1 = second.
     """
-    pair = prepare_pair(first, second, forward, backward)
-    image: Floats = warp_pair(pair, np.array([position]))[0]
-    return image
-
-
-def prepare_pair(first: Floats, second: Floats, forward: Floats, backward: Floats) -> WarpPair:
-    """Prepare what all intermediate frames of a pair share; see `warp_between`."""
     # Read-only throughout, because Numba compiles for each kind of array again.
     frames = [read_only(first), read_only(second)]
-    prepared = *list_words(frames[0]), *list_words(frames[1])
+    wide = [read_only(widen(frame)) for frame in frames]
+    places = read_only(np.array(positions, np.float32))
     ahead, back = (read_only(np.ascontiguousarray(flow)) for flow in (forward, backward))
     words = [read_only(flow.reshape(-1).view(np.uint64)) for flow in (ahead, back)]
-    sweep = read_only(find_sweep(ahead, back))
-    contested = read_only(mark_contested(ahead, back, sweep))
-    return WarpPair(frames[0], frames[1], *prepared, words[0], words[1], sweep, contested)
+    columns, shift = ahead.shape[1], int(len(ahead) < len(first))
+    sweep = read_only(find_sweep(ahead, back, shift))
+    contested = read_only(number_contested(ahead, back, sweep, shift))
+    chosen = read_only(choose_paths((ahead, back), sweep, shift, contested, places))
+    return WarpPair(
+        *(frames[0], frames[1], wide[0], wide[1], words[0], words[1]),
+        *(columns, shift, sweep, contested, places, chosen),
+    )
 
 
-def warp_pair(pair: WarpPair, positions: NDArray[np.float64]) -> Floats:
-    """`warp_between` of a pair that is prepared, at several positions: [n, H, W].
+def warp_pair(pair: WarpPair, start: int, stop: int) -> Floats:
+    """Intermediate frames of a pair from number `start` up to `stop`: [n, H, W] intensity.
 
-    Some rows of all positions are computed together, while their data is in the nearest caches.
+    Some rows of all of them are computed together, while their data is in the nearest caches.
     """
     height, width = pair.first.shape
-    result = np.empty((positions.size, height, width), np.float32)
+    result = np.empty((stop - start, height, width), np.float32)
 
     def warp(rows: slice) -> None:
-        _warp_rows(pair, rows.start, rows.stop, positions, result)
+        _warp_rows(pair, rows.start, rows.stop, start, result)
 
     run_parts(warp, split(height, PARTS_PER_THREAD * count_threads(), unit=BAND_ROWS))
     return result
 
 
 @jit(error_model="numpy")
-def _warp_rows(
-    pair: WarpPair, top: int, bottom: int, positions: NDArray[np.float64], result: Floats
-) -> None:
+def _warp_rows(pair: WarpPair, top: int, bottom: int, start: int, result: Floats) -> None:
     width = result.shape[2]
     step = max(POINTS // width, 1)
     room = make_room(min(step, bottom - top) * width)
     for row in range(top, bottom, step):
         end = min(row + step, bottom)
         take_rows(pair, row, end, room.points)
-        for k in range(positions.size):
+        for k in range(len(result)):
             out = result[k, row:end].reshape(-1)
-            warp_points(pair, room, (end - row) * width, positions[k], out)
+            warp_points(pair, room, (end - row) * width, start + k, out)
 
 
 @jit
@@ -189,84 +191,81 @@ def make_room(number: int) -> Room:
     return Room(points, make_samples(room), make_samples(room), make_corners(room))
 
 
-@jit
+@jit(inner=True)
 def take_rows(pair: WarpPair, top: int, bottom: int, points: Points) -> None:
     """Set the points to all pixels of some rows."""
-    pixel, x, y, forward_x, forward_y, error_x, error_y, earlier, later, contested = points
-    first, second, forward, backward = pair.first, pair.second, pair.forward, pair.backward
-    width = first.shape[1]
-    start, number = top * width, (bottom - top) * width
+    vector, x, y, _, _, _, _, earlier, later, _ = points
+    shift, width = pair.shift, pair.first.shape[1]
+    number = (bottom - top) * width
     # All arrays start at the first of these pixels: Numba allows for negative indices where the
     # loop's index has an offset.
-    pixels_first, pixels_second = first[top:bottom].reshape(-1), second[top:bottom].reshape(-1)
-    forward_flow = forward[start : start + number].view(np.float32)
-    backward_flow = backward[start : start + number].view(np.float32)
+    first, second = pair.first[top:bottom].reshape(-1), pair.second[top:bottom].reshape(-1)
     for row in range(bottom - top):
-        columns, rows = x[row * width : (row + 1) * width], y[row * width : (row + 1) * width]
+        inside = slice(row * width, (row + 1) * width)
+        columns, rows, vectors = x[inside], y[inside], vector[inside]
+        begin = ((top + row) >> shift) * pair.columns
         for k in range(width):
             columns[k], rows[k] = k, top + row
+            vectors[k] = begin + (k >> shift)
     for k in range(number):
-        pixel[k] = start + k
-        earlier[k], later[k] = pixels_first[k], pixels_second[k]
-    for k in range(number):
-        forward_x[k], forward_y[k] = forward_flow[2 * k], forward_flow[2 * k + 1]
-    for k in range(number):
-        error_x[k], error_y[k] = (
-            forward_flow[2 * k] + backward_flow[2 * k],
-            forward_flow[2 * k + 1] + backward_flow[2 * k + 1],
-        )
-    list_contested(pair.contested, pixel, number, contested)
+        earlier[k], later[k] = first[k], second[k]
+    _take_flows(pair, number, points)
 
 
 @jit
 def take_points(pair: WarpPair, chosen: NDArray[np.int64], points: Points) -> None:
     """Set the points to some pixels, given by flat index."""
-    pixel, x, y, forward_x, forward_y, error_x, error_y, earlier, later, contested = points
+    vector, x, y, _, _, _, _, earlier, later, _ = points
     first, second = pair.first.reshape(-1), pair.second.reshape(-1)
-    forward_flow, backward_flow = pair.forward.view(np.float32), pair.backward.view(np.float32)
-    width = np.uint64(pair.first.shape[1])
+    width, shift = np.uint64(pair.first.shape[1]), np.uint64(pair.shift)
     for k in range(chosen.size):
         i = np.uint64(chosen[k])
         row = i // width
-        pixel[k], x[k], y[k] = i, i - row * width, row
+        column = i - row * width
+        x[k], y[k] = column, row
+        vector[k] = (row >> shift) * np.uint64(pair.columns) + (column >> shift)
         earlier[k], later[k] = first[i], second[i]
-        j = i + i
-        forward_x[k], forward_y[k] = forward_flow[j], forward_flow[j + _ONE]
-        error_x[k], error_y[k] = (
-            forward_flow[j] + backward_flow[j],
-            forward_flow[j + _ONE] + backward_flow[j + _ONE],
-        )
-    list_contested(pair.contested, pixel, chosen.size, contested)
+    _take_flows(pair, chosen.size, points)
 
 
 @jit(error_model="numpy", inner=True)
-def _choose_paths(pair: WarpPair, points: Points, position: np.float32) -> None:
+def _take_flows(pair: WarpPair, number: int, points: Points) -> None:
+    """Set the flows of the points, and list which of them are contested."""
+    vector, _, _, forward_x, forward_y, error_x, error_y, _, _, contested = points
+    forward, backward = pair.forward.view(np.float32), pair.backward.view(np.float32)
+    for k in range(number):
+        i = np.uint64(vector[k])
+        j = i + i
+        forward_x[k], forward_y[k] = forward[j], forward[j + _ONE]
+        error_x[k] = forward[j] + backward[j]
+        error_y[k] = forward[j + _ONE] + backward[j + _ONE]
+    list_contested(pair.contested, vector, number, contested)
+
+
+@jit(error_model="numpy", inner=True)
+def _take_chosen(pair: WarpPair, points: Points, index: int) -> None:
     """Give contested points the path at this instant, as if both flows agreed on it."""
-    height, width = pair.first.shape
-    forward = pair.forward.view(np.float32).reshape((height, width, 2))
-    backward = pair.backward.view(np.float32).reshape((height, width, 2))
     for n in range(points.contested[0]):
         k = points.contested[n + 1]
-        place = points.x[k], points.y[k]
-        path = choose_path(forward, backward, pair.sweep, place, position)
-        points.forward_x[k], points.forward_y[k] = path
+        path = pair.chosen[index, pair.contested[points.vector[k]] - 1]
+        points.forward_x[k], points.forward_y[k] = path[0], path[1]
         points.error_x[k], points.error_y[k] = _0, _0
 
 
 @jit
-def warp_points(pair: WarpPair, room: Room, number: int, position: float, out: Floats) -> None:
-    """Intensity of the first `number` points at a position; fills in out[:number]."""
+def warp_points(pair: WarpPair, room: Room, number: int, index: int, out: Floats) -> None:
+    """Intensity of the first `number` points in an intermediate frame; fills in out[:number]."""
     points, in_first, in_second, corners = room
-    place, shape = np.float32(position), pair.first.shape
+    place, shape = pair.positions[index], pair.first.shape
     padded = (number + LANES - 1) // LANES * LANES
     if points.contested[0] > 0:
-        _choose_paths(pair, points, place)
-    _locate(points, padded, shape, (place, -place), in_first)
-    _locate(points, padded, shape, (place, _1 - place), in_second)
-    first = PixelWords(pair.first_pixels, pair.first_bends)
-    second = PixelWords(pair.second_pixels, pair.second_bends)
-    sample(first, pair.forward, number, shape[1], (in_first, corners))
-    sample(second, pair.backward, number, shape[1], (in_second, corners))
+        _take_chosen(pair, points, index)
+    flows = pair.columns, pair.shift
+    _locate(points, padded, shape, flows, (place, -place), in_first)
+    _locate(points, padded, shape, flows, (place, _1 - place), in_second)
+    wide = shape[1] + BEFORE + AFTER
+    sample(pair.first_wide, pair.forward, number, wide, (in_first, corners))
+    sample(pair.second_wide, pair.backward, number, wide, (in_second, corners))
     _mix(points, in_first, in_second, number, place, out)
 
 
@@ -275,14 +274,16 @@ def _locate(
     points: Points,
     number: int,
     shape: tuple[int, int],
+    flows: tuple[int, int],
     times: tuple[np.float32, np.float32],
     samples: Samples,
 ) -> None:
     """Find the places of points in a frame: the second of the times along their path."""
     position, share = times
-    pixel, column, row, forward_x, forward_y, error_x, error_y, _, _, _ = points
+    _, column, row, forward_x, forward_y, error_x, error_y, _, _, _ = points
     corner, nearest, u, v, outside, _, _ = samples
-    width = np.int32(shape[1])
+    wide, before = np.int32(shape[1] + BEFORE + AFTER), np.int32(BEFORE)
+    columns, shift = np.int32(flows[0]), np.int32(flows[1])
     last_column, last_row = np.float32(shape[1] - 1), np.float32(shape[0] - 1)
     for k in range(number):
         shift_x = share * (forward_x[k] - position * error_x[k])
@@ -294,9 +295,10 @@ def _locate(
         left, up = np.floor(x), np.floor(y)
         right, down = x - left, y - up
         u[k], v[k] = right, down
-        here = pixel[k] + np.int32(up) * width + np.int32(left)
-        corner[k] = here
-        nearest[k] = here + (width if down >= _HALF else np.int32(0)) + np.int32(right >= _HALF)
+        top, beside = np.int32(row[k] + up), np.int32(column[k] + left)
+        corner[k] = (top + before) * wide + beside + before
+        top, beside = top + np.int32(down >= _HALF), beside + np.int32(right >= _HALF)
+        nearest[k] = (top >> shift) * columns + (beside >> shift)
 
 
 @jit(error_model="numpy", inner=True)

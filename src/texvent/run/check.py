@@ -143,5 +143,7 @@ def _moved_px(
 ) -> NDArray[np.float32]:
     """Lengths of the optical flow where the image changes by at least 0.1 log units, [n], px."""
     forward, _ = flow.both_ways(earlier, later)
+    side = -(-len(earlier) // len(forward))  # a vector may stand for 2×2 px
+    earlier, later = earlier[::side, ::side], later[::side, ::side]
     change = np.abs(balanced_log(later, BALANCE) - balanced_log(earlier, BALANCE))
     return np.asarray(np.hypot(forward[..., 0], forward[..., 1])[change >= CHANGE_LOG])

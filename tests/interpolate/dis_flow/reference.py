@@ -7,6 +7,7 @@ import numpy as np
 from texvent.interpolate.dis_flow.definitions import (
     CHANGED,
     DATA,
+    EXPLAINED,
     LEAST2,
     LEAST_DETERMINANT,
     LEAST_DIFFERENCE,
@@ -24,7 +25,6 @@ from texvent.interpolate.dis_flow.definitions import (
     SEARCH_RADIUS,
     SMALL_STEP2,
     SMOOTHNESS,
-    STEP,
     SWEEPS,
     UNEXPLAINED,
     Floats,
@@ -72,23 +72,24 @@ def _between(flow: Floats, axis: int, near: np.float32, far: np.float32) -> Floa
     return np.moveaxis(doubled, 0, axis)
 
 
-def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floats:
+def search(start: Floats, stop: Floats, flow: Floats, step: int, is_coarsest: bool) -> Floats:
     """Flow of each patch, [rows, columns, 3]: x, y, cost."""
     height, width = size_of(start)
-    down, across = 1 + (height - PATCH) // STEP, 1 + (width - PATCH) // STEP
+    down, across = 1 + (height - PATCH) // step, 1 + (width - PATCH) // step
     found = np.empty((down, across, 3), np.float32)
     for i, j in np.ndindex(down, across):
-        here = i * STEP, j * STEP
+        here = i * step, j * step
         own = flow[:, here[0] + PATCH // 2, here[1] + PATCH // 2]
         if is_coarsest:
             own = _search_integer(start, stop, here)
         found[i, j] = *own, _cost(_compare(start, stop, here, own)[0])
-        _propagate(start, stop, found, (i, j), -1)
-        _gauss_newton(start, stop, found, (i, j), own)
+        if found[i, j, 2] > EXPLAINED:
+            _propagate(start, stop, here, found, (i, j), -1)
+            _gauss_newton(start, stop, here, found[i, j], own)
     for i, j in reversed(list(np.ndindex(down, across))):
-        own = found[i, j, :2].copy()
-        if _propagate(start, stop, found, (i, j), 1):
-            _gauss_newton(start, stop, found, (i, j), own)
+        here, own = (i * step, j * step), found[i, j, :2].copy()
+        if found[i, j, 2] > EXPLAINED and _propagate(start, stop, here, found, (i, j), 1):
+            _gauss_newton(start, stop, here, found[i, j], own)
     return found
 
 
@@ -107,7 +108,12 @@ def _search_integer(start: Floats, stop: Floats, here: tuple[int, int]) -> Float
 
 
 def _propagate(
-    start: Floats, stop: Floats, found: Floats, patch: tuple[int, int], way: int
+    start: Floats,
+    stop: Floats,
+    here: tuple[int, int],
+    found: Floats,
+    patch: tuple[int, int],
+    way: int,
 ) -> bool:
     """Give a patch the flow of a neighbour, beside it or above or below, if it fits better."""
     i, j = patch
@@ -118,7 +124,7 @@ def _propagate(
         other = found[row, column, :2]
         if np.abs(other - found[i, j, :2]).sum() < np.float32(SAME_FLOW):
             continue
-        cost = _cost(_compare(start, stop, (i * STEP, j * STEP), other)[0])
+        cost = _cost(_compare(start, stop, here, other)[0])
         if cost < found[i, j, 2]:
             found[i, j] = *other, cost
             is_better = True
@@ -126,14 +132,13 @@ def _propagate(
 
 
 def _gauss_newton(
-    start: Floats, stop: Floats, found: Floats, patch: tuple[int, int], begin: Floats
+    start: Floats, stop: Floats, here: tuple[int, int], own: Floats, begin: Floats
 ) -> None:
     """Gauss-Newton steps, as long as they make a patch fit better.
 
     d is the difference of a patch and its place. The difference of their means does not count: the
     cost is Σd² − (Σd)²/64, and with the slopes g: Σdg − Σd·Σg/64.
     """
-    here, own = (patch[0] * STEP, patch[1] * STEP), found[patch]
     x, y = (_patch(level, here) for level in start[1:])
     sum_x, sum_y = _total(x), _total(y)
     xx = _total(x * x) - sum_x * sum_x / AREA + np.float32(LEAST_DETERMINANT)
@@ -199,11 +204,11 @@ def _total(patch: Floats) -> np.float32:
     return np.float32(columns[0] + columns[1])
 
 
-def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -> Floats:
+def try_vectors(start: Floats, stop: Floats, patches: Floats, step: int, vectors: Floats) -> Floats:
     """The patches, each with its vector if that fits no worse than its own flow."""
     found, (height, width) = patches.copy(), size_of(start)
     for i, j in np.ndindex(found.shape[:2]):
-        here, own, vector = (i * STEP, j * STEP), found[i, j], vectors[i, j]
+        here, own, vector = (i * step, j * step), found[i, j], vectors[i, j]
         if np.abs(vector - own[:2]).sum() < np.float32(SAME_FLOW):
             continue
         x, y = np.float32(here[1]) + vector[0], np.float32(here[0]) + vector[1]
@@ -214,7 +219,7 @@ def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -
         cost = _cost(_compare(start, stop, here, vector)[0])
         if cost < own[2] + np.float32(NOISE_COST):
             own[:] = (*vector, cost)
-            _gauss_newton(start, stop, found, (i, j), vector)
+            _gauss_newton(start, stop, here, own, vector)
     return found
 
 
@@ -224,19 +229,19 @@ def _spread(level: Floats, here: tuple[int, int]) -> np.float32:
     return _cost((_total(patch), _total(patch * patch)))
 
 
-def join(start: Floats, stop: Floats, patches: Floats) -> Floats:
+def join(start: Floats, stop: Floats, patches: Floats, step: int) -> Floats:
     """Flow of each pixel, [2, H, W], from those of the patches that contain it."""
     height, width = size_of(start)
     sums = np.zeros((3, height, width), np.float32)
     for i, j in np.ndindex(patches.shape[:2]):
-        here, flow = (i * STEP, j * STEP), patches[i, j, :2]
+        here, flow = (i * step, j * step), patches[i, j, :2]
         difference = np.abs(_sample_patch(stop, here, flow) - _patch(start[0], here))
         weight = 1 / np.maximum(difference, np.float32(LEAST_DIFFERENCE))
         held = sums[:, here[0] : here[0] + PATCH, here[1] : here[1] + PATCH]
         held += np.stack([weight, weight * flow[0], weight * flow[1]])
     # Pixels in no patch, at the right and below, take the flow of the nearest pixel in one.
-    rows = np.minimum(np.arange(height), (patches.shape[0] - 1) * STEP + PATCH - 1)
-    columns = np.minimum(np.arange(width), (patches.shape[1] - 1) * STEP + PATCH - 1)
+    rows = np.minimum(np.arange(height), (patches.shape[0] - 1) * step + PATCH - 1)
+    columns = np.minimum(np.arange(width), (patches.shape[1] - 1) * step + PATCH - 1)
     held = sums[:, rows][:, :, columns]
     joined: Floats = held[1:] / held[0]
     return joined

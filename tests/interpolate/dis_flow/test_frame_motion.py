@@ -15,6 +15,7 @@ from texvent.interpolate.dis_flow.frame_motion import (
     leads_outside,
     patch_vectors,
 )
+from texvent.interpolate.dis_flow.pyramid_cpu import make_level
 
 WIDTH, HEIGHT = 192, 144
 
@@ -79,7 +80,8 @@ def test_two_layers_a_frame_at_rest_and_few_vectors_tell_no_motion_of_the_frame(
 
 
 def test_patches_move_as_their_middles_do():
-    vectors = patch_vectors(np.float32([[1, 0.5, 0], [0, 0, 0.25]]), (14, 20))
+    level = make_level(np.zeros((14, 20), np.float32))
+    vectors = patch_vectors(np.float32([[1, 0.5, 0], [0, 0, 0.25]]), level)
     assert vectors.shape == (3, 5, 2)
     # The first patch covers 0..8 px: its middle is 6 px left of the middle, and 3 px above.
     np.testing.assert_allclose(vectors[0, 0], (1 - 3, -0.75))
@@ -93,6 +95,7 @@ def test_flow_of_a_zoom_and_a_turn_reaches_the_borders(zoom, degrees):
     first, second = waves(x, y), waves(cos * x + sin * y, cos * y - sin * x)
     forward, _ = DisFlow().both_ways(first, second)
     wanted = move(similarity(zoom, degrees))
+    forward = forward.repeat(2, axis=0).repeat(2, axis=1)  # a vector for each 2×2 px
     error = np.abs(np.moveaxis(forward, -1, 0) - wanted).max(axis=0)
     outside = leads_outside(wanted)
     assert np.mean(error[~outside] < 1) > 0.9

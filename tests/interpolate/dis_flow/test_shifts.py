@@ -29,7 +29,7 @@ def view(image, x, y, width=WIDTH, height=HEIGHT):
 
 
 def shift_between(first, second):
-    return find_shift(*(make_pyramid(one, 0, 2) for one in (first, second)))
+    return find_shift(*(make_pyramid(one, 2) for one in (first, second)))
 
 
 @pytest.mark.parametrize(("x", "y"), [(20, -6), (-32, 0), (0, 24), (30, 18)])
@@ -95,14 +95,14 @@ def test_a_patch_takes_the_shift_that_fits_it_or_leads_it_out_of_the_view(kernel
     patches = np.zeros((1, 9, 3), np.float32)
     patches[..., 2] = 1e9  # found nowhere
     vectors = np.tile(np.float32([12, 0]), (1, 9, 1))
-    found = kernels.try_vectors(start, stop, patches, vectors)
+    found = kernels.try_vectors(start, stop, patches, 3, vectors)
     np.testing.assert_allclose(found[0, :, :2], [[12, 0]] * 9, atol=1e-3)
     # Patches begin three apart: five stay within the 32 columns, and the middles of three leave.
     assert (found[0, :5, 2] < 1e-3).all()
     assert not found[0, 6:, 2].any()
     patches[..., 2] = 0  # found where they are
     worse = np.tile(np.float32([5, 0]), (1, 9, 1))
-    np.testing.assert_array_equal(kernels.try_vectors(start, stop, patches, worse), patches)
+    np.testing.assert_array_equal(kernels.try_vectors(start, stop, patches, 3, worse), patches)
 
 
 @pytest.mark.parametrize("kernels", [reference, compiled], ids=["reference", "compiled"])
@@ -112,5 +112,5 @@ def test_texture_that_repeats_goes_with_the_frame(kernels):
     patches = np.zeros((1, 11, 3), np.float32)
     patches[..., 0] = -9  # fits as well as 7
     vectors = np.tile(np.float32([7, 0]), (1, 11, 1))
-    found = kernels.try_vectors(start, stop, patches, vectors)
+    found = kernels.try_vectors(start, stop, patches, 3, vectors)
     np.testing.assert_allclose(found[0, 3:9, 0], 7, atol=1e-3)

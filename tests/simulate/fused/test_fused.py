@@ -2,18 +2,13 @@
 
 from __future__ import annotations
 
-import itertools
-
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import texvent
-from texvent.simulate.esim import pixels as esim_pixels
 from texvent.simulate.fused import candidates
-from texvent.simulate.fused.candidates import find_bounds
-from texvent.simulate.texvent import fused as texvent_fused
 from texvent.video import Video
 
 from .clips import fused, panning, readable
@@ -48,54 +43,11 @@ def assert_equal(video, **options):
     return sum(len(packet) for _, packet in got)
 
 
-@pytest.fixture(autouse=True)
-def _busy_pairs_are_not_drawn(monkeypatch):
-    # Small test clips are all motion; what is chosen otherwise has tests of its own.
-    monkeypatch.setattr(candidates, "BUSY", 2.0)
-
-
 @pytest.mark.parametrize("options", OPTIONS.values(), ids=OPTIONS)
-def test_pairs_may_be_drawn_or_not_without_a_difference(options, monkeypatch):
-    use_bounds(monkeypatch, _every_other(find_bounds))
+def test_pairs_give_the_same_events_drawn_or_not(options):
     if "simulator" not in options and options.get("noise") != "none":
         options = {"noise_rate_hz": 20.0, "seed": 3, **options}
     assert assert_equal(panning(6), max_intermediate=5, **options) > 300
-
-
-def use_bounds(monkeypatch, function):
-    """Let the models find bounds by a function of ours."""
-    for module in (esim_pixels, texvent_fused):
-        monkeypatch.setattr(module, "find_bounds", function)
-
-
-def _every_other(survey):
-    """The bounds of two pairs, then "draw it" for two, and so on."""
-    calls = itertools.count()
-
-    def survey_some(*arguments):
-        return survey(*arguments) if next(calls) // 2 % 2 == 0 else None
-
-    return survey_some
-
-
-@pytest.mark.parametrize(("covered", "is_drawn"), [(0.5, False), (1.0, True)])
-def test_a_pair_is_drawn_where_nearly_all_of_it_may_fire(covered, is_drawn, monkeypatch):
-    monkeypatch.undo()
-    moving = panning(2, size=(96, 96), step=3.0).pixels
-    moving[:, int(96 * covered) :] = 80
-    moving[:, :10, :20] = moving[0, 10, 0]
-    surveys = []
-    use_bounds(monkeypatch, _recorded(find_bounds, surveys))
-    assert assert_equal(Video(moving, panning(2).times_us)) > 100
-    assert [found is None for found in surveys] == [is_drawn]
-
-
-def _recorded(survey, results):
-    def survey_and_keep(*arguments):
-        results.append(survey(*arguments))
-        return results[-1]
-
-    return survey_and_keep
 
 
 @pytest.mark.parametrize("simulator", ["texvent", "esim"])
@@ -158,10 +110,8 @@ def test_the_number_of_threads_changes_nothing(simulator, monkeypatch):
     ],
 )
 def test_a_pair_is_not_drawn_where_it_can_be_fused(options, is_tried, monkeypatch):
-    estimated = []
-    whole = candidates.estimate_active
-    monkeypatch.setattr(
-        candidates, "estimate_active", lambda *given: estimated.append(1) or whole(*given)
-    )
+    bounded = []
+    whole = candidates.bound_pair
+    monkeypatch.setattr(candidates, "bound_pair", lambda pair: bounded.append(1) or whole(pair))
     texvent.simulate(panning(3), **options)
-    assert bool(estimated) is is_tried
+    assert bool(bounded) is is_tried

@@ -3,16 +3,18 @@
 Optical flow after Kroeger et al., Fast Optical Flow using Dense Inverse Search (ECCV 2016). On each
 level of an image pyramid, from the coarsest to half size:
 
-1. *Search.* Patches of 8×8 px, three apart, are searched for in the other frame by Gauss-Newton
-   steps on their mean-free difference. A patch starts from the coarser level's flow or from a
-   neighbour's (first those to the left and above; in a second pass those to the right and below).
-   On the coarsest level it first tries the whole pixels around.
+1. *Search.* Patches of 8×8 px are searched for in the other frame by Gauss-Newton steps on their
+   mean-free difference. A patch starts from the coarser level's flow, and keeps it where that
+   explains it up to `EXPLAINED`; else it tries a neighbour's too (first those to the left and
+   above; in a second pass those to the right and below). On the coarsest level it first tries the
+   whole pixels around. Patches are three px apart, four on large levels.
    Where the motion of the whole frame is known (`frame_motion.py`), every patch then tries it. A
    patch that it takes out of the view follows it if it was not found elsewhere.
 2. *Join.* The flow of a pixel is the weighted mean over the patches that contain it; those that
    fit the pixel better count more.
-3. *Refine.* One linearisation of brightness constancy with an edge-preserving smoothness term,
-   solved by a few sweeps of red-black over-relaxation (after Brox et al., 2004).
+3. *Refine*, except on large levels. One linearisation of brightness constancy with an
+   edge-preserving smoothness term, solved by a few sweeps of red-black over-relaxation (after Brox
+   et al., 2004).
 
 A *level* is [3, H + 32, W + 32] float32: an image with `MARGIN` repeated pixels at each edge, then
 its slopes to the right and downwards, levels per px. Flow is planar here: [2, H, W] float32, x
@@ -35,8 +37,13 @@ Mask: TypeAlias = NDArray[np.bool_]
 
 PATCH = 8
 """Side of a patch, px."""
-STEP = 3
-"""Distance of patches, px."""
+STEP, LARGE_STEP = 3, 4
+"""Distance of patches, px: on most levels, and on large ones."""
+LARGE_SIDE = 200
+"""A level whose shorter side is at least this is large: its patches are fine enough for the picture
+to be left as they are found, px."""
+EXPLAINED = 256.0
+"""Cost up to which a patch stays as it is, squared levels: two levels per pixel."""
 MARGIN = 16
 """Repeated pixels at each edge: a patch may be outside the image."""
 MOST_STEPS = 2
@@ -73,6 +80,16 @@ LEAST_SLOPE2 = 0.01
 """Added to the squared slope of the image, levels²/px²."""
 LEAST2 = 1e-6
 """Added under square roots."""
+
+
+def step_of(level: Floats) -> int:
+    """Distance of a level's patches, px."""
+    return LARGE_STEP if is_large(level) else STEP
+
+
+def is_large(level: Floats) -> bool:
+    """Whether a level is as large as `LARGE_SIDE`."""
+    return min(size_of(level)) >= LARGE_SIDE
 
 
 def size_of(level: Floats) -> tuple[int, int]:

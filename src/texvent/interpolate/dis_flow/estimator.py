@@ -11,7 +11,14 @@ import numba
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.interpolate.dis_flow.definitions import CHANGED, PATCH, Floats, size_of
+from texvent.interpolate.dis_flow.definitions import (
+    CHANGED,
+    PATCH,
+    Floats,
+    is_large,
+    size_of,
+    step_of,
+)
 from texvent.interpolate.dis_flow.frame_motion import (
     NO_MOTIONS,
     Flows,
@@ -32,7 +39,7 @@ from texvent.runtime.memory import keep_freed_memory
 FlowArray = NDArray[np.float32]
 
 SMALL_SIDE_PX = 100
-"""Frames with a shorter side than this are matched up to full size, others up to half size: patches
+"""Frames with a shorter side than this have a vector for each pixel, others for each 2×2: patches
 of 8×8 px on half-size images are coarse for a small frame."""
 LEAST_SIDE_PX = 2 * PATCH
 """Smaller frames are padded to this side by repeating their edges."""
@@ -68,13 +75,15 @@ class DisFlow:
             second: the later frame, [H, W], intensity.
 
         Returns:
-            Two flows, [H, W, 2] float32 as (x, y), px; finite.
+            Two flows, px of the frames, finite: [H, W, 2] float32 as (x, y), or half as many rows
+            and columns (rounded up), a vector for each 2×2 px.
         """
-        shape = first.shape
-        images = [_pad_small(image) for image in stretch(first, second)]
-        finest = 0 if min(shape) < SMALL_SIDE_PX else 1
-        levels = max(finest, count_levels(images[0].shape))
-        earlier, later = (make_pyramid(one, finest, levels) for one in images)
+        side = 1 if min(first.shape) < SMALL_SIDE_PX else 2
+        one, other = ((image if side == 1 else halve(image)) for image in (first, second))
+        shape = one.shape
+        images = [_pad_small(image) for image in stretch(one, other)]
+        levels = count_levels(images[0].shape)
+        earlier, later = (make_pyramid(image, levels) for image in images)
         shift = find_shift(earlier, later)
         motions = NO_MOTIONS if shift is None else (shift_motion(shift), shift_motion(-shift))
         sides = [max(size_of(level)) for level in earlier]
@@ -91,13 +100,11 @@ class DisFlow:
             )
         if number:
             flows = self._follow(earlier[:number], later[:number], motions, flows)
-        full = images[0].shape
-
-        def enlarge(planes: Floats) -> FlowArray:
-            planes = double(planes, full) if finest else planes
-            return np.stack([plane[: shape[0], : shape[1]] for plane in planes], axis=-1)
-
-        return self._both(enlarge, (flows[0],), (flows[1],))
+        ahead, back = (
+            np.stack([side * plane[: shape[0], : shape[1]] for plane in flow], axis=-1)
+            for flow in flows
+        )
+        return ahead, back
 
     def _follow(
         self,
@@ -132,18 +139,17 @@ def count_levels(shape: tuple[int, int]) -> int:
     return max(0, min(longest, math.floor(math.log2(min(shape) / PATCH))))
 
 
-def make_pyramid(image: Floats, finest: int, coarsest: int) -> list[Floats]:
+def make_pyramid(image: Floats, coarsest: int) -> list[Floats]:
     """The levels of an image, the finest first; see `definitions`.
 
     Args:
         image: [H, W], about 0..255.
-        finest: how often the image is halved for the first level.
-        coarsest: how often for the last level.
+        coarsest: how often it is halved for the last level.
     """
     images = [image]
     for _ in range(coarsest):
         images.append(halve(images[-1]))
-    return [make_level(one) for one in images[finest:]]
+    return [make_level(one) for one in images]
 
 
 def coarse_to_fine(
@@ -178,10 +184,13 @@ def match_level(
     start: Floats, stop: Floats, flow: Floats, is_coarsest: bool, motion: Floats | None = None
 ) -> Floats:
     """The flow from one level to another, from an initial flow: search, join, refine."""
-    patches = search(start, stop, flow, is_coarsest)
+    step = step_of(start)
+    patches = search(start, stop, flow, step, is_coarsest)
     if motion is not None:
-        patches = try_vectors(start, stop, patches, patch_vectors(motion, size_of(start)))
-    refined = refine(start, stop, join(start, stop, patches))
+        patches = try_vectors(start, stop, patches, step, patch_vectors(motion, start))
+    refined = join(start, stop, patches, step)
+    if not is_large(start):
+        refined = refine(start, stop, refined)
     if motion is None:
         return refined
     # Outside the view, brightness says nothing: what leaves it moves as the frame does.

@@ -20,6 +20,8 @@ from texvent.interpolate.dis_flow.definitions import (
     STEP,
     Floats,
     Mask,
+    size_of,
+    step_of,
 )
 from texvent.interpolate.dis_flow.refine_cpu import unconfirmed
 from texvent.pairs.shift_correlation import correlate_shifts, detail
@@ -169,11 +171,12 @@ def vectors_at(motion: Floats, x: Floats, y: Floats) -> Floats:
     return np.stack([own[0] + own[1] * x + own[2] * y for own in motion], axis=-1)
 
 
-def patch_vectors(motion: Floats, shape: tuple[int, int]) -> Floats:
+def patch_vectors(motion: Floats, level: Floats) -> Floats:
     """Displacement of the middle of each patch, [rows, columns, 2] px."""
     y, x = (
-        np.arange(0, side - PATCH + 1, STEP).astype(np.float32) + np.float32((PATCH - side) / 2)
-        for side in shape
+        np.arange(0, side - PATCH + 1, step_of(level)).astype(np.float32)
+        + np.float32((PATCH - side) / 2)
+        for side in size_of(level)
     )
     return vectors_at(motion, x, y[:, np.newaxis])
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from texvent.interpolate.dis_flow.definitions import (
+    EXPLAINED,
     LEAST_DETERMINANT,
     LEAST_DIFFERENCE,
     MARGIN,
@@ -16,7 +17,6 @@ from texvent.interpolate.dis_flow.definitions import (
     SEARCH_COST,
     SEARCH_RADIUS,
     SMALL_STEP2,
-    STEP,
     UNEXPLAINED,
     Floats,
 )
@@ -33,6 +33,7 @@ _SAME_FLOW = np.float32(SAME_FLOW)
 _SMALL_STEP2 = np.float32(SMALL_STEP2)
 _SEARCH_COST = np.float32(SEARCH_COST)
 _LEAST_DIFFERENCE = np.float32(LEAST_DIFFERENCE)
+_EXPLAINED = np.float32(EXPLAINED)
 _OUTSIDE = np.float32(-PATCH)
 _SIDE = np.float32(PATCH)
 _UNEXPLAINED, _NOISE_COST = np.float32(UNEXPLAINED), np.float32(NOISE_COST)
@@ -43,32 +44,40 @@ Vector = tuple[np.float32, np.float32]
 
 
 @jit(error_model="numpy")
-def search(start: Floats, stop: Floats, flow: Floats, is_coarsest: bool) -> Floats:
+def search(start: Floats, stop: Floats, flow: Floats, step: int, is_coarsest: bool) -> Floats:
     """Flow of each patch, [rows, columns, 3]: x, y, cost."""
     _, height, width = flow.shape
-    down, across = 1 + (height - PATCH) // STEP, 1 + (width - PATCH) // STEP
+    down, across = 1 + (height - PATCH) // step, 1 + (width - PATCH) // step
     found = np.empty((down, across, 3), np.float32)
     slopes = np.empty((down, across, 6), np.float32)
     level, target, shape = start.reshape(-1), stop.reshape(-1), start.shape[1:]
     for row in range(down):
         for column in range(across):
-            here = row * STEP, column * STEP
+            here = row * step, column * step
             own = (
                 flow[0, here[0] + PATCH // 2, here[1] + PATCH // 2],
                 flow[1, here[0] + PATCH // 2, here[1] + PATCH // 2],
             )
             if is_coarsest:
                 own = _search_integer(level, target, shape, here)
-            _sum_slopes(level, target, shape, here, slopes[row, column])
-            found[row, column, 0], found[row, column, 1] = own
-            _, found[row, column, 2], _, _ = _compare(level, target, shape, here, own)
-            _propagate(level, target, shape, found, (row, column, -1))
-            _gauss_newton(level, target, shape, own, slopes, found, (row, column))
+            sums = _compare(level, target, shape, here, own)
+            patch, known = found[row, column], slopes[row, column]
+            patch[0], patch[1], patch[2] = own[0], own[1], sums[1]
+            if sums[1] > _EXPLAINED:
+                _sum_slopes(level, target, shape, here, known)
+                sums = _propagate(level, target, shape, here, sums, found, (row, column, -1))
+                _gauss_newton(level, target, shape, here, sums, own, known, patch)
     for row in range(down - 1, -1, -1):
         for column in range(across - 1, -1, -1):
-            own = found[row, column, 0], found[row, column, 1]
-            if _propagate(level, target, shape, found, (row, column, 1)):
-                _gauss_newton(level, target, shape, own, slopes, found, (row, column))
+            here, patch = (row * step, column * step), found[row, column]
+            if patch[2] <= _EXPLAINED:
+                continue
+            own, cost = (patch[0], patch[1]), patch[2]
+            sums = _propagate(
+                level, target, shape, here, (_0, cost, _0, _0), found, (row, column, 1)
+            )
+            if sums[1] < cost:
+                _gauss_newton(level, target, shape, here, sums, own, slopes[row, column], patch)
     return found
 
 
@@ -147,24 +156,27 @@ def _propagate(
     level: Floats,
     target: Floats,
     shape: tuple[int, int],
+    here: tuple[int, int],
+    sums: Sums,
     found: Floats,
     patch: tuple[int, int, int],
-) -> bool:
+) -> Sums:
     """Give a patch the flow of a neighbour, beside it or above or below, if it fits better.
 
     Args:
         level: level of the patch, flat.
         target: the other image, flat.
         shape: of both, with margins.
+        here: row and column of the patch's first pixel.
+        sums: of `_compare` with its own flow.
         found: of all patches.
         patch: row and column in `found`, and the direction of its neighbours, −1 or 1.
 
     Returns:
-        Whether its flow has changed.
+        The sums with the flow that it has now.
     """
     row, column, direction = patch
-    here, own = (row * STEP, column * STEP), found[row, column]
-    is_better = False
+    own = found[row, column]
     for turn in range(2):
         i, j = (row, column + direction) if turn == 0 else (row + direction, column)
         if i < 0 or j < 0 or i >= found.shape[0] or j >= found.shape[1]:
@@ -172,11 +184,11 @@ def _propagate(
         u, v = found[i, j, 0], found[i, j, 1]
         if abs(u - own[0]) + abs(v - own[1]) < _SAME_FLOW:
             continue
-        _, cost, _, _ = _compare(level, target, shape, here, (u, v))
-        if cost < own[2]:
-            own[0], own[1], own[2] = u, v, cost
-            is_better = True
-    return is_better
+        other = _compare(level, target, shape, here, (u, v))
+        if other[1] < own[2]:
+            own[0], own[1], own[2] = u, v, other[1]
+            sums = other
+    return sums
 
 
 @jit(error_model="numpy", inner=True)
@@ -184,10 +196,11 @@ def _gauss_newton(
     level: Floats,
     target: Floats,
     shape: tuple[int, int],
+    here: tuple[int, int],
+    sums: Sums,
     begin: Vector,
-    slopes: Floats,
-    found: Floats,
-    patch: tuple[int, int],
+    known: Floats,
+    own: Floats,
 ) -> None:
     """Gauss-Newton steps, as long as they make a patch fit better.
 
@@ -195,17 +208,16 @@ def _gauss_newton(
         level: level of the patch, flat.
         target: the other image, flat.
         shape: of both, with margins.
+        here: row and column of the patch's first pixel.
+        sums: of `_compare` with its own flow.
         begin: initial flow; the result stays within `MOST_DRIFT` of it.
-        slopes: from `_sum_slopes`, of all patches.
-        found: of all patches.
-        patch: row and column.
+        known: from `_sum_slopes`.
+        own: flow and cost of the patch, changed.
     """
-    row, column = patch
-    here, own, known = (row * STEP, column * STEP), found[row, column], slopes[row, column]
     xx, xy, yy, x, y, determinant = known[0], known[1], known[2], known[3], known[4], known[5]
     if not determinant > _LEAST_DETERMINANT:
         return
-    mean, _, sum_x, sum_y = _compare(level, target, shape, here, (own[0], own[1]))
+    mean, _, sum_x, sum_y = sums
     for _ in range(MOST_STEPS):
         sum_x, sum_y = sum_x - mean * x / _AREA, sum_y - mean * y / _AREA
         du = (yy * sum_x - xy * sum_y) / determinant
@@ -222,15 +234,14 @@ def _gauss_newton(
 
 
 @jit(error_model="numpy")
-def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -> Floats:
+def try_vectors(start: Floats, stop: Floats, patches: Floats, step: int, vectors: Floats) -> Floats:
     """The patches, each with its vector if that fits no worse than its own flow."""
-    found = patches.copy()
-    slopes = np.empty((found.shape[0], found.shape[1], 6), np.float32)
+    found, known = patches.copy(), np.empty(6, np.float32)
     level, target, shape = start.reshape(-1), stop.reshape(-1), start.shape[1:]
     height, width = np.float32(shape[0] - 2 * MARGIN), np.float32(shape[1] - 2 * MARGIN)
     for row in range(found.shape[0]):
         for column in range(found.shape[1]):
-            here, own = (row * STEP, column * STEP), found[row, column]
+            here, own = (row * step, column * step), found[row, column]
             u, v = vectors[row, column, 0], vectors[row, column, 1]
             if abs(u - own[0]) + abs(v - own[1]) < _SAME_FLOW:
                 continue
@@ -239,16 +250,16 @@ def try_vectors(start: Floats, stop: Floats, patches: Floats, vectors: Floats) -
                 if own[2] > _UNEXPLAINED * _spread_of(level, shape, here) + _NOISE_COST:
                     own[0], own[1], own[2] = u, v, _0
                 continue
-            _, cost, _, _ = _compare(level, target, shape, here, (u, v))
-            if cost < own[2] + _NOISE_COST:
-                own[0], own[1], own[2] = u, v, cost
-                _sum_slopes(level, target, shape, here, slopes[row, column])
-                _gauss_newton(level, target, shape, (u, v), slopes, found, (row, column))
+            sums = _compare(level, target, shape, here, (u, v))
+            if sums[1] < own[2] + _NOISE_COST:
+                own[0], own[1], own[2] = u, v, sums[1]
+                _sum_slopes(level, target, shape, here, known)
+                _gauss_newton(level, target, shape, here, sums, (u, v), known, own)
     return found
 
 
 @jit(error_model="numpy")
-def join(start: Floats, stop: Floats, patches: Floats) -> Floats:
+def join(start: Floats, stop: Floats, patches: Floats, step: int) -> Floats:
     """Flow of each pixel, [2, H, W], from those of the patches that contain it."""
     _, rows, columns = start.shape
     height, width = rows - 2 * MARGIN, columns - 2 * MARGIN
@@ -257,15 +268,15 @@ def join(start: Floats, stop: Floats, patches: Floats) -> Floats:
     for i in range(patches.shape[0]):
         for j in range(patches.shape[1]):
             u, v = patches[i, j, 0], patches[i, j, 1]
-            x, y = np.float32(j * STEP) + u, np.float32(i * STEP) + v
+            x, y = np.float32(j * step) + u, np.float32(i * step) + v
             corner, weights = _place((rows, columns), x, y)
-            place = (i * STEP + MARGIN) * columns + j * STEP + MARGIN
+            place = (i * step + MARGIN) * columns + j * step + MARGIN
             flow = u, v, _LEAST_DIFFERENCE
             layout = rows * columns, place, corner, columns
             spread_patch(level, target, layout, weights, flat_sums, flow)
     # Pixels in no patch, at the right and below, take the flow of the nearest pixel in one.
-    last_row = (patches.shape[0] - 1) * STEP + PATCH - 1
-    last_column = (patches.shape[1] - 1) * STEP + PATCH - 1
+    last_row = (patches.shape[0] - 1) * step + PATCH - 1
+    last_column = (patches.shape[1] - 1) * step + PATCH - 1
     joined = np.empty((2, height, width), np.float32)
     for y in range(height):
         first = (min(y, last_row) + MARGIN) * columns + MARGIN

@@ -27,7 +27,7 @@ from texvent.interpolate.motion.paths_cpu import (
     make_paths,
     reverse_vectors,
 )
-from texvent.pairs.instants import float_luma, position
+from texvent.pairs.instants import position
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.transfer import Transfer
 from texvent.video import Frame, FrameStream, Motion, MovingStream
@@ -154,7 +154,7 @@ class MotionPair:
 
 def _coded(frame: Frame) -> Floats:
     """Gamma-coded luma, by the curve that the kernels undo where they add light up."""
-    luma = float_luma(frame)
+    luma = frame.float_luma
     if frame.transfer is Transfer.LINEAR:
         luma = _floats(np.float32(WHITE) * (luma / np.float32(WHITE)) ** np.float32(1 / GAMMA))
     return luma

@@ -17,10 +17,9 @@ from texvent.simulate.fused.bounds import (
     CrossingCandidates,
     Float64Array,
     Int64Array,
-    LumaBounds,
     ReferenceLevels,
 )
-from texvent.simulate.fused.candidates import find_bounds, map_candidates
+from texvent.simulate.fused.candidates import map_candidates
 from texvent.simulate.packets import FrameInterval, SortedEvents
 from texvent.simulate.random.mismatch import (
     LONG_AGO_US,
@@ -90,20 +89,15 @@ class EsimPixels:
         self._level = None
         return events
 
-    def find_bounds(self, pair: FramePair) -> LumaBounds | None:
-        """Luma bounds if the pair is better computed without drawing its frames, else None."""
-        return find_bounds(pair.motion, self._levels)
-
-    def fuse(self, pair: FramePair, bounds: LumaBounds) -> list[SortedEvents]:
+    def fuse(self, pair: FramePair) -> list[SortedEvents]:
         """Events of every segment of a pair, without drawing its frames.
 
         Args:
             pair: not the first of a stream, with flow.
-            bounds: of `find_bounds`.
         """
         edges_us, levels = pair.edges_us.tolist(), self._levels()
         split = functools.partial(self._split_by_segment, segments=len(edges_us) - 1)
-        bands = map_candidates(split, pair.motion, levels=levels, bounds=bounds)
+        bands = map_candidates(split, levels, pair.motion)
         # Found again from the references when a frame is stepped.
         self._triggers, self._last_luma = None, pair.second.luma
         refractory = RefractoryPeriod(self._config.refractory_period_us, is_level_lost=True)

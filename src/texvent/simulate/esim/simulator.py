@@ -102,13 +102,11 @@ class EsimSimulator(StreamingSimulator[EsimConfig]):
 
     def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
         """Events between two frames; see `simulate.protocol.Simulator.advance`."""
-        bounds = None
-        if pair.first is not None and self.config.threshold_sigma == 0:
-            bounds = self._pixels.find_bounds(pair)
-        if bounds is None:
+        is_drawn = pair.first is None or self.config.threshold_sigma > 0
+        if is_drawn or pair.motion.flows is None:
             yield from super().advance(pair)
             return
-        segments = self._pixels.fuse(pair, bounds)
+        segments = self._pixels.fuse(pair)
         self._enter(pair.second)
         for frame, fired in zip(pair.undrawn_frames, segments, strict=True):
             x, y, t, p, label = fired

@@ -16,61 +16,36 @@ of a pixel is between the darkest and the brightest that both frames have within
 
 * Up to 1 px of flow, a sample differs from the pixel itself by less than `|dx|` times the steps to
   its left and right neighbours (in the rows it may touch) plus `|dy|` times those up and down, plus
-  the bends of the cubic sampling along x and y times at most `|dx|`, `|dy|` and 1/4.
-* Further out, the extremes over cells of `CELL` pixels that the flow of the pixel's cell reaches.
+  the bends of the cubic sampling along x and y times at most `|dx|`, `|dy|` and 1/4. A bend is
+  `(p0 − p1 + p3 − p2) / 4`, at most half of the largest step between neighbours.
+* Further out, the extremes around the samples at each intermediate instant, for all pixels of a
+  vector of the flow at once: their samples are as far away, rounded down, as those of the first.
 """
 
 from __future__ import annotations
 
-import math
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.runtime.jit import jit
-from texvent.runtime.kernel_arrays import read_only
 from texvent.simulate.crossing.trigger_levels import MARGIN
 
 Float32Array: TypeAlias = NDArray[np.float32]
 Float64Array: TypeAlias = NDArray[np.float64]
 Int64Array: TypeAlias = NDArray[np.int64]
-LumaBounds: TypeAlias = Float32Array
-"""Darkest and brightest luma that each cell of a pair can reach; see `bound_cells`."""
 
 
-class PairArrays(NamedTuple):
-    """Two frames and the flow between them, read-only; see `MotionInterpolation`."""
-
-    earlier: Float32Array
-    """[H, W] luma."""
-    later: Float32Array
-    """[H, W] luma."""
-    forward: Float32Array
-    """[H, W, 2] flow, px."""
-    backward: Float32Array
-    """[H, W, 2] flow, px."""
-
-
-def with_sweep(arrays: PairArrays, sweep: Float32Array) -> PairArrays:
-    """The arrays, with the longer of forward flow and sweep along each axis: for bounds.
-
-    Args:
-        arrays: of a pair.
-        sweep: [H, W, 2] px, or empty; see `pairs.paths_cpu`.
-    """
-    if sweep.size == 0:
-        return arrays
-    longer = np.where(np.abs(sweep) > np.abs(arrays.forward), sweep, arrays.forward)
-    return arrays._replace(forward=read_only(longer))
-
-
-class PreparedPair(NamedTuple):
-    """A pair, prepared for the search of candidates."""
+class BoundedPair(NamedTuple):
+    """Two frames and the motion between them, with bounds of what their pixels can reach."""
 
     pair: Any
-    """`pairs.warp_cpu.WarpPair` of its frames."""
-    bounds: LumaBounds
+    """`pairs.warp_cpu.WarpPair`."""
+    reach: Float32Array
+    """[2, h, w] how far along x and y the samples of a vector's pixels may be, px."""
+    bounds: Float32Array
+    """[2, h, w] darkest and brightest luma that those reach that reach beyond a pixel."""
 
 
 class ReferenceLevels(NamedTuple):
@@ -107,13 +82,9 @@ class CrossingCandidates(NamedTuple):
         )
 
 
-CELL = 8
-"""Side of a cell, px."""
-FARTHEST = 8
-"""A flow that leads further than this many cells leaves its cell without bounds."""
 SLACK = 8.0 * MARGIN
 """Relative margin of trigger levels for rounding."""
-_QUARTER, _1 = np.float32(0.25), np.float32(1.0)
+_QUARTER, _HALF, _1 = np.float32(0.25), np.float32(0.5), np.float32(1.0)
 ROUNDING = np.float32(1e-6)
 """Largest excess of a rounded mean over its terms, as a share of the brightest; ten times the
 error of mixing float32."""
@@ -129,109 +100,174 @@ Rows = tuple[
 
 
 @jit
-def bound_cells(arrays: PairArrays) -> NDArray[np.float32]:
-    """Darkest and brightest luma that the pixels of each cell can reach.
-
-    Returns:
-        [2, rows, W] float32: the lowest and the highest of each cell, for each of its columns.
-    """
-    earlier, later, forward, backward = arrays
-    height, width = earlier.shape
-    down, across = (height + CELL - 1) // CELL, (width + CELL - 1) // CELL
-    reachable = np.empty((2, down, width), np.float32)
-    own = np.empty((down, across, 2), np.float32)
-    reach = np.empty((down, across, 2), np.int64)
-    for i in range(down):
-        rows = slice(i * CELL, min((i + 1) * CELL, height))
-        flows = forward[rows], backward[rows]
-        _find_cell_extremes(earlier[rows], later[rows], flows, own[i], reach[i])
-    for i in range(down):
-        for j in range(across):
-            aside, above = reach[i, j]
-            low, high = own[i, j, 0], own[i, j, 1]
-            if max(aside, above) > FARTHEST:
-                low, high, aside, above = np.float32(0.0), np.float32(np.inf), 0, 0
-            for y in range(max(i - above, 0), min(i + above + 1, down)):
-                for x in range(max(j - aside, 0), min(j + aside + 1, across)):
-                    low, high = min(low, own[y, x, 0]), max(high, own[y, x, 1])
-            for column in range(j * CELL, min((j + 1) * CELL, width)):
-                reachable[0, i, column], reachable[1, i, column] = low, high
-    return reachable
-
-
-@jit
-def _find_cell_extremes(
-    earlier: NDArray[np.float32],
-    later: NDArray[np.float32],
-    flows: tuple[NDArray[np.float32], NDArray[np.float32]],
-    own: NDArray[np.float32],
-    reach: NDArray[np.int64],
-) -> None:
-    """Extremes of one row of cells, and how many cells away their flow leads along x and y."""
-    forward, backward = flows
-    height, width = earlier.shape
-    low, high = np.minimum(earlier[0], later[0]), np.maximum(earlier[0], later[0])
-    farthest = np.zeros(2 * width, np.float32)
-    for y in range(height):
-        first, second = earlier[y], later[y]
+def bound_paths(pair: Any) -> tuple[Float32Array, Float32Array]:
+    """Reach and bounds of a `BoundedPair`."""
+    width = pair.columns
+    reach = _find_reach(pair)
+    first, second = np.empty_like(reach), np.empty_like(reach)
+    bounds = np.empty_like(reach)
+    _find_extremes(pair.first, pair.shift, first[0], first[1])
+    _find_extremes(pair.second, pair.shift, second[0], second[1])
+    words = _with_next(first[0], first[1]), _with_next(second[0], second[1])
+    column = np.empty(width, np.int64)
+    for y in range(reach.shape[1]):
+        along, down, low, high = reach[0, y], reach[1, y], bounds[0, y], bounds[1, y]
         for x in range(width):
-            low[x] = min(low[x], min(first[x], second[x]))
-            high[x] = max(high[x], max(first[x], second[x]))
-        ahead, back = forward[y].reshape(-1), backward[y].reshape(-1)
-        for x in range(2 * width):
-            farthest[x] = max(farthest[x], max(abs(ahead[x]), abs(back[x])))
-    for j in range(len(own)):
-        start, stop = j * CELL, min((j + 1) * CELL, width)
-        own[j, 0], own[j, 1] = low[start], high[start]
-        aside, above = farthest[2 * start], farthest[2 * start + 1]
-        for x in range(start + 1, stop):
-            own[j, 0], own[j, 1] = min(own[j, 0], low[x]), max(own[j, 1], high[x])
-            aside, above = max(aside, farthest[2 * x]), max(above, farthest[2 * x + 1])
-        reach[j, 0], reach[j, 1] = _count_cells(aside), _count_cells(above)
+            low[x] = min(first[0, y, x], second[0, y, x])
+            high[x] = max(first[1, y, x], second[1, y, x])
+        number = 0
+        for x in range(width):
+            column[number] = x
+            number += not ((along[x] <= _1) & (down[x] <= _1))
+        if number:
+            _follow_paths(pair, words, y, column[:number], low, high)
+    return reach, bounds
 
 
-@jit
-def _count_cells(length: np.float32) -> int:
-    """Length of a flow, in cells."""
-    if length > CELL * FARTHEST:
-        return FARTHEST + 1
-    # A bilinear sample touches the pixel behind its position too.
-    return (math.ceil(length) + CELL) // CELL
+@jit(inner=True)
+def _find_reach(pair: Any) -> Float32Array:
+    """How far along x and y the samples of a vector's pixels may be from them, [2, h, w] px."""
+    width, height = pair.columns, pair.forward.size // pair.columns
+    forward, backward = pair.forward.view(np.float32), pair.backward.view(np.float32)
+    reach = np.empty((2, height, width), np.float32)
+    for y in range(height):
+        row = slice(2 * y * width, 2 * (y + 1) * width)
+        ahead, back, along, down = forward[row], backward[row], reach[0, y], reach[1, y]
+        for x in range(width):
+            along[x] = max(abs(ahead[2 * x]), abs(back[2 * x]))
+            down[x] = max(abs(ahead[2 * x + 1]), abs(back[2 * x + 1]))
+        if pair.sweep.size:
+            swept = pair.sweep[y].reshape(-1)
+            for x in range(width):
+                along[x] = max(along[x], abs(swept[2 * x]))
+                down[x] = max(down[x], abs(swept[2 * x + 1]))
+    return reach
+
+
+@jit(inner=True)
+def _find_extremes(image: Float32Array, shift: int, low: Float32Array, high: Float32Array) -> None:
+    """Fill in the darkest and brightest luma of the pixels of each vector."""
+    height, width = image.shape
+    for y in range(0 if shift else height):
+        for x in range(width):
+            low[y, x], high[y, x] = image[y, x], image[y, x]
+    for y in range(len(low) if shift else 0):
+        upper, lower = image[2 * y], image[min(2 * y + 1, height - 1)]
+        least, most = low[y], high[y]
+        for x in range(width // 2):
+            a, b, c, d = upper[2 * x], upper[2 * x + 1], lower[2 * x], lower[2 * x + 1]
+            least[x], most[x] = min(min(a, b), min(c, d)), max(max(a, b), max(c, d))
+        if width % 2:
+            a, b = upper[width - 1], lower[width - 1]
+            least[width // 2], most[width // 2] = min(a, b), max(a, b)
+
+
+@jit(inner=True)
+def _with_next(low: Float32Array, high: Float32Array) -> NDArray[np.uint64]:
+    """Extremes of each vector's pixels and of the next ones to the right and below, [h · w]."""
+    height, width = low.shape
+    words = np.empty((height, 2 * width), np.float32)
+    least, most = np.empty(width, np.float32), np.empty(width, np.float32)
+    for y in range(height):
+        below = min(y + 1, height - 1)
+        for x in range(width):
+            least[x], most[x] = min(low[y, x], low[below, x]), max(high[y, x], high[below, x])
+        row, last = words[y], width - 1
+        for x in range(last):
+            row[2 * x] = min(least[x], least[x + 1])
+            row[2 * x + 1] = max(most[x], most[x + 1])
+        row[2 * last], row[2 * last + 1] = least[last], most[last]
+    return words.reshape(-1).view(np.uint64)
+
+
+@jit(error_model="numpy", inner=True)
+def _follow_paths(
+    pair: Any,
+    words: tuple[NDArray[np.uint64], NDArray[np.uint64]],
+    row: int,
+    column: Int64Array,
+    low: Float32Array,
+    high: Float32Array,
+) -> None:
+    """Extend the extremes of some vectors of a row, [n], by those around their samples."""
+    path = np.empty((2, column.size), np.float32)
+    place, found = np.empty(column.size, np.int64), np.empty(column.size, np.uint64)
+    values = found.view(np.float32)
+    for index in range(pair.positions.size):
+        _take_paths(pair, row, column, index, path)
+        for side in range(2):
+            share = -pair.positions[index] if side == 0 else _1 - pair.positions[index]
+            _find_places(pair, row, column, (share, path), place)
+            for k in range(column.size):
+                found[k] = words[side][np.uint64(place[k])]
+            for k in range(column.size):
+                x = column[k]
+                low[x], high[x] = min(low[x], values[2 * k]), max(high[x], values[2 * k + 1])
+
+
+@jit(error_model="numpy", inner=True)
+def _take_paths(pair: Any, row: int, column: Int64Array, index: int, path: Float32Array) -> None:
+    """Set the paths of some vectors at an instant, [2, n] px, as `warp_cpu` takes them."""
+    forward, backward = pair.forward.view(np.float32), pair.backward.view(np.float32)
+    position, start = pair.positions[index], row * pair.columns
+    for k in range(column.size):
+        i = np.uint64(start + column[k])
+        for axis in range(2):
+            j = i + i + np.uint64(axis)
+            path[axis, k] = forward[j] - position * (forward[j] + backward[j])
+        if pair.contested.size and pair.contested[i]:
+            path[0, k], path[1, k] = pair.chosen[index, pair.contested[i] - 1]
+
+
+@jit(error_model="numpy", inner=True)
+def _find_places(
+    pair: Any,
+    row: int,
+    column: Int64Array,
+    shares: tuple[np.float32, Float32Array],
+    place: Int64Array,
+) -> None:
+    """Find the vectors that samples of the first pixels of some are at, as `warp_cpu` does."""
+    share, (along, down) = shares[0], (shares[1][0], shares[1][1])
+    shift, columns, y = pair.shift, pair.columns, np.float32(row << pair.shift)
+    last_column, last_row = np.float32(pair.first.shape[1] - 1), np.float32(len(pair.first) - 1)
+    for k in range(column.size):
+        x = np.float32(column[k] << shift)
+        to_x = x + np.floor(min(max(-x, share * along[k]), last_column - x))
+        to_y = y + np.floor(min(max(-y, share * down[k]), last_row - y))
+        place[k] = (np.int64(to_y) >> shift) * columns + (np.int64(to_x) >> shift)
 
 
 @jit
 def list_active(
-    arrays: PairArrays,
-    levels: ReferenceLevels,
-    bounds: NDArray[np.float32],
-    row: int,
-    active: NDArray[np.int64],
+    bounded: BoundedPair, levels: ReferenceLevels, row: int, active: NDArray[np.int64]
 ) -> int:
     """Find the pixels of a row that may fire; the others cannot.
 
     Args:
-        arrays: the pair.
+        bounded: the pair.
         levels: what the pixels are compared with.
-        bounds: of `bound_cells`.
         row: which row.
         active: [W], filled in with their columns.
 
     Returns:
         How many there are.
     """
-    earlier, later, forward, backward = arrays
-    width = earlier.shape[1]
+    pair, reach, bounds = bounded
+    earlier, later, width = pair.first, pair.second, pair.first.shape[1]
     low, high = np.empty(width, np.float32), np.empty(width, np.float32)
     first, second = _rows_around(earlier, row), _rows_around(later, row)
-    reachable = bounds[0, row // CELL], bounds[1, row // CELL]
-    _bound_row(first, second, (forward[row], backward[row]), reachable, low, high)
+    inside = row >> pair.shift
+    _bound_row(first, second, reach[:, inside], bounds[:, inside], low, high)
     level = levels.reference[row] if levels.reference.size else earlier[row] + levels.balance
-    marks = np.empty(width, np.uint8)
-    _mark(low, high, level, levels, marks)
+    marks = np.zeros((width + 7) // 8, np.uint64)
+    _mark(low, high, level, levels, marks.view(np.uint8)[:width])
     number = 0
-    for x in range(width):
-        active[number] = x
-        number += marks[x]
+    for word in range(marks.size):
+        if marks[word]:
+            for x in range(8 * word, min(8 * word + 8, width)):
+                active[number] = x
+                number += marks.view(np.uint8)[x]
     return number
 
 
@@ -243,7 +279,7 @@ def _rows_around(image: NDArray[np.float32], row: int) -> Rows:
     return outer[0], image[above], image[row], image[below], outer[1]
 
 
-@jit
+@jit(inner=True)
 def _mark(
     low: NDArray[np.float32],
     high: NDArray[np.float32],
@@ -260,29 +296,26 @@ def _mark(
         marks[x] = is_up | is_down
 
 
-@jit
+@jit(inner=True)
 def _bound_row(
     first: Rows,
     second: Rows,
-    flows: tuple[NDArray[np.float32], NDArray[np.float32]],
-    reachable: tuple[NDArray[np.float32], NDArray[np.float32]],
+    reach: NDArray[np.float32],
+    bounds: NDArray[np.float32],
     low: NDArray[np.float32],
     high: NDArray[np.float32],
 ) -> None:
-    """Fill in bounds of a row: near ones where the flow is at most a pixel, else the cell's."""
+    """Fill in bounds of a row: near ones where it reaches at most a pixel, else the path's."""
     width = low.size
-    work = np.empty((4, width), np.float32)
-    dx, dy, room_first, room_second = work[0], work[1], work[2], work[3]
-    turns = np.zeros((2, width + 2), np.float32)
-    ahead, back = flows[0].reshape(-1), flows[1].reshape(-1)
-    least, most = reachable
-    for x in range(width):
-        dx[x] = max(abs(ahead[2 * x]), abs(back[2 * x]))
-        dy[x] = max(abs(ahead[2 * x + 1]), abs(back[2 * x + 1]))
-    _find_room(first[1:4], dx, dy, room_first)
-    _find_room(second[1:4], dx, dy, room_second)
-    _add_bends(first, dx, dy, turns, room_first)
-    _add_bends(second, dx, dy, turns, room_second)
+    work, steps = np.empty((7, width), np.float32), np.zeros((2, width + 3), np.float32)
+    dx, dy, least, most = work[0], work[1], work[2], work[3]
+    room_first, room_second, memory = work[4], work[5], (work[6], steps)
+    _spread(reach[0], dx)
+    _spread(reach[1], dy)
+    _spread(bounds[0], least)
+    _spread(bounds[1], most)
+    _find_room(first, dx, dy, memory, room_first)
+    _find_room(second, dx, dy, memory, room_second)
     a, b = first[2], second[2]
     for x in range(width):
         is_near = (dx[x] <= _1) & (dy[x] <= _1)
@@ -292,77 +325,53 @@ def _bound_row(
         high[x] = far if is_near else most[x]
 
 
-@jit
+@jit(inner=True)
+def _spread(values: NDArray[np.float32], out: NDArray[np.float32]) -> None:
+    """Fill in a row with its values, or with each of them twice."""
+    if values.size == out.size:
+        for x in range(out.size):
+            out[x] = values[x]
+        return
+    for x in range(out.size // 2):
+        out[2 * x], out[2 * x + 1] = values[x], values[x]
+    out[-1] = values[-1]
+
+
+@jit(inner=True)
 def _find_room(
-    rows: tuple[NDArray[np.float32], NDArray[np.float32], NDArray[np.float32]],
-    dx: NDArray[np.float32],
-    dy: NDArray[np.float32],
-    room: NDArray[np.float32],
-) -> None:
-    """Largest difference between a row's pixels and bilinear samples at most (dx, dy) away."""
-    above, here, below = rows
-    last = here.size - 1
-    for x in range(0, last + 1, max(last, 1)):  # the edges
-        left, right = max(x - 1, 0), min(x + 1, last)
-        aside = _step(above[left], above[x], above[right])
-        aside = max(aside, _step(here[left], here[x], here[right]))
-        aside = max(aside, _step(below[left], below[x], below[right]))
-        room[x] = dx[x] * aside + dy[x] * _step(above[x], here[x], below[x])
-    # Arrays that begin where they are read: Numba takes other indices for possibly negative.
-    above_1, here_1, below_1 = above[1:], here[1:], below[1:]
-    above_2, here_2, below_2 = above[2:], here[2:], below[2:]
-    dx, dy, room = dx[1:], dy[1:], room[1:]
-    for x in range(last - 1):
-        aside = _step(above[x], above_1[x], above_2[x])
-        aside = max(aside, _step(here[x], here_1[x], here_2[x]))
-        aside = max(aside, _step(below[x], below_1[x], below_2[x]))
-        room[x] = dx[x] * aside + dy[x] * _step(above_1[x], here_1[x], below_1[x])
-
-
-@jit(inline="always")
-def _step(before: np.float32, here: np.float32, after: np.float32) -> np.float32:
-    """The larger step from a pixel to its neighbours."""
-    return max(abs(before - here), abs(after - here))
-
-
-@jit
-def _add_bends(
     rows: Rows,
     dx: NDArray[np.float32],
     dy: NDArray[np.float32],
-    turns: NDArray[np.float32],
+    memory: tuple[NDArray[np.float32], NDArray[np.float32]],
     room: NDArray[np.float32],
 ) -> None:
-    """Add by how much a sample at most (dx, dy) away differs from the bilinear one, at most.
+    """Largest difference between a row's pixels and samples at most (dx, dy) away.
 
     Args:
         rows: rows of the image, [W] each.
         dx: [W] px.
         dy: [W] px.
-        turns: [2, W + 2] scratch memory; the first and last column are 0.
-        room: [W], added to.
+        memory: scratch memory, [W] and [2, W + 3], 0 at both ends of the latter.
+        room: [W], filled in.
     """
     above_2, above, here, below, below_2 = rows
-    along, across = turns[0, 1:], turns[1, 1:]
-    before_1, before_2, before_3 = above[1:], here[1:], below[1:]
-    after_1, after_2, after_3 = above[2:], here[2:], below[2:]
-    inner = along[1:]
-    for x in range(after_1.size):
-        # By how much the slope changes: at pixels of all three rows, along x.
-        upper = abs((above[x] - before_1[x]) + (after_1[x] - before_1[x]))
-        middle = abs((here[x] - before_2[x]) + (after_2[x] - before_2[x]))
-        lower = abs((below[x] - before_3[x]) + (after_3[x] - before_3[x]))
-        inner[x] = max(max(upper, lower), middle)
+    vertical, steps = memory
+    # From each pixel to the next one, the largest of three rows, from index 2 on.
+    along, down = steps[0, 2:], steps[1, 1:]
+    above_1, here_1, below_1 = above[1:], here[1:], below[1:]
+    for x in range(here.size - 1):
+        upper, lower = abs(above_1[x] - above[x]), abs(below_1[x] - below[x])
+        along[x] = max(max(upper, lower), abs(here_1[x] - here[x]))
     for x in range(here.size):
-        # Along y: in the middle row, plus that above or below.
-        upper = abs((above_2[x] - above[x]) + (here[x] - above[x]))
-        middle = abs((above[x] - here[x]) + (below[x] - here[x]))
-        lower = abs((here[x] - below[x]) + (below_2[x] - below[x]))
-        across[x] = middle + max(upper, lower)
-    left, right = turns[0], along[1:]
-    left_2, right_2 = turns[1], across[1:]
+        vertical[x] = max(abs(above[x] - here[x]), abs(below[x] - here[x]))
+        outer = max(abs(above_2[x] - above[x]), abs(below_2[x] - below[x]))
+        down[x] = max(vertical[x], outer)
+    left_2, left, right, right_2 = steps[0], steps[0, 1:], steps[0, 2:], steps[0, 3:]
+    down_left, down_right = steps[1], steps[1, 2:]
     for x in range(room.size):
-        bend = along[x] + max(left[x], right[x])
-        bend_2 = max(max(left_2[x], right_2[x]), across[x])
-        share, share_2 = min(dx[x], _QUARTER), min(dy[x], _QUARTER)
-        room[x] += _QUARTER * (share * bend + share_2 * bend_2)
+        aside = max(left[x], right[x])
+        # A bend is at most half of the largest step around.
+        bend = max(aside, max(left_2[x], right_2[x]))
+        bend_2 = max(down[x], max(down_left[x], down_right[x]))
+        bent = min(dx[x], _QUARTER) * bend + min(dy[x], _QUARTER) * bend_2
+        room[x] = dx[x] * aside + dy[x] * vertical[x] + _HALF * bent

@@ -20,58 +20,30 @@ from texvent.runtime.jit import jit
 from texvent.runtime.threads import count_threads, run_parts
 from texvent.simulate.crossing.trigger_levels import MARGIN
 from texvent.simulate.fused.bounds import (
+    BoundedPair,
     CrossingCandidates,
     Float32Array,
-    Float64Array,
     Int64Array,
-    LumaBounds,
-    PairArrays,
-    PreparedPair,
     ReferenceLevels,
-    bound_cells,
+    bound_paths,
     list_active,
-    with_sweep,
 )
 from texvent.simulate.kernels.active_pixels import grown
 
-BAND_PIXELS = 1 << 16
+BAND_PIXELS = 1 << 18
 """Most pixels that a thread takes at a time: candidates are held band by band."""
-BUSY = 0.65
-"""From this share of active pixels on, drawing the frames costs less: each pixel has to be warped
-at each instant either way, scanning whole frames is faster than evaluating pixels one by one, and
-no list of candidates has to be held (docs/design.md has the measurements)."""
-
 Decided = TypeVar("Decided")
 
 
-def find_bounds(
-    motion: MotionInterpolation, levels: Callable[[], ReferenceLevels]
-) -> LumaBounds | None:
-    """Luma bounds of a pair, if evaluating single pixels costs less than drawing its frames.
-
-    Args:
-        motion: of the pixels between the two frames.
-        levels: gives what the pixels are compared with; not called where it makes no difference.
-
-    Returns:
-        What `map_candidates` takes; None where drawing costs less: a share of `BUSY` or more of
-        the pixels, estimated from a sample of rows, may fire; or nothing moves, so that a frame
-        costs next to nothing.
-    """
-    if motion.flows is None:
-        return None
-    arrays = arrays_of(motion)
-    bounds: LumaBounds = bound_cells(arrays)
-    share = estimate_active(arrays, levels(), bounds)
-    return bounds if share < BUSY else None
+def bound_pair(motion: MotionInterpolation) -> BoundedPair:
+    """A pair with flow, with bounds of its luma."""
+    return BoundedPair(motion.prepared, *bound_paths(motion.prepared))
 
 
 def map_candidates(
     decide: Callable[[CrossingCandidates], Decided],
-    motion: MotionInterpolation,
-    *,
     levels: ReferenceLevels,
-    bounds: LumaBounds,
+    motion: MotionInterpolation,
 ) -> list[Decided]:
     """The results of a function for the candidates of each band of rows, from the top.
 
@@ -79,18 +51,16 @@ def map_candidates(
 
     Args:
         decide: called in threads, so it must change the pixels of its candidates only.
-        motion: of the pixels between the two frames; with flow.
         levels: what pixels are compared with.
-        bounds: of `find_bounds`.
+        motion: of the pixels between the two frames; with flow.
     """
-    arrays, positions = arrays_of(motion), np.array(motion.positions, np.float64)
-    prepared = PreparedPair(motion.prepared, bounds)
+    bounded = bound_pair(motion)
 
     def decide_band(rows: tuple[int, int]) -> Decided:
-        return decide(find_in_rows(arrays, positions, levels, prepared, rows))
+        return decide(find_in_rows(bounded, levels, rows))
 
-    height = len(arrays.earlier)
-    number = max(count_threads(), math.ceil(arrays.earlier.size / BAND_PIXELS))
+    height = len(motion.earlier)
+    number = max(count_threads(), math.ceil(motion.earlier.size / BAND_PIXELS))
     step = math.ceil(height / number)
     return run_parts(
         decide_band, [(row, min(row + step, height)) for row in range(0, height, step)]
@@ -107,16 +77,8 @@ def warp_pixels(motion: MotionInterpolation, index: int, pixel: Int64Array) -> F
     """
     if index == len(motion):
         return motion.later.reshape(-1)[pixel]
-    warped: Float32Array = _warp_pixels(motion.prepared, motion.positions[index], pixel)
+    warped: Float32Array = _warp_pixels(motion.prepared, index, pixel)
     return warped
-
-
-def arrays_of(motion: MotionInterpolation) -> PairArrays:
-    """The arrays of a pair with flow, as kernels take them for bounds."""
-    if motion.flows is None:
-        raise ValueError("the frames of the pair are blended, and no pixel moves")
-    arrays = PairArrays(motion.earlier, motion.later, *motion.flows)
-    return with_sweep(arrays, motion.prepared.sweep)
 
 
 Columns = tuple[
@@ -126,115 +88,79 @@ Columns = tuple[
     NDArray[np.float32],
 ]
 FIRST_ROOM = 1024
-SAMPLE = 16
-"""Rows of which `estimate_active` looks at one."""
-BUSY_ROW, PROBE = 0.9, 8
-"""After a row of which a larger share than `BUSY_ROW` is active, all pixels are evaluated up to
-the next row whose number is a multiple of `PROBE`."""
-
-
-@jit
-def estimate_active(arrays: PairArrays, levels: ReferenceLevels, bounds: LumaBounds) -> float:
-    """Share of the pixels that may fire, 0..1, by every `SAMPLE`-th row."""
-    height, width = arrays.earlier.shape
-    active = np.empty(width, np.int64)
-    number, rows = 0, 0
-    for row in range(min(SAMPLE // 2, height - 1), height, SAMPLE):
-        number += list_active(arrays, levels, bounds, row, active)
-        rows += 1
-    share: float = number / (rows * width)
-    return share
 
 
 def find_in_rows(
-    arrays: PairArrays,
-    positions: Float64Array,
-    levels: ReferenceLevels,
-    prepared: PreparedPair,
-    rows: tuple[int, int],
+    bounded: BoundedPair, levels: ReferenceLevels, rows: tuple[int, int]
 ) -> CrossingCandidates:
     """The candidates of some rows; threads may compute different rows at the same time.
 
     Args:
-        arrays: the pair.
-        positions: [K] τ of each intermediate instant.
+        bounded: the pair.
         levels: what pixels are compared with.
-        prepared: the pair prepared, and its `find_bounds`.
         rows: first row, and the one after the last.
     """
-    found, columns = _find(arrays, positions, levels, prepared, rows)
+    found, columns = _find(bounded, levels, rows)
     return CrossingCandidates(*columns).take(slice(found))
 
 
 @jit
 def _find(
-    arrays: PairArrays,
-    positions: Float64Array,
-    levels: ReferenceLevels,
-    prepared: PreparedPair,
-    rows: tuple[int, int],
+    bounded: BoundedPair, levels: ReferenceLevels, rows: tuple[int, int]
 ) -> tuple[int, Columns]:
-    width = arrays.earlier.shape[1]
+    pair = bounded.pair
+    width, parts = pair.first.shape[1], pair.positions.size + 1
     found, columns = 0, _columns(FIRST_ROOM)
     room, warped = make_room(POINTS + width), np.empty(FIRST_ROOM, np.float32)
     memory = np.empty((2, POINTS + width), np.int64)
-    row, number = rows[0], 0
+    row = rows[0]
     while row < rows[1]:
         filled = 0
         while row < rows[1] and filled < POINTS:
-            # Where nearly all pixels may fire, the bounds of each are not worth computing.
-            if number <= BUSY_ROW * width or row % PROBE == 0:
-                number = list_active(arrays, levels, prepared.bounds, row, memory[1])
-            else:
-                number = _list_all(memory[1, :width])
+            number = list_active(bounded, levels, row, memory[1])
             for k in range(number):
                 memory[0, filled + k] = row * width + memory[1, k]
             filled += number
             row += 1
         active = memory[0, :filled]
-        size = filled * (positions.size + 1)
+        size = filled * parts
         if size > warped.size:
             warped = np.empty(2 * size, np.float32)
         if found + size > columns[0].size:
             columns = _grown(columns, size)
-        lumas = warped[:size].reshape(positions.size + 1, filled)
-        _warp_active(prepared.pair, positions, active, room, lumas)
-        found = _list_candidates(arrays, levels, active, lumas, (columns, found))
+        lumas = warped[:size].reshape(parts, filled)
+        _warp_active(pair, active, room, lumas)
+        found = _list_candidates(pair.first, levels, active, lumas, (columns, found))
     return found, columns
 
 
-@jit
-def _list_all(active: NDArray[np.int64]) -> int:
-    for column in range(active.size):
-        active[column] = column
-    return active.size
-
-
-@jit
+@jit(inner=True)
 def _warp_active(
-    pair: WarpPair,
-    positions: Float64Array,
-    active: NDArray[np.int64],
-    room: Room,
-    lumas: NDArray[np.float32],
+    pair: WarpPair, active: NDArray[np.int64], room: Room, lumas: NDArray[np.float32]
 ) -> None:
     """Fill in the luma of active pixels [n] at the ends of the segments, [K + 1, n]."""
     take_points(pair, active, room.points)
-    for segment in range(positions.size):
-        warp_points(pair, room, active.size, positions[segment], lumas[segment])
-    lumas[positions.size] = room.points.later[: active.size]
+    for index in range(pair.positions.size):
+        warp_points(pair, room, active.size, index, lumas[index])
+    lumas[pair.positions.size] = room.points.later[: active.size]
 
 
-@jit
+@jit(inner=True)
 def _list_candidates(
-    arrays: PairArrays,
+    first: Float32Array,
     levels: ReferenceLevels,
     active: NDArray[np.int64],
     lumas: NDArray[np.float32],
     out: tuple[Columns, int],
 ) -> int:
     """List the candidates among some pixels behind those found; return how many there are."""
-    earlier = arrays.earlier.reshape(-1)
+    earlier = first.reshape(-1)
+    lowest = np.full(active.size, np.float32(np.inf))
+    highest = np.full(active.size, np.float32(-np.inf))
+    for j in range(len(lumas)):
+        now = lumas[j]
+        for k in range(active.size):
+            lowest[k], highest[k] = min(lowest[k], now[k]), max(highest[k], now[k])
     reference, balance, up, down, is_step = levels
     references = reference.reshape(-1)
     (pixel, segment, befores, nows), found = out
@@ -243,6 +169,8 @@ def _list_candidates(
         before = earlier[i]
         level = references[i] if references.size else np.float64(before) + balance
         above, below = level * (up * (1.0 - MARGIN)), level * (down * (1.0 + MARGIN))
+        if highest[k] + balance < above and lowest[k] + balance > below:
+            continue
         is_open: bool | np.bool_ = False
         for j in range(len(lumas)):
             now = lumas[j, k]
@@ -262,7 +190,7 @@ def _list_candidates(
     return found
 
 
-@jit
+@jit(inner=True)
 def _move(
     level: float,
     shifted: float,
@@ -291,7 +219,7 @@ def _move(
     return level, is_unclear
 
 
-@jit
+@jit(inner=True)
 def _columns(size: int) -> Columns:
     return (
         np.empty(size, np.int64),
@@ -301,7 +229,7 @@ def _columns(size: int) -> Columns:
     )
 
 
-@jit
+@jit(inner=True)
 def _grown(columns: Columns, least: int) -> Columns:
     """The same columns with more room."""
     pixel, segment, before, now = columns
@@ -310,12 +238,12 @@ def _grown(columns: Columns, least: int) -> Columns:
 
 
 @jit
-def _warp_pixels(pair: WarpPair, position: float, pixel: NDArray[np.int64]) -> NDArray[np.float32]:
-    """Luma of some pixels of the intermediate frame at a position.
+def _warp_pixels(pair: WarpPair, index: int, pixel: NDArray[np.int64]) -> NDArray[np.float32]:
+    """Luma of some pixels of an intermediate frame.
 
     Args:
         pair: the pair, prepared.
-        position: τ, 0 = earlier, 1 = later.
+        index: number of the frame.
         pixel: [n] flat indices.
 
     Returns:
@@ -324,5 +252,5 @@ def _warp_pixels(pair: WarpPair, position: float, pixel: NDArray[np.int64]) -> N
     warped = np.empty(pixel.size, np.float32)
     room = make_room(pixel.size)
     take_points(pair, pixel, room.points)
-    warp_points(pair, room, pixel.size, position, warped)
+    warp_points(pair, room, pixel.size, index, warped)
     return warped

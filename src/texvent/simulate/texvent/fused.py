@@ -20,10 +20,9 @@ from texvent.simulate.crossing.trigger_levels import trigger_factors
 from texvent.simulate.fused.bounds import (
     CrossingCandidates,
     Int64Array,
-    LumaBounds,
     ReferenceLevels,
 )
-from texvent.simulate.fused.candidates import find_bounds, map_candidates, warp_pixels
+from texvent.simulate.fused.candidates import map_candidates, warp_pixels
 from texvent.simulate.packets import FrameInterval
 from texvent.simulate.random.draws import frame_key
 from texvent.simulate.texvent.config import TexventConfig
@@ -52,32 +51,22 @@ class FusedPass:
         self._keeps_start = config.timestamp_rule == "linear"
         self._scratch: Float64Array = np.empty(0)
 
-    def find_bounds(self, pair: FramePair, memory: Memory | None) -> LumaBounds | None:
-        """Luma bounds if the pair is better computed without drawing its frames, else None.
-
-        Args:
-            pair: not the first of a stream.
-            memory: of the pixels; None where the cache forgets at every pair.
-        """
-        return find_bounds(pair.motion, functools.partial(self._levels, pair, memory))
-
     def packets(
-        self, pair: FramePair, memory: Memory | None, bounds: LumaBounds
+        self, pair: FramePair, memory: Memory | None
     ) -> Iterator[tuple[Frame, EventStream]]:
         """Every frame of a pair, undrawn, with the packet of events that ends at it.
 
         Args:
-            pair: not the first of a stream.
+            pair: not the first of a stream, with flow.
             memory: of the pixels, whose references this moves (before the first packet is read);
                 None where the cache forgets at every pair.
-            bounds: of `find_bounds`.
         """
         motion = pair.motion
         edges_us = pair.edges_us.tolist()
         decide = functools.partial(
             self._decide, earlier=motion.earlier.reshape(-1), memory=memory, parts=len(motion) + 1
         )
-        bands = map_candidates(decide, motion, levels=self._levels(pair, memory), bounds=bounds)
+        bands = map_candidates(decide, self._levels(pair, memory), motion)
         return self._timestamp(pair, list(zip(*bands, strict=True)), edges_us)
 
     def _timestamp(

@@ -109,11 +109,7 @@ class TexventSimulator(SteppingSimulator):
         if self._forgets or not isinstance(pixels, SparsePixels):
             pixels = None
         memory = None if pixels is None else pixels.ensure_reference()
-        bounds = self._fused.find_bounds(pair, memory)
-        if bounds is None:
-            yield from super().advance(pair)
-            return
-        packets = self._fused.packets(pair, memory, bounds)
+        packets = self._fused.packets(pair, memory)
         self._leave_pair(pair, pixels)
         yield from packets
 
