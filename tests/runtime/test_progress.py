@@ -64,8 +64,9 @@ def test_short_work_draws_no_bar_and_long_work_does(monkeypatch):
     assert "simulate" in terminal.getvalue()
 
 
-def test_a_terminal_is_told_once_that_kernels_are_compiled(monkeypatch):
+def test_a_terminal_is_told_once_that_kernels_are_compiled(monkeypatch, tmp_path):
     terminal = Terminal()
+    monkeypatch.setattr(numba.config, "CACHE_DIR", str(tmp_path))
     monkeypatch.setattr(sys, "stderr", terminal)
     _tell_terminal.cache_clear()
     for value in (1, 2.0):
