@@ -22,7 +22,7 @@ from texvent.runtime.progress import Progress, ProgressOption, open_progress
 from texvent.sensor import SensorSize
 from texvent.settings.resolution import resolve
 from texvent.video import Frame, FrameStream
-from texvent.video_check.checks import VideoReport, evaluate
+from texvent.video_check.checks import VideoReport
 from texvent.video_check.measurements import VideoMeasurer
 
 PAIRS = 8
@@ -96,7 +96,7 @@ def check_frames(video: FrameStream, progress: Progress) -> VideoCheckResult:
             wanted = next(chosen, None)
         last = frame
     measurements = {**measurer.measurements(), **measure_motion(pairs)}
-    return VideoCheckResult(evaluate(measurements), tuple(measurer.cut_times_us), video.size)
+    return VideoCheckResult(VideoReport(measurements), tuple(measurer.cut_times_us), video.size)
 
 
 def _instants(total: int | None) -> Iterator[int]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import deque
 from concurrent.futures import Future, ThreadPoolExecutor
-from types import TracebackType
 from typing import Any, Protocol, Self
 
 from texvent.runtime.interrupts import delay_interrupts
@@ -48,14 +47,9 @@ class BackgroundWriter:
             self._queue.popleft().result()
         self._queue.append(self._worker.submit(self._sink.append, *parts))
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *raised: object) -> None:
         try:
-            while error is None and self._queue:
+            while raised[0] is None and self._queue:
                 self._queue.popleft().result()
         finally:
             # A second Ctrl-C must not let the sink close while the thread is still inside it.

@@ -39,7 +39,7 @@ class Check:
     """Effect on events."""
     help: str
     """Advice; options are those of texvent simulate."""
-    is_failure: bool = False
+    is_failure: bool = True
     """Whether a generated video that has it failed: another seed may give a better one."""
 
 
@@ -65,7 +65,6 @@ CHECKS = (
     Check(
         name="frozen",
         needs="still_share",
-        is_failure=True,
         # Frames that repeat in a pattern are another finding: the clip moves.
         is_found=lambda one: one["still_share"] > FROZEN_SHARE and not one.get("pattern_period"),
         value=lambda one: f"{one['still_share']:.0%} of pairs still",
@@ -76,7 +75,6 @@ CHECKS = (
     Check(
         name="no motion",
         needs="motion",
-        is_failure=True,
         is_found=lambda one: one["motion"] < MOTION_LEVELS,
         value=lambda one: f"{one['motion']:.1f} levels",
         limit=f"at least {MOTION_LEVELS:g}",
@@ -86,7 +84,6 @@ CHECKS = (
     Check(
         name="flicker",
         needs="flicker",
-        is_failure=True,
         is_found=lambda one: one["flicker"] > FLICKER_LEVELS,
         value=lambda one: f"{one['flicker']:.2f} levels",
         limit=f"{FLICKER_LEVELS:g}",
@@ -96,7 +93,6 @@ CHECKS = (
     Check(
         name="flash",
         needs="flash",
-        is_failure=True,
         is_found=lambda one: one["flash"] > FLASH_LEVELS,
         value=lambda one: f"{one['flash']:.1f} levels",
         limit=f"{FLASH_LEVELS:g}",
@@ -106,7 +102,6 @@ CHECKS = (
     Check(
         name="cut",
         needs="cuts",
-        is_failure=True,
         is_found=lambda one: one["cuts"] > 0,
         value=lambda one: f"{one['cuts']:.0f}",
         limit="0",
@@ -116,7 +111,6 @@ CHECKS = (
     Check(
         name="dark",
         needs="bright_end",
-        is_failure=True,
         is_found=lambda one: one["bright_end"] < DARK_LEVEL,
         value=lambda one: f"95 % below level {one['bright_end']:.0f}",
         limit=f"{DARK_LEVEL:g}",
@@ -126,7 +120,6 @@ CHECKS = (
     Check(
         name="saturated",
         needs="dark_end",
-        is_failure=True,
         is_found=lambda one: one["dark_end"] > BRIGHT_LEVEL,
         value=lambda one: f"95 % above level {one['dark_end']:.0f}",
         limit=f"{BRIGHT_LEVEL:g}",
@@ -136,7 +129,6 @@ CHECKS = (
     Check(
         name="noise",
         needs="correlation",
-        is_failure=True,
         is_found=lambda one: one["correlation"] < NOISE_CORRELATION,
         value=lambda one: f"correlation {one['correlation']:.2f}",
         limit=f"at least {NOISE_CORRELATION:g}",
@@ -145,6 +137,7 @@ CHECKS = (
     ),
     Check(
         name="repeated frames",
+        is_failure=False,
         needs="repeat_share",
         is_found=lambda one: one["repeat_share"] > REPEAT_SHARE,
         value=_repeats,
@@ -154,6 +147,7 @@ CHECKS = (
     ),
     Check(
         name="motion per frame",
+        is_failure=False,
         needs="motion_px",
         is_found=lambda one: one["motion_share"] > MOTION_SHARE,
         value=_motion,
@@ -185,13 +179,23 @@ class Finding:
 
 @dataclass(frozen=True)
 class VideoReport:
-    """Findings of the checks."""
+    """Findings of the checks, of a video's measurements with or without those of motion."""
 
-    problems: tuple[str, ...]
-    """Of a failed video: frozen, no motion, flicker, flash, cut, dark, saturated, noise."""
     measurements: Measurements
-    remarks: tuple[str, ...] = ()
-    """Of the other checks: the video is what it should be, and events suffer."""
+
+    @property
+    def problems(self) -> tuple[str, ...]:
+        """Of a failed video: frozen, no motion, flicker, flash, cut, dark, saturated, noise."""
+        return self._found(is_failure=True)
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Of the other checks: the video is what it should be, and events suffer."""
+        return self._found(is_failure=False)
+
+    def _found(self, *, is_failure: bool) -> tuple[str, ...]:
+        found = (one.check for one in self.findings if one.is_found)
+        return tuple(check.name for check in found if check.is_failure == is_failure)
 
     @property
     def is_fine(self) -> bool:
@@ -224,15 +228,4 @@ def check_video(frames: Iterable[Frame]) -> VideoReport:
     Args:
         frames: a video; at least two frames, else it has no motion.
     """
-    return evaluate(measure_video(frames))
-
-
-def evaluate(measurements: Measurements) -> VideoReport:
-    """The report of a video's measurements, with or without those of motion."""
-    made = [check for check in CHECKS if check.needs in measurements]
-    found = [check for check in made if check.is_found(measurements)]
-    return VideoReport(
-        problems=tuple(check.name for check in found if check.is_failure),
-        measurements=dict(measurements),
-        remarks=tuple(check.name for check in found if not check.is_failure),
-    )
+    return VideoReport(measure_video(frames))

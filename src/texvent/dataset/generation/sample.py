@@ -29,7 +29,7 @@ from texvent.settings.resolution import Settings
 from texvent.truth.boxes import SIZE_CLASSES, detection_target, size_classes
 from texvent.truth.clip import ClipTruth
 from texvent.video import Frame, Motion
-from texvent.video_check.checks import evaluate
+from texvent.video_check.checks import VideoReport
 from texvent.video_check.measurements import VideoMeasurer
 
 if TYPE_CHECKING:
@@ -202,7 +202,7 @@ def _too_weak(signal: int, filters: Filters) -> str | None:
 def _looks_failed(measurer: VideoMeasurer | None) -> str | None:
     if measurer is None:
         return None
-    report = evaluate(measurer.measurements())
+    report = VideoReport(measurer.measurements())
     return None if report.is_fine else f"the video looks failed: {report.summary}"
 
 

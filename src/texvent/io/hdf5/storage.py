@@ -9,7 +9,6 @@ import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from types import TracebackType
 from typing import TYPE_CHECKING, Any, Self
 
 import h5py
@@ -200,14 +199,9 @@ class Hdf5Writer(BlockWriter):
         with delay_interrupts():
             return super().__enter__()
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *error: Any) -> None:
         with delay_interrupts():
-            super().__exit__(kind, error, trace)
+            super().__exit__(*error)
 
     def _write_pending(self, write: WriteBlock, *, final: bool) -> None:
         with delay_interrupts():

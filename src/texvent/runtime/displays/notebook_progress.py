@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 import sys
 import time
-from types import TracebackType
 from typing import Any, Self
 
 from texvent.errors import visible
@@ -40,12 +39,7 @@ class NotebookProgress:
         self._begun = self._stage_begun = time.monotonic()
         return self
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
+    def __exit__(self, *error: object) -> None:
         if self._handle is not None:
             self._handle.update({"text/plain": ""}, raw=True)
 
