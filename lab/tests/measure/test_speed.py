@@ -68,4 +68,4 @@ def test_small_rows_of_every_kind_become_tables(monkeypatch):
 
 
 def test_the_stored_result_has_tables():
-    assert as_markdown(read_document(ROOT / "docs/results/speed.json.gz")).count("\n## ") == 4
+    assert as_markdown(read_document(ROOT / "docs/results/speed.json.gz")).count("\n## ") == 6

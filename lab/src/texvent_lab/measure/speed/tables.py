@@ -13,15 +13,10 @@ CORE, WITH_FLOW = 2.0, 0.25
 
 def as_markdown(document: Document) -> str:
     """All tables of a document."""
-    parts = [_conditions(document), _kernels(document), _peers(document)]
-    if "definition" in document:  # not in older results
-        parts.append(_bounds(document))
-    if document["quick"]:
-        return "\n".join(parts)
-    parts.append(_runs(document))
-    if "steps" in document:  # not in older results
-        parts.append(_steps(document))
-    return "\n".join([*parts, _commands(document)])
+    parts = [_conditions(document), _kernels(document), _peers(document), _bounds(document)]
+    if not document["quick"]:
+        parts += [_runs(document), _steps(document), _commands(document)]
+    return "\n".join(parts)
 
 
 def _spread(quartiles: Document) -> str:
