@@ -13,7 +13,9 @@ CORE, WITH_FLOW = 2.0, 0.25
 
 def as_markdown(document: Document) -> str:
     """All tables of a document."""
-    parts = [_conditions(document), _kernels(document), _peers(document), _bounds(document)]
+    parts = [_conditions(document), _kernels(document), _peers(document)]
+    if "definition" in document:
+        parts.append(_bounds(document))
     if not document["quick"]:
         parts += [_runs(document), _steps(document), _commands(document)]
     return "\n".join(parts)
