@@ -97,10 +97,12 @@ def test_a_kernel_is_compiled_again_when_a_file_that_it_uses_changes(package):
         assert run(package) == (result, 0)
 
 
-def test_an_inner_function_is_not_kept_by_itself(package):
-    run(package)
-    kept = {file.name.split("-")[0] for file in package.rglob("*.nbi")}
-    assert kept == {"entry.run"}
+def test_an_inner_function_is_refused_to_python():
+    half = jit(inner=True)(lambda x: 0.5 * x)
+    assert jit(lambda x: half(x))(3.0) == 1.5
+    if hasattr(half, "py_func"):  # not with NUMBA_DISABLE_JIT=1
+        with pytest.raises(TypeError, match="which only kernels call"):
+            half(3.0)
 
 
 def test_a_kernel_is_read_from_disk_when_other_files_change(package):
@@ -108,6 +110,7 @@ def test_a_kernel_is_read_from_disk_when_other_files_change(package):
     (package / "other.py").write_text("A = 2\n")
     os.utime(package / "inner.py", (0, 0))
     assert run(package) == (111, 1)
+    assert all(file.name.startswith("entry.run") for file in package.rglob("*.nbi"))
 
 
 def test_every_kernel_of_the_library_uses_this_decorator():

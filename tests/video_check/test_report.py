@@ -36,9 +36,7 @@ def problems(images) -> set[str]:
 
 
 def test_a_moving_image_is_fine(clip):
-    report = check_video(frames(clip))
-    assert report.is_fine, report
-    assert report.summary == "nothing found"
+    assert check_video(frames(clip)).is_fine
 
 
 @pytest.mark.parametrize(

@@ -12,7 +12,6 @@ from texvent_lab.measure.speed.runs import measure_run, measure_steps
 from texvent_lab.measure.speed.tables import as_markdown
 
 ROOT = Path(__file__).parents[3]
-SPREAD = {"median": 2.0, "q1": 1.0, "q3": 3.0, "n": 3}
 
 
 def test_a_threshold_is_found_that_gives_the_count():

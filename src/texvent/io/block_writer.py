@@ -10,7 +10,6 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import AbstractContextManager, ExitStack
 from dataclasses import dataclass
 from pathlib import Path
-from types import TracebackType
 from typing import Any, Self, TypeAlias
 
 from numpy.typing import NDArray
@@ -198,14 +197,9 @@ class BlockWriter:
         if self._pending_events >= BLOCK_EVENTS:
             self._write_pending(self._write, final=False)
 
-    def __exit__(
-        self,
-        kind: type[BaseException] | None,
-        error: BaseException | None,
-        trace: TracebackType | None,
-    ) -> None:
-        if error is not None or self._write is None:
-            self._stack.__exit__(kind, error, trace)
+    def __exit__(self, *raised: Any) -> None:
+        if raised[0] is not None or self._write is None:
+            self._stack.__exit__(*raised)
             return
         with self._stack:
             self._write_pending(self._write, final=True)
@@ -215,11 +209,9 @@ class BlockWriter:
         metadata_to_json(facts)
         self._added.update(facts)
 
-    def _store_added(
-        self, kind: object, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
+    def _store_added(self, *raised: object) -> None:
         """Give the closed file, which has no name yet, the metadata that came late."""
-        if error is not None or not self._added:
+        if raised[0] is not None or not self._added:
             return
         metadata = {**self._target.metadata, **self._added}
         if self._has_sidecar:

@@ -13,7 +13,6 @@ from typing import Any, TypeVar, overload
 
 import numba
 from numba import types
-from numba._dynfunc import make_function
 from numba.core.caching import FunctionCache, IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
@@ -52,7 +51,10 @@ def jit(function: Any = None, /, *, inner: bool = False, **options: Any) -> Any:
     def decorate(function: Any) -> Any:
         kernel: Any = numba.njit(nogil=True, **options)(function)
         if hasattr(kernel, "py_func"):  # not with NUMBA_DISABLE_JIT=1
-            if not inner:
+            if inner:
+                kernel.add_overload = functools.partial(_add_overload, kernel)
+                kernel._compile_for_args = functools.partial(_refuse, function.__name__)
+            else:
                 kernel._cache = _KernelCache(function)
             kernel.get_call_template = functools.partial(_template_of, kernel)
         return kernel
@@ -94,10 +96,18 @@ class _InnerCompiler(Compiler):
         return super().compile_extra(func)  # type: ignore[no-untyped-call]
 
 
-def _without_entry(library: Any, description: Any, environment: Any) -> Any:
+def _without_entry(library: Any, *_: Any) -> Any:
     library.finalize()
-    name = description.qualname
-    return make_function(description.lookup_module(), name, "", 0, environment, (library,))
+    return library  # stands for the entry
+
+
+def _add_overload(kernel: Any, compiled: Any) -> None:
+    """What kernels call; calls from Python find nothing."""
+    kernel.overloads[tuple(compiled.signature.args)] = compiled
+
+
+def _refuse(name: str, *_: Any, **__: Any) -> None:
+    raise TypeError(f"{name} is an inner function, which only kernels call")
 
 
 class _KernelCache(FunctionCache):

@@ -205,7 +205,7 @@ class VideoReport:
     @property
     def summary(self) -> str:
         """The problems in one line."""
-        return ", ".join(self.problems) if self.problems else "nothing found"
+        return ", ".join(self.problems)
 
     @property
     def findings(self) -> tuple[Finding, ...]:

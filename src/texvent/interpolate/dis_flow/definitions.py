@@ -1,7 +1,7 @@
 """Dense inverse search: the method and its constants.
 
 Optical flow after Kroeger et al., Fast Optical Flow using Dense Inverse Search (ECCV 2016). On each
-level of an image pyramid, from the coarsest to half size:
+level of an image pyramid, from the coarsest to half size (of small images to full size):
 
 1. *Search.* Patches of 8×8 px are searched for in the other frame by Gauss-Newton steps on their
    mean-free difference. A patch starts from the coarser level's flow, and keeps it where that
@@ -21,8 +21,8 @@ its slopes to the right and downwards, levels per px. Flow is planar here: [2, H
 before y, px. `tests/interpolate/dis_flow/reference.py` defines the kernels in NumPy.
 
 Deviation: Gauss-Newton steps of full length, so two do instead of 25; images keep their precision;
-    no gradient constancy; whole pixels are tried on the coarsest level. More steps and sweeps were
-    not better (docs/speed.md).
+    no gradient constancy; whole pixels are tried on the coarsest level. More steps and sweeps
+    are not better (docs/design.md).
 """
 
 from __future__ import annotations

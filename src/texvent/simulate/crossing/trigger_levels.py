@@ -46,7 +46,6 @@ Luma: TypeAlias = NDArray[Any]
 MARGIN = 1e-6
 """Shift of trigger levels towards the reference; relative, see above."""
 PIXELS_AT_A_TIME = 1 << 14
-_BYTE = np.dtype(np.uint8).str
 
 
 class TriggerFactors(NamedTuple):
@@ -184,7 +183,7 @@ def _find_outside_levels(
 
 @jit
 def _mark_outside(luma: Luma, low: Luma, high: Luma) -> MarkedRuns:
-    """Mark pixels outside their levels; see `bitmask_cpu`."""
+    """Mark pixels outside their levels; see `active_pixels`."""
     is_marked = make_flags(luma.size)
     for number in range(luma.size // RUN):
         first, is_any = number * RUN, np.uint8(0)

@@ -45,7 +45,7 @@ class BoundedPair(NamedTuple):
     reach: Float32Array
     """[2, h, w] how far along x and y the samples of a vector's pixels may be, px."""
     bounds: Float32Array
-    """[2, h, w] darkest and brightest luma that those reach that reach beyond a pixel."""
+    """[2, h, w] darkest and brightest luma of those samples, if their reach is beyond a pixel."""
 
 
 class ReferenceLevels(NamedTuple):

@@ -36,7 +36,7 @@ Uint64Array = NDArray[np.uint64]
 
 _DRAW = int(Purpose.TIMESTAMP.draw())
 _NOISE = np.uint64(NOISE)
-_0, _1 = np.uint64(0), np.uint64(1)
+_1 = np.uint64(1)
 _SIZE_BITS = (1 << 63) - 1
 """Bits of a float64 but its sign."""
 _INFINITY_BITS = int(np.array(np.inf).view(np.int64))

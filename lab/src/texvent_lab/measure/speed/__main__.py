@@ -19,7 +19,7 @@ def main() -> None:
     """Measure what the options ask for, or show a result."""
     parser = argparse.ArgumentParser(prog="python -m texvent_lab.measure.speed")
     parser.add_argument(
-        "--quick", action="store_true", help="the ratios that must hold: 20 seconds"
+        "--quick", action="store_true", help="ratios beside their bounds: 6 seconds"
     )
     parser.add_argument("--json", type=Path, help="write the figures here")
     parser.add_argument("--video", type=Path, help="real video; else a short excerpt")

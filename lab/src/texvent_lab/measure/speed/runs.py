@@ -39,7 +39,7 @@ REPEATS = 2
 STEP_SIZES = (SensorSize(346, 260), SensorSize(640, 480))
 STEP_MODELS = ("texvent", "esim", "v2e")
 HD, HD_FPS = SensorSize(1280, 720), Fraction(25)
-STILL_FRAMES = 60
+CLIP_FRAMES = 60
 """Of the clip of 2.36 s at 25 frames per second that the circuit model is timed on."""
 DEMO = ("generate", "a red car drives left past two trees at dusk")
 COMMANDS = {
@@ -151,7 +151,7 @@ def measure_commands(video: Path | None) -> list[dict[str, Any]]:
     """
     rows = []
     with tempfile.TemporaryDirectory() as folder:
-        frames = embedded_heavy_clip(HEAVY_SIZE, STILL_FRAMES).pixels
+        frames = embedded_heavy_clip(HEAVY_SIZE, CLIP_FRAMES).pixels
         files = {"CLIP": write_video(Path(folder) / "clip.mp4", frames), "FILM": video}
         for name, words in COMMANDS.items():
             cold = "nothing compiled" in name
