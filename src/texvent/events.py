@@ -246,9 +246,9 @@ class EventStream(EventEdits):
 
     def without_label(self) -> EventStream:
         """The same events without the signal/noise column."""
-        stream = object.__new__(type(self))
-        vars(stream).update(vars(self) | {"label": None})
-        return stream
+        changed = copy.copy(self)  # the columns were checked
+        object.__setattr__(changed, "label", None)
+        return changed
 
     def with_ids(self, instance: NDArray[Any] | None, class_id: NDArray[Any] | None) -> EventStream:
         """The same events with other ids of their objects, [n] each; None: without."""

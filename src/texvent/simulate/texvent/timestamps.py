@@ -79,7 +79,8 @@ def timestamp_events(
     else:
         _list_others(pixel, steps, rule == "random", (span.key, shape[1]), layout, keys)
     is_at_rest = config.noise == "adaptive"
-    return SortedEvents(*_order((keys, spare), number, noise, is_at_rest, layout, shape[1]))
+    bits = layout.low + layout.duration_us.bit_length()
+    return SortedEvents(*_order((keys, spare), number, noise, is_at_rest, layout, bits, shape[1]))
 
 
 @jit(error_model="numpy")
@@ -153,16 +154,14 @@ def _order(
     noise: NoisePlaces,
     is_at_rest: bool,
     layout: KeyLayout,
+    bits: int,
     width: int,
 ) -> Any:
-    """Columns of the packet, of so many keys of signal in the first of two arrays, and noise."""
+    """Columns of the packet, of `number` keys of signal of so many `bits`, and of noise."""
     keys, spare = room
     if noise.pixel.size:
         number = _merge(keys[:number], _list_noise(noise, layout), is_at_rest, layout, spare)
         keys, spare = spare, keys
-    bits = layout.low
-    while layout.duration_us >> (bits - layout.low):
-        bits += 1
     keys = sort_keys(keys[:number], spare[:number], layout.low, bits)
     return unpack_keys(keys, layout.start_us, width, layout.low)
 
