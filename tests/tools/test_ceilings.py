@@ -26,10 +26,5 @@ def test_lines_and_modules_are_counted(tree: Path) -> None:
 
 
 def test_a_room_above_its_ceiling_is_named(tree: Path) -> None:
-    assert faults(ceilings(data=1), {}, tree) == ["room: 2 (data); the ceiling is 1"]
+    assert faults(ceilings(data=1), tree) == ["room: 2 (data); the ceiling is 1"]
 
-
-def test_a_raised_ceiling_is_named(tree: Path) -> None:
-    assert faults(ceilings(python=9), ceilings(python=3), tree) == [
-        "room: the ceiling of python was 3; keep it"
-    ]
