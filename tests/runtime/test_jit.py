@@ -110,7 +110,7 @@ def test_a_kernel_is_read_from_disk_when_other_files_change(package):
     (package / "other.py").write_text("A = 2\n")
     os.utime(package / "inner.py", (0, 0))
     assert run(package) == (111, 1)
-    assert all(file.name.startswith("entry.run") for file in package.rglob("*.nbi"))
+    assert all(file.name.startswith("entry.run") for file in package.rglob("*.nbc"))
 
 
 def test_every_kernel_of_the_library_uses_this_decorator():

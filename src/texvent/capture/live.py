@@ -9,7 +9,6 @@ import time
 from collections.abc import Iterator
 from typing import Any
 
-import av
 from av.container import InputContainer
 from av.error import FFmpegError
 from av.video.frame import VideoFrame
@@ -20,6 +19,7 @@ from texvent.capture.frame_times import FrameTimes
 from texvent.capture.video_file import coding_facts, decoded_pixels
 from texvent.errors import InputError
 from texvent.runtime.interrupts import stop_on_interrupt
+from texvent.runtime.media_files import open_media
 from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, Frame
@@ -131,11 +131,11 @@ def without_password(address: str) -> str:
 def _open_live(address: str, name: str) -> InputContainer:
     try:
         if address == STANDARD_INPUT:
-            return av.open(sys.stdin.buffer, mode="r", options=OPTIONS)
+            return open_media(sys.stdin.buffer, options=OPTIONS)
         if address.startswith("/dev/video"):
-            return av.open(address, mode="r", format="v4l2", options=OPTIONS)
+            return open_media(address, format="v4l2", options=OPTIONS)
         timeout = TIMEOUT_S if "://" in address else None
-        return av.open(address, mode="r", timeout=timeout, options=OPTIONS)
+        return open_media(address, timeout=timeout, options=OPTIONS)
     except (FFmpegError, OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
         raise InputError(

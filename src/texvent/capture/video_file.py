@@ -27,6 +27,7 @@ from texvent.capture.frame_times import FrameTimes
 from texvent.capture.linear_light import CODING, HALF, LINEAR, VIDEO_CODINGS
 from texvent.errors import FileFormatError, warn
 from texvent.io.input_checks import refuse_missing
+from texvent.runtime.media_files import open_media
 from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, PREVIEW_MARK, Frame, PixelArray, frame_time_us
 
@@ -199,7 +200,7 @@ def _opened(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
     refuse_missing(path, "video")
     try:
         # With the protocol named, a colon in the path is not taken for one.
-        container = av.open(f"file:{path}", metadata_errors="replace")
+        container = open_media(f"file:{path}")
     except (FFmpegError, OSError) as error:
         raise FileFormatError(
             f"{path} is not a video that can be read ({error.strerror}); "
@@ -304,7 +305,9 @@ def _upright(pixels: NDArray[Any], matrix: tuple[int, int, int, int]) -> PixelAr
 def _own_rate(container: InputContainer, stream: VideoStream) -> Fraction | None:
     """Frame rate of the stream; libav invents one for streams without a container."""
     rate = stream.average_rate or stream.guessed_rate
-    return (stream.codec_context.framerate or rate) if container.format.name in RAW else rate
+    if container.format.name in RAW:
+        rate = stream.codec_context.framerate or rate
+    return Fraction(rate) if rate else None
 
 
 def coding_facts(frame: VideoFrame, comment: str = "") -> dict[str, str]:

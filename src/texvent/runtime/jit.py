@@ -1,27 +1,19 @@
-"""The decorator of compiled functions; their cache on disk follows the files that they call."""
+"""The decorator of compiled functions."""
 
 from __future__ import annotations
 
 import functools
-import hashlib
-import importlib.util
-import re
-import sys
 from collections.abc import Callable
-from pathlib import Path
 from typing import Any, TypeVar, overload
 
 import numba
 from numba import types
-from numba.core.caching import FunctionCache, IndexDataCacheFile
 from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 
-from texvent.runtime.progress import tell_of_compilation
+from texvent.runtime.kernel_cache import cache_of
 
 Function = TypeVar("Function", bound=Callable[..., Any])
-
-_IMPORT = re.compile(r"^(?:from ([\w.]+) import (\([^)]*\)|.*)|import ([\w.]+))", re.MULTILINE)
 
 
 @overload
@@ -55,7 +47,7 @@ def jit(function: Any = None, /, *, inner: bool = False, **options: Any) -> Any:
                 kernel.add_overload = functools.partial(_add_overload, kernel)
                 kernel._compile_for_args = functools.partial(_refuse, function.__name__)
             else:
-                kernel._cache = _KernelCache(function)
+                kernel._cache = cache_of(function)
             kernel.get_call_template = functools.partial(_template_of, kernel)
         return kernel
 
@@ -108,61 +100,3 @@ def _add_overload(kernel: Any, compiled: Any) -> None:
 
 def _refuse(name: str, *_: Any, **__: Any) -> None:
     raise TypeError(f"{name} is an inner function, which only kernels call")
-
-
-class _KernelCache(FunctionCache):
-    """Numba's cache of a function on disk, valid for one state of all files that it depends on."""
-
-    def __init__(self, function: Any) -> None:
-        super().__init__(function)  # type: ignore[no-untyped-call]
-        # Numba compares the stamp with that on disk. Its own is of one file.
-        stamp = (self._cache_file._source_stamp, _stamp(function.__module__))
-        name = self._impl.filename_base
-        self._cache_file = _KernelIndex(self._cache_path, name, stamp)  # type: ignore[no-untyped-call]
-
-    def load_overload(self, signature: Any, target_context: Any) -> Any:
-        found = super().load_overload(signature, target_context)  # type: ignore[no-untyped-call]
-        if found is None:
-            tell_of_compilation()
-        return found
-
-
-class _KernelIndex(IndexDataCacheFile):
-    """The compiled signatures of a kernel; they may name types that were renamed since."""
-
-    def _load_index(self) -> Any:
-        try:
-            return super()._load_index()  # type: ignore[no-untyped-call]
-        except (AttributeError, ImportError):
-            return {}
-
-
-@functools.cache
-def _stamp(module: str) -> str:
-    """Digest of the files that a module consists of: its own and those that it imports."""
-    packages = {_package(module), _package(__name__)}
-    digests: dict[str, str] = {}
-    pending = [module]
-    while pending:
-        name = pending.pop()
-        path = getattr(sys.modules.get(name), "__file__", None)
-        if path is not None and name not in digests and _package(name) in packages:
-            digests[name], imported = _read(name, path)
-            pending += imported
-    return hashlib.sha256(repr(sorted(digests.items())).encode()).hexdigest()
-
-
-@functools.cache
-def _read(module: str, path: str) -> tuple[str, list[str]]:
-    """Digest of a file, and the names that it imports: of modules, and of what is in them."""
-    source = Path(path).read_text("utf-8")
-    package = getattr(sys.modules[module], "__package__", None)
-    names: list[str] = []
-    for origin, parts, whole in _IMPORT.findall(source):
-        name = importlib.util.resolve_name(origin or whole, package)
-        names += [name, *(f"{name}.{part}" for part in re.findall(r"\w+", parts))]
-    return hashlib.sha256(source.encode()).hexdigest(), names
-
-
-def _package(module: str) -> str:
-    return module.partition(".")[0]

@@ -153,11 +153,12 @@ class PlayedVideo:
         return np.maximum.accumulate(counted), float(counted[-1]) + max(last, 1e-3)
 
     def _open(self) -> Iterator[Any]:
-        import av  # most scenes show no video
-        from av.error import FFmpegError
+        from av.error import FFmpegError  # most scenes show no video
+
+        from texvent.runtime.media_files import open_media
 
         try:
-            with av.open(str(self._path)) as container:
+            with open_media(str(self._path)) as container:
                 yield from container.decode(video=0)
         except (FFmpegError, IndexError, OSError) as error:
             raise FileFormatError(

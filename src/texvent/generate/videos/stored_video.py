@@ -27,6 +27,7 @@ from av.video.stream import VideoStream
 
 from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
+from texvent.runtime.media_files import open_media
 from texvent.sensor import SensorSize
 from texvent.transfer import WHITE, Transfer, encode_half
 from texvent.video import (
@@ -101,7 +102,7 @@ def open_stored(path: Path, fps: Fraction, metadata: Mapping[str, Any]) -> Store
 def reopen(path: Path) -> StoredVideo | None:
     """A video that `write_video` wrote, with what made it, or None for any other file."""
     try:
-        with av.open(str(path)) as container:
+        with open_media(str(path)) as container:
             if not container.streams.video:
                 return None
             stream = container.streams.video[0]
@@ -113,7 +114,7 @@ def reopen(path: Path) -> StoredVideo | None:
     except (FFmpegError, ValueError, RecursionError):
         return None
     is_ours = stream.codec_context.name == "ffv1" and isinstance(metadata, dict)
-    if not is_ours or rate is None or count < 1:
+    if not is_ours or not rate or count < 1:
         return None
     return StoredVideo(path, Fraction(rate), size, count, metadata)
 
@@ -216,7 +217,7 @@ def _full_scale(frame: Frame) -> PixelArray:
 
 def _decode(path: Path) -> Iterator[PixelArray]:
     try:
-        with av.open(str(path), metadata_errors="replace") as container:
+        with open_media(str(path)) as container:
             if not container.streams.video:
                 raise FileFormatError(f"{path} holds no video")
             stream = container.streams.video[0]
