@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, InputError, shown
+from texvent.runtime.libav import only_self_contained, raise_scarcity
 from texvent.scenes.mesh import SurfaceImage, decode_srgb, surface_image
 from texvent.scenes.models.protocol import Model, ModelPart, Pose
 from texvent.scenes.models.shapes import half_extents
@@ -157,9 +158,10 @@ class PlayedVideo:
         from av.error import FFmpegError
 
         try:
-            with av.open(str(self._path)) as container:
+            with av.open(f"file:{self._path}", options=only_self_contained()) as container:
                 yield from container.decode(video=0)
         except (FFmpegError, IndexError, OSError) as error:
+            raise_scarcity(error, self._path)
             raise FileFormatError(
                 f"{self._path} is no video that can be decoded "
                 f"({getattr(error, 'strerror', None) or error}); name another file"
