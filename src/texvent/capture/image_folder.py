@@ -108,8 +108,8 @@ class ImageFolder(FrameSource):
             "kind": "image folder",
             "pixel_type": str(first.dtype),
             "timestamps": str(file) if file else None,
-            "images_missing": gap,
             **coding_facts(paths),
+            **({} if gap is None else {"images_missing": f"between {gap}"}),
         }
         size = checked_size(first.shape[1], first.shape[0])
         self._facts = SourceFacts(size, self._times.fps, total, metadata)
