@@ -166,5 +166,6 @@ def _read_times(path: Path) -> FrameTimes:
     if not (np.abs(seconds) < LAST_S).all():
         raise FileFormatError(f"{path} holds {stored.dtype} that are not all seconds")
     times_us = np.rint(seconds * MICROSECONDS).astype(np.int64)
-    check_seconds(str(path), times_us.tolist(), "EVREAL's are seconds; give `t_us`, in µs")
-    return listed_times(times_us, path.name)
+    times = listed_times(times_us, path.name)
+    check_seconds(str(path), times_us.tolist(), "give `t_us` instead, in µs")
+    return times
