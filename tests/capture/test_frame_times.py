@@ -81,7 +81,9 @@ def test_times_that_are_hardly_seconds_name_the_units_that_fit(tmp_path, step, u
     assert len(read_timestamps(path, "s").times.listed_us) == 2
 
 
-@pytest.mark.parametrize("lines", ["0\n0.033\n0.066\n", "0\n0.25\n60\n60.25\n", "1.7e9\n1700000000.04\n"])
+@pytest.mark.parametrize(
+    "lines", ["0\n0.033\n0.066\n", "0\n0.25\n60\n60.25\n", "1.7e9\n1700000000.04\n"]
+)
 def test_times_that_can_be_seconds_are_not_doubted(tmp_path, lines):
     path = tmp_path / "t.txt"
     path.write_text(lines)

@@ -28,6 +28,8 @@ class PacketTimes:
     constant_rate: Fraction | None
     """Frames per second where the file's clock is too coarse for its rate, and all times are those
     of this rate, rounded; else None."""
+    is_stated: bool = True
+    """Whether the file states that rate; else it is a fit."""
 
 
 def needs_packet_times(stream: VideoStream) -> bool:
@@ -50,14 +52,22 @@ def read_packet_times(container: InputContainer, stream: VideoStream) -> PacketT
                 times.append(packet.pts)
     ticks = np.sort(np.array(times, np.int64))
     repeats = int(np.count_nonzero(np.diff(ticks) == 0))
-    coarse = filter(_is_coarse(stream), _rates(stream))
+    stated = _rates(stream)
+    rates = [*stated, *(_fitted_rates(ticks, stream) if repeats else ())]
+    coarse = filter(_is_coarse(stream), rates)
     rate = next((rate for rate in coarse if _is_rounded(ticks, rate, stream)), None)
-    return PacketTimes(len(times), 0 if rate else repeats, rate)
+    return PacketTimes(len(times), 0 if rate else repeats, rate, rate in stated)
 
 
 def _rates(stream: VideoStream) -> list[Fraction]:
     stated = (stream.average_rate, stream.guessed_rate, stream.base_rate)
     return [Fraction(rate) for rate in stated if rate]
+
+
+def _fitted_rates(ticks: NDArray[np.int64], stream: VideoStream) -> list[Fraction]:
+    """Frames per second from the first frame to the last."""
+    span = int(ticks[-1] - ticks[0])
+    return [Fraction(len(ticks) - 1, span) / stream.time_base] if span and stream.time_base else []
 
 
 def _is_coarse(stream: VideoStream) -> Callable[[Fraction], bool]:
