@@ -62,7 +62,7 @@ class LiveFrames(FrameSource):
             raise InputError(f"{self._name} ended before its first frame")
         self._first, self._arrived_us = first, _now_us()
         self._clock = _clock_name(self._container, first, times)
-        self._reader = PixelReader()
+        self._reader = PixelReader(self._name)
         pixels = self._reader.read(first)
         self._metadata: dict[str, Any] = {
             "source": self._name,

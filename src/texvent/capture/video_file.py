@@ -20,7 +20,7 @@ from texvent.capture.decoding.packet_times import needs_packet_times, read_packe
 from texvent.capture.decoding.pixels import PixelReader, coding_facts
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
-from texvent.errors import FileFormatError, warn
+from texvent.errors import FileFormatError, few, warn
 from texvent.io.input_checks import begins_with, refuse_missing
 from texvent.runtime.libav import only_self_contained, raise_scarcity
 from texvent.runtime.memory import usable_bytes
@@ -34,6 +34,8 @@ TEXT_ART = "tty"
 
 PLAYLIST_MARKS = (b"#EXTM3U", b"ffconcat version", b"v=0", b"<?xml", b"<MPD")
 """How files begin that name other files."""
+ATTACHED_PICTURE = 1 << 10
+"""libav's AV_DISPOSITION_ATTACHED_PIC."""
 HELD_BYTES = 6 * 8
 """Per pixel: 16-bit RGB, in as many frames as decoder, threads and simulation hold at least."""
 
@@ -72,7 +74,8 @@ class VideoFile(FrameSource):
                 raise FileFormatError(
                     f"{path} has no frame that can be decoded; it may be cut off or empty"
                 )
-            reader = PixelReader()
+            self._warn_of_kind(container, stream, first)
+            reader = PixelReader(path)
             pixels = reader.read(first)
             self._metadata: dict[str, Any] = {
                 "source": str(path),
@@ -88,6 +91,24 @@ class VideoFile(FrameSource):
             count = self._count_packets() or count
         fps = times.fps if times else self._rate
         self._facts = SourceFacts(size, fps, count, self._metadata)
+
+    def _warn_of_kind(
+        self, container: InputContainer, stream: VideoStream, first: VideoFrame
+    ) -> None:
+        """Say what else the file may be meant for, and what its frames may hold."""
+        videos = [one for one in container.streams.video if not is_cover(one)]
+        if len(videos) > 1:
+            sizes = [f"{one.width}x{one.height}" for one in videos]
+            warn(
+                f"{self._path} holds {len(videos)} videos ({few(sizes)}); number "
+                f"{1 + videos.index(stream)} is read, of {stream.width}x{stream.height}; copy "
+                "another into a file of its own (ffmpeg -map 0:v:NUMBER -c copy)"
+            )
+        if first.interlaced_frame:
+            warn(
+                f"{self._path} is marked as interlaced: lines of a frame are of two times, which "
+                "makes events at every edge that moves; deinterlace it (ffmpeg -vf bwdif)"
+            )
 
     def _count_packets(self) -> int | None:
         """Frames that will be shown, and a coarse file's constant rate; None: packets do not say.
@@ -126,7 +147,7 @@ class VideoFile(FrameSource):
         with _opened(self._path) as (container, stream):
             is_mixed_up = container.format.name == AVI and stream.codec_context.has_b_frames
             clock.is_counting = self._is_counting or is_mixed_up
-            frames, reader = self._decode(container, stream), PixelReader()
+            frames, reader = self._decode(container, stream), PixelReader(self._path)
             while True:
                 try:
                     decoded = next(frames, None)
@@ -258,6 +279,8 @@ def _opened(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
         stream = container.streams.best("video")
         if not isinstance(stream, VideoStream) or container.format.name == TEXT_ART:
             raise FileFormatError(f"{path} holds no video stream")
+        if is_cover(stream):
+            raise FileFormatError(f"{path} holds no video stream, but the picture of a cover")
         stream.thread_type = "AUTO"
         _check_claim(path, stream)
         try:
@@ -268,6 +291,12 @@ def _opened(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
                 f"{path} has no frame that can be decoded ({error.strerror}); "
                 "it may be cut off or encrypted"
             ) from error
+
+
+def is_cover(stream: VideoStream) -> bool:
+    """Whether a stream is the picture of a cover, which players show beside music."""
+    # The first releases of PyAV 14 do not tell.
+    return bool(int(getattr(stream, "disposition", 0)) & ATTACHED_PICTURE)
 
 
 def _check_claim(path: Path, stream: VideoStream) -> None:

@@ -6,6 +6,7 @@ import json
 from typing import Any
 
 import numpy as np
+from av.error import FFmpegError
 from av.sidedata.sidedata import Type as SideDataType
 from av.video.format import VideoFormat
 from av.video.frame import VideoFrame
@@ -13,6 +14,7 @@ from av.video.reformatter import ColorRange, VideoReformatter
 from numpy.typing import NDArray
 
 from texvent.capture.linear_light import CODING, HALF, LINEAR, VIDEO_CODINGS
+from texvent.runtime.libav import raise_scarcity
 from texvent.video import PixelArray
 
 UNSPECIFIED = 2
@@ -23,9 +25,16 @@ class PixelReader:
     """Pixels of the frames of one stream, turned as the display matrix of its first frame says.
 
     The stream has one scaler: those of libav keep a thread for each core.
+
+    Args:
+        name: of the stream, for errors.
+
+    Raises:
+        OSError: while reading: the system has no more threads or memory.
     """
 
-    def __init__(self) -> None:
+    def __init__(self, name: object) -> None:
+        self._name = name
         self._reformatter = VideoReformatter()
         self._matrix: tuple[int, int, int, int] | None = None
 
@@ -50,9 +59,13 @@ class PixelReader:
         return self._matrix
 
     def _levels(self, frame: VideoFrame) -> NDArray[Any]:
-        image = self._reformatter.reformat(
-            frame, format=pixel_format(frame.format), dst_color_range=ColorRange.JPEG
-        )
+        try:
+            image = self._reformatter.reformat(
+                frame, format=pixel_format(frame.format), dst_color_range=ColorRange.JPEG
+            )
+        except FFmpegError as error:
+            raise_scarcity(error, self._name)
+            raise
         return image.to_ndarray()
 
 
