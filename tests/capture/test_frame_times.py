@@ -1,7 +1,7 @@
 import pytest
 
-from texvent.capture.frame_times import read_timestamps
-from texvent.errors import FileFormatError, InputError
+from texvent.capture.frame_times import listed_times, read_timestamps
+from texvent.errors import FileFormatError, InputError, TexventWarning
 
 
 @pytest.mark.parametrize(
@@ -53,12 +53,51 @@ def test_names_may_come_before_the_times(tmp_path):
     assert list(found.times.listed_us) == [0, 33_333]
 
 
-@pytest.mark.parametrize(("step", "unit"), [("500", "ms"), ("33333", "us"), ("33333333", "ns")])
-def test_times_that_are_hardly_seconds_name_the_likely_unit(tmp_path, step, unit):
+@pytest.mark.parametrize(
+    ("step", "units"),
+    [
+        ("33", ["ms (30.3 frames per second, 0.033 s in all)"]),
+        ("33.4", []),
+        ("500", ["ms", "us (2,000 frames per second"]),
+        ("1000", ["ms", "us (1,000 frames per second"]),
+        ("33333", ["us"]),
+        ("33333333", ["ns"]),
+    ],
+)
+def test_times_that_are_hardly_seconds_name_the_units_that_fit(tmp_path, step, units):
     path = tmp_path / "t.txt"
-    path.write_text(f"57922807588\n{57922807588 + int(step)}\n")
-    with pytest.raises(InputError, match=f"probably {unit}; give `timestamps_unit`"):
+    path.write_text(f"57922807588\n{57922807588 + float(step):.1f}\n")
+    if not units:
+        with pytest.warns(TexventWarning, match=r"33.4 s apart; if they are ms \(29.94"):
+            read_timestamps(path, None)
+        return
+    with pytest.raises(InputError) as caught:
         read_timestamps(path, None)
-    assert len(read_timestamps(path, unit).times.listed_us) == 2
-    path.write_text("0\n60\n")
-    assert list(read_timestamps(path, None).times.listed_us) == [0, 60_000_000]
+    said = str(caught.value)
+    assert all(unit in said for unit in units)
+    assert "give `timestamps_unit`" in said
+    assert sum(f" {unit} (" in said for unit in ("ms", "us", "ns")) == len(units)
+    assert len(read_timestamps(path, units[0][:2]).times.listed_us) == 2
+    assert len(read_timestamps(path, "s").times.listed_us) == 2
+
+
+@pytest.mark.parametrize(
+    "lines", ["0\n0.033\n0.066\n", "0\n0.25\n60\n60.25\n", "1.7e9\n1700000000.04\n"]
+)
+def test_times_that_can_be_seconds_are_not_doubted(tmp_path, lines):
+    path = tmp_path / "t.txt"
+    path.write_text(lines)
+    read_timestamps(path, None)
+
+
+def test_whole_numbers_that_may_be_seconds_are_said(tmp_path):
+    path = tmp_path / "t.txt"
+    path.write_text("0\n1\n2\n")
+    with pytest.warns(TexventWarning, match=r"1 s apart; if they are ms .* give `timestamps_unit`"):
+        assert list(read_timestamps(path, None).times.listed_us) == [0, 1_000_000, 2_000_000]
+
+
+def test_times_in_memory_that_are_hardly_microseconds_are_said():
+    with pytest.warns(TexventWarning, match="33 µs apart, 30,303 per second"):
+        listed_times([0, 33, 66])
+    listed_times([0, 100, 200])

@@ -1,12 +1,17 @@
+import struct
 from fractions import Fraction
 
 import cv2
 import numpy as np
 import pytest
+from PIL import Image
 
 from texvent.capture.open import open_frames
 from texvent.config import CaptureConfig
-from texvent.errors import FileFormatError, InputError
+from texvent.errors import FileFormatError, InputError, TexventWarning
+from texvent.run.check import check_source
+from texvent.sensor import SensorSize
+from texvent.video import Frame
 
 
 def save_images(folder, count=3, dtype=np.uint8, channels=(), name="frame{}.png", step=1):
@@ -62,3 +67,139 @@ def test_a_damaged_image_is_named(tmp_path):
     (tmp_path / "frame1.png").write_bytes(b"not an image")
     with pytest.raises(FileFormatError, match=r"frame1\.png cannot be decoded"):
         list(open_frames(tmp_path, CaptureConfig(fps=Fraction(10))))
+
+
+def levels(source, **config):
+    """First pixel of every frame."""
+    frames = open_frames(source, CaptureConfig(**{"fps": Fraction(10), **config}))
+    return [frame.pixels.reshape(-1)[0].item() for frame in frames]
+
+
+def test_a_link_to_a_missing_file_is_an_error_and_a_missing_number_is_found(tmp_path):
+    save_images(tmp_path, 9)
+    (tmp_path / "frame3.png").unlink()
+    with pytest.warns(TexventWarning, match=r"missing between frame2\.png and frame4\.png"):
+        assert len(levels(tmp_path)) == 8
+    with pytest.warns(TexventWarning, match="missing"):
+        found = check_source(tmp_path, fps=10, progress=False)
+    assert "missing frames" in found.report.remarks
+    (tmp_path / "frame3.png").symlink_to("nowhere.png")
+    with pytest.raises(InputError, match=r"1 of 9 images .* not there \(frame3\.png\)"):
+        levels(tmp_path)
+
+
+def test_every_image_of_a_tiff_stack_is_a_frame(tmp_path):
+    pages = [np.full((4, 6), 10 * i, np.uint8) for i in range(12)]
+    for part in range(2):
+        cv2.imwritemulti(str(tmp_path / f"run_{part}.tif"), pages[6 * part : 6 * part + 6])
+    assert levels(tmp_path) == [10 * i for i in range(12)]
+    assert levels(tmp_path / "run_1.tif") == [10 * i for i in range(6, 12)]
+    cv2.imwritemulti(str(tmp_path / "run_1.tif"), [pages[0], pages[1][:2]])
+    with pytest.raises(FileFormatError, match="several sizes"):
+        levels(tmp_path)
+    with pytest.raises(InputError, match="several images; leave camera out"):
+        open_frames(tmp_path / "run_0.tif", CaptureConfig(camera="pan"))
+
+
+DURATIONS_MS = [40, 80, 120, 40]
+
+
+@pytest.mark.parametrize("name", ["a.webp", "a.png", "a.apng", "a.gif"])
+def test_animated_images_have_their_own_times(tmp_path, name):
+    images = [Image.new("RGB", (20, 10), (60 * i, 200 - 60 * i, 80)) for i in range(4)]
+    path = tmp_path / "clip" / name
+    path.parent.mkdir()
+    options = {"format": "PNG"} if name == "a.apng" else {}
+    options |= {"lossless": True} if name == "a.webp" else {}
+    images[0].save(path, save_all=True, append_images=images[1:], duration=DURATIONS_MS, **options)
+    frames = list(open_frames(path, CaptureConfig()))
+    assert [frame.t_us for frame in frames] == [0, 40_000, 120_000, 240_000]
+    assert [frame.pixels[0, 0].tolist() for frame in frames] == [
+        [60 * i, 200 - 60 * i, 80] for i in range(4)
+    ]
+    if name in ("a.webp", "a.png"):
+        with pytest.raises(FileFormatError, match="an animation"):
+            levels(path.parent)
+
+
+RAMP = np.tile(np.linspace(0, 255, 16).astype(np.uint8), (4, 1))
+GREY = Image.fromarray(RAMP)
+COLOUR = Image.merge("RGB", (GREY, Image.new("L", (16, 4), 90), Image.fromarray(255 - RAMP)))
+
+
+@pytest.mark.parametrize(
+    ("image", "name", "expected"),
+    [
+        (COLOUR.quantize(16), "a.png", COLOUR.quantize(16).convert("RGB")),
+        (COLOUR.quantize(16), "a.tif", COLOUR.quantize(16).convert("RGB")),
+        (COLOUR.quantize(16), "a.bmp", COLOUR.quantize(16).convert("RGB")),
+        (GREY.convert("1"), "a.png", GREY.convert("1").convert("L")),
+        (GREY.convert("1"), "a.tif", GREY.convert("1").convert("L")),
+        (COLOUR.convert("CMYK"), "a.tif", COLOUR),
+        (Image.merge("LA", (GREY, GREY)), "a.png", GREY),
+        (Image.merge("RGBA", (*COLOUR.split(), GREY)), "a.png", COLOUR),
+        (Image.fromarray(RAMP.astype(np.uint16) * 257), "a.png", GREY),
+        (Image.fromarray(RAMP.astype(np.uint16) * 257), "a.tif", GREY),
+        (Image.fromarray(RAMP.astype(np.float32)), "a.tif", GREY),
+    ],
+)
+def test_images_of_every_mode_are_read_by_its_meaning(tmp_path, image, name, expected):
+    image.save(tmp_path / name)
+    image.save(tmp_path / f"b{name}")
+    frame = next(iter(open_frames(tmp_path, CaptureConfig(fps=Fraction(10)))))
+    right = np.asarray(Frame(np.asarray(expected), 0).luma, np.float32)
+    assert np.allclose(frame.luma, right, atol=0.01)
+
+
+def tiff(pixels, photometric):
+    """A TIFF of one strip."""
+    data = pixels.tobytes()
+    height, width = pixels.shape
+    entries = [
+        *((256, width), (257, height), (258, 8 * pixels.itemsize), (259, 1), (262, photometric)),
+        *((273, 8), (277, 1), (278, height), (279, len(data))),
+    ]
+    table = b"".join(struct.pack("<HHII", tag, 4, 1, value) for tag, value in entries)
+    table = table.replace(struct.pack("<HHI", 262, 4, 1), struct.pack("<HHI", 262, 3, 1))
+    head = struct.pack("<2sHI", b"II", 42, 8 + len(data))
+    return head + data + struct.pack("<H", len(entries)) + table + bytes(4)
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16])
+def test_a_tiff_whose_zero_is_white_is_turned_round(tmp_path, dtype):
+    full = np.iinfo(dtype).max
+    for number in range(2):
+        (tmp_path / f"{number}.tif").write_bytes(tiff(np.full((4, 6), full - 7, dtype), 0))
+    assert levels(tmp_path) == [7, 7]
+
+
+@pytest.mark.parametrize("kind", ["P2", "P5"])
+@pytest.mark.parametrize("white", [100, 255, 1023, 4095, 65_535])
+def test_white_of_a_pgm_is_what_its_header_says(tmp_path, kind, white):
+    values = np.full(24, white, ">u2" if white > 255 else np.uint8)
+    stored = values.tobytes() if kind == "P5" else (" ".join(map(str, values)) + "\n").encode()
+    for number in range(2):
+        head = f"{kind}\n# made by hand\n6 4\n{white}\n".encode()
+        (tmp_path / f"{number}.pgm").write_bytes(head + stored)
+    assert levels(tmp_path) == [65_535 if white > 255 else 255] * 2
+    if white > 255:
+        assert levels(tmp_path, white_level=white) == [255, 255]
+
+
+def test_transparent_pixels_that_a_tiff_reader_darkens_are_refused(tmp_path):
+    for number in range(2):
+        Image.new("RGBA", (6, 4), (200, 20, 10, 128)).save(tmp_path / f"{number}.tif")
+    with pytest.raises(FileFormatError, match="without alpha"):
+        levels(tmp_path)
+
+
+def test_images_of_another_size_or_bit_depth_do_not_pass_silently(tmp_path):
+    save_images(tmp_path, 2)
+    save_images(tmp_path, 1, dtype=np.uint16, name="frame2.png")
+    with pytest.warns(TexventWarning, match="type uint16, those before it uint8"):
+        levels(tmp_path)
+    cv2.imwrite(str(tmp_path / "frame2.png"), np.zeros((8, 12), np.uint8))
+    for size in (None, SensorSize(3, 2)):
+        stream = open_frames(tmp_path, CaptureConfig(fps=Fraction(10)), size=size)
+        with pytest.raises(InputError, match="is 12x8, those before it are 6x4"):
+            list(stream)

@@ -1,15 +1,29 @@
+import errno
+import os
+from contextlib import nullcontext
 from fractions import Fraction
 from pathlib import Path
+from types import SimpleNamespace
 
+import av
+import cv2
 import numpy as np
 import pytest
 
+import texvent
+from texvent.capture import video_file
+from texvent.capture.decoding import pixels as decoded
+from texvent.capture.decoding.pixels import PixelReader
 from texvent.capture.frame_times import FrameTimes
+from texvent.capture.live import LiveFrames
 from texvent.capture.open import open_frames
 from texvent.capture.video_file import PresentationClock, VideoFile
 from texvent.config import CaptureConfig
-from texvent.errors import FileFormatError
-from texvent.video import FrameStream
+from texvent.errors import FileFormatError, InputError, TexventWarning
+from texvent.generate.videos.stored_video import open_stored
+from texvent.run.check import check_source
+from texvent.sensor import SensorSize
+from texvent.video import FrameStream, frame_time_us
 
 EXCERPT = Path(__file__).parents[1] / "clips" / "bigbuckbunny_excerpt.mp4"
 GREY = np.tile(np.arange(64, dtype=np.uint8) * 4, (48, 1))
@@ -179,3 +193,157 @@ def test_a_file_that_is_no_video_is_refused(tmp_path, name):
     path.write_text("0.1 3 4 1\n" * 100)
     with pytest.raises(FileFormatError, match=r"(holds no video|is not a video)"):
         open_frames(path, CaptureConfig())
+
+
+@pytest.fixture(scope="module")
+def long_film(tmp_path_factory):
+    """5,000 tiny frames."""
+    path = tmp_path_factory.mktemp("long") / "long.mkv"
+    with av.open(str(path), "w") as clip:
+        stream = clip.add_stream("mpeg4", rate=50)
+        stream.width, stream.height, stream.pix_fmt = 32, 16, "yuv420p"
+        for index in range(5000):
+            pixels = np.full((16, 32, 3), index % 200, np.uint8)
+            clip.mux(stream.encode(av.VideoFrame.from_ndarray(pixels)))
+        clip.mux(stream.encode(None))
+    return path
+
+
+@pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="threads are counted by Linux")
+@pytest.mark.parametrize(
+    "frames_of",
+    [VideoFile, lambda path: LiveFrames(str(path)), lambda path: open_stored(path, 50, {})],
+    ids=["file", "live", "generated"],
+)
+def test_threads_and_memory_do_not_grow_with_the_frames(long_film, frames_of):
+    def used():
+        pages = Path("/proc/self/statm").read_text().split()[1]
+        return len(os.listdir("/proc/self/task")), int(pages) * os.sysconf("SC_PAGE_SIZE")
+
+    after = {index: used() for index, _ in enumerate(frames_of(long_film)) if index in (500, 4999)}
+    assert after[4999][0] <= after[500][0]
+    assert after[4999][1] < after[500][1] + 2**23
+
+
+@pytest.mark.parametrize(
+    "read",
+    [
+        lambda path: list(open_frames(path, CaptureConfig())),
+        lambda path: check_source(path, progress=False),
+        lambda path: texvent.simulate(path, interpolate="none", noise="none"),
+        lambda path: list(LiveFrames(str(path))),
+    ],
+    ids=["open", "check", "simulate", "live"],
+)
+def test_every_reader_of_video_has_one_scaler_per_stream(clips, monkeypatch, read):
+    made = []
+    begin = PixelReader.__init__
+    monkeypatch.setattr(
+        PixelReader, "__init__", lambda one, name: (made.append(1), begin(one, name))[1]
+    )
+    counts = []
+    for length in (4, 40):
+        path = clips.write(
+            f"{length}.mkv", [np.roll(GREY, 9 * i) for i in range(length)], given="gray"
+        )
+        made.clear()
+        read(path)
+        counts.append(len(made))
+    assert 1 <= counts[0] == counts[1] <= 2
+
+
+@pytest.mark.parametrize("number", [errno.EAGAIN, errno.ENOMEM])
+@pytest.mark.parametrize("frames_of", [VideoFile, lambda path: LiveFrames(str(path))])
+def test_a_lack_of_threads_or_memory_is_not_called_damage(clips, monkeypatch, number, frames_of):
+    path = clips.write("a.mkv", colours())
+
+    def refuse(*_, **__):
+        raise av.error.classes.get(number, av.error.FFmpegError)(number, "refused")
+
+    monkeypatch.setattr(decoded, "VideoReformatter", lambda: SimpleNamespace(reformat=refuse))
+    with pytest.raises(OSError, match="higher limit of processes or memory"):
+        list(frames_of(path))
+
+
+@pytest.mark.parametrize("rate", [120, 240, 1500, 2000, 5000])
+@pytest.mark.parametrize(
+    ("name", "codec"), [("a.mkv", "libx264"), ("a.webm", "libvpx-vp9"), ("a.flv", "libx264")]
+)
+def test_a_clock_too_coarse_for_a_constant_rate_loses_no_frame(clips, name, codec, rate):
+    path = clips.write(name, colours(20, 8), codec=codec, rate=rate, ticks=rate)
+    is_unstated = name == "a.flv" and rate > 1000
+    with pytest.warns(TexventWarning, match="exact rate") if is_unstated else nullcontext():
+        stream = open_frames(path, CaptureConfig())
+    times = [frame.t_us for frame in stream]
+    assert stream.frame_count == len(times) == 20
+    if is_unstated:
+        assert np.allclose(times, [frame_time_us(i, rate) for i in range(20)], atol=1000)
+    else:
+        assert times == [frame_time_us(i, Fraction(rate)) for i in range(20)]
+
+
+@pytest.mark.parametrize("times_ms", [[0, 0, 0, 40, 90, 90], [0, 40, 40, 40, 41, 41]])
+def test_frames_of_equal_times_are_counted_before_and_after_reading(clips, tmp_path, times_ms):
+    path = clips.write("a.mkv", colours(6, 8), codec="ffv1", times_ms=times_ms)
+    with pytest.warns(TexventWarning, match=r"3 of 6 frames are left out.*give their rate \(`fps`"):
+        stream = open_frames(path, CaptureConfig())
+    assert stream.frame_count == len(list(stream)) == 3
+    assert stream.metadata["duplicate_times_dropped"] == 3
+    with pytest.warns(TexventWarning, match="3 of 6"):
+        events = texvent.simulate(path, interpolate="none")
+    assert events.metadata["source"]["duplicate_times_dropped"] == 3
+    assert len(list(open_frames(path, CaptureConfig(fps=Fraction(2000))))) == 6
+
+
+PLAYLISTS = {
+    "a.m3u8": "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\n{}\n#EXT-X-ENDLIST\n",
+    "a.mp4": "#EXTM3U\n#EXT-X-TARGETDURATION:1\n#EXTINF:1,\n{}\n#EXT-X-ENDLIST\n",
+    "a.ffconcat": "ffconcat version 1.0\nfile {}\n",
+    "a.sdp": "v=0\no=- 0 0 IN IP4 127.0.0.1\ns=x\nc=IN IP4 127.0.0.1\nt=0 0\n",
+}
+
+
+@pytest.mark.parametrize("name", PLAYLISTS)
+def test_a_playlist_leads_to_no_other_file(clips, tmp_path, name):
+    clips.write("private.ts", colours(), codec="mpeg2video", ticks=25)
+    path = tmp_path / name
+    path.write_text(PLAYLISTS[name].format("private.ts"))
+    with pytest.raises(FileFormatError, match="is a playlist, which names other files"):
+        open_frames(path, CaptureConfig())
+    with pytest.raises(InputError):
+        LiveFrames(str(path))
+
+
+def test_frames_that_memory_has_no_room_for_are_refused_by_the_header(clips, monkeypatch):
+    path = clips.write("a.mkv", colours())
+    monkeypatch.setattr(video_file, "usable_bytes", lambda: 100_000)
+    with pytest.raises(FileFormatError, match="claims frames of 64x48"):
+        open_frames(path, CaptureConfig())
+
+
+@pytest.mark.parametrize("size", [None, SensorSize(20, 20)])
+def test_a_size_that_changes_in_mid_stream_is_refused(tmp_path, size):
+    path = tmp_path / "a.mjpeg"
+    images = [np.full((48, 64, 3), 9 * i, np.uint8) for i in range(6)]
+    images[3:] = [image[:24, :32] for image in images[3:]]
+    path.write_bytes(b"".join(cv2.imencode(".jpg", image)[1].tobytes() for image in images))
+    stream = open_frames(path, CaptureConfig(fps=Fraction(25)), size=size)
+    with pytest.raises(InputError, match="is 32x24, those before it are 64x48"):
+        list(stream)
+
+
+def test_one_of_two_videos_is_said(tmp_path):
+    path = tmp_path / "two.mkv"
+    with av.open(str(path), "w") as clip:
+        streams = [clip.add_stream("ffv1", rate=25) for _ in range(2)]
+        for stream, (stream.width, stream.height) in zip(
+            streams, ((64, 48), (32, 24)), strict=True
+        ):
+            stream.pix_fmt = "yuv420p"
+        for stream in (*streams, *streams):
+            pixels = np.zeros((stream.height, stream.width, 3), np.uint8)
+            clip.mux(stream.encode(av.VideoFrame.from_ndarray(pixels)))
+        for stream in streams:
+            clip.mux(stream.encode(None))
+    with pytest.warns(TexventWarning, match=r"2 videos \(64x48, 32x24\); number 1 is read"):
+        assert open_frames(path, CaptureConfig()).size == (64, 48)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
@@ -11,15 +12,17 @@ from typing import Any
 
 import numpy as np
 
-from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown
+from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown, warn
 from texvent.options.values import parse_fraction
 from texvent.runtime.file_names import usable_path
 from texvent.video import MICROSECONDS, frame_time_us
 
 PER_SECOND = {"s": 1, "ms": 1_000, "us": 1_000_000, "ns": 1_000_000_000}
 """How many of a unit are a second."""
-LONGEST_STEP_S = 60
-"""Longer times between frames are hardly meant where no unit is given."""
+LONGEST_STEP_S, LONGEST_WHOLE_S = 60, 5
+"""Frames that are further apart, or as far in whole numbers, are hardly meant in seconds."""
+HIGHEST_FPS = 20_000
+"""Times that give more frames per second have another unit."""
 
 
 @dataclass(frozen=True)
@@ -84,6 +87,9 @@ def listed_times(t_us: Any, origin: str = "t_us") -> FrameTimes:
 
     Raises:
         InputError: they are not integers, not one-dimensional, or do not strictly increase.
+
+    Warns:
+        TexventWarning: they are more than `HIGHEST_FPS`, so they are probably no µs.
     """
     times = np.asarray(t_us)
     if times.ndim != 1 or times.dtype.kind not in "iu":
@@ -92,6 +98,12 @@ def listed_times(t_us: Any, origin: str = "t_us") -> FrameTimes:
             f"{list(times.shape)}. For seconds: np.round(seconds * 1e6).astype(np.int64)"
         )
     check_increasing([int(time) for time in times], origin)
+    step = float(np.median(np.diff(times))) if len(times) > 1 else math.inf
+    if step < MICROSECONDS / HIGHEST_FPS:
+        warn(
+            f"{origin}: frames are {step:g} µs apart, {MICROSECONDS / step:,.0f} per second; if "
+            "times are ms, multiply them by 1000"
+        )
     return FrameTimes(listed_us=[int(time) for time in times], origin=origin)
 
 
@@ -148,23 +160,44 @@ def read_timestamps(path: Path, unit: str | None) -> Timestamps:
             f"{path}: {len(names)} of {len(times_us)} lines name a file; name all of them or none"
         )
     if unit is None:
-        _refuse_doubtful_seconds(path, times_us)
+        check_seconds(str(path), times_us, "give `timestamps_unit`")
     hint = f" (times are read as {unit or 's'}; another unit: `timestamps_unit`)"
     check_increasing(times_us, str(path), hint)
     times = FrameTimes(listed_us=times_us, origin=path.name)
     return Timestamps(times, tuple(names) if names else None)
 
 
-def _refuse_doubtful_seconds(path: Path, times_us: Sequence[int]) -> None:
-    """Refuse times that are hardly seconds, and name the unit that they probably have."""
-    step = (times_us[-1] - times_us[0]) / max(1, len(times_us) - 1) / MICROSECONDS
-    if abs(step) <= LONGEST_STEP_S:
+def check_seconds(origin: str, times_us: Sequence[int], help: str) -> None:
+    """Refuse times that are hardly seconds, and name the units that they may have.
+
+    Steps are judged by their median, since a pause or a jump is another matter.
+
+    Raises:
+        InputError: see above.
+
+    Warns:
+        TexventWarning: whole numbers, which may be of another unit.
+    """
+    steps = np.abs(np.diff(np.array(times_us, dtype=object)))
+    step = float(np.median(steps.astype(np.float64))) / MICROSECONDS if len(steps) else 0.0
+    is_whole = all(time % MICROSECONDS == 0 for time in times_us)
+    if not step or (step < 1 and not is_whole):
         return
-    finer = [unit for unit, per_second in PER_SECOND.items() if abs(step) / per_second <= 1]
-    likely = f"they are probably {finer[0]}; " if finer else ""
-    raise InputError(
-        f"{path}: its times read as s are {abs(step):,.0f} s apart; {likely}give `timestamps_unit`"
-    )
+    length = float(abs(times_us[-1] - times_us[0])) / MICROSECONDS
+    others = [
+        f"{unit} ({per_second / step:,.4g} frames per second, {length / per_second:,.4g} s in all)"
+        for unit, per_second in PER_SECOND.items()
+        if 1 <= per_second / step <= HIGHEST_FPS and unit != "s"
+    ]
+    if step > LONGEST_STEP_S or (is_whole and step >= LONGEST_WHOLE_S):
+        likely = f"they are probably {' or '.join(others)}; " if others else ""
+        raise InputError(f"{origin}: its times read as s are {step:,.4g} s apart; {likely}{help}")
+    if is_whole or step >= LONGEST_WHOLE_S:
+        likely = f" or {' or '.join(others)}" if others else ""
+        warn(
+            f"{origin}: times are read as s, so frames are {step:,.4g} s apart; if they are "
+            f"{'of another unit' if not likely else likely.removeprefix(' or ')}, {help}"
+        )
 
 
 def _is_number(text: str) -> bool:

@@ -1,20 +1,30 @@
-"""Folders of numbered images, with a timestamp file or a frame rate."""
+"""Folders of numbered images and stacks of them, with a timestamp file or a frame rate."""
 
 from __future__ import annotations
 
+import contextlib
+import itertools
+import re
 from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from texvent.capture.decoding.animation import HEAD_BYTES, is_animation
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes, Timestamps, read_timestamps
 from texvent.capture.intensity_scale import usable_pixels, warn_of_few_bits
 from texvent.capture.linear_light import CODING, FULL_SCALE, LINEAR
 from texvent.capture.motion_vectors.exr_image import EXR, exr_frame
-from texvent.errors import FileFormatError, InputError, shown
-from texvent.runtime.file_names import IMAGE_EXTENSIONS, natural_key, usable_path
+from texvent.errors import FileFormatError, InputError, few, shown, warn
+from texvent.runtime.file_names import (
+    IMAGE_EXTENSIONS,
+    in_natural_order,
+    numbering_gap,
+    usable_path,
+)
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
 
@@ -22,6 +32,16 @@ TIMESTAMP_NAMES = ("timestamps.txt", "images.txt", "info.txt")
 """Names under which a timestamp file is found in the folder or beside it."""
 INNER_FOLDERS = ("images", "frames", "imgs")
 """Where a recording's folder keeps its images."""
+TIFF = (".tif", ".tiff")
+NETPBM = (".pgm", ".ppm", ".pnm")
+DEPTH_AND_COLOUR, TIFF_FLAGS = 6, -1
+"""OpenCV's: grey stays grey, 16-bit and float stay, alpha goes, JPEG orientation is applied; and as
+it is stored, since alpha would go silently, though OpenCV has multiplied a TIFF's colours by it."""
+STACK_BYTES = 32 * 2**20
+"""Of a TIFF stack, images of this size are read at a time."""
+MAX_BYTE = 255
+PHOTOMETRIC, BIG_TIFF = 262, 43
+"""Tag of a TIFF that says whether 0 is white; the version of one with 64-bit offsets."""
 LIGHT_EXTENSIONS = (EXR, ".hdr")
 """Images of linear light: OpenEXR, Radiance."""
 
@@ -29,8 +49,11 @@ LIGHT_EXTENSIONS = (EXR, ".hdr")
 class ImageFolder(FrameSource):
     """Images of a folder in natural order (2 before 10), or in the timestamp file's order.
 
+    Of a TIFF stack every image is a frame.
+
     Args:
-        folder: holds the images, or a sub-folder `images`, `frames` or `imgs` that does.
+        folder: holds the images, or a sub-folder `images`, `frames` or `imgs` that does; or one
+            TIFF stack.
         times: frame times; without them, a timestamp file in or beside the folder is used.
         timestamps: the timestamp file, where it is not `timestamps.txt` or `images.txt`.
         unit: unit of the times in that file: s, ms, us or ns; None: s, if that can be.
@@ -39,6 +62,9 @@ class ImageFolder(FrameSource):
     Raises:
         InputError: no image, no times, or as many times as images are not given.
         FileFormatError: an image cannot be decoded.
+
+    Warns:
+        TexventWarning: a number is missing, or the names do not tell the order.
     """
 
     def __init__(
@@ -50,22 +76,31 @@ class ImageFolder(FrameSource):
         unit: str | None = None,
         white_level: float | None = None,
     ) -> None:
-        images_folder = find_images_folder(folder)
+        images_folder = folder if folder.is_file() else find_images_folder(folder)
         file = timestamps or (None if times else find_timestamps(images_folder))
         listing = read_timestamps(file, unit) if file else None
+        gap = None
         if file is not None and listing is not None and listing.names is not None:
-            self._paths = _named_images(listing, file, images_folder)
+            paths = _named_images(listing, file, images_folder)
+        elif images_folder == folder and folder.is_file():
+            paths = [folder]
         else:
-            self._paths = sorted(filter(_is_image, images_folder.iterdir()), key=natural_key)
+            paths = in_natural_order(filter(_is_image, images_folder.iterdir()))
+            gap = numbering_gap(paths) if listing is None else None
+        _refuse_lost(paths)
         known = times or (listing.times if listing else None)
         if known is None:
             raise InputError(
                 f"{folder} has no {' or '.join(TIMESTAMP_NAMES)}, so the times of its images are "
                 "unknown; give a frame rate (fps=25) or a file of times (timestamps=FILE)"
             )
-        self._times = known
-        self._times.check_count(len(self._paths))
-        first = read_image(self._paths[0])
+        if gap is not None:
+            warn(f"{folder}: images are missing between {gap}; later ones come too early")
+        self._times, self._white_level = known, white_level
+        self._stacks = [(path, count_images(path)) for path in paths]
+        total = sum(count for _, count in self._stacks)
+        self._times.check_count(total)
+        first = next(read_stack(*self._stacks[0], white_level))
         if white_level is None:
             warn_of_few_bits(first, str(folder))
         metadata = {
@@ -73,10 +108,11 @@ class ImageFolder(FrameSource):
             "kind": "image folder",
             "pixel_type": str(first.dtype),
             "timestamps": str(file) if file else None,
-            **coding_facts(self._paths),
+            **coding_facts(paths),
+            **({} if gap is None else {"images_missing": f"between {gap}"}),
         }
         size = checked_size(first.shape[1], first.shape[0])
-        self._facts = SourceFacts(size, self._times.fps, len(self._paths), metadata)
+        self._facts = SourceFacts(size, self._times.fps, total, metadata)
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order, read one by one.
@@ -84,11 +120,55 @@ class ImageFolder(FrameSource):
         Raises:
             FileFormatError: an image cannot be decoded.
         """
-        for index, path in enumerate(self._paths):
-            yield Frame(read_image(path), self._times(index))
+        read = (read_stack(path, count, self._white_level) for path, count in self._stacks)
+        for index, pixels in enumerate(itertools.chain.from_iterable(read)):
+            yield Frame(pixels, self._times(index))
 
 
-def read_image(path: Path) -> PixelArray:
+def count_images(path: Path) -> int:
+    """Images of a TIFF stack; 1 of any other file, damaged ones too."""
+    import cv2
+
+    if path.suffix.lower() not in TIFF:
+        return 1
+    with contextlib.suppress(cv2.error):
+        return max(1, cv2.imcount(str(path), DEPTH_AND_COLOUR))
+    return 1
+
+
+def read_stack(path: Path, count: int, white_level: float | None) -> Iterator[PixelArray]:
+    """The images of a file, a few at a time; see `read_image`.
+
+    Raises:
+        FileFormatError: one cannot be decoded, or has another size than the first.
+    """
+    import cv2
+
+    if count == 1:
+        yield read_image(path, white_level)
+        return
+    shape: tuple[int, ...] | None = None
+    start, step = 0, 1
+    while start < count:
+        wanted = min(step, count - start)
+        is_read, images = cv2.imreadmulti(str(path), start, wanted, flags=TIFF_FLAGS)
+        if not is_read or len(images) != wanted:
+            raise FileFormatError(
+                f"image {start + 1} of {count} in {path} cannot be decoded; the file may be damaged"
+            )
+        for image in images:
+            shape = shape or image.shape[:2]
+            if image.shape[:2] != shape:
+                raise FileFormatError(
+                    f"{path} holds images of several sizes, such as a picture and its preview; "
+                    "save the frames as one image per file"
+                )
+            yield _checked(image, path, white_level)
+        start += wanted
+        step = max(1, STACK_BYTES // images[0].nbytes)
+
+
+def read_image(path: Path, white_level: float | None = None) -> PixelArray:
     """An image at its own precision, [H, W] or [H, W, 3] RGB; see `coding_facts` for its code.
 
     Raises:
@@ -101,8 +181,11 @@ def read_image(path: Path) -> PixelArray:
     import cv2  # only image folders need it here
 
     data = np.fromfile(path, dtype=np.uint8)
-    # Grey stays grey, 16-bit and float stay, alpha goes, and JPEG orientation is applied.
-    flags = cv2.IMREAD_ANYCOLOR | cv2.IMREAD_ANYDEPTH
+    if is_animation(data[:HEAD_BYTES].tobytes()):
+        raise FileFormatError(
+            f"{path} is an animation, not one image; give it as the source by itself"
+        )
+    flags = TIFF_FLAGS if path.suffix.lower() in TIFF else DEPTH_AND_COLOUR
     try:
         image = cv2.imdecode(data, flags) if data.size else None
     except cv2.error as error:
@@ -112,9 +195,49 @@ def read_image(path: Path) -> PixelArray:
         raise FileFormatError(
             f"image {path} cannot be decoded; it may be cut off, damaged, or of over 2^30 pixels"
         )
+    return _checked(image, path, white_level)
+
+
+def _checked(image: NDArray[Any], path: Path, white_level: float | None) -> PixelArray:
+    """An image of OpenCV by the meaning of its file: RGB, black is 0, and full scale is white."""
     if image.ndim == 3:
-        image = cv2.cvtColor(image, cv2.COLOR_BGR2RGB)
-    return usable_pixels(np.asarray(image), str(path))
+        if image.shape[2] == 4 and image.dtype == np.uint8 and (image[..., 3] < MAX_BYTE).any():
+            raise FileFormatError(
+                f"image {path} has transparent pixels, with which OpenCV darkens a TIFF; save it "
+                "without alpha, or as PNG"
+            )
+        image = image[..., 2::-1]
+    pixels = usable_pixels(np.ascontiguousarray(image), str(path))
+    if path.suffix.lower() in TIFF and image.dtype == np.uint16 and _has_white_zero(path):
+        pixels = np.iinfo(np.uint16).max - pixels
+    elif path.suffix.lower() in NETPBM and white_level is None:
+        full = np.iinfo(pixels.dtype).max
+        pixels = np.rint(pixels * (full / _netpbm_white(path, full))).astype(pixels.dtype)
+    return pixels
+
+
+def _has_white_zero(path: Path) -> bool:
+    """Whether a TIFF says that 0 is white (PhotometricInterpretation 0), which OpenCV ignores."""
+    data = np.memmap(path, np.uint8, "r")
+    order = "<" if bytes(data[:2]) == b"II" else ">"
+    is_big = int.from_bytes(bytes(data[2:4]), "little" if order == "<" else "big") == BIG_TIFF
+    start_type, head, entry = ("u8", 8, 20) if is_big else ("u4", 2, 12)
+    start = int(np.frombuffer(data, order + start_type, 1, 8 if is_big else 4)[0])
+    count = int(np.frombuffer(data, order + ("u8" if is_big else "u2"), 1, start)[0])
+    for place in range(start + head, start + head + count * entry, entry):
+        if np.frombuffer(data, order + "u2", 1, place)[0] == PHOTOMETRIC:
+            return bool(np.frombuffer(data, order + "u2", 1, place + entry // 2 + 2)[0] == 0)
+    return False
+
+
+def _netpbm_white(path: Path, full: int) -> int:
+    """The value of white that a PGM or PPM states, where OpenCV has not scaled by it."""
+    with path.open("rb") as file:
+        words = re.sub(rb"#[^\n]*", b"", file.read(HEAD_BYTES)).split(maxsplit=4)
+    is_plain = words[0] in (b"P2", b"P3")
+    if words[0] not in (b"P2", b"P3", b"P5", b"P6") or (is_plain and int(words[3]) <= MAX_BYTE):
+        return full
+    return int(words[3]) or full
 
 
 def coding_facts(paths: Sequence[Path]) -> dict[str, Any]:
@@ -157,9 +280,18 @@ def find_timestamps(folder: Path) -> Path | None:
 
 
 def _is_image(path: Path) -> bool:
-    return (
-        path.suffix.lower() in IMAGE_EXTENSIONS and not path.name.startswith(".") and path.is_file()
-    )
+    # A link whose target is missing counts, so that it is missed.
+    is_named = path.suffix.lower() in IMAGE_EXTENSIONS and not path.name.startswith(".")
+    return is_named and not path.is_dir()
+
+
+def _refuse_lost(paths: Sequence[Path]) -> None:
+    lost = [path.name for path in paths if not path.is_file()]
+    if lost:
+        raise InputError(
+            f"{len(lost)} of {len(paths)} images in {paths[0].parent} are links to files that are "
+            f"not there ({few(lost)}); fetch them (git annex get, dvc pull), or delete the links"
+        )
 
 
 def _named_images(listing: Timestamps, file: Path, folder: Path) -> list[Path]:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import re
 import sys
 import time
@@ -14,12 +13,12 @@ from av.error import FFmpegError
 from av.video.frame import VideoFrame
 from av.video.stream import VideoStream
 
+from texvent.capture.decoding.pixels import PixelReader, coding_facts
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
-from texvent.capture.video_file import coding_facts, decoded_pixels
 from texvent.errors import InputError
 from texvent.runtime.interrupts import stop_on_interrupt
-from texvent.runtime.media_files import open_media
+from texvent.runtime.media_files import only_self_contained, open_media, raise_scarcity
 from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size
 from texvent.video import MICROSECONDS, Frame
@@ -62,7 +61,8 @@ class LiveFrames(FrameSource):
             raise InputError(f"{self._name} ended before its first frame")
         self._first, self._arrived_us = first, _now_us()
         self._clock = _clock_name(self._container, first, times)
-        pixels = decoded_pixels(first)
+        self._reader = PixelReader(self._name)
+        pixels = self._reader.read(first)
         self._metadata: dict[str, Any] = {
             "source": self._name,
             "kind": "live",
@@ -89,7 +89,7 @@ class LiveFrames(FrameSource):
             for index, (frame, arrived_us) in enumerate(arrivals):
                 t_us = self._time_us(index, frame, arrived_us)
                 if t_us > last_us:
-                    yield Frame(decoded_pixels(frame), t_us)
+                    yield Frame(self._reader.read(frame), t_us)
                     last_us = t_us
                 else:
                     self._metadata["frames_dropped"] += 1
@@ -114,8 +114,10 @@ class LiveFrames(FrameSource):
         stream = self._container.streams.best("video")
         if not isinstance(stream, VideoStream):
             raise InputError(f"{self._name} holds no video stream")
-        with contextlib.suppress(FFmpegError, EOFError):
+        try:
             yield from self._container.decode(stream)
+        except (FFmpegError, EOFError) as error:
+            raise_scarcity(error, self._name)
 
 
 def without_password(address: str) -> str:
@@ -130,13 +132,14 @@ def without_password(address: str) -> str:
 
 def _open_live(address: str, name: str) -> InputContainer:
     try:
-        if address == STANDARD_INPUT:
-            return open_media(sys.stdin.buffer, options=OPTIONS)
         if address.startswith("/dev/video"):
             return open_media(address, format="v4l2", options=OPTIONS)
-        timeout = TIMEOUT_S if "://" in address else None
-        return open_media(address, timeout=timeout, options=OPTIONS)
+        if "://" in address:
+            return open_media(address, timeout=TIMEOUT_S, options=OPTIONS)
+        given = sys.stdin.buffer if address == STANDARD_INPUT else address
+        return open_media(given, options={**OPTIONS, **only_self_contained()})
     except (FFmpegError, OSError, ValueError) as error:
+        raise_scarcity(error, name)
         reason = getattr(error, "strerror", None) or str(error)
         raise InputError(
             f"{name} cannot be opened as live video ({reason}); check that it exists, is not in "

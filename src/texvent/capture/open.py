@@ -13,8 +13,9 @@ from typing import Any, NamedTuple
 from texvent.capture.aedat4_frames import Aedat4Frames, is_aedat4
 from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.camera_path.opening import check_camera_options, is_still, open_photo
+from texvent.capture.decoding.animation import is_animation, is_webp, open_webp, read_head
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
-from texvent.capture.image_folder import ImageFolder
+from texvent.capture.image_folder import ImageFolder, count_images
 from texvent.capture.linear_light import AUTO, decode_light
 from texvent.capture.motion_vectors.frames import attach_motion
 from texvent.capture.prepare import PreparedFrames
@@ -167,6 +168,16 @@ def _refuse_still(address: _Address) -> FrameStream:
     )
 
 
+def _is_animated(address: _Address) -> bool:
+    return is_still(address.path) and is_animation(read_head(address.path))
+
+
+def _open_animation(address: _Address) -> FrameStream:
+    if is_webp(read_head(address.path)):
+        return open_webp(address.path, address.times)
+    return _open_video(address)
+
+
 def _open_video(address: _Address) -> FrameStream:
     from texvent.capture.video_file import VideoFile  # brings PyAV
 
@@ -202,6 +213,8 @@ SOURCES = (
         lambda a: _open_array(StoredArray(a.path), a.config, a.given),
     ),
     _Source("AEDAT4", lambda a: is_aedat4(a.path), lambda a: Aedat4Frames(a.path, a.times)),
+    _Source("animated PNG or WebP", _is_animated, _open_animation),
+    _Source("TIFF stack", lambda a: is_still(a.path) and count_images(a.path) > 1, _open_images),
     _Source("still image", lambda a: is_still(a.path), _refuse_still),
     _Source("video file", lambda a: True, _open_video),
 )

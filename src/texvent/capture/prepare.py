@@ -8,10 +8,12 @@ from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels
 from texvent.config import CaptureConfig
-from texvent.errors import InputError
+from texvent.errors import InputError, warn
 from texvent.sensor import SensorSize
 from texvent.video import (
     MICROSECONDS,
@@ -59,6 +61,7 @@ class PreparedFrames(FrameSource):
         )
         self._is_fitted = size is not None
         self._check_scale = check_scale and config.white_level is None
+        self._dtype: np.dtype[Any] | None = None
 
     @property
     def source(self) -> FrameStream:
@@ -75,7 +78,7 @@ class PreparedFrames(FrameSource):
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order; see the class for what can go wrong."""
         start_us, stop_us = _ends_us(self._config)
-        checker = StreamChecker()
+        checker, self._dtype = StreamChecker(), None
         first_us: int | None = None
         offset_us = count = 0
         for frame in self._source:
@@ -92,6 +95,7 @@ class PreparedFrames(FrameSource):
 
     def _prepared(self, frame: Frame, checker: StreamChecker) -> Frame:
         pixels, motion = frame.pixels, frame.motion
+        self._compare(frame)
         if pixels.dtype.kind == "f" and self._check_scale:
             self._decide_scale(pixels, frame.t_us)
         if self._config.white_level is not None:
@@ -102,6 +106,21 @@ class PreparedFrames(FrameSource):
             pixels = fit_pixels(pixels, self.size, self._config.fit)
             motion = motion and fit_motion(motion, self.size, self._config.fit)
         return checker.check(replace(frame, pixels=pixels, motion=motion))
+
+    def _compare(self, frame: Frame) -> None:
+        """Refuse a frame of another size before it is fitted; warn of one of another bit depth."""
+        if frame.size != self._source.size:
+            raise InputError(
+                f"the frame at {frame.t_us} µs is {frame.size}, those before it are "
+                f"{self._source.size}; cut the video there, or bring all frames to one size"
+            )
+        dtype = frame.pixels.dtype
+        if self._dtype not in (None, dtype):
+            warn(
+                f"the frame at {frame.t_us} µs has pixels of type {dtype}, those before it "
+                f"{self._dtype}; each type is read at its own full scale"
+            )
+        self._dtype = dtype
 
     def _decide_scale(self, pixels: PixelArray, t_us: int) -> None:
         """Look at float frames until one is not black; then the scale is known."""

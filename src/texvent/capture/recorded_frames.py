@@ -33,7 +33,7 @@ from numpy.typing import NDArray
 from texvent._require import require
 from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.frame_source import FrameSource, SourceFacts
-from texvent.capture.frame_times import FrameTimes, listed_times
+from texvent.capture.frame_times import FrameTimes, check_seconds, listed_times
 from texvent.capture.image_folder import ImageFolder
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.arrays.npy_file import StoredArray
@@ -165,4 +165,7 @@ def _read_times(path: Path) -> FrameTimes:
     seconds = stored.rows(0, len(stored)).reshape(-1).astype(np.float64)
     if not (np.abs(seconds) < LAST_S).all():
         raise FileFormatError(f"{path} holds {stored.dtype} that are not all seconds")
-    return listed_times(np.rint(seconds * MICROSECONDS).astype(np.int64), path.name)
+    times_us = np.rint(seconds * MICROSECONDS).astype(np.int64)
+    times = listed_times(times_us, path.name)
+    check_seconds(str(path), times_us.tolist(), "give `t_us` instead, in µs")
+    return times

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import json
 import re
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -12,37 +11,43 @@ from pathlib import Path
 from typing import Any
 
 import av
-import numpy as np
 from av.container import InputContainer
 from av.error import FFmpegError
-from av.sidedata.sidedata import Type as SideDataType
-from av.video.format import VideoFormat
 from av.video.frame import VideoFrame
-from av.video.reformatter import ColorRange
 from av.video.stream import VideoStream
-from numpy.typing import NDArray
 
+from texvent.capture.decoding.packet_times import needs_packet_times, read_packet_times
+from texvent.capture.decoding.pixels import PixelReader, coding_facts
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
-from texvent.capture.linear_light import CODING, HALF, LINEAR, VIDEO_CODINGS
-from texvent.errors import FileFormatError, warn
-from texvent.io.input_checks import refuse_missing
-from texvent.runtime.media_files import open_media
+from texvent.errors import FileFormatError, few, warn
+from texvent.io.input_checks import begins_with, refuse_missing
+from texvent.runtime.media_files import open_media_file, raise_scarcity
+from texvent.runtime.memory import usable_bytes
 from texvent.sensor import checked_size
-from texvent.video import MICROSECONDS, PREVIEW_MARK, Frame, PixelArray, frame_time_us
+from texvent.video import MICROSECONDS, PREVIEW_MARK, Frame, frame_time_us
 
 SLACK_US = 100_000
 """A file may end this much before its header says, or three frames, before it counts as cut."""
 TEXT_ART = "tty"
 """libav "plays" any .txt file as terminal art, which is never meant."""
 
+PLAYLIST_MARKS = (b"#EXTM3U", b"ffconcat version", b"v=0", b"<?xml", b"<MPD")
+"""How files begin that name other files."""
+ATTACHED_PICTURE = 1 << 10
+"""libav's AV_DISPOSITION_ATTACHED_PIC."""
+HELD_BYTES = 6 * 8
+"""Per pixel: 16-bit RGB, in as many frames as decoder, threads and simulation hold at least."""
+
 
 class VideoFile(FrameSource):
     """The frames of a video file; every iteration opens the file anew.
 
     Times are the file's own presentation times, `round(pts · time_base · 10⁶)` in exact
-    arithmetic, counted from the first frame, unless `times` are given. Frames that repeat the time
-    of the frame before (some recorders write them) are dropped and counted in `metadata`.
+    arithmetic, counted from the first frame, unless `times` are given. Where the file's clock is
+    too coarse for its rate (Matroska counts milliseconds) and all times are those of a constant
+    rate, rounded, that rate gives them. Other frames that repeat the time of the frame before
+    (some recorders write them) are dropped, counted in `metadata` and warned of.
 
     Raises:
         InputError: the file does not exist.
@@ -53,6 +58,7 @@ class VideoFile(FrameSource):
     def __init__(self, path: Path, times: FrameTimes | None = None) -> None:
         self._path = path
         self._times = times
+        self._is_counting = False
         with _opened(path) as (container, stream):
             comment = container.metadata.get("comment", "")
             if comment == PREVIEW_MARK:
@@ -62,43 +68,99 @@ class VideoFile(FrameSource):
                 )
             self._rate = _own_rate(container, stream)
             count = stream.frames or _count_by_duration(stream, container)
+            is_doubtful = needs_packet_times(stream)
             first = next(self._decode(container, stream), None)
             if first is None:
                 raise FileFormatError(
                     f"{path} has no frame that can be decoded; it may be cut off or empty"
                 )
-            pixels = decoded_pixels(first)
+            self._warn_of_kind(container, stream, first)
+            reader = PixelReader(path)
+            pixels = reader.read(first)
             self._metadata: dict[str, Any] = {
                 "source": str(path),
                 "kind": "video file",
                 "codec": stream.codec_context.name,
                 "pixel_format": first.format.name,
-                "display_matrix": list(display_matrix(first)),
+                "display_matrix": list(reader.matrix(first)),
                 "duplicate_times_dropped": 0,
                 **coding_facts(first, comment),
             }
             size = checked_size(pixels.shape[1], pixels.shape[0])
-            fps = times.fps if times else self._rate
-            self._facts = SourceFacts(size, fps, count, self._metadata)
+        if is_doubtful:
+            count = self._count_packets() or count
+        fps = times.fps if times else self._rate
+        self._facts = SourceFacts(size, fps, count, self._metadata)
+
+    def _warn_of_kind(
+        self, container: InputContainer, stream: VideoStream, first: VideoFrame
+    ) -> None:
+        """Say what else the file may be meant for, and what its frames may hold."""
+        videos = [one for one in container.streams.video if not is_cover(one)]
+        if len(videos) > 1:
+            sizes = [f"{one.width}x{one.height}" for one in videos]
+            warn(
+                f"{self._path} holds {len(videos)} videos ({few(sizes)}); number "
+                f"{1 + videos.index(stream)} is read, of {stream.width}x{stream.height}; copy "
+                "another into a file of its own (ffmpeg -map 0:v:NUMBER -c copy)"
+            )
+        if first.interlaced_frame:
+            warn(
+                f"{self._path} is marked as interlaced: lines of a frame are of two times, which "
+                "makes events at every edge that moves; deinterlace it (ffmpeg -vf bwdif)"
+            )
+
+    def _count_packets(self) -> int | None:
+        """Frames that will be shown, and a coarse file's constant rate; None: packets do not say.
+
+        Costs a pass over the file, without decoding.
+        """
+        with _opened(self._path) as (container, stream):
+            found = read_packet_times(container, stream)
+        if found is None:
+            return None
+        if self._times is not None:
+            return found.count
+        if found.constant_rate is not None:
+            self._rate, self._is_counting = found.constant_rate, True
+            if not found.is_stated:
+                warn(
+                    f"{self._path}: frames share times, since the file's clock is coarse; they are "
+                    f"taken {float(self._rate):,.6g} a second, as they come on average; give the "
+                    "exact rate (`fps`)"
+                )
+        self._note_repeats(found.repeats, found.count)
+        return found.count - found.repeats
+
+    def _note_repeats(self, dropped: int, count: int) -> None:
+        """Count frames that repeat a time, and warn of them once."""
+        if dropped > self._metadata["duplicate_times_dropped"]:
+            warn(
+                f"{self._path}: {dropped} of {count} frames are left out, because each has the "
+                "time of the frame before it; if frames are evenly spaced, give their rate (`fps`)"
+            )
+        self._metadata["duplicate_times_dropped"] = dropped
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in time order; see the class for what can go wrong."""
         clock = PresentationClock(self._path, self._times, self._rate)
         with _opened(self._path) as (container, stream):
-            clock.is_counting = container.format.name == AVI and stream.codec_context.has_b_frames
-            frames = self._decode(container, stream)
+            is_mixed_up = container.format.name == AVI and stream.codec_context.has_b_frames
+            clock.is_counting = self._is_counting or is_mixed_up
+            frames, reader = self._decode(container, stream), PixelReader(self._path)
             while True:
                 try:
                     decoded = next(frames, None)
                 except FFmpegError as error:
+                    raise_scarcity(error, self._path)
                     raise _damaged(self._path, clock, f"is damaged ({error.strerror})") from error
                 if decoded is None:
                     break
                 t_us = clock.read(decoded)
                 if t_us is not None:
-                    yield Frame(decoded_pixels(decoded), t_us)
+                    yield Frame(reader.read(decoded), t_us)
             self._check_end(stream, clock)
-        self._metadata["duplicate_times_dropped"] = clock.dropped
+        self._note_repeats(clock.dropped, clock.count)
 
     def _decode(self, container: InputContainer, stream: VideoStream) -> Iterator[VideoFrame]:
         """Whole frames; those before a damaged place come out before the error does."""
@@ -199,9 +261,13 @@ def _opened(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
     """The container and its main video stream, decoding on all cores."""
     refuse_missing(path, "video")
     try:
-        # With the protocol named, a colon in the path is not taken for one.
-        container = open_media(f"file:{path}")
+        container = open_media_file(path)
     except (FFmpegError, OSError) as error:
+        raise_scarcity(error, path)
+        if any(begins_with(path, mark) for mark in PLAYLIST_MARKS):
+            raise FileFormatError(
+                f"{path} is a playlist, which names other files; give the video itself"
+            ) from error
         raise FileFormatError(
             f"{path} is not a video that can be read ({error.strerror}); "
             "it may be cut off, still being written, or of another type"
@@ -210,14 +276,37 @@ def _opened(path: Path) -> Iterator[tuple[InputContainer, VideoStream]]:
         stream = container.streams.best("video")
         if not isinstance(stream, VideoStream) or container.format.name == TEXT_ART:
             raise FileFormatError(f"{path} holds no video stream")
+        if is_cover(stream):
+            raise FileFormatError(f"{path} holds no video stream, but the picture of a cover")
         stream.thread_type = "AUTO"
+        _check_claim(path, stream)
         try:
             yield container, stream
         except FFmpegError as error:
+            raise_scarcity(error, path)
             raise FileFormatError(
                 f"{path} has no frame that can be decoded ({error.strerror}); "
                 "it may be cut off or encrypted"
             ) from error
+
+
+def is_cover(stream: VideoStream) -> bool:
+    """Whether a stream is the picture of a cover, which players show beside music."""
+    # The first releases of PyAV 14 do not tell.
+    return bool(int(getattr(stream, "disposition", 0)) & ATTACHED_PICTURE)
+
+
+def _check_claim(path: Path, stream: VideoStream) -> None:
+    """Refuse frames that memory has no room for, by the header, and bound those that come."""
+    context = stream.codec_context
+    most_pixels = usable_bytes() // HELD_BYTES
+    if stream.width * stream.height > most_pixels:
+        raise FileFormatError(
+            f"{path} claims frames of {stream.width}x{stream.height}, which need about "
+            f"{stream.width * stream.height * HELD_BYTES / 2**30:,.0f} GiB; this process may use "
+            f"{usable_bytes() / 2**30:,.0f} GiB. Give a smaller video"
+        )
+    context.options = {**context.options, "max_pixels": str(min(most_pixels, 2**31 - 1))}
 
 
 def _flushed(stream: VideoStream) -> list[VideoFrame]:
@@ -261,45 +350,6 @@ RAW = ("h264", "hevc", "m4v", "mpegvideo", "vvc", "obu")
 """Containers that hold nothing but the stream."""
 AVI = "avi"
 """Container without times: its frames follow one another, and B-frames mix up the order in it."""
-UNSPECIFIED = 2
-"""libav's number of an unknown transfer characteristic."""
-
-
-def decoded_pixels(frame: VideoFrame) -> PixelArray:
-    """Pixels of a decoded frame, turned as its display matrix says.
-
-    Returns:
-        [H, W] for grey formats, else [H, W, 3] RGB; uint8 for up to 8 bits per component, uint16
-        (65535 is white) for more. Alpha is dropped. YUV becomes RGB by the matrix and range that
-        the file states; files that state none are read as BT.601 limited range, as libav does.
-        libav's 16-bit RGB of deep YUV has its white at 65283, 0.4 % below full scale.
-    """
-    image = frame.reformat(format=pixel_format(frame.format), dst_color_range=ColorRange.JPEG)
-    return _upright(image.to_ndarray(), display_matrix(frame))
-
-
-def display_matrix(frame: VideoFrame) -> tuple[int, int, int, int]:
-    """Signs of a, b, c, d of a frame's display matrix: x' = a x + c y, y' = b x + d y.
-
-    Angles between quarter turns, which no camera writes, count as the nearest.
-    """
-    side_data: Any = frame.side_data  # keys are of a type that its stub does not know
-    stored = side_data.get(SideDataType.DISPLAYMATRIX)
-    if stored is None:
-        return 1, 0, 0, 1
-    a, b, _, c, d = np.frombuffer(bytes(stored), "<i4", 5).tolist()
-    is_turned = abs(b) > abs(a)
-    kept = (0, b, c, 0) if is_turned else (a, 0, 0, d)
-    return tuple(np.sign(kept).tolist())
-
-
-def _upright(pixels: NDArray[Any], matrix: tuple[int, int, int, int]) -> PixelArray:
-    """Pixels turned and mirrored by the signs of a display matrix."""
-    a, b, c, d = matrix
-    if b:
-        pixels = np.swapaxes(pixels, 0, 1)
-    pixels = pixels[:: -1 if -1 in (b, d) else 1, :: -1 if -1 in (a, c) else 1]
-    return np.ascontiguousarray(pixels)
 
 
 def _own_rate(container: InputContainer, stream: VideoStream) -> Fraction | None:
@@ -308,36 +358,3 @@ def _own_rate(container: InputContainer, stream: VideoStream) -> Fraction | None
     if container.format.name in RAW:
         rate = stream.codec_context.framerate or rate
     return Fraction(rate) if rate else None
-
-
-def coding_facts(frame: VideoFrame, comment: str = "") -> dict[str, str]:
-    """How a decoded frame is coded, for a source's metadata: nothing where it is gamma-coded.
-
-    Args:
-        frame: it says its transfer characteristic.
-        comment: of the file; texvent writes facts there as JSON, and light as half floats.
-    """
-    try:
-        facts = json.loads(comment)
-    except (ValueError, RecursionError):
-        facts = None
-    if isinstance(facts, dict) and (facts.get("transfer"), facts.get(CODING)) == (LINEAR, HALF):
-        return {CODING: HALF}
-    # PyAV 16 and older do not tell.
-    coding = VIDEO_CODINGS.get(int(getattr(frame, "color_trc", UNSPECIFIED)))
-    return {} if coding is None else {CODING: coding}
-
-
-def pixel_format(source: VideoFormat) -> str:
-    """The libav format that keeps the precision and the colour of `source`.
-
-    Returns:
-        `gray`, `gray16le`, `rgb24` or `rgb48le`.
-    """
-    # Palettes (GIF, PNG) have one component, but it is an index, not a grey level.
-    planes = [component for component in source.components if not component.is_alpha]
-    is_grey = len(planes) == 1 and planes[0].is_luma and not source.has_palette
-    is_deep = max(component.bits for component in planes) > 8
-    if is_grey:
-        return "gray16le" if is_deep else "gray"
-    return "rgb48le" if is_deep else "rgb24"

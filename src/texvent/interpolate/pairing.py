@@ -17,6 +17,7 @@ from texvent.pairs.frame_pair import (
 )
 from texvent.pairs.instants import intermediate_times_us
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
+from texvent.pairs.time_jump import watch_steps
 from texvent.runtime.memory import release_freed_memory
 from texvent.runtime.prefetch import prefetch
 from texvent.video import Frame, FrameStream, MovingStream, StreamChecker
@@ -56,7 +57,7 @@ def plan_pairs(
 
     Raises:
         ConfigError: there is no such interpolator.
-        InputError: as `pair_frames`, while iterating.
+        InputError: as `pair_frames` and `watch_steps`, while iterating.
     """
     if config.interpolate == "motion" and isinstance(video, MovingStream):
         # Every instant of such a stream is known: nothing can be cut, and nothing flickers unseen.
@@ -71,10 +72,11 @@ def plan_pairs(
         contrast_threshold=contrast_threshold,
         counts_motion=counts_motion,
     )
+    watched = watch_steps(video, is_live=video.is_live)
     if video.is_live:
-        pairs = pair_frames(video, interpolator, config, policy)
+        pairs = pair_frames(watched, interpolator, config, policy)
         return _release_memory(pairs)
-    frames = threads.enter_context(closing(prefetch(_with_luma(video), depth=FRAMES_AHEAD)))
+    frames = threads.enter_context(closing(prefetch(_with_luma(watched), depth=FRAMES_AHEAD)))
     pairs = pair_frames(frames, interpolator, config, policy)
     ahead = threads.enter_context(closing(prefetch(pairs, depth=PAIRS_AHEAD)))
     return _release_memory(ahead)

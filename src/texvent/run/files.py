@@ -116,6 +116,7 @@ def write_run(
         TexventWarning: there is no signal, or hardly any.
     """
     facts = metadata or simulation.provenance
+    at_first = dict(simulation.video.metadata)
     with ExitStack() as outputs:
         # The exit stack closes in reverse: the event file is safe on disk before the previews end.
         preview = _open_previews(outputs, simulation, files, facts)
@@ -138,10 +139,14 @@ def write_run(
         stop = outputs.enter_context(stop_on_interrupt()) if files.keep_partial else StopRequest()
         steps = replace(simulation, warns=True).steps(on_scene_change)
         early = _run_steps(steps, [*sinks, on_step], stop, files.keep_partial)
-        if early is not None:
-            for output in (writer, preview, truth):
-                if output is not None:
-                    output.add_metadata(early.facts)
+        found = simulation.video.metadata
+        late = {name: one for name, one in found.items() if at_first.get(name) != one}
+        # Only a video that was read says how many of its frames were dropped.
+        added = {"source": {**facts.get("source", {}), **late}} if late else {}
+        added |= {} if early is None else early.facts
+        for output in (writer, preview, truth) if added else ():
+            if output is not None:
+                output.add_metadata(added)
     return early
 
 

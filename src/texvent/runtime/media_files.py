@@ -1,7 +1,11 @@
-"""Opening of video files, alike with every version of PyAV."""
+"""Opening of video files and streams by libav, alike with every version of PyAV."""
 
 from __future__ import annotations
 
+import errno
+import functools
+import os
+from pathlib import Path
 from typing import Any
 
 import av
@@ -12,13 +16,22 @@ from av.container import InputContainer
 _TOLERANT: dict[str, Any] = (
     {"metadata_errors": "replace"} if int(av.__version__.partition(".")[0]) < 19 else {}
 )
+SCARCE = frozenset((errno.EAGAIN, errno.ENOMEM, errno.EMFILE, errno.ENFILE))
+"""Errors of the system where threads, memory or open files have run out."""
+LEADING_ELSEWHERE = frozenset(
+    (
+        *("hls", "concat", "dash", "imf", "webm_dash_manifest", "sdp", "rtsp", "rtp", "sap"),
+        *("avisynth", "vapoursynth", "lavfi"),
+    )
+)
+"""Formats whose files name other files and addresses, or are programs."""
 
 
 def open_media(address: Any, **options: Any) -> InputContainer:
-    """Container of a video file, a stream or a device, whatever its titles are coded in.
+    """Container of a stream or a device, whatever its titles are coded in.
 
     Args:
-        address: as for `av.open`: a path, an address, or a file object.
+        address: as for `av.open`: an address or a file object.
         **options: others of `av.open`.
 
     Raises:
@@ -26,3 +39,30 @@ def open_media(address: Any, **options: Any) -> InputContainer:
     """
     container: InputContainer = av.open(address, mode="r", **_TOLERANT, **options)
     return container
+
+
+def open_media_file(path: Path) -> InputContainer:
+    """Container of a video file that leads to no other file; see `open_media`."""
+    # With the protocol named, a colon in the path is not taken for one.
+    return open_media(f"file:{path}", options=only_self_contained())
+
+
+@functools.cache
+def only_self_contained() -> dict[str, str]:
+    """The option of `av.open` that refuses playlists and scripts by format, before they are read.
+
+    A video from someone else could otherwise show any file of this machine.
+    """
+    return {"format_whitelist": ",".join(sorted(av.formats_available - LEADING_ELSEWHERE))}
+
+
+def raise_scarcity(error: BaseException, name: object) -> None:
+    """Pass on what is no fault of a file: threads, memory or open files have run out.
+
+    Raises:
+        OSError: `error` says so.
+    """
+    number = getattr(error, "errno", None)
+    if number in SCARCE:
+        reason = f"{os.strerror(number)}; decoding needs a higher limit of processes or memory"
+        raise OSError(number, reason, str(name)) from error

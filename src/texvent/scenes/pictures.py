@@ -155,12 +155,13 @@ class PlayedVideo:
     def _open(self) -> Iterator[Any]:
         from av.error import FFmpegError  # most scenes show no video
 
-        from texvent.runtime.media_files import open_media
+        from texvent.runtime.media_files import open_media_file, raise_scarcity
 
         try:
-            with open_media(str(self._path)) as container:
+            with open_media_file(self._path) as container:
                 yield from container.decode(video=0)
         except (FFmpegError, IndexError, OSError) as error:
+            raise_scarcity(error, self._path)
             raise FileFormatError(
                 f"{self._path} is no video that can be decoded "
                 f"({getattr(error, 'strerror', None) or error}); name another file"

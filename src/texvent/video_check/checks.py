@@ -9,7 +9,8 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from typing import Any
 
-from texvent.video import Frame
+from texvent.pairs.time_jump import RATIO, SHORTEST_US
+from texvent.video import MICROSECONDS, Frame
 from texvent.video_check.measurements import Measurements, measure_video
 
 FROZEN_SHARE = 0.5
@@ -134,6 +135,26 @@ CHECKS = (
         limit=f"at least {NOISE_CORRELATION:g}",
         effect="every pixel fires by itself",
         help=f"a smaller `sensor` averages it; {ANOTHER_SEED}",
+    ),
+    Check(
+        name="time jump",
+        is_failure=False,
+        needs="jumps",
+        is_found=lambda one: one["jumps"] > 0,
+        value=lambda one: f"{one['jumps']:.0f}, of up to {one['longest_jump_s']:,.6g} s",
+        limit=f"{SHORTEST_US // MICROSECONDS} s and {RATIO} usual steps",
+        effect="noise alone fills it; an hour or more is refused",
+        help="`fps`; `start`, `stop`: one part",
+    ),
+    Check(
+        name="missing frames",
+        is_failure=False,
+        needs="missing",
+        is_found=lambda one: one["missing"] > 0,
+        value=lambda one: "a gap in the numbers of images",
+        limit="0",
+        effect="later frames come too early",
+        help="`timestamps`; put the images back",
     ),
     Check(
         name="repeated frames",

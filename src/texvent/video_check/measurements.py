@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from texvent.brightness import Float64Array
 from texvent.pairs.instants import matching_luma
 from texvent.pairs.scene_change import SceneChange, detect_scene_change
+from texvent.pairs.time_jump import is_jump
 from texvent.transfer import Transfer
 from texvent.video import MICROSECONDS, Frame
 
@@ -108,6 +109,7 @@ class VideoMeasurer:
             `repeat_share`: share of pairs that are repeats (`find_repeats`). `pattern_period` and
             `pattern_repeats`: length of the pattern that they form, and repeats in it; 0 if none.
             `cuts`: pairs that the simulation takes for a cut.
+            `jumps` and `longest_jump_s`: steps of time far beyond the usual one, and the longest.
         """
         change = np.array(self._change or [0.0])
         exact = np.array(self._is_exact or [False])
@@ -127,6 +129,7 @@ class VideoMeasurer:
             "pattern_period": float(period),
             "pattern_repeats": float(repeated),
             "cuts": float(len(self.cut_times_us)),
+            **self._jumps(),
         }
 
     def _levels(self) -> dict[str, float]:
@@ -139,6 +142,13 @@ class VideoMeasurer:
             "bright_end": percentile_of_counts(self._counts, 95) / BINS_PER_LEVEL,
             "correlation": float(np.median(self._correlations)),
         }
+
+    def _jumps(self) -> dict[str, float]:
+        steps = np.diff(np.array(self._times_us, np.int64)).tolist()
+        # The median of all steps but the one that is judged would be the same, but of two.
+        usual = steps if len(steps) > 2 else sorted(steps)[:-1]
+        jumps = [step for step in steps if is_jump(step, usual)]
+        return {"jumps": float(len(jumps)), "longest_jump_s": max(jumps, default=0) / MICROSECONDS}
 
     def _fps(self) -> float:
         """Over the whole clip if its frames are regular, else by the median interval."""

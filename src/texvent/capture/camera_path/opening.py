@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from texvent._registry import suggest
 from texvent.capture.camera_path.motion import CameraPath, Pan, Saccades, Shake
 from texvent.capture.camera_path.photo_frames import PhotoFrames
-from texvent.capture.image_folder import coding_facts, read_image
+from texvent.capture.image_folder import coding_facts, count_images, read_image
 from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels, usable_pixels
 from texvent.capture.linear_light import (
     FULL_SCALE,
@@ -116,7 +116,9 @@ def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], di
                 "over one; leave `camera` out for a video, or name images one by one or in "
                 "texvent batch FOLDER"
             )
-        pixels, where, kind = read_image(path), str(path), "still image"
+        if count_images(path) > 1:
+            raise InputError(f"{path} holds several images; leave camera out, or save one of them")
+        pixels, where, kind = read_image(path, config.white_level), str(path), "still image"
         coded = coding_facts([path])
     elif hasattr(source, "__array__"):
         pixels, where, kind = usable_pixels(np.asarray(source), "the image"), "the image", "array"

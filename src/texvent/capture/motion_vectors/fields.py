@@ -7,9 +7,7 @@ from __future__ import annotations
 
 import functools
 import glob
-import itertools
-import re
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeAlias
@@ -22,7 +20,7 @@ from texvent.errors import FileFormatError, InputError, few, shown
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.arrays.npz import NPZ_DAMAGE
 from texvent.io.input_checks import check_zip, reporting_damage
-from texvent.runtime.file_names import natural_key, usable_path
+from texvent.runtime.file_names import in_natural_order, numbering_gap, usable_path
 
 Role: TypeAlias = str
 """Option that named the file (a key of `ROLE_KIND`): the meaning of an array without a name."""
@@ -118,7 +116,8 @@ def open_fields(given: Any, role: Role) -> FieldStack:
     # One file may hold all kinds of fields of a frame, which are asked for one by one.
     read = functools.lru_cache(CACHED_FRAMES)(lambda index: read_file(files[index], role))
     found = frozenset(read_file(files[0], role))
-    return FieldStack(str(given), len(files), read, found, written_by(files[0]), _gap(files))
+    gap = numbering_gap(files)
+    return FieldStack(str(given), len(files), read, found, written_by(files[0]), gap)
 
 
 def _find_files(given: str | Path, role: Role) -> list[Path]:
@@ -150,21 +149,7 @@ def _find_files(given: str | Path, role: Role) -> list[Path]:
             f"{files[0]} is no file of motion vectors, depth or ids; known: "
             f"{', '.join(FRAME_EXTENSIONS)}, or a folder of them"
         )
-    return sorted(files, key=natural_key)
-
-
-def _gap(files: Sequence[Path]) -> str | None:
-    """Two numbered files between which one is missing: all steps equal, but a few longer."""
-    numbers = [int(found[-1]) for one in files if (found := re.findall(r"\d+", one.stem))]
-    if len(numbers) != len(files):
-        return None
-    steps = [second - first for first, second in itertools.pairwise(numbers)]
-    usual = min(steps)
-    longer = [index for index, step in enumerate(steps) if step != usual]
-    is_gap = usual > 0 and all(steps[index] % usual == 0 for index in longer)
-    if not longer or not is_gap or len(longer) > len(steps) // 4 + 1:
-        return None
-    return f"{files[longer[0]].name} and {files[longer[0] + 1].name}"
+    return in_natural_order(files)
 
 
 def _stack_of_file(path: Path, role: Role) -> FieldStack:

@@ -23,11 +23,12 @@ from typing import Any
 import av
 import numpy as np
 from av.error import FFmpegError
+from av.video.reformatter import VideoReformatter
 from av.video.stream import VideoStream
 
 from texvent.errors import FileFormatError, InputError
 from texvent.io.atomic import atomic_file
-from texvent.runtime.media_files import open_media
+from texvent.runtime.media_files import open_media, raise_scarcity
 from texvent.sensor import SensorSize
 from texvent.transfer import WHITE, Transfer, encode_half
 from texvent.video import (
@@ -222,11 +223,13 @@ def _decode(path: Path) -> Iterator[PixelArray]:
                 raise FileFormatError(f"{path} holds no video")
             stream = container.streams.video[0]
             stream.thread_type = "AUTO"
+            scaler = VideoReformatter()  # one for all frames: each keeps threads of its own
             for video_frame in container.decode(stream):
                 deepest = max(component.bits for component in video_frame.format.components)
                 name = "rgb48le" if deepest > _EIGHT_BITS else "rgb24"
-                yield video_frame.to_ndarray(format=name)
+                yield scaler.reformat(video_frame, format=name).to_ndarray()
     except FFmpegError as error:
+        raise_scarcity(error, path)
         raise FileFormatError(
             f"{path} cannot be decoded, it is damaged ({error.strerror}); delete it and "
             "generate again"

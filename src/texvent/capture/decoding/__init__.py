@@ -1,0 +1,1 @@
+"""Decoding of video: pixels of libav's frames, and times of its packets."""

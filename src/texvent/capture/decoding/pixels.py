@@ -1,0 +1,126 @@
+"""Pixels of decoded frames: upright, grey or RGB, at their own bit depth."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+from av.error import FFmpegError
+from av.sidedata.sidedata import Type as SideDataType
+from av.video.format import VideoFormat
+from av.video.frame import VideoFrame
+from av.video.reformatter import ColorRange, VideoReformatter
+from numpy.typing import NDArray
+
+from texvent.capture.linear_light import CODING, HALF, LINEAR, VIDEO_CODINGS
+from texvent.runtime.media_files import raise_scarcity
+from texvent.video import PixelArray
+
+UNSPECIFIED = 2
+"""libav's number of an unknown transfer characteristic."""
+
+
+class PixelReader:
+    """Pixels of the frames of one stream, turned as the display matrix of its first frame says.
+
+    The stream has one scaler: those of libav keep a thread for each core.
+
+    Args:
+        name: of the stream, for errors.
+
+    Raises:
+        OSError: while reading: the system has no more threads or memory.
+    """
+
+    def __init__(self, name: object) -> None:
+        self._name = name
+        self._reformatter = VideoReformatter()
+        self._matrix: tuple[int, int, int, int] | None = None
+
+    def read(self, frame: VideoFrame) -> PixelArray:
+        """Pixels of a decoded frame.
+
+        Returns:
+            [H, W] for grey formats, else [H, W, 3] RGB; uint8 for up to 8 bits per component,
+            uint16 (65535 is white) for more. Alpha is dropped. YUV becomes RGB by the matrix and
+            range that the file states; files that state none are read as BT.601 limited range, as
+            libav does. libav's 16-bit RGB of deep YUV has its white at 65283, 0.4 % below full
+            scale.
+        """
+        return _upright(self._levels(frame), self.matrix(frame))
+
+    def matrix(self, frame: VideoFrame) -> tuple[int, int, int, int]:
+        """The display matrix of the stream; `frame` is one of it."""
+        if self._matrix is None:
+            # A frame whose side data were looked at is held by them until the garbage collector
+            # runs, so this is done once.
+            self._matrix = display_matrix(frame)
+        return self._matrix
+
+    def _levels(self, frame: VideoFrame) -> NDArray[Any]:
+        try:
+            image = self._reformatter.reformat(
+                frame, format=pixel_format(frame.format), dst_color_range=ColorRange.JPEG
+            )
+        except FFmpegError as error:
+            raise_scarcity(error, self._name)
+            raise
+        return image.to_ndarray()
+
+
+def display_matrix(frame: VideoFrame) -> tuple[int, int, int, int]:
+    """Signs of a, b, c, d of a frame's display matrix: x' = a x + c y, y' = b x + d y.
+
+    Angles between quarter turns, which no camera writes, count as the nearest.
+    """
+    side_data: Any = frame.side_data  # keys are of a type that its stub does not know
+    stored = side_data.get(SideDataType.DISPLAYMATRIX)
+    if stored is None:
+        return 1, 0, 0, 1
+    a, b, _, c, d = np.frombuffer(bytes(stored), "<i4", 5).tolist()
+    is_turned = abs(b) > abs(a)
+    kept = (0, b, c, 0) if is_turned else (a, 0, 0, d)
+    return tuple(np.sign(kept).tolist())
+
+
+def _upright(pixels: NDArray[Any], matrix: tuple[int, int, int, int]) -> PixelArray:
+    """Pixels turned and mirrored by the signs of a display matrix."""
+    a, b, c, d = matrix
+    if b:
+        pixels = np.swapaxes(pixels, 0, 1)
+    pixels = pixels[:: -1 if -1 in (b, d) else 1, :: -1 if -1 in (a, c) else 1]
+    return np.ascontiguousarray(pixels)
+
+
+def coding_facts(frame: VideoFrame, comment: str = "") -> dict[str, str]:
+    """How a decoded frame is coded, for a source's metadata: nothing where it is gamma-coded.
+
+    Args:
+        frame: it says its transfer characteristic.
+        comment: of the file; texvent writes facts there as JSON, and light as half floats.
+    """
+    try:
+        facts = json.loads(comment)
+    except (ValueError, RecursionError):
+        facts = None
+    if isinstance(facts, dict) and (facts.get("transfer"), facts.get(CODING)) == (LINEAR, HALF):
+        return {CODING: HALF}
+    # PyAV 16 and older do not tell.
+    coding = VIDEO_CODINGS.get(int(getattr(frame, "color_trc", UNSPECIFIED)))
+    return {} if coding is None else {CODING: coding}
+
+
+def pixel_format(source: VideoFormat) -> str:
+    """The libav format that keeps the precision and the colour of `source`.
+
+    Returns:
+        `gray`, `gray16le`, `rgb24` or `rgb48le`.
+    """
+    # Palettes (GIF, PNG) have one component, but it is an index, not a grey level.
+    planes = [component for component in source.components if not component.is_alpha]
+    is_grey = len(planes) == 1 and planes[0].is_luma and not source.has_palette
+    is_deep = max(component.bits for component in planes) > 8
+    if is_grey:
+        return "gray16le" if is_deep else "gray"
+    return "rgb48le" if is_deep else "rgb24"

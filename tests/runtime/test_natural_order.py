@@ -1,0 +1,60 @@
+"""Files are sorted by name as people do, whatever their numbers are."""
+
+import random
+from contextlib import nullcontext
+from pathlib import Path
+
+import pytest
+
+from texvent.errors import TexventWarning
+from texvent.runtime.file_names import in_natural_order, numbering_gap
+
+PLAIN = [
+    ["frame2", "frame10", "frame100"],
+    ["0.0", "0.05", "0.1", "0.15", "0.2"],  # times, as Python prints them
+    ["1305031102.175304", "1305031102.2113", "1305031102.243211", "1305031102.27"],
+    ["t0.1", "t0.15", "t0.2000001", "t1"],
+    ["1.8", "1.9", "1.10", "1.11"],  # versions
+    ["scene1.2_take9", "scene1.2_take10"],
+    ["shot2.0999", "shot2.1000", "shot2.1001"],
+    ["2024-01-15", "2024-01-31", "2024-02-01"],
+    ["1.2.3", "1.2.10", "1.10.1"],
+    ["-1", "-0.5", "0", "0.5", "1"],
+    ["t-2", "t-1", "t0", "t1"],
+    ["frame-1", "frame-2", "frame-10"],  # a hyphen, not a sign
+    ["frame.0001", "frame.0002", "frame.10000"],
+    ["a", "b", "c"],
+]
+DOUBTFUL = [
+    (["0.1", "0.15", "0.2"], "sorted as decimals"),
+    (["1.05", "1.10", "1.5"], "sorted as decimals"),
+    (["left_1", "left_2", "right_1", "right_2"], r"2 patterns of names: left_# \(2\), right_#"),
+    (["0b12e", "3f9", "a7c4"], "3 patterns"),
+]
+
+
+@pytest.mark.parametrize(("stems", "doubt"), [(one, None) for one in PLAIN] + DOUBTFUL)
+def test_names_are_sorted_by_the_numbers_in_them(stems, doubt):
+    paths = [Path("f") / f"{stem}.png" for stem in stems]
+    mixed = random.Random(1).sample(paths, len(paths))
+    with pytest.warns(TexventWarning, match=doubt) if doubt else nullcontext():
+        assert in_natural_order(mixed) == paths
+
+
+def test_two_images_of_one_number_are_said():
+    with pytest.warns(TexventWarning, match=r"frame#.jpg \(1\)"):
+        in_natural_order([Path("frame1.png"), Path("frame1.jpg")])
+
+
+@pytest.mark.parametrize(
+    ("numbers", "gap"),
+    [
+        ([0, 1, 2, 5, 6, 7], "f2.png and f5.png"),
+        ([0, 10, 20, 40, 50], "f20.png and f40.png"),
+        ([0, 1, 2, 3], None),
+        ([0, 33, 67, 100], None),  # times
+        ([3], None),
+    ],
+)
+def test_a_gap_in_a_regular_numbering_is_found(numbers, gap):
+    assert numbering_gap([Path(f"f{number}.png") for number in numbers]) == gap
