@@ -15,6 +15,7 @@ from texvent.capture.array_frames import ArrayFrames
 from texvent.capture.camera_path.opening import check_camera_options, is_still, open_photo
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
 from texvent.capture.image_folder import ImageFolder
+from texvent.capture.intensity_scale import check_whole_scale
 from texvent.capture.linear_light import AUTO, decode_light
 from texvent.capture.motion_vectors.frames import attach_motion
 from texvent.capture.prepare import PreparedFrames
@@ -26,7 +27,7 @@ from texvent.io.files import event_extensions
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
-from texvent.video import FrameStream, transfer_of
+from texvent.video import FrameStream, NotebookFrames, RenderableStream, Video, transfer_of
 
 
 def open_frames(
@@ -83,8 +84,7 @@ def open_frames(
             f"cannot read frames from {type(source).__name__}; give a path, an address, an array "
             "[N, H, W] or [N, H, W, 3], or a FrameStream"
         )
-    # An array that can be read twice was looked through as a whole already.
-    check_scale = stream.is_live or not isinstance(stream, ArrayFrames)
+    check_scale = not isinstance(stream, ArrayFrames)  # it looks at the scale itself
     stream, config = decode_light(stream, config)
     check_scale = check_scale and transfer_of(stream) is Transfer.GAMMA
     stream = attach_motion(stream, config, motion)
@@ -237,6 +237,11 @@ def _adapt_stream(
             "leave out transfer"
         )
     is_whole = config.start == 0 and config.stop is None and config.white_level is None
-    if is_whole and size in (None, stream.size):
+    is_own = isinstance(stream, NotebookFrames) and not isinstance(stream, Video)
+    is_known = is_own or transfer_of(stream) is Transfer.LINEAR or config.white_level is not None
+    if not is_known and isinstance(stream, (Video, RenderableStream)) and not stream.is_live:
+        check_whole_scale((frame.pixels for frame in stream), "the video")
+        is_known = True
+    if is_whole and is_known and size in (None, stream.size):
         return stream
-    return PreparedFrames(stream, config, size=size, check_scale=False)
+    return PreparedFrames(stream, config, size=size, check_scale=not is_known)

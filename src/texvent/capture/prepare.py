@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
-from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels
+from texvent.capture.intensity_scale import ScaleCheck, scale_to_levels
 from texvent.config import CaptureConfig
 from texvent.errors import InputError
 from texvent.sensor import SensorSize
@@ -17,7 +17,6 @@ from texvent.video import (
     MICROSECONDS,
     Frame,
     FrameStream,
-    PixelArray,
     StreamChecker,
     frame_time_us,
 )
@@ -36,7 +35,7 @@ class PreparedFrames(FrameSource):
         source: the frames as they come.
         config: start, stop, fit and white level.
         size: wanted size, or None to keep the source's.
-        check_scale: refuse float frames that never exceed 1 (see `levels.refuse_unit_range`).
+        check_scale: whether the scale of float frames is in doubt; see `ScaleCheck`.
 
     Raises:
         InputError: while iterating: fewer than two frames, a NaN, negative or infinite intensity,
@@ -58,7 +57,7 @@ class PreparedFrames(FrameSource):
             size or source.size, source.fps, count, source.metadata, source.is_live
         )
         self._is_fitted = size is not None
-        self._check_scale = check_scale and config.white_level is None
+        self._scale = ScaleCheck() if check_scale and config.white_level is None else None
 
     @property
     def source(self) -> FrameStream:
@@ -92,8 +91,8 @@ class PreparedFrames(FrameSource):
 
     def _prepared(self, frame: Frame, checker: StreamChecker) -> Frame:
         pixels, motion = frame.pixels, frame.motion
-        if pixels.dtype.kind == "f" and self._check_scale:
-            self._decide_scale(pixels, frame.t_us)
+        if pixels.dtype.kind == "f" and self._scale is not None:
+            self._scale.look_at_stream(pixels, f"the frame at {frame.t_us} µs")
         if self._config.white_level is not None:
             pixels = scale_to_levels(pixels, self._config.white_level)
         if self._is_fitted:
@@ -102,12 +101,6 @@ class PreparedFrames(FrameSource):
             pixels = fit_pixels(pixels, self.size, self._config.fit)
             motion = motion and fit_motion(motion, self.size, self._config.fit)
         return checker.check(replace(frame, pixels=pixels, motion=motion))
-
-    def _decide_scale(self, pixels: PixelArray, t_us: int) -> None:
-        """Look at float frames until one is not black; then the scale is known."""
-        highest = float(pixels.max())
-        refuse_unit_range(highest, f"the frame at {t_us} µs")
-        self._check_scale = highest == 0.0
 
 
 def _count_frames(source: FrameStream, config: CaptureConfig) -> int | None:
