@@ -27,8 +27,7 @@ class ArrayFrames(FrameSource):
     Args:
         frames: uint8, uint16 (65535 is white), float on the 0..255 scale, or bool.
         times: a frame rate, or one time per frame.
-        white_level: the value that means white, where the type does not say it; only to decide
-            whether the scale is checked.
+        check_scale: whether the scale is in doubt; see `ScaleCheck`.
         metadata: where they come from.
 
     Raises:
@@ -41,7 +40,7 @@ class ArrayFrames(FrameSource):
         frames: Iterable[Any],
         times: FrameTimes,
         *,
-        white_level: float | None = None,
+        check_scale: bool = True,
         metadata: Mapping[str, Any] | None = None,
     ) -> None:
         if not isinstance(frames, Iterator) and _is_array(frames):
@@ -60,8 +59,8 @@ class ArrayFrames(FrameSource):
         facts = {**origin, "pixel_type": str(first.dtype)}
         size = checked_size(first.shape[1], first.shape[0])
         self._facts = SourceFacts(size, times.fps, count, facts, is_live)
-        self._scale = None if white_level is not None else ScaleCheck()
-        if self._scale is not None and not is_live:
+        self._scale = ScaleCheck() if check_scale else None
+        if check_scale and not is_live:
             self._scale = check_whole_scale(self._images(self._frames), "the array")
 
     def __iter__(self) -> Iterator[Frame]:
@@ -89,14 +88,14 @@ class ArrayFrames(FrameSource):
     def _peek(self, is_live: bool) -> PixelArray:
         """The first image; an iterator gets it back in front."""
         iterator = iter(self._frames)
-        first = next(iterator, None)
-        if is_live and first is None:
+        first = [*itertools.islice(iterator, 1)]
+        if is_live and not first:
             raise InputError("the generator has no frame (left); if it was read, make it again")
-        _refuse_if_empty(first is None)
+        _refuse_if_empty(not first)
         if is_live:
-            whole = itertools.chain((first,), iterator)
+            whole = itertools.chain(first, iterator)
             self._frames = ReadOnce(whole, "a generator of frames")
-        return caller_pixels(first, "frame 0")
+        return caller_pixels(first[0], "frame 0")
 
 
 def _is_array(frames: Any) -> bool:

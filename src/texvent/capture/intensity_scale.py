@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import InputError, warn
+from texvent.errors import InputError, shown, warn
 from texvent.options.arrays import as_array
 from texvent.video import UINT16_PER_LEVEL, PixelArray
 
@@ -19,6 +20,8 @@ GIVE_WHITE = (
 )
 FEW = 0.01
 """Share of pixels that highlights and the overshoot of resized images take up at most."""
+OVERSHOOT = 1.25
+"""The highest that resizing makes of white in 0..1."""
 DIMMEST_HIGHLIGHT = 16.0
 """Levels of 255 that a video exceeds somewhere, unless it is nearly black."""
 DARK_FRAMES = 3
@@ -92,6 +95,11 @@ def caller_pixels(image: Any, where: str) -> PixelArray:
     Raises:
         InputError: another shape, type or mode, or masked values.
     """
+    if isinstance(image, (str, bytes, Path)):
+        raise InputError(
+            f"{where} is the name {shown(image)}; a list holds images, not their names: give the "
+            "folder of the files, or open them one by one"
+        )
     if hasattr(image, "getbands"):
         image = _of_pillow(image, where)
     pixels = usable_pixels(as_array(image, where), where)
@@ -155,7 +163,7 @@ class ScaleCheck:
             self._above_1 += int(np.count_nonzero(pixels > 1))
             self._above_white += int(np.count_nonzero(pixels > FULL_SCALE))
             self._is_whole = self._is_whole and bool((np.rint(pixels) == pixels).all())
-        if np.isnan(highest) or self._doubt() is None:  # NaN is refused elsewhere
+        if not np.isfinite(highest) or self._doubt() is None:  # NaN is refused elsewhere
             self._settled.add(pixels.dtype)
         return pixels.dtype in self._settled
 
@@ -197,7 +205,7 @@ class ScaleCheck:
         """Whether floats are 0..1, but for a few highlights."""
         is_few = self._above_1 <= FEW * self._pixels and not self._is_whole
         is_far = not DIMMEST_HIGHLIGHT < self._highest <= FULL_SCALE
-        return self._is_float and (self._highest <= 1 or (is_few and is_far))
+        return self._is_float and (self._highest <= OVERSHOOT or (is_few and is_far))
 
     @property
     def _is_float(self) -> bool:
@@ -216,7 +224,7 @@ class ScaleCheck:
             )
         if self._is_unit():
             extent = f"never exceed {self._highest:g}"
-            if self._highest > 1:
+            if self._highest > OVERSHOOT:
                 extent = f"exceed 1 in a share of {share} of their pixels only"
             return (
                 f"holds floats that {extent}, so they are probably 0..1, while texvent's "

@@ -16,7 +16,7 @@ from texvent.capture.camera_path.opening import check_camera_options, is_still, 
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
 from texvent.capture.image_folder import ImageFolder
 from texvent.capture.intensity_scale import check_whole_scale
-from texvent.capture.linear_light import AUTO, decode_light
+from texvent.capture.linear_light import AUTO, GAMMA, decode_light
 from texvent.capture.motion_vectors.frames import attach_motion
 from texvent.capture.prepare import PreparedFrames
 from texvent.capture.recorded_frames import DsecFrames, is_dsec, is_evreal, open_evreal
@@ -220,7 +220,9 @@ def _open_array(frames: Any, config: CaptureConfig, given: FrameTimes | None) ->
         raise InputError(
             "frames in memory have no times; give fps=, or t_us= with one time per frame, in µs"
         )
-    return ArrayFrames(frames, times, white_level=config.white_level)
+    # That of coded light is checked where it is decoded.
+    is_unsure = config.white_level is None and config.transfer in (AUTO, GAMMA)
+    return ArrayFrames(frames, times, check_scale=is_unsure)
 
 
 def _adapt_stream(
