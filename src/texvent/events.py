@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from texvent.errors import InputError
+from texvent.errors import InputError, one_line, shown
 from texvent.event_edits import EventEdits, time_edit, with_edit
 from texvent.options.arrays import HOW_TO_ROUND, as_array, whole_numbers
 from texvent.sensor import MAX_SIDE, SensorSize, SizeLike, as_size
@@ -179,7 +179,7 @@ class EventStream(EventEdits):
         """The events of a slice with a positive step, or where a mask is true.
 
         Raises:
-            InputError: it is neither, such as the number of an event.
+            InputError: it is neither, such as the number of an event, or of another length.
         """
         if not isinstance(index, slice | np.ndarray | list):
             raise InputError(
@@ -188,7 +188,10 @@ class EventStream(EventEdits):
             )
         if not isinstance(index, slice):
             index = as_array(index, "the mask")
-        chosen = {name: column[index] for name, column in self.columns().items()}
+        try:
+            chosen = {name: column[index] for name, column in self.columns().items()}
+        except IndexError as error:
+            raise InputError(f"{shown(index)} chooses no events ({one_line(error)})") from error
         return EventStream(**chosen, size=self.size, metadata=self.metadata)
 
     def columns(self) -> dict[str, NDArray[Any]]:
@@ -357,7 +360,9 @@ def _whole_column(name: str, values: ArrayLike) -> NDArray[Any]:
     Raises:
         InputError: a value is not whole, or masked.
     """
-    column = whole_numbers(values, name, f"integers, µs: {HOW_TO_ROUND}" if name == "t" else "integers")
+    column = whole_numbers(
+        values, name, f"integers, µs: {HOW_TO_ROUND}" if name == "t" else "integers"
+    )
     return column.astype(np.int64, copy=False) if name == "t" else column
 
 

@@ -29,7 +29,16 @@ FOREIGN = {
         "--num-cpus",
     ),
     *("--only-binary", "--packages-select", "--porcelain", "--python", "--repo-type", "--rm"),
-    *("--ros-args", "--untracked-files", "--user", "--version", "--on", "--help", "--table", "--show"),
+    *(
+        "--ros-args",
+        "--untracked-files",
+        "--user",
+        "--version",
+        "--on",
+        "--help",
+        "--table",
+        "--show",
+    ),
     *("--local-dir", "--save-dir", "--dataset", "--standalone"),
 }
 """Flags of pip, git, Docker, ROS, Slurm and the like, and of CSS."""

@@ -76,7 +76,9 @@ def open_frames(
     if isinstance(source, (str, Path)):
         stream = _open_address(str(source), config, given)
     elif isinstance(source, FrameStream):
-        return _adapt_stream(attach_motion(source, config, motion), config, size, given)
+        is_known = _is_scale_known(source, config)
+        stream = attach_motion(source, config, motion)
+        return _adapt_stream(stream, config, size, given, check_scale=not is_known)
     elif isinstance(source, Iterable) or hasattr(source, "__array__"):
         stream = _open_array(source, config, given)
     else:
@@ -230,6 +232,8 @@ def _adapt_stream(
     config: CaptureConfig,
     size: SensorSize | None,
     given: FrameTimes | None,
+    *,
+    check_scale: bool,
 ) -> FrameStream:
     if given is not None or config.timestamps is not None:
         raise InputError("a FrameStream has its own times; leave out fps, t_us and timestamps")
@@ -239,11 +243,22 @@ def _adapt_stream(
             "leave out transfer"
         )
     is_whole = config.start == 0 and config.stop is None and config.white_level is None
-    is_own = isinstance(stream, NotebookFrames) and not isinstance(stream, Video)
-    is_known = is_own or transfer_of(stream) is Transfer.LINEAR or config.white_level is not None
-    if not is_known and isinstance(stream, (Video, RenderableStream)) and not stream.is_live:
-        check_whole_scale((frame.pixels for frame in stream), "the video")
-        is_known = True
-    if is_whole and is_known and size in (None, stream.size):
+    if is_whole and not check_scale and size in (None, stream.size):
         return stream
-    return PreparedFrames(stream, config, size=size, check_scale=not is_known)
+    return PreparedFrames(stream, config, size=size, check_scale=check_scale)
+
+
+def _is_scale_known(stream: FrameStream, config: CaptureConfig) -> bool:
+    """Whether nothing is left to find out about the scale of a stream's frames.
+
+    Raises:
+        InputError: its frames can be read again, and are most likely 0..1.
+    """
+    if isinstance(stream, NotebookFrames) and not isinstance(stream, Video):
+        return True  # texvent's own
+    if config.white_level is not None or transfer_of(stream) is Transfer.LINEAR:
+        return True
+    if stream.is_live or not isinstance(stream, (Video, RenderableStream)):
+        return False
+    check_whole_scale((frame.pixels for frame in stream), "the video")
+    return True

@@ -17,6 +17,7 @@ from texvent.video import (
     MICROSECONDS,
     Frame,
     FrameStream,
+    NotebookFrames,
     StreamChecker,
     frame_time_us,
 )
@@ -35,7 +36,7 @@ class PreparedFrames(FrameSource):
         source: the frames as they come.
         config: start, stop, fit and white level.
         size: wanted size, or None to keep the source's.
-        check_scale: whether the scale of float frames is in doubt; see `ScaleCheck`.
+        check_scale: whether the scale of frames is in doubt; see `ScaleCheck`.
 
     Raises:
         InputError: while iterating: fewer than two frames, a NaN, negative or infinite intensity,
@@ -86,12 +87,16 @@ class PreparedFrames(FrameSource):
                 continue
             yield self._prepared(frame, checker)
             count += 1
+        if self._scale is not None:
+            self._scale.conclude("the video")
         if count < FEWEST_FRAMES:
             raise InputError(_too_few(count, self._config, offset_us))
 
     def _prepared(self, frame: Frame, checker: StreamChecker) -> Frame:
         pixels, motion = frame.pixels, frame.motion
-        if pixels.dtype.kind == "f" and self._scale is not None:
+        # Files say what their whole levels mean.
+        is_unsure = pixels.dtype.kind == "f" or not isinstance(self._source, NotebookFrames)
+        if self._scale is not None and is_unsure:
             self._scale.look_at_stream(pixels, f"the frame at {frame.t_us} µs")
         if self._config.white_level is not None:
             pixels = scale_to_levels(pixels, self._config.white_level)

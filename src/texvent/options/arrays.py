@@ -6,6 +6,7 @@ whatever has `__array__`. Nothing here rounds, and nothing is dropped without a 
 
 from __future__ import annotations
 
+import contextlib
 from typing import Any
 
 import numpy as np
@@ -54,13 +55,11 @@ def _refuse_masked(values: Any, what: str) -> None:
         InputError: there is one.
     """
     parts = values if isinstance(values, (list, tuple)) else (values,)
-    masked = sum(
-        int(np.ma.count_masked(one)) for one in parts if isinstance(one, np.ma.MaskedArray)
-    )
+    masked = sum(np.ma.count_masked(one) for one in parts if isinstance(one, np.ma.MaskedArray))
     if masked:
         raise InputError(
-            f"{what} has {masked} masked value(s), which mean nothing here; leave them out, or fill "
-            "them: values.filled(0)"
+            f"{what} has {masked} masked value(s), which mean nothing here; leave them out, or "
+            "fill them: values.filled(0)"
         )
 
 
@@ -104,17 +103,16 @@ def whole_us(value: Any, what: str) -> int:
         >>> whole_us(np.float32(2000), "t_us")
         2000
     """
-    try:
-        number = as_number(value)
-        is_number = not (isinstance(number, (bool, str, bytes)) or hasattr(number, "shape"))
-        if not is_number or int(number) != number:
-            raise TypeError
-        return int(number)
-    except (TypeError, ValueError, ArithmeticError):
-        raise InputError(
-            f"{what} is {shown(value)}; it must be whole microseconds, such as "
-            "round(seconds * 1_000_000)"
-        ) from None
+    meant = "whole microseconds, such as round(seconds * 1_000_000)"
+    if hasattr(value, "__array__"):
+        array = whole_numbers(value, what, meant)
+        if array.ndim == 0 and array.dtype.kind != "b":
+            return int(array)
+    else:
+        with contextlib.suppress(TypeError, ValueError, ArithmeticError):
+            if not isinstance(value, (bool, str, bytes)) and int(value) == value:
+                return int(value)
+    raise InputError(f"{what} is {shown(value)}; it must be {meant}")
 
 
 def as_number(value: Any) -> Any:

@@ -109,8 +109,8 @@ def measure_static_scene(events: EventStream, start: PhysicalConfig) -> Measurem
         )
     if rests.mean() < LEAST_REST:
         warn(
-            f"only {rests.mean():.0%} of the sensor was at rest, so the camera or most of the scene "
-            "moved, and its events may count as noise; record a scene in which nothing moves"
+            f"only {rests.mean():.0%} of the sensor was at rest, so the camera or most of the "
+            "scene moved, and its events may count as noise; record a scene in which nothing moves"
         )
     trains = PixelTrains.of(events).at(rests.reshape(-1))
     hot = find_hot_pixels(trains.counts().sum(axis=0), rests.reshape(-1))

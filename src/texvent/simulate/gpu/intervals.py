@@ -25,7 +25,7 @@ class Span:
     stop_us: Int64Array
     """Time of the later frame, µs."""
     first_us: Int64Array
-    """Time of the first frame of each clip, [B, 1], µs: random draws are keyed by the time since."""
+    """Time of the first frame of each clip, [B, 1], µs."""
     from_source: BoolArray
     """Whether the earlier frame is a source frame, so that a pair begins with it."""
     is_new: bool
