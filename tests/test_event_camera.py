@@ -68,7 +68,7 @@ def test_events_held_back_come_at_the_end(held_back):
         (FRAMES[1][:6], 20_000, "the frame is 16x6; this event camera takes 16x12"),
         (FRAMES[1], 0, "frame times must strictly increase"),
         (np.full((12, 16), np.nan), 20_000, "NaN"),
-        (FRAMES[1].astype(np.int64), 20_000, "uint8, uint16"),
+        (FRAMES[1].astype(np.int64), 20_000, "uint8 .0..255., uint16"),
     ],
 )
 def test_a_bad_frame_is_refused(frame, t_us, words):

@@ -111,7 +111,7 @@ def test_packets_collect_into_one_stream_with_the_metadata():
     [
         ({"x": [8]}, "x runs from 8 to 8; a 8x6 sensor allows 0..7"),
         ({"y": [-1]}, "y runs from -1"),
-        ({"p": [-1]}, "must be 0 .OFF. or 1 .ON.*// 2"),
+        ({"p": [-1]}, "must be 0 .OFF. or 1 .ON.*p > 0"),
         ({"label": [2]}, "must be 0 .signal. or 1 .noise."),
         ({"label": [0, 1]}, "label must hold 1 integers"),
     ],

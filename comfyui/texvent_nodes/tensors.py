@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
+from texvent.options.arrays import as_array
 
 WHITE = 255.0
 
@@ -22,11 +23,13 @@ def frames_of(images: Any) -> NDArray[np.float32]:
         [B, H, W] or [B, H, W, 3] float32, alpha left out.
 
     Raises:
-        InputError: another shape, fewer than two images, or values that are not finite.
+        InputError: another shape or type, fewer than two images, or values that are not finite or
+            mostly above 1.
     """
-    if hasattr(images, "detach"):
-        images = images.detach().cpu().float()
-    pixels = np.asarray(images, dtype=np.float32)
+    given = as_array(images, "images")
+    if given.dtype.kind != "f":
+        raise InputError(f"images hold {given.dtype}; an IMAGE holds floats of 0..1")
+    pixels = given.astype(np.float32)
     if pixels.ndim != 4 or pixels.shape[3] not in (1, 3, 4):
         raise InputError(
             f"images have shape {list(pixels.shape)}; an IMAGE is [B, H, W, C] with 1, 3 or 4 "
@@ -39,6 +42,11 @@ def frames_of(images: Any) -> NDArray[np.float32]:
         )
     if not np.isfinite(pixels).all():
         raise InputError("images hold NaN or infinite values; check the node that makes them")
+    if np.count_nonzero(pixels > 1) > pixels.size / 2:
+        raise InputError(
+            f"images hold values up to {pixels.max():g}, most of them above 1; an IMAGE is 0..1, "
+            "so divide them by their white"
+        )
     pixels = np.clip(pixels, 0.0, 1.0) * np.float32(WHITE)
     return pixels[..., 0] if pixels.shape[3] == 1 else pixels[..., :3]
 

@@ -14,13 +14,12 @@ from fractions import Fraction
 from pathlib import Path
 from typing import Any, Self, Unpack
 
-import numpy as np
-from numpy.typing import ArrayLike
-
+from texvent.capture.intensity_scale import ScaleCheck, caller_pixels
 from texvent.capture.linear_light import decode_light
 from texvent.config import CaptureConfig
 from texvent.errors import ConfigError, InputError
 from texvent.events import EventStream
+from texvent.options.arrays import whole_us
 from texvent.options.keywords import SimulateOptions, naming_options
 from texvent.pairs.frame_pair import FramePair
 from texvent.pipeline import select_events, video_to_events
@@ -80,27 +79,32 @@ class EventCamera:
         """Size of the sensor, pixels."""
         self._stopped: str | None = None
 
-    def step(self, frame: ArrayLike, t_us: int) -> EventStream:
+    def step(self, frame: Any, t_us: int) -> EventStream:
         """Events between the previous frame and this one; none for the first frame.
 
         A model that needs later frames gives its events later, the last ones in `finish`.
 
         Args:
-            frame: [H, W] or [H, W, 3], uint8, uint16 or float on the 0..255 scale.
-            t_us: its time, µs.
+            frame: [H, W] or [H, W, 3] (RGB), as an image of `texvent.simulate`: uint8, uint16 or
+                float on the 0..255 scale; it is copied, so the array may be filled again.
+            t_us: its time, whole µs.
 
         Raises:
-            InputError: another size, a time that does not increase, an intensity out of range, or
-                a camera that was stopped by such an error, `finish` or `close`; `reset` starts it
-                again.
+            InputError: another size, a time that does not increase, an intensity out of range,
+                floats that are probably 0..1, or a camera that was stopped by such an error,
+                `finish` or `close`; `reset` starts it again.
         """
         if self._stopped is not None:
             raise InputError(f"the event camera {self._stopped}; reset() starts it again")
-        source = Frame(np.asarray(frame), t_us)
+        t_us = whole_us(t_us, "t_us")
+        where = f"the frame at {t_us} µs"
+        source = Frame(caller_pixels(frame, where), t_us)
         if source.size != self.frame_size:
             raise InputError(
                 f"the frame is {source.size}; this event camera takes {self.frame_size}"
             )
+        if self._scale is not None:
+            self._scale.look_at_stream(source.pixels, where)
         self._stopped = "stopped at an error"
         self._frames.append(source)
         events = self._joined(self._simulator.advance(next(self._pairs)))
@@ -136,11 +140,13 @@ class EventCamera:
     def _start(self) -> SensorSize:
         stream: FrameStream = _SteppedFrames(self.frame_size, self._frames)
         video, capture = decode_light(stream, self.settings.source)
+        # Linear light is checked where it is decoded.
+        is_unsure = video is stream and capture.white_level is None
+        self._scale = ScaleCheck() if is_unsure else None
         if self.settings.size is not None or capture.white_level is not None:
             from texvent.capture.prepare import PreparedFrames  # may bring OpenCV
 
-            is_coded = video is stream
-            video = PreparedFrames(video, capture, size=self.settings.size, check_scale=is_coded)
+            video = PreparedFrames(video, capture, size=self.settings.size, check_scale=False)
         check_memory(self.settings, video.size)
         simulation = video_to_events(video, self.settings)
         self._simulator, self._pairs = simulation.begin(self._threads)

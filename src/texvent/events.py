@@ -21,8 +21,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from texvent.errors import InputError
+from texvent.errors import InputError, one_line, shown
 from texvent.event_edits import EventEdits, time_edit, with_edit
+from texvent.options.arrays import HOW_TO_ROUND, as_array, whole_numbers
 from texvent.sensor import MAX_SIDE, SensorSize, SizeLike, as_size
 from texvent.time_range import SeenTimes, check_time_range, warn_of_doubtful_range
 
@@ -80,11 +81,11 @@ class EventStream(EventEdits):
 
     def __post_init__(self) -> None:
         size = as_size(self.size)
-        columns = {name: np.asarray(getattr(self, name)) for name in "xytp"}
+        columns = {name: _whole_column(name, getattr(self, name)) for name in "xytp"}
         _check_columns(columns, size)
         for name in OPTIONAL_COLUMNS:
             if getattr(self, name) is not None:
-                values = np.asarray(getattr(self, name))
+                values = as_array(getattr(self, name), name)
                 columns[name] = _checked_optional(name, values, len(columns["t"]))
         for name in columns:
             dtype = COLUMN_TYPES[name]
@@ -115,9 +116,10 @@ class EventStream(EventEdits):
 
         With `sort`, events are brought into time order; those of one time keep theirs.
         """
-        columns = [np.asarray(column) for column in (x, y, t, p)]
-        columns = [column.astype(np.int64) if column.size == 0 else column for column in columns]
-        if sort:
+        columns = [
+            _whole_column(name, column) for name, column in zip("xytp", (x, y, t, p), strict=True)
+        ]
+        if sort and columns[2].ndim == 1 == len({column.shape for column in columns}):
             order = np.argsort(columns[2], kind="stable")
             columns = [column[order] for column in columns]
         x, y, t, p = columns
@@ -177,14 +179,19 @@ class EventStream(EventEdits):
         """The events of a slice with a positive step, or where a mask is true.
 
         Raises:
-            InputError: it is neither, such as the number of an event.
+            InputError: it is neither, such as the number of an event, or of another length.
         """
         if not isinstance(index, slice | np.ndarray | list):
             raise InputError(
                 f"events[{index!r:.40}] is no part of a stream; give a slice such as [0:1] or "
                 "a mask, or take a column, such as events.t[0]"
             )
-        chosen = {name: column[index] for name, column in self.columns().items()}
+        if not isinstance(index, slice):
+            index = as_array(index, "the mask")
+        try:
+            chosen = {name: column[index] for name, column in self.columns().items()}
+        except IndexError as error:
+            raise InputError(f"{shown(index)} chooses no events ({one_line(error)})") from error
         return EventStream(**chosen, size=self.size, metadata=self.metadata)
 
     def columns(self) -> dict[str, NDArray[Any]]:
@@ -347,6 +354,18 @@ class EventStream(EventEdits):
         return mime_bundle(self, lambda: stream_html(self), include, exclude)
 
 
+def _whole_column(name: str, values: ArrayLike) -> NDArray[Any]:
+    """A column x, y, t or p as integers.
+
+    Raises:
+        InputError: a value is not whole, or masked.
+    """
+    column = whole_numbers(
+        values, name, f"integers, µs: {HOW_TO_ROUND}" if name == "t" else "integers"
+    )
+    return column.astype(np.int64, copy=False) if name == "t" else column
+
+
 def _checked_optional(name: str, values: NDArray[Any], count: int) -> NDArray[Any]:
     """A column that only some streams have.
 
@@ -370,10 +389,6 @@ def _check_columns(columns: Mapping[str, NDArray[Any]], size: SensorSize) -> Non
         raise InputError(f"x, y, t, p must be one-dimensional and equally long; got {lengths}")
     if columns["t"].size == 0:
         return
-    for name, column in columns.items():
-        if column.dtype.kind not in "iub":
-            what = "integers, µs: np.rint(seconds * 1e6).astype(int)" if name == "t" else "integers"
-            raise InputError(f"{name} must hold {what}; got {column.dtype}")
     for name, side in (("x", size.width), ("y", size.height)):
         low, high = int(columns[name].min()), int(columns[name].max())
         if low < 0 or high >= side:
@@ -386,8 +401,8 @@ def _check_columns(columns: Mapping[str, NDArray[Any]], size: SensorSize) -> Non
         raise InputError(
             f"p runs from {low} to {high}; it must be 0 (OFF) or 1 (ON). "
             + (
-                "Of -1 and +1 make them by (p + 1) // 2"
-                if low == -1
+                "Of -1 and +1, or 0 and 255, make them by p > 0"
+                if low == -1 or (low == 0 and np.isin(columns["p"], (low, high)).all())
                 else "Is p given in the place of another column? The order is x, y, t, p"
             )
         )

@@ -27,6 +27,7 @@ from numpy.typing import NDArray
 
 from texvent.brightness import luma_bt601
 from texvent.errors import InputError, shown
+from texvent.options.arrays import as_array, whole_us
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
 
@@ -71,13 +72,22 @@ class Motion:
     instance: NDArray[np.int32] | None = None
     """[H, W] id of the object seen; 0 is the background."""
 
+    def __post_init__(self) -> None:
+        for name, values in list(vars(self).items()):
+            if values is not None:
+                object.__setattr__(self, name, as_array(values, name).copy())
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class Frame:
     """One image and its time.
 
+    A source frame and its motion are copies, as they are kept until the next frame comes: cameras
+    and renderers fill one array again and again.
+
     Raises:
-        InputError: pixels are not [H, W] or [H, W, 3], or not uint8, uint16 or float.
+        InputError: pixels are not [H, W] or [H, W, 3], not uint8, uint16 or float, or masked; or
+            the time is not whole µs.
     """
 
     pixels: PixelArray
@@ -93,13 +103,16 @@ class Frame:
     """Whether the pixels are gamma-coded or linear light."""
 
     def __post_init__(self) -> None:
-        shape, dtype = self.pixels.shape, self.pixels.dtype
-        if not (self.pixels.ndim == 2 or (self.pixels.ndim == 3 and shape[2] == 3)):
+        pixels = as_array(self.pixels, "a frame")
+        shape, dtype = pixels.shape, pixels.dtype
+        if not (pixels.ndim == 2 or (pixels.ndim == 3 and shape[2] == 3)):
             raise InputError(f"a frame must be [H, W] or [H, W, 3]; got shape {list(shape)}")
         if 0 in shape:
             raise InputError(f"a frame must have at least one pixel; got shape {list(shape)}")
         if dtype not in (np.uint8, np.uint16, np.float32, np.float64):
             raise InputError(f"frame pixels must be uint8, uint16, float32 or float64; got {dtype}")
+        object.__setattr__(self, "pixels", pixels.copy() if self.is_source else pixels)
+        object.__setattr__(self, "t_us", whole_us(self.t_us, "t_us of a frame"))
 
     def __repr__(self) -> str:
         kind = "" if self.is_source else ", intermediate"

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from tests.simulate.references import in_both_forms
 
+import texvent
 from texvent._registry import SIMULATORS
 from texvent.errors import InputError
 from texvent.simulate.esim.simulator import EsimSimulator
@@ -32,8 +33,6 @@ TWO_PRESETS = [
 def model(request):
     name, preset = request.param
     config = MODELS[name].presets[preset]
-    if name == "texvent":  # keys noise by the time itself, so that clips can be cut anywhere
-        config = dataclasses.replace(config, noise="none")
     return lambda **options: MODELS[name](config, **options)
 
 
@@ -60,12 +59,24 @@ def test_packets_are_half_open_sorted_and_labelled(model):
         assert packet.label is not None
 
 
-def test_shifting_the_clip_shifts_the_events(model):
-    events = run(model(), moving_texture())
-    shifted = run(model(), moving_texture(start_us=7_000_001))
-    assert np.array_equal(shifted.t, events.t + 7_000_001)
-    for column in "xyp":
-        assert np.array_equal(getattr(shifted, column), getattr(events, column))
+@pytest.mark.parametrize(
+    ("interpolate", "shift_us"), [("flow", 7_000_001), ("blend", 10**15), ("none", -3_000_017)]
+)
+@pytest.mark.parametrize(("name", "preset"), EVERY_PRESET)
+def test_shifting_the_clip_shifts_the_events(name, preset, interpolate, shift_us):
+    frames = np.stack([frame.pixels for frame in moving_texture(5, (24, 32))])
+    times = 41_667 * np.arange(5)
+    options = {"simulator": name, "preset": preset, "interpolate": interpolate}
+    noise = {"noise_rate_hz": 20.0, "timestamp_rule": "random"} if name == "texvent" else {}
+    events, shifted = (
+        texvent.simulate(frames, t_us=times + start_us, label_noise=True, **options, **noise)
+        for start_us in (0, shift_us)
+    )
+    assert len(events) > 20
+    columns = events.columns() | {"t": events.t + shift_us}
+    assert {name: one.tolist() for name, one in shifted.columns().items()} == {
+        name: one.tolist() for name, one in columns.items()
+    }
 
 
 def test_a_copied_simulator_goes_on_alike(model):

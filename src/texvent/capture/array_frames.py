@@ -6,14 +6,14 @@ import itertools
 from collections.abc import Iterable, Iterator, Mapping, Sized
 from typing import Any
 
-import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
-from texvent.capture.intensity_scale import refuse_unit_range, usable_pixels, warn_of_few_bits
+from texvent.capture.intensity_scale import ScaleCheck, caller_pixels, check_whole_scale
 from texvent.errors import InputError, shown
 from texvent.io.arrays.npy_file import StoredArray
+from texvent.options.arrays import as_array
 from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size
 from texvent.video import Frame, PixelArray
@@ -27,8 +27,7 @@ class ArrayFrames(FrameSource):
     Args:
         frames: uint8, uint16 (65535 is white), float on the 0..255 scale, or bool.
         times: a frame rate, or one time per frame.
-        white_level: the value that means white, where the type does not say it; only to decide
-            whether floats up to 1 are refused.
+        check_scale: whether the scale is in doubt; see `ScaleCheck`.
         metadata: where they come from.
 
     Raises:
@@ -41,11 +40,11 @@ class ArrayFrames(FrameSource):
         frames: Iterable[Any],
         times: FrameTimes,
         *,
-        white_level: float | None = None,
+        check_scale: bool = True,
         metadata: Mapping[str, Any] | None = None,
     ) -> None:
-        if hasattr(frames, "__array__"):
-            frames = _checked_array(np.asarray(frames))
+        if not isinstance(frames, Iterator) and _is_array(frames):
+            frames = _checked_array(as_array(frames, "the array"))
         elif isinstance(frames, StoredArray):
             _check_shape(frames.shape)
         self._frames: Iterable[Any] = frames
@@ -60,10 +59,9 @@ class ArrayFrames(FrameSource):
         facts = {**origin, "pixel_type": str(first.dtype)}
         size = checked_size(first.shape[1], first.shape[0])
         self._facts = SourceFacts(size, times.fps, count, facts, is_live)
-        if white_level is None:
-            warn_of_few_bits(first, "the array")
-        if white_level is None and not is_live:
-            _refuse_unit_floats(self._frames)
+        self._scale = ScaleCheck() if check_scale else None
+        if check_scale and not is_live:
+            self._scale = check_whole_scale(self._images(self._frames), "the array")
 
     def __iter__(self) -> Iterator[Frame]:
         """Frames in order.
@@ -74,24 +72,34 @@ class ArrayFrames(FrameSource):
         """
         return self._run(iter(self._frames))
 
-    def _run(self, images: Iterator[Any]) -> Iterator[Frame]:
+    def _run(self, images: Iterable[Any]) -> Iterator[Frame]:
         count = 0
-        for count, image in enumerate(images, start=1):
-            pixels = _checked_image(image, f"frame {count - 1}")
+        for count, pixels in enumerate(self._images(images), start=1):
+            if self._scale is not None:
+                self._scale.look_at_stream(pixels, f"frame {count - 1}")
             yield Frame(pixels, self._times(count - 1))
+        if self._scale is not None:
+            self._scale.conclude("the stream")
         self._times.check_count(count)
+
+    def _images(self, images: Iterable[Any]) -> Iterator[PixelArray]:
+        return (caller_pixels(image, f"frame {index}") for index, image in enumerate(images))
 
     def _peek(self, is_live: bool) -> PixelArray:
         """The first image; an iterator gets it back in front."""
         iterator = iter(self._frames)
-        first = next(iterator, None)
-        if is_live and first is None:
+        first = [*itertools.islice(iterator, 1)]
+        if is_live and not first:
             raise InputError("the generator has no frame (left); if it was read, make it again")
-        _refuse_if_empty(first is None)
+        _refuse_if_empty(not first)
         if is_live:
-            whole = itertools.chain((first,), iterator)
+            whole = itertools.chain(first, iterator)
             self._frames = ReadOnce(whole, "a generator of frames")
-        return _checked_image(first, "frame 0")
+        return caller_pixels(first[0], "frame 0")
+
+
+def _is_array(frames: Any) -> bool:
+    return hasattr(frames, "__array__") or hasattr(frames, "__dlpack__")
 
 
 def _checked_array(array: NDArray[Any]) -> NDArray[Any]:
@@ -119,28 +127,6 @@ def _shape_hint(shape: tuple[int, ...]) -> str:
     return ""
 
 
-def _checked_image(image: Any, where: str) -> PixelArray:
-    pixels = usable_pixels(np.asarray(image), where)
-    if pixels.ndim == 3 and pixels.shape[-1] == 1:
-        pixels = pixels[..., 0]
-    if not (pixels.ndim == 2 or (pixels.ndim == 3 and pixels.shape[-1] == 3)) or 0 in pixels.shape:
-        raise InputError(f"{where} must be [H, W] or [H, W, 3]; got shape {list(pixels.shape)}")
-    return pixels
-
-
 def _refuse_if_empty(is_empty: bool) -> None:
     if is_empty:
         raise InputError("there is no frame; give at least two")
-
-
-def _refuse_unit_floats(frames: Iterable[Any]) -> None:
-    """Look for the first value above 1; usually the first frame has it."""
-    highest = 0.0
-    for image in frames:
-        pixels = np.asarray(image)
-        if pixels.dtype.kind != "f":
-            return
-        highest = max(highest, float(pixels.max()))
-        if not highest <= 1.0:
-            return
-    refuse_unit_range(highest, "the array")

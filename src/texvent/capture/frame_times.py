@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from texvent.errors import ConfigError, FileFormatError, InputError, one_line, shown, warn
+from texvent.options.arrays import HOW_TO_ROUND, whole_numbers
 from texvent.options.values import parse_fraction
 from texvent.runtime.file_names import usable_path
 from texvent.video import MICROSECONDS, frame_time_us
@@ -91,11 +92,11 @@ def listed_times(t_us: Any, origin: str = "t_us") -> FrameTimes:
     Warns:
         TexventWarning: they are more than `HIGHEST_FPS`, so they are probably no µs.
     """
-    times = np.asarray(t_us)
-    if times.ndim != 1 or times.dtype.kind not in "iu":
+    times = whole_numbers(t_us, origin, f"whole microseconds ({HOW_TO_ROUND})")
+    if times.ndim != 1 or times.dtype.kind == "b":
         raise InputError(
             f"{origin} must be one-dimensional whole microseconds; got {times.dtype} of shape "
-            f"{list(times.shape)}. For seconds: np.round(seconds * 1e6).astype(np.int64)"
+            f"{list(times.shape)}. For seconds: {HOW_TO_ROUND}"
         )
     check_increasing([int(time) for time in times], origin)
     step = float(np.median(np.diff(times))) if len(times) > 1 else math.inf

@@ -2,16 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import InputError, warn
+from texvent.errors import InputError, shown, warn
+from texvent.options.arrays import as_array
 from texvent.video import UINT16_PER_LEVEL, PixelArray
 
 FULL_SCALE = 255.0
 """Intensity of white."""
+GIVE_WHITE = (
+    "Give white_level=1 if 1 means white, or white_level=255 if the images really are that dark"
+)
+FEW = 0.01
+"""Share of pixels that highlights and the overshoot of resized images take up at most."""
+OVERSHOOT = 1.25
+"""The highest that resizing makes of white in 0..1."""
+DIMMEST_HIGHLIGHT = 16.0
+"""Levels of 255 that a video exceeds somewhere, unless it is nearly black."""
+DARK_FRAMES = 3
+"""Frames of whole levels, not black, after which a stream that goes on so dark is warned of."""
+WHITES = (1023, 4095, 65535)
+"""White of 10, 12 and 16 bits."""
 
 
 def scale_to_levels(pixels: PixelArray, white_level: float) -> NDArray[np.float32]:
@@ -66,33 +82,208 @@ def usable_pixels(pixels: NDArray[Any], where: str) -> PixelArray:
     )
 
 
+def caller_pixels(image: Any, where: str) -> PixelArray:
+    """An image of a caller: an array, a tensor, nested lists, or an image of Pillow.
+
+    Args:
+        image: [H, W], [H, W, 1] or [H, W, 3]; of Pillow, any mode that means light.
+        where: what to call it in messages.
+
+    Returns:
+        [H, W] or [H, W, 3], as `usable_pixels`; a view of the caller's where that is possible.
+
+    Raises:
+        InputError: another shape, type or mode, or masked values.
+    """
+    if isinstance(image, (str, bytes, Path)):
+        raise InputError(
+            f"{where} is the name {shown(image)}; a list holds images, not their names: give the "
+            "folder of the files, or open them one by one"
+        )
+    if hasattr(image, "getbands"):
+        image = _of_pillow(image, where)
+    pixels = usable_pixels(as_array(image, where), where)
+    if pixels.ndim == 3 and pixels.shape[-1] == 1:
+        pixels = pixels[..., 0]
+    if not (pixels.ndim == 2 or (pixels.ndim == 3 and pixels.shape[-1] == 3)) or 0 in pixels.shape:
+        raise InputError(f"{where} must be [H, W] or [H, W, 3]; got shape {list(pixels.shape)}")
+    return pixels
+
+
+def _of_pillow(image: Any, where: str) -> Any:
+    """An image of Pillow as grey, RGB, 16-bit or float; alpha goes, as with files."""
+    mode = str(image.mode)
+    if mode in ("L", "RGB", "F") or mode.startswith("I;16"):
+        return image
+    try:
+        if mode == "I":
+            raise ValueError("32-bit integers have no agreed white")
+        return image.convert("L" if mode in ("1", "LA", "La") else "RGB")
+    except ValueError as error:
+        raise InputError(
+            f"{where} is a Pillow image of mode {mode}, which is not read ({error}); convert it to "
+            "L, RGB or F"
+        ) from error
+
+
+class ScaleCheck:
+    """Evidence of the scale of pixels, gathered frame by frame until it is clear.
+
+    Floats that hardly exceed 1 are most likely 0..1, where texvent's are 0..255; uint16 up to 1023
+    or 4095 has 10 or 12 bits; levels 0 and 1 of uint8 are masks. All of them would be nearly black.
+    Floats far above 255 would be nearly white.
+
+    Args:
+        advice: said of floats of 0..1.
+    """
+
+    def __init__(self, advice: str = GIVE_WHITE) -> None:
+        self._advice = advice
+        self._settled: set[np.dtype[Any]] = set()
+        self._begin(np.dtype(object))  # of no frame
+
+    def _begin(self, dtype: np.dtype[Any]) -> None:
+        self._dtype = dtype
+        self._lowest = self._highest = 0.0
+        self._frames = self._pixels = self._above_1 = self._above_white = 0
+        self._is_whole = True
+
+    def look(self, pixels: PixelArray) -> bool:
+        """Take a frame into account; whether the scale is clear, or was concluded before."""
+        if pixels.dtype in self._settled:
+            return True
+        if pixels.dtype != self._dtype:
+            self._begin(pixels.dtype)
+        self._lowest = min(self._lowest, float(pixels.min()))
+        highest = float(pixels.max())
+        self._highest = max(self._highest, highest)
+        self._frames += highest > 0
+        if pixels.dtype.kind == "f":
+            self._pixels += pixels.size
+            self._above_1 += int(np.count_nonzero(pixels > 1))
+            self._above_white += int(np.count_nonzero(pixels > FULL_SCALE))
+            self._is_whole = self._is_whole and bool((np.rint(pixels) == pixels).all())
+        if not np.isfinite(highest) or self._doubt() is None:  # NaN is refused elsewhere
+            self._settled.add(pixels.dtype)
+        return pixels.dtype in self._settled
+
+    def look_at_stream(self, pixels: PixelArray, where: str) -> None:
+        """The same, and `conclude` as soon as later frames of a stream cannot be waited for.
+
+        Events of floats would be gone before a brighter frame comes; whole levels may fade in.
+        """
+        if not self.look(pixels) and (
+            (pixels.dtype.kind == "f" and self._frames)
+            or (pixels.dtype == np.uint16 and self._highest > FULL_SCALE)
+            or self._frames >= DARK_FRAMES
+        ):
+            self.conclude(where)
+
+    def conclude(self, where: str) -> None:
+        """Say what the frames so far leave in doubt; nothing more is said of this type.
+
+        Args:
+            where: what to call them in messages.
+
+        Raises:
+            InputError: they are most likely 0..1, or -1..1.
+
+        Warns:
+            TexventWarning: they probably have another white than their type says.
+        """
+        if self._dtype in self._settled or not self._frames:
+            return
+        self._settled.add(self._dtype)
+        doubt = self._doubt()
+        if doubt is None:
+            return
+        if self._is_unit():
+            raise InputError(f"{where} {doubt}")
+        warn(f"{where} {doubt}")
+
+    def _is_unit(self) -> bool:
+        """Whether floats are 0..1, but for a few highlights."""
+        is_few = self._above_1 <= FEW * self._pixels and not self._is_whole
+        is_far = not DIMMEST_HIGHLIGHT < self._highest <= FULL_SCALE
+        return self._is_float and (self._highest <= OVERSHOOT or (is_few and is_far))
+
+    @property
+    def _is_float(self) -> bool:
+        return self._dtype.kind == "f"
+
+    def _doubt(self) -> str | None:
+        """What is doubtful about the pixels so far, and the option that helps; None: nothing."""
+        if not self._is_float:
+            return self._doubt_of_bits()
+        share = f"{self._above_1 / max(1, self._pixels):.3g}"
+        if self._highest <= 1 and self._lowest < -0.5:
+            return (
+                f"holds floats from {self._lowest:g} to {self._highest:g}, so they are probably "
+                "-1..1, while texvent's intensities are 0..255. Give (frames + 1) / 2 and "
+                "white_level=1"
+            )
+        if self._is_unit():
+            extent = f"never exceed {self._highest:g}"
+            if self._highest > OVERSHOOT:
+                extent = f"exceed 1 in a share of {share} of their pixels only"
+            return (
+                f"holds floats that {extent}, so they are probably 0..1, while texvent's "
+                f"intensities are 0..255. {self._advice}"
+            )
+        is_few = self._above_1 <= FEW * self._pixels
+        if not self._is_whole and (is_few or self._highest <= DIMMEST_HIGHLIGHT):
+            return (
+                f"holds floats up to {self._highest:g}, of which a share of {share} exceeds 1, so "
+                f"they may be 0..1 with highlights, while texvent's intensities are 0..255. "
+                f"{self._advice}"
+            )
+        is_many = self._above_white > self._pixels / 2
+        is_wide = self._highest > WHITES[0] and self._above_white > self._pixels / 10
+        if self._highest > FULL_SCALE and (self._is_whole or is_many or is_wide):
+            white = next((one for one in WHITES if self._highest <= one), self._highest)
+            return (
+                f"holds floats up to {self._highest:g}, while texvent's are 0..255. Give "
+                f"white_level={white:g} if that is white, or white_level=255 if they really are "
+                "brighter than white"
+            )
+        return None
+
+    def _doubt_of_bits(self) -> str | None:
+        """The same of whole levels."""
+        if self._dtype == np.uint8 and self._highest <= 1:
+            return (
+                "holds no level above 1 of 255, so it is probably a mask; give white_level=1, or "
+                "white_level=255 if it really is that dark"
+            )
+        bits = next((bits for bits in (8, 10, 12) if self._highest < 1 << bits), None)
+        if self._dtype != np.uint16 or bits is None:
+            return None
+        return (
+            f"holds 16-bit frames up to {self._highest:g}, so they probably have {bits} bits; give "
+            f"white_level={(1 << bits) - 1}, or white_level=65535 if they really are that dark"
+        )
+
+
+def check_whole_scale(frames: Iterable[PixelArray], where: str) -> ScaleCheck:
+    """Look at frames that can be read again until their scale is clear, which the first usually is.
+
+    Returns:
+        The check, which has nothing more to say of frames of this type.
+
+    Raises:
+        InputError: as `ScaleCheck.conclude`, which also warns.
+    """
+    scale = ScaleCheck()
+    if not any(map(scale.look, frames)):
+        scale.conclude(where)
+    return scale
+
+
 def warn_of_few_bits(pixels: PixelArray, where: str) -> None:
     """Warn of 16-bit pixels that probably have 10 or 12: they would be nearly black.
 
     Warns:
         TexventWarning: no value is above 4095, and one is above 255.
     """
-    if pixels.dtype != np.uint16:
-        return
-    highest = int(pixels.max(initial=0))
-    bits = next((bits for bits in (10, 12) if 255 < highest < 1 << bits), None)
-    if bits is not None:
-        white = (1 << bits) - 1
-        warn(
-            f"{where} holds 16-bit frames up to {highest}, so they probably have {bits} bits; give "
-            f"white_level={white}, or white_level=65535 if they really are that dark"
-        )
-
-
-def refuse_unit_range(highest: float, where: str) -> None:
-    """Refuse float pixels that never exceed 1: they are most likely 0..1, which would be black.
-
-    Raises:
-        InputError: the highest value lies in (0, 1].
-    """
-    if 0.0 < highest <= 1.0:
-        raise InputError(
-            f"{where} holds floats that never exceed {highest:g}, so they are probably 0..1, while "
-            "texvent's intensities are 0..255. Give white_level=1 if 1 means white, or "
-            "white_level=255 if the images really are that dark"
-        )
+    if pixels.dtype == np.uint16:
+        ScaleCheck().look_at_stream(pixels, where)

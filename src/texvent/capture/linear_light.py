@@ -15,9 +15,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
-from texvent.capture.intensity_scale import refuse_unit_range
+from texvent.capture.intensity_scale import GIVE_WHITE, ScaleCheck
 from texvent.config import CaptureConfig
-from texvent.errors import InputError
 from texvent.transfer import DECODERS, WHITE, Transfer
 from texvent.video import UINT16_PER_LEVEL, Frame, FrameStream, PixelArray
 
@@ -90,28 +89,13 @@ class LinearFrames(FrameSource):
         full_scale = self._source.metadata.get(FULL_SCALE)
         # Of a signal, white_level says which light is white, not which value is the signal 1.
         is_unsure = full_scale is None and (self._coding != LINEAR or self._white_level is None)
+        signal = f"A signal coded as {self._coding} is 0..255 in float frames: multiply it by 255"
+        scale = ScaleCheck(GIVE_WHITE if self._coding == LINEAR else signal)
         for frame in self._source:
             if is_unsure and frame.pixels.dtype.kind == "f":
-                highest = float(frame.pixels.max())
-                self._refuse_unit_range(highest, frame.t_us)
-                is_unsure = highest == 0.0
+                scale.look_at_stream(frame.pixels, f"the frame at {frame.t_us} µs")
             pixels = to_light(frame.pixels, self._coding, full_scale, self._white_level)
             yield replace(frame, pixels=pixels, transfer=Transfer.LINEAR)
-
-    def _refuse_unit_range(self, highest: float, t_us: int) -> None:
-        """Refuse floats that never exceed 1.
-
-        Raises:
-            InputError: the highest value lies in (0, 1].
-        """
-        where = f"the frame at {t_us} µs"
-        if self._coding == LINEAR:
-            refuse_unit_range(highest, where)
-        elif 0.0 < highest <= 1.0:
-            raise InputError(
-                f"{where} holds floats that never exceed {highest:g}, so they are probably 0..1; "
-                f"a signal coded as {self._coding} is 0..255 in float frames: multiply it by 255"
-            )
 
 
 def to_light(

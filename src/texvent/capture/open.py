@@ -16,7 +16,8 @@ from texvent.capture.camera_path.opening import check_camera_options, is_still, 
 from texvent.capture.decoding.animation import is_animation, is_webp, open_webp, read_head
 from texvent.capture.frame_times import FrameTimes, listed_times, read_timestamps
 from texvent.capture.image_folder import ImageFolder, count_images
-from texvent.capture.linear_light import AUTO, decode_light
+from texvent.capture.intensity_scale import check_whole_scale
+from texvent.capture.linear_light import AUTO, GAMMA, decode_light
 from texvent.capture.motion_vectors.frames import attach_motion
 from texvent.capture.prepare import PreparedFrames
 from texvent.capture.recorded_frames import DsecFrames, is_dsec, is_evreal, open_evreal
@@ -27,7 +28,7 @@ from texvent.io.files import event_extensions
 from texvent.runtime.file_names import usable_path
 from texvent.sensor import SensorSize
 from texvent.transfer import Transfer
-from texvent.video import FrameStream, transfer_of
+from texvent.video import FrameStream, NotebookFrames, RenderableStream, Video, transfer_of
 
 
 def open_frames(
@@ -76,7 +77,9 @@ def open_frames(
     if isinstance(source, (str, Path)):
         stream = _open_address(str(source), config, given)
     elif isinstance(source, FrameStream):
-        return _adapt_stream(attach_motion(source, config, motion), config, size, given)
+        is_known = _is_scale_known(source, config)
+        stream = attach_motion(source, config, motion)
+        return _adapt_stream(stream, config, size, given, check_scale=not is_known)
     elif isinstance(source, Iterable) or hasattr(source, "__array__"):
         stream = _open_array(source, config, given)
     else:
@@ -84,8 +87,7 @@ def open_frames(
             f"cannot read frames from {type(source).__name__}; give a path, an address, an array "
             "[N, H, W] or [N, H, W, 3], or a FrameStream"
         )
-    # An array that can be read twice was looked through as a whole already.
-    check_scale = stream.is_live or not isinstance(stream, ArrayFrames)
+    check_scale = not isinstance(stream, ArrayFrames)  # it looks at the scale itself
     stream, config = decode_light(stream, config)
     check_scale = check_scale and transfer_of(stream) is Transfer.GAMMA
     stream = attach_motion(stream, config, motion)
@@ -233,7 +235,9 @@ def _open_array(frames: Any, config: CaptureConfig, given: FrameTimes | None) ->
         raise InputError(
             "frames in memory have no times; give fps=, or t_us= with one time per frame, in µs"
         )
-    return ArrayFrames(frames, times, white_level=config.white_level)
+    # That of coded light is checked where it is decoded.
+    is_unsure = config.white_level is None and config.transfer in (AUTO, GAMMA)
+    return ArrayFrames(frames, times, check_scale=is_unsure)
 
 
 def _adapt_stream(
@@ -241,6 +245,8 @@ def _adapt_stream(
     config: CaptureConfig,
     size: SensorSize | None,
     given: FrameTimes | None,
+    *,
+    check_scale: bool,
 ) -> FrameStream:
     if given is not None or config.timestamps is not None:
         raise InputError("a FrameStream has its own times; leave out fps, t_us and timestamps")
@@ -250,6 +256,22 @@ def _adapt_stream(
             "leave out transfer"
         )
     is_whole = config.start == 0 and config.stop is None and config.white_level is None
-    if is_whole and size in (None, stream.size):
+    if is_whole and not check_scale and size in (None, stream.size):
         return stream
-    return PreparedFrames(stream, config, size=size, check_scale=False)
+    return PreparedFrames(stream, config, size=size, check_scale=check_scale)
+
+
+def _is_scale_known(stream: FrameStream, config: CaptureConfig) -> bool:
+    """Whether nothing is left to find out about the scale of a stream's frames.
+
+    Raises:
+        InputError: its frames can be read again, and are most likely 0..1.
+    """
+    if isinstance(stream, NotebookFrames) and not isinstance(stream, Video):
+        return True  # texvent's own
+    if config.white_level is not None or transfer_of(stream) is Transfer.LINEAR:
+        return True
+    if stream.is_live or not isinstance(stream, (Video, RenderableStream)):
+        return False
+    check_whole_scale((frame.pixels for frame in stream), "the video")
+    return True

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from texvent.capture.frame_source import FrameSource, SourceFacts
-from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels
+from texvent.capture.intensity_scale import ScaleCheck, scale_to_levels
 from texvent.config import CaptureConfig
 from texvent.errors import InputError, warn
 from texvent.sensor import SensorSize
@@ -19,7 +19,7 @@ from texvent.video import (
     MICROSECONDS,
     Frame,
     FrameStream,
-    PixelArray,
+    NotebookFrames,
     StreamChecker,
     frame_time_us,
 )
@@ -38,7 +38,7 @@ class PreparedFrames(FrameSource):
         source: the frames as they come.
         config: start, stop, fit and white level.
         size: wanted size, or None to keep the source's.
-        check_scale: refuse float frames that never exceed 1 (see `levels.refuse_unit_range`).
+        check_scale: whether the scale of frames is in doubt; see `ScaleCheck`.
 
     Raises:
         InputError: while iterating: fewer than two frames, a NaN, negative or infinite intensity,
@@ -60,8 +60,8 @@ class PreparedFrames(FrameSource):
             size or source.size, source.fps, count, source.metadata, source.is_live
         )
         self._is_fitted = size is not None
-        self._check_scale = check_scale and config.white_level is None
         self._dtype: np.dtype[Any] | None = None
+        self._scale = ScaleCheck() if check_scale and config.white_level is None else None
 
     @property
     def source(self) -> FrameStream:
@@ -90,14 +90,18 @@ class PreparedFrames(FrameSource):
                 continue
             yield self._prepared(frame, checker)
             count += 1
+        if self._scale is not None:
+            self._scale.conclude("the video")
         if count < FEWEST_FRAMES:
             raise InputError(_too_few(count, self._config, offset_us))
 
     def _prepared(self, frame: Frame, checker: StreamChecker) -> Frame:
         pixels, motion = frame.pixels, frame.motion
         self._compare(frame)
-        if pixels.dtype.kind == "f" and self._check_scale:
-            self._decide_scale(pixels, frame.t_us)
+        # Files say what their whole levels mean.
+        is_unsure = pixels.dtype.kind == "f" or not isinstance(self._source, NotebookFrames)
+        if self._scale is not None and is_unsure:
+            self._scale.look_at_stream(pixels, f"the frame at {frame.t_us} µs")
         if self._config.white_level is not None:
             pixels = scale_to_levels(pixels, self._config.white_level)
         if self._is_fitted:
@@ -121,12 +125,6 @@ class PreparedFrames(FrameSource):
                 f"{self._dtype}; each type is read at its own full scale"
             )
         self._dtype = dtype
-
-    def _decide_scale(self, pixels: PixelArray, t_us: int) -> None:
-        """Look at float frames until one is not black; then the scale is known."""
-        highest = float(pixels.max())
-        refuse_unit_range(highest, f"the frame at {t_us} µs")
-        self._check_scale = highest == 0.0
 
 
 def _count_frames(source: FrameStream, config: CaptureConfig) -> int | None:

@@ -155,7 +155,7 @@ def open_evreal(folder: Path, times: FrameTimes | None, white_level: float | Non
     images = StoredArray(folder / IMAGES)
     facts = {"source": str(folder), "kind": "EVREAL folder"}
     times = times or _read_times(folder / TIMES)
-    return ArrayFrames(images, times, white_level=white_level, metadata=facts)
+    return ArrayFrames(images, times, check_scale=white_level is None, metadata=facts)
 
 
 def _read_times(path: Path) -> FrameTimes:

@@ -79,4 +79,5 @@ class ExactInterpolator:
         """
         for t_us in times_us:
             exact = self._stream.at(t_us)
-            yield Frame(exact.float_luma, t_us, is_source=False, transfer=exact.transfer)
+            luma = exact.float_luma.copy()  # a renderer may fill one array again and again
+            yield Frame(luma, t_us, is_source=False, transfer=exact.transfer)

@@ -6,18 +6,19 @@ import ast
 import dataclasses
 import inspect
 import itertools
-import numbers
 import re
 import textwrap
 import types
 import typing
 from collections.abc import Callable, Mapping
+from decimal import Decimal
 from fractions import Fraction
 from pathlib import Path
 from typing import Any, Literal, NamedTuple, TypeVar
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError, shown
+from texvent.errors import ConfigError, InputError, shown
+from texvent.options.arrays import as_number
 
 Config = TypeVar("Config")
 MAX_DIGITS = 100
@@ -73,6 +74,10 @@ def convert(value: Any, hint: Any, where: str) -> Any:
     Raises:
         ConfigError: it is of another type; the message begins with `where`.
     """
+    try:
+        value = as_number(value)
+    except (TypeError, InputError):
+        raise ConfigError(f"{where} is {shown(value)}; give a plain number or text") from None
     origin, arguments = typing.get_origin(hint), typing.get_args(hint)
     if origin is Literal:
         if value not in arguments:
@@ -122,9 +127,8 @@ def parse_fraction(value: Any) -> Fraction:
     """A rate from 24, 29.97, "29.97" or "30000/1001", exactly as written in decimal."""
     if isinstance(value, bool):
         raise TypeError
-    if isinstance(value, numbers.Integral):
-        value = int(value)  # NumPy's have an end
-    text = str(float(value)) if isinstance(value, float) else value
+    value = as_number(value)
+    text = str(value) if isinstance(value, (float, Decimal)) else value
     if isinstance(text, str) and (len(text) > MAX_DIGITS or re.search(_HUGE, text)):
         raise ValueError(text[:MAX_DIGITS])
     return Fraction(text)

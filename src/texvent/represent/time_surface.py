@@ -69,7 +69,8 @@ def time_surface(
     since = ops.xp.where(columns.t <= instant, columns.t - first, -1)
     index = flat_index((columns.p, 2), *columns.pixel_axes)
     latest = ops.latest_at(index, since, 2 * height * width, -1).reshape(2, height, width)
-    age = ops.cast(instant - first - latest, "float64") / tau_us
+    # An instant long before the first event would make the exponential of "never" infinite.
+    age = ops.cast(ops.xp.where(latest >= 0, instant - first - latest, 0), "float64") / tau_us
     recency = ops.xp.exp(-age) if decay == "exponential" else ops.xp.clip(1 - age, 0, 1)
     return ops.cast(ops.xp.where(latest >= 0, recency, recency * 0.0), "float32")
 

@@ -131,7 +131,7 @@ def test_what_is_no_image_gets_one_line(tmp_path):
     video.write_bytes(b"x")
     with pytest.raises(InputError, match=r"clip.mp4 is no still image .* leave `camera` out"):
         texvent.simulate(video, camera="pan")
-    with pytest.raises(InputError, match=r"needs one image.*\[3, 60, 80\]"):
+    with pytest.raises(InputError, match=r"must be \[H, W\].*\[3, 60, 80\]"):
         texvent.simulate(np.stack([PHOTO] * 3), camera="pan")
     with pytest.raises(InputError, match="so they are probably"):
         texvent.simulate(PHOTO / 255.0, camera="pan")

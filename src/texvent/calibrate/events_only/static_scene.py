@@ -28,7 +28,7 @@ from texvent.calibrate.events_only.pixel_trains import (
     find_dead_time,
 )
 from texvent.calibrate.events_only.rest import find_rest, leak_rate, mains_flicker
-from texvent.errors import InputError
+from texvent.errors import InputError, warn
 from texvent.events import EventStream
 from texvent.simulate.physical.config import PhysicalConfig
 from texvent.video import MICROSECONDS
@@ -37,6 +37,8 @@ WINDOWS, GROUPS = 10, 100
 """Windows of time and groups of pixels that the bootstrap draws."""
 LEAST_EXPOSURE_S = 20.0
 """Pixel-seconds at rest without which nothing is measured."""
+LEAST_REST = 0.5
+"""Share of the sensor at rest below which something large moves."""
 LEAST_COUNT = 50
 """Events without which a share or a spread is not measured."""
 EARLY = 0.25
@@ -92,6 +94,9 @@ def measure_static_scene(events: EventStream, start: PhysicalConfig) -> Measurem
 
     Raises:
         InputError: less than 20 pixel-seconds are at rest.
+
+    Warns:
+        TexventWarning: less than half of the sensor is at rest.
     """
     first_us, stop_us = events.time_range or (0, 0)
     seconds = (stop_us - first_us) / MICROSECONDS
@@ -101,6 +106,11 @@ def measure_static_scene(events: EventStream, start: PhysicalConfig) -> Measurem
         raise InputError(
             f"{exposure_s:.3g} pixel-seconds of this recording are at rest; calibration needs "
             f"{LEAST_EXPOSURE_S:g}. Record a scene in which nothing moves, under steady light"
+        )
+    if rests.mean() < LEAST_REST:
+        warn(
+            f"only {rests.mean():.0%} of the sensor was at rest, so the camera or most of the "
+            "scene moved, and its events may count as noise; record a scene in which nothing moves"
         )
     trains = PixelTrains.of(events).at(rests.reshape(-1))
     hot = find_hot_pixels(trains.counts().sum(axis=0), rests.reshape(-1))

@@ -14,7 +14,7 @@ from texvent._registry import suggest
 from texvent.capture.camera_path.motion import CameraPath, Pan, Saccades, Shake
 from texvent.capture.camera_path.photo_frames import PhotoFrames
 from texvent.capture.image_folder import coding_facts, count_images, read_image
-from texvent.capture.intensity_scale import refuse_unit_range, scale_to_levels, usable_pixels
+from texvent.capture.intensity_scale import caller_pixels, check_whole_scale, scale_to_levels
 from texvent.capture.linear_light import (
     FULL_SCALE,
     GAMMA,
@@ -120,14 +120,9 @@ def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], di
             raise InputError(f"{path} holds several images; leave camera out, or save one of them")
         pixels, where, kind = read_image(path, config.white_level), str(path), "still image"
         coded = coding_facts([path])
-    elif hasattr(source, "__array__"):
-        pixels, where, kind = usable_pixels(np.asarray(source), "the image"), "the image", "array"
+    elif hasattr(source, "__array__") or hasattr(source, "getbands"):
+        pixels, where, kind = caller_pixels(source, "the image of camera"), "the image", "array"
         coded = {}
-        if pixels.ndim not in (2, 3) or (pixels.ndim == 3 and pixels.shape[2] != 3):
-            raise InputError(
-                "camera needs one image, [H, W] or [H, W, 3]; got shape "
-                f"{shown(list(pixels.shape))}"
-            )
     else:
         raise InputError(
             f"camera moves a camera over one still image, not over {type(source).__name__}; give "
@@ -142,6 +137,6 @@ def _levels(source: Any, config: CaptureConfig) -> tuple[NDArray[np.float32], di
     check_intensity(pixels, where)
     if coding == GAMMA and white_level is not None:
         pixels = scale_to_levels(pixels, white_level)
-    elif coding == GAMMA and pixels.dtype.kind == "f":
-        refuse_unit_range(float(pixels.max()), where)
+    elif coding == GAMMA:
+        check_whole_scale([pixels], where)
     return np.asarray(Frame(pixels, 0).luma, dtype=np.float32), facts

@@ -20,6 +20,7 @@ from texvent.errors import FileFormatError, InputError, few, shown
 from texvent.io.arrays.npy_file import StoredArray
 from texvent.io.arrays.npz import NPZ_DAMAGE
 from texvent.io.input_checks import check_zip, reporting_damage
+from texvent.options.arrays import as_array
 from texvent.runtime.file_names import in_natural_order, numbering_gap, usable_path
 
 Role: TypeAlias = str
@@ -178,7 +179,7 @@ def _stack_of_arrays(given: Any, role: Role) -> FieldStack:
         )
     kind = ROLE_KIND[role]
     return FieldStack(
-        role, len(given), lambda index: {kind: np.asarray(given[index])}, frozenset([kind])
+        role, len(given), lambda index: {kind: as_array(given[index], role)}, frozenset([kind])
     )
 
 

@@ -223,8 +223,8 @@ class GpuSimulator:
         if isinstance(self.config, TexventConfig) and self.config.has_added_noise:
             rules, table = noise_rules(self.config, span, frames)
         keys = [
-            frame_keys(seed, times_us)
-            for seed, times_us in zip(clips.seeds, span.stop_us, strict=True)
+            frame_keys(seed, since_us)
+            for seed, since_us in zip(clips.seeds, span.stop_us - span.first_us, strict=True)
         ]
         columns = (
             span.start_us,

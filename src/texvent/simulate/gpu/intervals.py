@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import InputError
+from texvent.options.arrays import as_array, whole_numbers
 
 Int64Array = NDArray[np.int64]
 Float64Array = NDArray[np.float64]
@@ -23,6 +24,8 @@ class Span:
     """Time of the earlier frame, µs."""
     stop_us: Int64Array
     """Time of the later frame, µs."""
+    first_us: Int64Array
+    """Time of the first frame of each clip, [B, 1], µs."""
     from_source: BoolArray
     """Whether the earlier frame is a source frame, so that a pair begins with it."""
     is_new: bool
@@ -51,6 +54,7 @@ class Clock:
     def __init__(self, clips: int) -> None:
         """A clock for `clips` clips that have seen no frame."""
         self._clips = clips
+        self._first_us: Int64Array | None = None
         self._last_us: Int64Array = np.empty((clips, 0), np.int64)
         self._last_is_source: BoolArray = np.empty((clips, 0), np.bool_)
         self._is_new = True
@@ -67,8 +71,7 @@ class Clock:
             InputError: the shapes do not fit, or times do not strictly increase.
         """
         times = self._spread("times_us", times_us, frames)
-        if times.dtype.kind not in "iu":
-            raise InputError(f"times_us must be whole microseconds; got {times.dtype}")
+        times = whole_numbers(times, "times_us", "whole microseconds")
         flags = np.ones((self._clips, frames), np.bool_)
         if is_source is not None:
             flags = self._spread("is_source", is_source, frames).astype(np.bool_)
@@ -81,16 +84,18 @@ class Clock:
                 f"times_us of clip {clip}: {known[clip, index + 1]} µs does not come after "
                 f"{known[clip, index]} µs; frame times must strictly increase"
             )
-        self._pending = known[:, -1:], sources[:, -1:], self._is_new and known.shape[1] < 2
-        return Span(known[:, :-1], known[:, 1:], sources[:, :-1], self._is_new)
+        first_us = known[:, :1] if self._first_us is None else self._first_us
+        is_new = self._is_new and known.shape[1] < 2
+        self._pending = first_us, known[:, -1:], sources[:, -1:], is_new
+        return Span(known[:, :-1], known[:, 1:], first_us, sources[:, :-1], self._is_new)
 
     def advance(self) -> None:
         """Make the frames read last the last ones seen."""
-        self._last_us, self._last_is_source, self._is_new = self._pending
+        self._first_us, self._last_us, self._last_is_source, self._is_new = self._pending
 
     def _spread(self, name: str, values: Any, frames: int) -> NDArray[Any]:
         """[B, T] from [T] or [B, T] of any array type."""
-        array = np.asarray(values.cpu() if hasattr(values, "cpu") else values)
+        array = as_array(values, name)
         if array.shape not in ((frames,), (self._clips, frames)):
             raise InputError(
                 f"{name} must be [{frames}] or [{self._clips}, {frames}], one per frame (and "

@@ -96,8 +96,8 @@ class PhysicalConfig:
     threshold_sigma: float = 0.03
     """Standard deviation of both thresholds between pixels, log units; none is below 0.01."""
     threshold_map: Path | None = None
-    """Thresholds of each pixel of one sensor, over their mean: a file of texvent calibrate --scene
-    flicker. Pixels that it does not know have drawn ones."""
+    """Thresholds of each pixel of one sensor, over their mean: a file of texvent calibrate
+    --threshold-map. Pixels that it does not know have drawn ones."""
     initial_phase: Literal["random", "zero"] = "zero"
     """Change of each pixel at the first frame: anywhere between its
     thresholds, as in a sensor that was on before, for frames without grain (random), or just reset

@@ -1,4 +1,4 @@
-"""Thresholds of each pixel of one sensor, as `texvent calibrate --scene flicker` measures them.
+"""Thresholds of each pixel of one sensor, as `texvent calibrate --flicker-hz` measures them.
 
 The file is a NumPy archive of two arrays, `on` and `off`, [H, W] float16: thresholds over the mean
 of all pixels. NaN marks a pixel that was not measured.
@@ -62,8 +62,8 @@ def read_threshold_map(path: Path) -> ThresholdMap:
     """
     path = usable_path(path)
     if not path.is_file():
-        raise InputError(f"there is no threshold map {path}; texvent calibrate --scene flicker "
-                         "threshold_map=FILE writes one")  # fmt: skip
+        raise InputError(f"there is no threshold map {path}; texvent calibrate --flicker-hz "
+                         "--threshold-map=FILE writes one")  # fmt: skip
     try:
         with np.load(path, allow_pickle=False) as arrays:
             on, off = (np.asarray(arrays[name], np.float64) for name in ThresholdMap._fields)

@@ -1,8 +1,9 @@
 """Keyed random draws: numbers that depend on what they are for, never on when they are drawn.
 
 A draw is a hash of (seed, frame, y, x, draw): the same five numbers give the same 64 bits in any
-order, on any number of threads, in NumPy here and in the compiled twin `draws_cpu`. So a
-clip can be cut, tiled or run on another backend without moving one noise event.
+order, on any number of threads, in NumPy here and in the compiled twin `draws_cpu`. So a clip can
+be tiled or run on another backend without moving one noise event. Pixel models identify a frame by
+the time since the first, so shifting a clip in time shifts its events and nothing else.
 
 The hash is two rounds of the SplitMix64 finaliser (Steele, Lea and Flood, "Fast splittable
 pseudorandom number generators", OOPSLA 2014). The second round mixes the key in again; without
@@ -59,8 +60,8 @@ def frame_key(seed: int, frame: int) -> np.uint64:
 
     Args:
         seed: 0..2⁶³−1; 0 is as good as any.
-        frame: identifies this frame in the run, any integer: its index, or its
-            time in µs, which also survives cutting the clip.
+        frame: identifies this frame in the run, any integer: its index, or its time since the
+            first frame, µs.
 
     Returns:
         64 bits, different for each frame of a seed.

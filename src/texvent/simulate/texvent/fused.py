@@ -52,7 +52,7 @@ class FusedPass:
         self._scratch: Float64Array = np.empty(0)
 
     def packets(
-        self, pair: FramePair, memory: Memory | None
+        self, pair: FramePair, memory: Memory | None, first_us: int
     ) -> Iterator[tuple[Frame, EventStream]]:
         """Every frame of a pair, undrawn, with the packet of events that ends at it.
 
@@ -60,6 +60,7 @@ class FusedPass:
             pair: not the first of a stream, with flow.
             memory: of the pixels, whose references this moves (before the first packet is read);
                 None where the cache forgets at every pair.
+            first_us: time of the stream's first frame: random draws are keyed by the time since.
         """
         motion = pair.motion
         edges_us = pair.edges_us.tolist()
@@ -67,16 +68,20 @@ class FusedPass:
             self._decide, earlier=motion.earlier.reshape(-1), memory=memory, parts=len(motion) + 1
         )
         bands = map_candidates(decide, self._levels(pair, memory), motion)
-        return self._timestamp(pair, list(zip(*bands, strict=True)), edges_us)
+        return self._timestamp(pair, list(zip(*bands, strict=True)), edges_us, first_us)
 
     def _timestamp(
-        self, pair: FramePair, fired: list[tuple[FiredPixels, ...]], edges_us: list[int]
+        self,
+        pair: FramePair,
+        fired: list[tuple[FiredPixels, ...]],
+        edges_us: list[int],
+        first_us: int,
     ) -> Iterator[tuple[Frame, EventStream]]:
         """Eqs. 6 and 7 for each sub-interval."""
         motion, size = pair.motion, pair.second.size
         spans = itertools.pairwise(edges_us)
         for part, (frame, span_us) in enumerate(zip(pair.undrawn_frames, spans, strict=True)):
-            span = FrameInterval(*span_us, frame_key(self._seed, span_us[1]))
+            span = FrameInterval(*span_us, frame_key(self._seed, span_us[1] - first_us))
             luma_of = functools.partial(warp_pixels, motion, part)
             noise = draw_noise(self._config, span, size.width * size.height, luma_of)
             bands = FiredPixels(*map(np.concatenate, zip(*fired[part], strict=True)))

@@ -92,6 +92,7 @@ class TexventSimulator(SteppingSimulator):
         self._checker = StreamChecker()
         self._pixels: ShakenPixels | SparsePixels | None = None
         self._last: Frame | None = None
+        self._first_us = 0
         self._fused: FusedPass | None = None
 
     def advance(self, pair: FramePair) -> Iterator[tuple[Frame, EventStream]]:
@@ -109,7 +110,7 @@ class TexventSimulator(SteppingSimulator):
         if self._forgets or not isinstance(pixels, SparsePixels):
             pixels = None
         memory = None if pixels is None else pixels.ensure_reference()
-        packets = self._fused.packets(pair, memory)
+        packets = self._fused.packets(pair, memory, self._first_us)
         self._leave_pair(pair, pixels)
         yield from packets
 
@@ -133,12 +134,14 @@ class TexventSimulator(SteppingSimulator):
         """
         where = self._checker.check_order(frame)
         if self._last is None:
+            self._first_us = frame.t_us
             self._pixels = self._begin(frame, where)
             span = FrameInterval(frame.t_us, frame.t_us, np.uint64(0))
             packet = make_packet(UnsortedEvents.none(), span, frame.size)
         else:
             pixels = self._pixels or self._begin(self._last, where)
-            span = FrameInterval(self._last.t_us, frame.t_us, frame_key(self._seed, frame.t_us))
+            key = frame_key(self._seed, frame.t_us - self._first_us)
+            span = FrameInterval(self._last.t_us, frame.t_us, key)
             packet = pixels.advance(frame, span, where)
             self._pixels = pixels
         self._checker.accept(frame)

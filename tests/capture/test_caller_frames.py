@@ -1,0 +1,198 @@
+"""Frames of a program: the same events and the same refusals, whichever way they come."""
+
+import re
+import warnings
+
+import numpy as np
+import pytest
+from PIL import Image
+
+import texvent
+from texvent._registry import SIMULATORS
+from texvent.errors import InputError, TexventWarning
+from texvent.video import Frame
+
+from .caller_doors import DOORS, OF_IMAGES, ONE_BY_ONE, Stream, through_array, through_generator
+
+Y, X, T = np.ogrid[:16, :24, :5]
+LEVELS = np.moveaxis(np.sin(0.3 * X + 0.2 * Y + 0.4 * T) ** 2 * 250, 2, 0).astype(np.uint8)
+UNIT = LEVELS / 255.0
+CLEAN = {"noise": "none"}
+
+
+def named(doors):
+    return pytest.mark.parametrize("door", doors, ids=lambda one: one.__name__[8:])
+
+
+def in_one_buffer(images):
+    """Frames that a camera loop writes into one array."""
+    buffer = np.empty_like(images[0])
+    for image in images:
+        buffer[:] = image
+        yield buffer
+    buffer[:] = 0
+
+
+@named(ONE_BY_ONE)
+@pytest.mark.parametrize("interpolate", ["flow", "blend", "none"])
+@pytest.mark.parametrize("simulator", SIMULATORS.builtin)
+def test_one_buffer_for_all_frames_gives_the_events_of_fresh_arrays(simulator, interpolate, door):
+    options = {"simulator": simulator, "interpolate": interpolate, "seed": 1}
+    wide = LEVELS.astype(np.uint16) * np.uint16(257)
+    for images in (LEVELS, wide, LEVELS.astype(np.float32), np.stack([LEVELS] * 3, axis=-1)):
+        events = through_array(images, **options)
+        assert len(events) > 50
+        assert door(in_one_buffer(images), **options) == events
+
+
+class Renderer(Stream):
+    """A stream that draws any instant, into an array of its own or into one for all."""
+
+    def __init__(self, *, reuses: bool) -> None:
+        super().__init__((), is_live=False)
+        self._reuses, self._buffer = reuses, np.empty((16, 24), np.float32)
+
+    def at(self, t_us):
+        pixels = self._buffer if self._reuses else np.empty((16, 24), np.float32)
+        pixels[:] = np.sin(0.3 * X[..., 0] + 0.2 * Y[..., 0] + 4e-5 * t_us) ** 2 * 250
+        return Frame(pixels, t_us, is_source=t_us % 10_000 == 0)
+
+    def __iter__(self):
+        return (self.at(10_000 * i) for i in range(5))
+
+
+def test_a_renderer_may_draw_every_instant_into_one_array():
+    fresh, reused = (
+        texvent.simulate(Renderer(reuses=reuses), interpolate="exact", **CLEAN)
+        for reuses in (False, True)
+    )
+    assert len(fresh) > 50
+    assert fresh == reused
+
+
+def with_one_pixel(level):
+    images = UNIT.astype(np.float32)
+    images[:, 3, 5] = level
+    return images
+
+
+DOUBTFUL = {
+    "0..1": (UNIT, "probably 0..1.*white_level=1"),
+    "overshoot of many pixels": (UNIT * 1.04, "probably 0..1.*white_level=1"),
+    "a highlight": (with_one_pixel(1.5), "probably 0..1.*white_level=1"),
+    "a sun": (with_one_pixel(5e4), "in a share of 0.0026 .*probably 0..1.*white_level=1"),
+    "a bright pixel": (with_one_pixel(90.0), "may be 0..1 with highlights.*white_level=1"),
+    "0..10 of a renderer": (UNIT**4 * 10, "may be 0..1 with highlights.*white_level=1"),
+    "-1..1": (UNIT * 2 - 1, r"probably -1..1.*\(frames \+ 1\) / 2|negative"),
+    "masks": ((LEVELS > 128).astype(np.uint8), "probably a mask.*white_level=1"),
+    "8 bits in 16": (LEVELS.astype(np.uint16), "probably have 8 bits.*white_level=255"),
+    "10 bits": (LEVELS.astype(np.uint16) * np.uint16(4), "have 10 bits.*white_level=1023"),
+    "12 bits": (LEVELS.astype(np.uint16) * np.uint16(16), "have 12 bits.*white_level=4095"),
+    "16 bits in floats": (LEVELS * 257.0, "white_level=65535"),
+    "12 bits in floats": (LEVELS * 16.0 + 0.5, "white_level=4095"),
+    "int8": ((LEVELS // 2).astype(np.int8), "int8"),
+    "masked": ([np.ma.masked_less(one, 60) for one in LEVELS], "masked value"),
+}
+
+
+def said(door, images, **options):
+    """What texvent says of frames: the error, or the warnings."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", TexventWarning)
+        try:
+            door(images, **CLEAN, **options)
+        except InputError as error:
+            return [str(error)]
+    return [str(one.message) for one in caught]
+
+
+@named(DOORS)
+@pytest.mark.parametrize("what", DOUBTFUL)
+def test_pixels_of_another_scale_are_refused_or_said_with_the_option(what, door):
+    images, words = DOUBTFUL[what]
+    if what == "masked" and door not in (*OF_IMAGES, *ONE_BY_ONE):
+        images = np.ma.stack(images)
+    assert [one for one in said(door, images) if re.search(words, one)]
+
+
+FADE = np.array([0, 0.003, 0.02, 0.5, 1])[:, None, None]
+SOUND = {
+    "dark levels in floats": LEVELS // 50 * 1.0,
+    "an overexposed video": LEVELS * 1.4,
+    "a fade from black": LEVELS * FADE,
+    "a fade from black in 8 bits": (LEVELS * FADE).astype(np.uint8),
+    "a fade from black in 16 bits": (LEVELS * 257.0 * FADE).astype(np.uint16),
+    "black": np.zeros_like(UNIT),
+    "half floats": LEVELS.astype(np.float16),
+    "booleans": LEVELS > 128,
+    "big-endian": (LEVELS * 257.0).astype(">u2"),
+    "upside down": LEVELS[:, ::-1, ::-1],
+}
+
+
+@pytest.mark.parametrize("what", SOUND)
+def test_sound_pixels_are_taken_without_a_word(what):
+    assert not [one for one in said(through_array, SOUND[what]) if "no events" not in one]
+
+
+def test_a_stream_that_fades_in_goes_on_once_its_white_is_given():
+    images = LEVELS * FADE
+    assert "white_level=255" in said(through_generator, images)[0]
+    assert through_generator(images, white_level=255) == through_array(images)
+
+
+@named(OF_IMAGES)
+@pytest.mark.parametrize("form", ["nested lists", "float16", "bool", "channel", "Fortran"])
+def test_images_in_any_form_are_taken_alike(form, door):
+    forms = {
+        "nested lists": [(one * 1.0).tolist() for one in LEVELS],
+        "float16": LEVELS.astype(np.float16),
+        "bool": LEVELS > 128,
+        "channel": LEVELS[..., None],
+        "Fortran": [np.asfortranarray(one) for one in LEVELS],
+    }
+    plain = ((LEVELS > 128) * 255).astype(np.uint8) if form == "bool" else LEVELS
+    assert door(forms[form], **CLEAN) == through_array(plain, **CLEAN)
+
+
+PICTURES = [Image.fromarray(one) for one in LEVELS]
+MODES = {
+    **{mode: (mode,) for mode in ("L", "RGB", "P", "RGBA", "LA", "CMYK", "YCbCr", "HSV", "F")},
+    **{"RGBX": ("RGBX",), "PA": ("P", "PA"), "RGBa": ("RGBA", "RGBa")},
+}
+
+
+@named(OF_IMAGES)
+@pytest.mark.parametrize("mode", [*MODES, "I;16", "1"])
+def test_pictures_of_pillow_are_read_by_the_meaning_of_their_mode(mode, door):
+    pictures, levels = list(PICTURES), LEVELS
+    for step in MODES.get(mode, ()):
+        pictures = [one.convert(step) for one in pictures]
+    if mode == "I;16":
+        pictures = [Image.fromarray(one.astype(np.uint16) * np.uint16(257)) for one in LEVELS]
+    if mode == "1":
+        pictures = [Image.fromarray(one > 128) for one in LEVELS]
+        levels = ((LEVELS > 128) * 255).astype(np.uint8)
+    assert {one.mode for one in pictures} == {mode}
+    is_grey = mode in ("L", "LA", "F", "I;16", "1")
+    levels = levels if is_grey else np.stack([levels] * 3, axis=-1)
+    assert door(pictures, **CLEAN) == through_array(levels, **CLEAN)
+
+
+@named(OF_IMAGES)
+@pytest.mark.parametrize(
+    ("images", "words"),
+    [
+        ([one.convert("I") for one in PICTURES], "mode I,.*convert it to L, RGB or F"),
+        (["a.png", "b.png"], "is the name 'a.png'.*give the folder"),
+        ([None, None], "type object"),
+        ([(one, 1) for one in LEVELS], "cannot be read as an array"),
+        ([LEVELS[0], UNIT[1]], "probably 0..1.*white_level=1"),
+        ([LEVELS[0], LEVELS[1][:9]], "24x9"),
+        (LEVELS[..., None].repeat(2, axis=-1), r"got shape .*2\]"),
+        (LEVELS[:, :0], r"got shape \[0, 24\]"),
+    ],
+)
+def test_what_is_no_image_is_refused_by_its_name(images, words, door):
+    with pytest.raises(InputError, match=words):
+        door(images, **CLEAN)
