@@ -11,15 +11,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, warn
+from texvent.errors import FileFormatError, few, shown, warn
 
 CODES = ((0, 1), (-1, 1), (0, 255), (1, 2))
 """Values of OFF and ON; values that fit several codes mean the same in the first."""
 AMBIGUOUS = ({255}, {2})
 """Values that do not say what they mean without another beside them."""
 WORDS = {
-    **{"on": 1, "true": 1, "pos": 1, "positive": 1, "+": 1, "+1": 1, "1": 1},
-    **{"off": 0, "false": 0, "neg": 0, "negative": 0, "-": 0, "-1": -1, "0": 0},
+    **{"on": 1, "true": 1, "pos": 1, "positive": 1, "+": 1},
+    **{"off": 0, "false": 0, "neg": 0, "negative": 0, "-": 0},
 }
 """Word in lower case → number."""
 ALLOWED = "0/1, -1/+1, 0/255, 1/2, true/false, on/off or +/- (OFF/ON)"
@@ -50,7 +50,7 @@ class PolarityCode:
         Raises:
             FileFormatError: they do not fit the code, or the values before.
         """
-        numbers = _from_words(values) if values.dtype.kind in "OSU" else values
+        numbers = self._from_words(values) if values.dtype.kind in "OSU" else values
         is_one = numbers == 1
         ones = int(np.count_nonzero(is_one))
         if ones + np.count_nonzero(numbers == 0) == len(numbers):
@@ -61,13 +61,19 @@ class PolarityCode:
         off, on = next((code for code in CODES if seen <= {*code}), (None, None))
         was_on = 1 in self._seen and self._off != 1
         if off is None or seen in AMBIGUOUS or (was_on and off == 1):
-            held = f"{sorted(seen, key=str)[:4]}"
-            raise FileFormatError(f"{self._path}: polarity holds {held}; it must be {ALLOWED}")
+            raise self._error(sorted(seen, key=str))
         self._seen, self._off = seen, off
         return is_one.astype(np.uint8) if on == 1 else (numbers == on).astype(np.uint8)
 
+    def _from_words(self, values: NDArray[Any]) -> NDArray[np.float64]:
+        texts, places = np.unique(values.astype("U16"), return_inverse=True)
+        words = [text.strip().lower() for text in texts.tolist()]
+        try:
+            numbers = [float(WORDS.get(word, word)) for word in words]
+        except ValueError:
+            raise self._error(words) from None
+        return np.array(numbers)[places]
 
-def _from_words(values: NDArray[Any]) -> NDArray[np.int64]:
-    """Numbers of words; those that are none are 9, which no code has."""
-    texts, places = np.unique(values.astype("U16"), return_inverse=True)
-    return np.array([WORDS.get(text.strip().lower(), 9) for text in texts])[places]
+    def _error(self, held: list[Any]) -> FileFormatError:
+        listed = few([shown(one) for one in held], 4)
+        return FileFormatError(f"{self._path}: polarity holds {listed}; it must be {ALLOWED}")

@@ -170,11 +170,8 @@ def to_microseconds(
         times_us = times.astype(np.float64) * (MICROSECONDS / per_second)
         if not (np.abs(times_us) < LARGEST_FLOAT).all():
             raise FileFormatError(f"{path} holds times that are no numbers of {unit}")
-        if is_guessed and unit == "us" and (times_us != np.rint(times_us)).any():
-            raise TimeUnitError(
-                f"{path}: most of its times are whole numbers, and some have fractions; give "
-                "time_unit (--time-unit s, ms or us)"
-            )
+        if is_guessed and unit == "us":
+            refuse_fractions(path, times_us)
         return np.rint(times_us).astype(np.int64)
     if times.dtype.kind not in "biu":
         raise FileFormatError(f"{path} holds times that are no numbers")
@@ -186,11 +183,26 @@ def to_microseconds(
     return whole // (per_second // MICROSECONDS)
 
 
+def refuse_fractions(path: Path, times: NDArray[np.float64]) -> None:
+    """Refuse fractions among times that were taken for whole µs.
+
+    Raises:
+        TimeUnitError: there are some.
+    """
+    if (times != np.rint(times)).any():
+        raise TimeUnitError(
+            f"{path}: most of its times are whole numbers, and some have fractions; give "
+            "time_unit (--time-unit s, ms or us)"
+        )
+
+
 def check_precision(path: Path, times: NDArray[Any], unit: TimeUnit) -> None:
     """Warn of times in a type that has not kept the µs.
 
     Args:
+        path: the file, for messages.
         times: the last ones, which are the coarsest.
+        unit: of them.
     """
     if times.dtype.kind == "f" and times.size and np.isfinite(times).all():
         step_us = float(np.spacing(np.abs(times).max())) * MICROSECONDS / PER_SECOND[unit]
@@ -201,8 +213,17 @@ def check_precision(path: Path, times: NDArray[Any], unit: TimeUnit) -> None:
             )
 
 
-def check_rate(path: Path, count: int, range_us: tuple[int, int], unit: TimeUnit) -> None:
+def check_rate(
+    path: Path, count: int, range_us: tuple[int, int], unit: TimeUnit, *, is_all: bool = True
+) -> None:
     """Refuse times whose unit was guessed and cannot be meant.
+
+    Args:
+        path: the file.
+        count: number of events ...
+        range_us: ... in this time.
+        unit: as guessed.
+        is_all: whether they are all events of the file.
 
     Raises:
         TimeUnitError: the mean rate is below that of a quiet sensor, or no clock shows such times.
@@ -213,8 +234,9 @@ def check_rate(path: Path, count: int, range_us: tuple[int, int], unit: TimeUnit
     span_us = range_us[1] - range_us[0]
     is_slow = count * MICROSECONDS < LEAST_HZ * span_us and count >= LEAST_EVENTS
     rate = count * MICROSECONDS / max(span_us, 1)
-    if not (is_slow or range_us[1] > LATEST_GUESSED_US):
-        other = _as_likely(count, span_us, rate, unit)
+    is_too_late = range_us[1] > LATEST_GUESSED_US and count >= LEAST_EVENTS
+    if not (is_slow or is_too_late):
+        other = _as_likely(count, span_us, rate, unit) if is_all else None
         if other is not None:
             seconds = span_us / MICROSECONDS
             meant = seconds * PER_SECOND[unit] / PER_SECOND[other]

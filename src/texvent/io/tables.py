@@ -196,6 +196,9 @@ class EventTable:
         unit = known or guess_unit(of_time(sample_of(in_time, count)))
         offset_us = 0 if offset is None else int(to_microseconds(path, offset, unit)[0])
         code = PolarityCode(path, of_p(sample_of(in_p, count)))
+        own = dict(self.extra)
+        if "label" in own and not (sample_of(arrays[own["label"]], count) <= 1).all():
+            del own["label"]  # classes of another program
 
         def times(start: int, stop: int) -> NDArray[np.int64]:
             return in_us(np.asarray(in_time[start:stop]))
@@ -206,9 +209,11 @@ class EventTable:
 
         def read(start: int, stop: int) -> Columns:
             parts = {name: np.asarray(arrays[name][start:stop]) for name in self.arrays}
-            stored = {name: self.columns[name].of(parts[self.columns[name].array]) for name in "xyp"}
+            stored = {
+                name: self.columns[name].of(parts[self.columns[name].array]) for name in "xyp"
+            }
             pixels = {name: whole_numbers(path, stored[name]) for name in "xy"}
-            extra = {name: parts[array] for name, array in self.extra.items()}
+            extra = {name: parts[array] for name, array in own.items()}
             t = in_us(parts[self.columns["t"].array])
             return {**pixels, **extra, "p": code.binary(stored["p"]), "t": t}
 
@@ -278,7 +283,9 @@ def _optional_columns(members: Mapping[str, Array]) -> tuple[str, ...]:
     Arrays of other programs may have the name of our ids: they count only if they have their type.
     A label that is not one number per event is the class of the whole sample.
     """
-    counts = [one.shape[0] for leaf, one in members.items() if spelled(leaf)[0] == "t" and one.shape]
+    counts = [
+        one.shape[0] for leaf, one in members.items() if spelled(leaf)[0] == "t" and one.shape
+    ]
     has_ids = all(
         name in members and members[name].dtype == COLUMN_TYPES[name] for name in ID_COLUMNS
     )

@@ -52,6 +52,8 @@ from texvent.sensor import SensorSize
 BLOCK_EVENTS = 2**18
 FIXED_POINT = 32
 """Steps of a pixel in the coordinates of BS-ERGB."""
+FAR_BEYOND = 4
+"""So many times the sensor's size is no sensor given wrongly."""
 
 NPZ_DAMAGE = (
     *ZIP_DAMAGE,
@@ -117,9 +119,12 @@ class ArchivedArray:
     def __init__(self, path: Path, name: str) -> None:
         self._path, self._name = path, name
         self._values: NDArray[Any] | None = None
-        with self._reporting_damage(), zipfile.ZipFile(path) as archive:
-            with archive.open(f"{name}.npy") as file:
-                self.shape, _, self.dtype = read_header(file)
+        with (
+            self._reporting_damage(),
+            zipfile.ZipFile(path) as archive,
+            archive.open(f"{name}.npy") as file,
+        ):
+            self.shape, _, self.dtype = read_header(file)
 
     def __getitem__(self, rows: slice) -> NDArray[Any]:
         """The rows of a slice."""
@@ -217,9 +222,9 @@ def _one_block(path: Path, rows: TimedRows, size: SensorSize | None) -> Iterator
     columns = rows.read(0, rows.count)
     if size is not None and rows.count:
         largest = [int(columns[name].max()) for name in "xy"]
-        is_beyond = any(one >= limit for one, limit in zip(largest, size, strict=True))
-        if is_beyond and all(
-            one // FIXED_POINT < limit for one, limit in zip(largest, size, strict=True)
+        if all(
+            limit * FAR_BEYOND <= one < limit * FIXED_POINT
+            for one, limit in zip(largest, size, strict=True)
         ):
             warn(
                 f"{path} holds coordinates up to {largest[0]}, {largest[1]} on a sensor of {size}; "

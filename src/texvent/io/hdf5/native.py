@@ -42,7 +42,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, shown
+from texvent.errors import FileFormatError, InputError, shown
 from texvent.events import COLUMN_TYPES, OPTIONAL_COLUMNS
 from texvent.io.block_codec import BlockCodec, FileContents, TimedRows, contents_of_rows
 from texvent.io.block_writer import BlockWriter, Columns, FileTarget, FormatLimits, WriteBlock
@@ -180,7 +180,7 @@ class Hdf5Codec(BlockCodec):
         try:
             with open_hdf5(path) as file:
                 return "CD/events" not in file
-        except FileFormatError:
+        except InputError:  # damaged, or open elsewhere
             return True
 
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
