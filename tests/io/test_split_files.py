@@ -64,7 +64,7 @@ def test_what_is_no_table_of_times_is_refused(tmp_path: Path) -> None:
         "10\n10\n",
         "10\nx\n",
         "7 25 10\n",
-        "a/b 10 25\n",
+        "/ 10 25\n",
         "7 1 2\n7 1\n",
     ):
         path.write_text(text)

@@ -32,7 +32,7 @@ MOMENT_US, SHORT_US, LONG_US = 20_000, 100_000, 1_000_000_000
 """Recordings are rarely shorter, or longer ..."""
 SPARSE_HZ, FASTEST_HZ = 10_000, 100_000_000
 """... at a lower rate, and never denser."""
-SAMPLE_TIMES, SAMPLES = 4096, 16
+SAMPLE_TIMES, SAMPLES = 4096, 4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -148,7 +148,7 @@ def guess_unit(times: NDArray[Any]) -> TimeUnit:
     Args:
         times: [n] from all over the file: seconds may begin with many zeros.
     """
-    is_whole = times.dtype.kind in "iumM" or bool((times == np.rint(times)).all())
+    is_whole = times.dtype.kind != "f" or bool((times == np.rint(times)).all())
     return "us" if is_whole and len(times) else "s"
 
 

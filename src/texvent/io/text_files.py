@@ -148,7 +148,7 @@ class Dialect:
         """Expected form of a row, for messages."""
         names = {place: name for name, place in self.places.items()}
         order = (self.delimiter or " ").join(names.get(at, "_") for at in range(self.width))
-        return f"rows of {self.width} numbers `{order}`, t in {self.unit}, polarity 0/1 or -1/+1"
+        return f"rows of {self.width} numbers `{order}`, t in {self.unit}, polarity such as 0/1"
 
     def parse(self, path: Path, block: bytes) -> Columns:
         """Columns of a block of rows.
@@ -239,24 +239,24 @@ def find_dialect(
     if names is not None:
         start, at = start + len(lines[at]) + 1, at + 1
     text = b"\n".join([*lines[at : at + SAMPLE_ROWS], *(one[one.find(b"\n") :] for one in later)])
-    rows = _sound_rows(path, text, delimiter)
+    rows = _sound_rows(path, text, delimiter, None if names is None else len(names))
     places = _places(path, rows, names, options, size, default)
-    columns = {
-        name: [row[place] for row in rows if len(row) > place] for name, place in places.items()
-    }
+    times, polarities = (
+        [row[places[name]] for row in rows if len(row) > places[name]] for name in "tp"
+    )
     named = unit_in_name(names[places["t"]])[1] if names else None
     stated = stated_or_given(path, named, options)
-    _check_digits(path, columns["t"], stated or "us")
+    _check_digits(path, times, stated or "us")
     return Dialect(
         delimiter,
-        len(rows[0] if rows else names or words),
+        len(names or (rows[0] if rows else words)),
         places,
-        stated or ("us" if columns["t"] and all(map(_is_whole, columns["t"])) else "s"),
+        stated or ("us" if times and all(map(_is_whole, times)) else "s"),
         stated is not None,
         start,
         size,
-        any(word.lower() in WORDS and not _is_number(word) for word in columns["p"]),
-        PolarityCode(path, np.array(columns["p"], dtype=str)),
+        any(word.lower() in WORDS for word in polarities),
+        PolarityCode(path, np.array(polarities, dtype=str)),
     )
 
 
@@ -287,8 +287,9 @@ def _is_number(word: str) -> bool:
 
 def _is_whole(word: str) -> bool:
     """Whether a time is a whole number: 0.000 is one of seconds, 1.6e9 one of µs."""
-    has_point = "." in word and "e" not in word.lower()
-    return not has_point and Decimal(word) == Decimal(word).to_integral_value()
+    if not _is_number(word) or ("." in word and "e" not in word.lower()):
+        return False
+    return Decimal(word) == Decimal(word).to_integral_value()
 
 
 def _words(line: str, delimiter: str | None) -> list[str]:
@@ -313,23 +314,32 @@ def _as_number(word: str) -> float:
     return float(WORDS.get(word.lower(), "nan")) if not _is_number(word) else float(word)
 
 
-def _sound_rows(path: Path, text: bytes, delimiter: str | None) -> list[list[str]]:
+def _sound_rows(
+    path: Path, text: bytes, delimiter: str | None, width: int | None
+) -> list[list[str]]:
     """Values of the rows of a sample that are like most; others are damage, found when read.
+
+    Args:
+        path: the file, for messages.
+        text: the sample.
+        delimiter: between values.
+        width: values per row, where known.
 
     Raises:
         FileFormatError: numbers are written with commas in them.
     """
     lines = _without_comments(text).decode("latin-1").split("\n")
     rows = [_words(line, delimiter) for line in lines if line.strip()]
-    if delimiter == ";" and any("," in word for row in rows[:SAMPLE_ROWS] for word in row):
+    with_comma = next((word for row in rows for word in row if "," in word), None)
+    if delimiter == ";" and with_comma is not None:
         raise FileFormatError(
-            f"{path} writes numbers with commas ({shown(next(w for w in rows[0] if ',' in w))}); "
-            "write them with points, and without separators of thousands"
+            f"{path} writes numbers with commas ({shown(with_comma)}); write them with points, and "
+            "without separators of thousands"
         )
-    widths = Counter(len(row) for row in rows if all(map(_is_value, row)))
-    width = widths.most_common(1)[0][0] if widths else 0
-    sound = [row for row in rows if len(row) == width and all(map(_is_value, row))]
-    return sound or rows
+    sound = [row for row in rows if all(map(_is_value, row))]
+    widths = Counter(map(len, sound)).most_common(1)
+    usual = width or (widths[0][0] if widths else 0)
+    return [row for row in sound if len(row) == usual] or rows[:1]
 
 
 def _check_digits(path: Path, times: list[str], unit: TimeUnit) -> None:
