@@ -207,3 +207,13 @@ def test_rows_that_are_no_events_are_dropped_and_counted(tmp_path: Path) -> None
     path.write_text("a;b;c;d\n" * 3)
     with pytest.raises(FileFormatError):
         load(path, size=SIZE, repair=True, columns="t,x,y,p")
+
+
+@pytest.mark.parametrize("rows", [3, 300])
+def test_a_short_text_is_repaired_and_its_error_says_so(tmp_path: Path, rows: int) -> None:
+    path = tmp_path / "e.txt"
+    path.write_text("".join(f"{at / 1000:.6f} 1 1 1\n" for at in range(rows)) + "0.3 1")
+    with pytest.raises(FileFormatError, match="--repair"):
+        load(path, size=SIZE)
+    with pytest.warns(TexventWarning, match="cut off: has rows of 2 values"):
+        assert len(load(path, size=SIZE, repair=True)) == rows

@@ -137,7 +137,7 @@ def _refuse_dashes(given: Mapping[str, Any], prog: str) -> None:
         ConfigError: a path is `-`.
     """
     for name, value in given.items():
-        for one in value if isinstance(value, tuple) else (value,):
+        for one in value if isinstance(value, tuple | list) else (value,):
             if isinstance(one, Path) and str(one) == "-":
                 raise ConfigError(
                     f"{prog}: {name} is -; standard input and output are not read or written as "

@@ -10,9 +10,9 @@ import gzip
 import lzma
 from collections.abc import Callable
 from pathlib import Path
-from typing import IO, Any, NamedTuple, cast
+from typing import Any, NamedTuple
 
-from texvent.io.input_checks import NotReadError
+from texvent.io.input_checks import ZIP_DAMAGE, NotReadError, reporting_damage
 
 UnpackedFile = Callable[[Path], Any]
 
@@ -38,6 +38,8 @@ PACKINGS = (
     Packing(b"Rar!", "RAR", "unrar x"),
 )
 TEXT_BYTES = 1024
+DAMAGE = (*ZIP_DAMAGE, lzma.LZMAError)
+"""The modules raise any of these on a damaged file."""
 
 
 def packing_of(path: Path) -> Packing | None:
@@ -58,17 +60,20 @@ def beginning_of_text(path: Path) -> bytes:
 
     Raises:
         NotReadError: it is compressed, and what is in it is not read from there.
+        FileFormatError: it is compressed and damaged.
     """
     packing = packing_of(path)
-    opener: UnpackedFile = lambda one: one.open("rb")  # noqa: E731
-    try:
-        with (opener if packing is None else packing.open or opener)(path) as file:
-            start = cast("IO[bytes]", file).read(TEXT_BYTES)
-    except (OSError, EOFError, lzma.LZMAError, ValueError):
-        start = b"\0"
-    if packing is not None and (packing.open is None or b"\0" in start):
+    if packing is None:
+        with path.open("rb") as file:
+            start = file.read(TEXT_BYTES)
+        return b"" if b"\0" in start else start
+    start = b"\0"
+    if packing.open is not None:
+        with reporting_damage(path, "a compressed text", DAMAGE), packing.open(path) as unpacked:
+            start = unpacked.read(TEXT_BYTES)
+    if b"\0" in start:
         raise NotReadError(
             f"{path} is compressed by {packing.name}; unpack it first ({packing.command} "
             f"{path.name}), then give the file that was in it"
         )
-    return b"" if b"\0" in start else start
+    return start

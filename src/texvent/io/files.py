@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any
 
 from texvent._registry import CODECS
-from texvent.errors import ConfigError, InputError, shown
+from texvent.errors import ConfigError, FileFormatError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.block_codec import BlockCodec, BlockReader
@@ -108,7 +108,7 @@ def is_event_path(path: Path) -> bool:
         return path.suffix.lower() in event_extensions()
     try:
         codec = codec_that_reads(path)
-    except NotReadError:
+    except (NotReadError, FileFormatError):
         return True
     except InputError:
         return False

@@ -63,7 +63,8 @@ class PolarityCode:
         if off is None or seen in AMBIGUOUS or (was_on and off == 1):
             raise self._error(sorted(seen, key=str))
         self._seen, self._off = seen, off
-        return is_one.astype(np.uint8) if on == 1 else (numbers == on).astype(np.uint8)
+        is_on: NDArray[np.bool_] = is_one if on == 1 else numbers == on
+        return is_on.astype(np.uint8)
 
     def _from_words(self, values: NDArray[Any]) -> NDArray[np.float64]:
         texts, places = np.unique(values.astype("U16"), return_inverse=True)

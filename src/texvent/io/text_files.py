@@ -39,7 +39,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, shown, warn
 from texvent.io.block_codec import BlockCodec, FileContents, write_records
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
-from texvent.io.compressed import unpacker_of
+from texvent.io.compressed import DAMAGE, unpacker_of
 from texvent.io.input_checks import ZIP_DAMAGE, begins_with, check_zip, reporting_damage
 from texvent.io.metadata import read_sidecar
 from texvent.io.polarity import WORDS, PolarityCode
@@ -447,7 +447,7 @@ class TextCodec(BlockCodec):
             with path.open("rb") as file:
                 yield file
             return
-        with reporting_damage(path, "a compressed text", ZIP_DAMAGE), unpacker(path) as unpacked:
+        with reporting_damage(path, "a compressed text", DAMAGE), unpacker(path) as unpacked:
             yield unpacked
 
     def _read(
