@@ -290,8 +290,8 @@ def _optional_columns(members: Mapping[str, Array]) -> tuple[str, ...]:
         name in members and members[name].dtype == COLUMN_TYPES[name] for name in ID_COLUMNS
     )
     found = members.get("label")
-    is_column = found is not None and found.shape == tuple(counts[:1])
-    label = ("label",) if is_column and found.dtype.kind in "biu" else ()
+    is_whole = found is not None and found.dtype.kind in "biu"
+    label = ("label",) if is_whole and members["label"].shape == tuple(counts[:1]) else ()
     return (*label, *(ID_COLUMNS if has_ids else ()))
 
 

@@ -50,7 +50,7 @@ def _opened(path: Path) -> Any:
     try:
         return h5py.File(path, "r")
     except OSError as error:
-        if "lock" not in str(error):
+        if "lock file" not in str(error):
             raise
         raise InputError(
             f"{path} is open in another program, which may be writing it; close it there (if none "
