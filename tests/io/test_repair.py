@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, TexventWarning
 from texvent.events import EventStream
@@ -37,28 +38,100 @@ def test_times_that_step_back_are_sorted_among_those_held_back(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     assert repaired(blocks([5, 3, 9], [4, 10])) == ([3, 4, 5, 9, 10], {"out_of_order": 2})
-    monkeypatch.setattr(repair, "HELD_EVENTS", 2)
-    monkeypatch.setattr(repair, "RESET_EVENTS", 0)
+    for name, value in {"HELD_EVENTS": 2, "BATCH_EVENTS": 5, "LOOK_EVENTS": 1}.items():
+        monkeypatch.setattr(repair, name, value)
     # 5, 6 and 7 are given away before 3 comes.
     times, facts = repaired(blocks([5, 6, 7, 8, 9], [3, 10]))
     assert (times, facts) == ([5, 6, 7, 8, 9, 10], {"out_of_order": 1, "dropped_late": 1})
 
 
-@pytest.mark.parametrize("cut", [150, 200, 250, 399])
-def test_a_clock_that_was_reset_goes_on(cut: int) -> None:
-    before = [3_000_000 + 10 * i for i in range(200)]
-    times = [*before, *(10 * i for i in range(200))]
-    found, facts = repaired(blocks(times[:cut], times[cut:]))
-    assert facts == {"clock_resets": 1}
-    assert found == [*before, *(before[-1] + 10 * i for i in range(200))]
+def cut(times: NDArray[np.int64], rng: np.random.Generator) -> Iterator[Columns]:
+    """Blocks of random lengths, some of them empty or of one event."""
+    ends = np.sort(rng.integers(0, len(times), rng.integers(0, 9)))
+    return blocks(*(part.tolist() for part in np.split(times, ends)))
 
 
-def test_a_stray_time_is_no_reset() -> None:
-    times = [2_000_000 + i for i in range(300)]
-    times[150] = 5
-    found, facts = repaired(blocks(times))
-    assert facts == {"out_of_order": 1}
-    assert found == sorted(times)
+def recording(kind: str, rng: np.random.Generator) -> NDArray[np.int64]:
+    """Times of a sound recording, µs."""
+    gaps = {
+        "steady": rng.integers(1, 1200, 3000),
+        "sparse": rng.integers(20_000, 200_000, 900),
+        "bursts": np.where(rng.random(3000) < 0.01, 70_000, rng.integers(0, 300, 3000)),
+        "hours": np.where(rng.random(3000) < 0.003, 7_200_000_000, rng.integers(0, 300, 3000)),
+    }[kind]
+    return np.cumsum(gaps) + int(rng.choice([0, 3_000_000, 1_700_000_000_000_000]))
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize("kind", ["steady", "sparse", "bursts", "hours"])
+def test_sound_recordings_and_pauses_are_not_repaired(kind: str, seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    times = recording(kind, rng)
+    assert repaired(cut(times, rng)) == (times.tolist(), {})
+
+
+@pytest.mark.parametrize("seed", range(2))
+@pytest.mark.parametrize("length", [1, 2, 50])
+@pytest.mark.parametrize("place", [0, 1, 700, 1499, 1500, -1])
+@pytest.mark.parametrize("stamp", ["up", "down", "wild", "zero", "negative", "far"])
+def test_a_few_wrong_stamps_are_dropped_and_counted(
+    stamp: str, place: int, length: int, seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(repair, "BATCH_EVENTS", 1500)
+    monkeypatch.setattr(repair, "LOOK_EVENTS", 400)
+    rng = np.random.default_rng(seed)
+    times = np.cumsum(rng.integers(1, 1200, 3000)) + (1 << 30)
+    start = place if place >= 0 else len(times) - length
+    wrong = {
+        "up": times | 1 << int(rng.integers(31, 50)),
+        "down": times & ~(1 << 30),
+        "wild": rng.integers(1 << 31, 1 << 60, len(times)),
+        "zero": times * 0,
+        "negative": -times,
+        "far": times * 0 + 10**13,
+    }[stamp]
+    stored = times.copy()
+    stored[start : start + length] = wrong[start : start + length]
+    found, facts = repaired(cut(stored, rng))
+    assert facts == {"stray_times": length}
+    assert found == [*times[:start].tolist(), *times[start + length :].tolist()]
+
+
+@pytest.mark.parametrize("seed", range(3))
+@pytest.mark.parametrize(
+    "at", [[100], [130, 230], [200, 1600], [1499], [1500], [2990], [2880, 2960], [500, 590, 2997]]
+)
+@pytest.mark.parametrize("first_us", [0, 1_700_000_000_000_000])
+def test_a_clock_that_was_reset_goes_on(
+    first_us: int, at: list[int], seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(repair, "BATCH_EVENTS", 1500)
+    monkeypatch.setattr(repair, "LOOK_EVENTS", 400)
+    rng = np.random.default_rng(seed)
+    times = np.cumsum(rng.integers(800, 1200, 3000)) + first_us
+    stored = times.copy()
+    for reset in at:
+        stored[reset:] = times[reset:] - times[reset] + 7
+        # The first event after a reset has the time of the last one before it.
+        times[reset:] -= times[reset] - times[reset - 1]
+    found, facts = repaired(cut(stored, rng))
+    assert facts == {"clock_resets": len(at)}
+    assert found == times.tolist()
+
+
+@pytest.mark.parametrize(
+    ("first_us", "range_us"), [(0, 1 << 31), (0, 1 << 32), (-(1 << 31), 1 << 32)]
+)
+def test_a_clock_that_turns_over_counts_on(first_us: int, range_us: int) -> None:
+    times = np.arange(3000) * 1000 + first_us + range_us - 1_500_000
+    stored = (times - first_us) % range_us + first_us
+    assert repaired(blocks(stored.tolist())) == (times.tolist(), {"clock_turns": 1})
+
+
+def test_packets_that_come_late_are_sorted() -> None:
+    times = np.arange(5000) * 200
+    stored = np.concatenate([times[:1000], times[2000:3000], times[1000:2000], times[3000:]])
+    assert repaired(blocks(stored.tolist())) == (times.tolist(), {"out_of_order": 1000})
 
 
 def test_events_outside_the_sensor_are_dropped() -> None:
@@ -134,3 +207,13 @@ def test_rows_that_are_no_events_are_dropped_and_counted(tmp_path: Path) -> None
     path.write_text("a;b;c;d\n" * 3)
     with pytest.raises(FileFormatError):
         load(path, size=SIZE, repair=True, columns="t,x,y,p")
+
+
+@pytest.mark.parametrize("rows", [3, 300])
+def test_a_short_text_is_repaired_and_its_error_says_so(tmp_path: Path, rows: int) -> None:
+    path = tmp_path / "e.txt"
+    path.write_text("".join(f"{at / 1000:.6f} 1 1 1\n" for at in range(rows)) + "0.3 1")
+    with pytest.raises(FileFormatError, match="--repair"):
+        load(path, size=SIZE)
+    with pytest.warns(TexventWarning, match="cut off: has rows of 2 values"):
+        assert len(load(path, size=SIZE, repair=True)) == rows

@@ -45,6 +45,12 @@ def test_intervals_are_half_open_and_may_overlap_or_be_empty(cuts: tuple[int, ..
         ("class,startTime_usec,endTime_usec\n7,10,25\n8,20,40\n", [(10, 25, "7"), (20, 40, "8")]),
         ("start end label\n0.00001 0.000025 wave\n", [(10, 25, "wave")]),
         ("7 10 25\n", [(10, 25, "7")]),
+        ("label,start,end\nright hand wave,10,25\n", [(10, 25, "right hand wave")]),
+        ('label;start;end\n"a; b";10;25\n', [(10, 25, "a; b")]),
+        ('"wave, left",10,25\n"größe",25,40\n', [(10, 25, "wave, left"), (25, 40, "größe")]),
+        ("label\tstart\tend\nright hand\t10\t25\n", [(10, 25, "right hand")]),
+        ('"right hand" 10 25\n', [(10, 25, "right hand")]),
+        ("-1.5\n-0.25\n2\n", [(-1_500_000, -250_000, None), (-250_000, 2_000_000, None)]),
     ],
 )
 def test_times_and_tables_are_read(
@@ -64,7 +70,7 @@ def test_what_is_no_table_of_times_is_refused(tmp_path: Path) -> None:
         "10\n10\n",
         "10\nx\n",
         "7 25 10\n",
-        "a/b 10 25\n",
+        "/ 10 25\n",
         "7 1 2\n7 1\n",
     ):
         path.write_text(text)
@@ -100,3 +106,22 @@ def test_labels_make_a_folder_each(tmp_path: Path) -> None:
         "wave/000000.h5,wave,0,11",
         "clap/000001.h5,clap,39,50",
     ]
+
+
+def test_labels_become_folders_of_their_own(tmp_path: Path) -> None:
+    intervals = [Interval(10, 25, "right hand"), Interval(25, 40, "../x, y")]
+    write_split(packets(3), intervals, tmp_path / "parts")
+    found = sorted(str(one.relative_to(tmp_path)) for one in tmp_path.rglob("*.npz"))
+    assert found == ["parts/___x__y/000001.npz", "parts/right_hand/000000.npz"]
+    assert '000001.npz,"../x, y",25,40' in (tmp_path / "parts/labels.csv").read_text()
+    path = tmp_path / "same.csv"
+    path.write_text("label,start,end\na b,1,2\na-b,2,3\nA_b,3,4\n")
+    with pytest.raises(FileFormatError, match="'a b' and 'A_b' would have one folder"):
+        read_intervals(path)
+
+
+def test_times_below_zero_are_written_as_they_are(tmp_path: Path) -> None:
+    intervals = [Interval(-1_500_000, -250_000), Interval(-250_000, 2_000_000)]
+    write_split(packets(3), intervals, tmp_path / "parts")
+    written = (tmp_path / "parts/timestamps.txt").read_text()
+    assert written == "-1.500000\n-0.250000\n2.000000\n"

@@ -72,6 +72,7 @@ def parse_given(
             text = option.text[:200].rstrip(".")
             raise ConfigError(f"{prog} needs {option.flags[-1]} ({text})")
     defaults = {option.name: option.default for option in options}
+    _refuse_dashes(given, prog)
     protect_inputs(_inputs({**defaults, **given}, groups.values()))
     return given
 
@@ -127,6 +128,21 @@ def _parse(
     except argparse.ArgumentError as error:
         raise ConfigError(f"{error.argument_name}: {error.message} (see {prog} --help)") from None
     return vars(found), rest, operands
+
+
+def _refuse_dashes(given: Mapping[str, Any], prog: str) -> None:
+    """Refuse `-` as the name of a file: only a video can come from standard input.
+
+    Raises:
+        ConfigError: a path is `-`.
+    """
+    for name, value in given.items():
+        for one in value if isinstance(value, tuple | list) else (value,):
+            if isinstance(one, Path) and str(one) == "-":
+                raise ConfigError(
+                    f"{prog}: {name} is -; standard input and output are not read or written as "
+                    "files; give the name of a file"
+                )
 
 
 def _with_hyphens(word: str) -> str:

@@ -9,7 +9,7 @@ Event Stream, type 1 (change detection), 5 bytes per event, little-endian; it is
 Rows count from the bottom, as faery and the format's cameras have it; programs that do not flip
 them show the image upside down.
 
-.bin, 5 bytes per event:
+.bin or .bs2, 5 bytes per event:
 
     byte 0  x · byte 1  y · bytes 2..4  p << 23 | t (µs, 23 bits), big-endian
     y = 240 is no event: from here on 8192 µs are added to all times
@@ -59,7 +59,7 @@ class NMnistCodec(BlockCodec):
     """N-Caltech101 and N-MNIST files."""
 
     name: ClassVar[str] = "atis"
-    extensions: ClassVar[tuple[str, ...]] = (".bin",)
+    extensions: ClassVar[tuple[str, ...]] = (".bin", ".bs2")
     limits: ClassVar[FormatLimits] = FormatLimits("ATIS .bin", MAX_SIZE.width, STOP_US)
     has_sidecar: ClassVar[bool] = True
 

@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import Any
 
 from texvent._registry import CODECS
-from texvent.errors import ConfigError, InputError, shown
+from texvent.errors import ConfigError, FileFormatError, InputError, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
 from texvent.io.block_codec import BlockCodec, BlockReader
 from texvent.io.block_writer import BlockWriter, SideData
-from texvent.io.input_checks import refuse_missing, refuse_other_kind
+from texvent.io.compressed import beginning_of_text
+from texvent.io.input_checks import NotReadError, existing_file, refuse_other_kind
 from texvent.io.reading import read_options
 from texvent.runtime.background_writer import BackgroundWriter
 from texvent.runtime.file_names import usable_path
@@ -75,28 +76,26 @@ def codec_that_reads(path: str | Path, format: str | None = None) -> BlockReader
                 "evreal, rosbag2); give the name of a file in it"
             )
         return found
-    refuse_missing(path)
+    existing_file(path)
     extension = path.suffix.lower()
     codecs: list[BlockReader] = [codec() for codec in CODECS.load_all()]
     own = [codec for codec in codecs if extension in codec.extensions]
     for codec in own + codecs:
         if codec.recognises(path):
             return codec
-    unmarked = [codec for codec in own if codec.recognises(path) is None]
+    start = beginning_of_text(path)
     if own:
+        unmarked = [codec for codec in own if codec.recognises(path) is None]
         return (unmarked or own)[0]
     refuse_other_kind(path)
-    if has_rows(path):
-        return _codecs_for(path, "ecd")[0]
+    if has_rows(start):
+        is_csv = ".csv" in path.suffixes
+        return _codecs_for(path, "csv" if is_csv else "ecd")[0]
     return _codecs_for(path, None)[0]
 
 
-def has_rows(path: Path) -> bool:
-    """True if a file is text whose first lines hold a row of four numbers."""
-    with path.open("rb") as file:
-        start = file.read(1024)
-    if b"\0" in start:
-        return False
+def has_rows(start: bytes) -> bool:
+    """True if the first lines of a text hold a row of four numbers."""
     lines = start.decode("latin-1").splitlines()[:FIRST_LINES]
     return any(len(re.findall(r"(?:^|[\s,;])[-+]?\d[\d.eE+-]*", line)) >= 3 for line in lines)
 
@@ -109,6 +108,8 @@ def is_event_path(path: Path) -> bool:
         return path.suffix.lower() in event_extensions()
     try:
         codec = codec_that_reads(path)
+    except (NotReadError, FileFormatError):
+        return True
     except InputError:
         return False
     is_npy = path.suffix.lower() == ".npy"  # most arrays are frames

@@ -29,6 +29,16 @@ _KINDS = {
     "a file of options, for --config": (".toml", ".yaml", ".yml"),
 }
 _KIND_OF = {extension: kind for kind, names in _KINDS.items() for extension in names}
+PICKLE = "a pickle, which could run code and is not loaded; save its arrays as .npz"
+FORMS = {
+    ".mat": "of MATLAB, before version 7.3; save it with -v7.3, or t, x, y, p as .csv",
+    **dict.fromkeys((".pkl", ".pickle", ".pt", ".pth"), PICKLE),
+}
+"""Extension → form in which events are not read, and a way."""
+
+
+class NotReadError(InputError):
+    """A file may hold events, in a form that is not read; the message names a way."""
 
 
 def refuse_other_kind(path: Path) -> None:
@@ -41,6 +51,9 @@ def refuse_other_kind(path: Path) -> None:
     kind = _KIND_OF.get(path.suffix.lower())
     if kind is not None:
         raise InputError(f"{path} is no event file: it is {kind}")
+    form = FORMS.get(path.suffix.lower())
+    if form is not None:
+        raise NotReadError(f"{path} is {form}")
 
 
 def refuse_missing(path: Path, what: str = "file") -> None:
@@ -179,7 +192,7 @@ def stated_unit(path: Path, stored: Any) -> TimeUnit | None:
         if is_number and np.isclose(float(scale.reshape(-1)[0]) * per_second, 1000):
             return unit
     raise FileFormatError(
-        f"{path} counts time in units of {shown(stored)} ms; texvent reads s, ms, us and ns"
+        f"{path} counts time in units of {shown(scale)} ms; texvent reads s, ms, us and ns"
     )
 
 

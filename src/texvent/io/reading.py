@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._registry import suggest
-from texvent.errors import ConfigError, FileFormatError, InputError, shown
+from texvent.errors import ConfigError, FileFormatError, InputError, shown, warn
 from texvent.sensor import SensorSize, SizeLike, as_size
 
 TimeUnit: TypeAlias = Literal["s", "ms", "us", "ns"]
@@ -26,7 +26,13 @@ LEAST_HZ, LEAST_EVENTS = 5, 20
 LIKELY_HZ = 10
 LATEST_GUESSED_US = 1 << 52
 """Later times since 1970 (142 years) are none of this unit."""
-SAMPLE_TIMES = 4096
+LEAST_DOUBTED = 100
+"""Fewer events say nothing of their unit."""
+MOMENT_US, SHORT_US, LONG_US = 20_000, 100_000, 1_000_000_000
+"""Recordings are rarely shorter, or longer ..."""
+SPARSE_HZ, FASTEST_HZ = 10_000, 100_000_000
+"""... at a lower rate, and never denser."""
+SAMPLE_TIMES, SAMPLES = 4096, 4
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -114,25 +120,61 @@ def unit_in_words(word: object) -> TimeUnit | None:
     return unit_in_name(f"t_{long}")[1]
 
 
+def stated_or_given(path: Path, stated: TimeUnit | None, options: ReadOptions) -> TimeUnit | None:
+    """The unit that the caller gives, else the one that the file states.
+
+    Warns:
+        TexventWarning: they differ.
+    """
+    given = options.time_unit
+    if given and stated and given != stated:
+        warn(f"{path} states its times in {stated}; they are read as {given}, as asked")
+    return given or stated
+
+
+def sample_of(array: Any, count: int) -> NDArray[Any]:
+    """Rows from all over an array: its beginning, its end and places between, [at most 8192]."""
+    if count <= 2 * SAMPLE_TIMES:
+        return np.asarray(array[:count])
+    last, step = count - SAMPLE_TIMES // SAMPLES, (count - SAMPLE_TIMES) // SAMPLES
+    starts = [*range(SAMPLE_TIMES, last, step), last]
+    parts = [array[start : start + SAMPLE_TIMES // SAMPLES] for start in starts]
+    return np.concatenate([np.asarray(one) for one in (array[:SAMPLE_TIMES], *parts)])
+
+
 def guess_unit(times: NDArray[Any]) -> TimeUnit:
-    """Unit of times whose file does not state it: µs of whole numbers, s of fractions."""
-    sample = times[:SAMPLE_TIMES]
-    is_whole = sample.dtype.kind in "iu" or bool((sample == np.rint(sample)).all())
-    return "us" if is_whole and len(sample) else "s"
+    """Unit of times whose file does not state it: µs of whole numbers, s of fractions.
+
+    Args:
+        times: [n] from all over the file: seconds may begin with many zeros.
+    """
+    is_whole = times.dtype.kind != "f" or bool((times == np.rint(times)).all())
+    return "us" if is_whole and len(times) else "s"
 
 
-def to_microseconds(path: Path, times: NDArray[Any], unit: TimeUnit) -> NDArray[np.int64]:
+def to_microseconds(
+    path: Path, times: NDArray[Any], unit: TimeUnit, *, is_guessed: bool = False
+) -> NDArray[np.int64]:
     """Times in µs: whole numbers rounded down, fractions to the nearest.
 
+    Dates and spans of NumPy have a unit of their own.
+
     Raises:
-        FileFormatError: they are too large to be times in this unit.
+        FileFormatError: they are too large to be times in this unit, or no numbers; or they are
+            guessed to be µs, and have fractions.
     """
     per_second = PER_SECOND[unit]
+    if times.dtype.kind in "mM" and not np.isnat(times).any():
+        return times.astype(f"{times.dtype.kind}8[us]").astype(np.int64)
     if times.dtype.kind == "f":
         times_us = times.astype(np.float64) * (MICROSECONDS / per_second)
         if not (np.abs(times_us) < LARGEST_FLOAT).all():
             raise FileFormatError(f"{path} holds times that are no numbers of {unit}")
+        if is_guessed and unit == "us":
+            refuse_fractions(path, times_us)
         return np.rint(times_us).astype(np.int64)
+    if times.dtype.kind not in "biu":
+        raise FileFormatError(f"{path} holds times that are no numbers")
     if times.dtype.kind == "u" and times.size and int(times.max()) >= 1 << 63:
         raise FileFormatError(f"{path} holds times beyond 2^63 {unit}")
     whole = times.astype(np.int64, copy=False)
@@ -141,17 +183,68 @@ def to_microseconds(path: Path, times: NDArray[Any], unit: TimeUnit) -> NDArray[
     return whole // (per_second // MICROSECONDS)
 
 
-def check_rate(path: Path, count: int, range_us: tuple[int, int], unit: TimeUnit) -> None:
+def refuse_fractions(path: Path, times: NDArray[np.float64]) -> None:
+    """Refuse fractions among times that were taken for whole µs.
+
+    Raises:
+        TimeUnitError: there are some.
+    """
+    if (times != np.rint(times)).any():
+        raise TimeUnitError(
+            f"{path}: most of its times are whole numbers, and some have fractions; give "
+            "time_unit (--time-unit s, ms or us)"
+        )
+
+
+def check_precision(path: Path, times: NDArray[Any], unit: TimeUnit) -> None:
+    """Warn of times in a type that has not kept the µs.
+
+    Args:
+        path: the file, for messages.
+        times: the last ones, which are the coarsest.
+        unit: of them.
+    """
+    if times.dtype.kind == "f" and times.size and np.isfinite(times).all():
+        step_us = float(np.spacing(np.abs(times).max())) * MICROSECONDS / PER_SECOND[unit]
+        if step_us > 1:
+            warn(
+                f"{path}: its times are {times.dtype}, which at the end keeps steps of "
+                f"{step_us:.2g} µs only; store times as whole numbers or float64"
+            )
+
+
+def check_rate(
+    path: Path, count: int, range_us: tuple[int, int], unit: TimeUnit, *, is_all: bool = True
+) -> None:
     """Refuse times whose unit was guessed and cannot be meant.
+
+    Args:
+        path: the file.
+        count: number of events ...
+        range_us: ... in this time.
+        unit: as guessed.
+        is_all: whether they are all events of the file.
 
     Raises:
         TimeUnitError: the mean rate is below that of a quiet sensor, or no clock shows such times.
+
+    Warns:
+        TexventWarning: another unit is as likely.
     """
     span_us = range_us[1] - range_us[0]
-    is_slow = count * MICROSECONDS < LEAST_HZ * span_us
-    if count < LEAST_EVENTS or not (is_slow or range_us[1] > LATEST_GUESSED_US):
-        return
+    is_slow = count * MICROSECONDS < LEAST_HZ * span_us and count >= LEAST_EVENTS
     rate = count * MICROSECONDS / max(span_us, 1)
+    is_too_late = range_us[1] > LATEST_GUESSED_US and count >= LEAST_EVENTS
+    if not (is_slow or is_too_late):
+        other = _as_likely(count, span_us, rate, unit) if is_all else None
+        if other is not None:
+            seconds = span_us / MICROSECONDS
+            meant = seconds * PER_SECOND[unit] / PER_SECOND[other]
+            warn(
+                f"{path}: its times, which have no unit, are taken as {unit}: {count:,} events in "
+                f"{seconds:.3g} s; if they last {meant:.3g} s, give time_unit (--time-unit {other})"
+            )
+        return
     finer = [one for one in PER_SECOND if PER_SECOND[one] > PER_SECOND[unit]]
     likely = [one for one in finer if rate * PER_SECOND[one] / PER_SECOND[unit] >= LIKELY_HZ]
     probable = f"they are probably {likely[0]}: " if likely else ""
@@ -161,6 +254,19 @@ def check_rate(path: Path, count: int, range_us: tuple[int, int], unit: TimeUnit
         f"s from {range_us[0] / MICROSECONDS:,.0f} s on, {rate:.2g} per second; {probable}give "
         f"time_unit (--time-unit {name})"
     )
+
+
+def _as_likely(count: int, span_us: int, rate: float, unit: TimeUnit) -> TimeUnit | None:
+    """Another unit of times that were guessed, if a recording of this span and rate is unusual."""
+    if count < LEAST_DOUBTED or span_us <= 0:
+        return None
+    if span_us > LONG_US and rate < SPARSE_HZ:
+        return {"s": "ms", "us": "ns"}.get(unit)  # type: ignore[return-value]
+    usual_hz = LIKELY_HZ if span_us < MOMENT_US else 10 * LIKELY_HZ
+    is_short = span_us < SHORT_US and rate >= 1000 * usual_hz
+    if unit != "us" or not (is_short or rate > FASTEST_HZ):
+        return None
+    return "ms" if span_us >= SHORT_US / 1000 else "s"
 
 
 class TimeUnitError(FileFormatError):

@@ -1,13 +1,22 @@
 """Repair of damaged recordings, block by block: each kind of damage is mended and counted.
 
-Events outside the sensor are dropped. Where the clock was reset, the times after it continue those
-before. Other times that step back are sorted among the last million events; what comes later still
-is dropped. Of a file that ends in damage, all before it is read.
+Events outside the sensor are dropped. Times are judged by what follows them, 100 events at most:
+
+* A few stamps in a row that are far from those before and after are strays, and dropped.
+* Where the clock falls and stays low it was set anew (its times then continue those before) or,
+  after a fall by 2^31 or 2^32 µs, it turned over (they count on).
+* A leap that stays high is a pause.
+* Times that step back by some ms are sorted among the last million events; what comes later still
+  is dropped.
+
+At both ends of a recording less follows. There stamps are strays if a single flipped bit or days
+are between them and the rest, or if they fall, unless a clock seems to start at zero.
+
+Of a file that ends in damage, all before it is read.
 """
 
 from __future__ import annotations
 
-import itertools
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
 from typing import Any, TypeAlias
@@ -20,12 +29,31 @@ from texvent.io.block_writer import Columns
 from texvent.sensor import SensorSize
 
 _Columns: TypeAlias = dict[str, NDArray[Any]]
+_Times: TypeAlias = NDArray[np.int64]
+BATCH_EVENTS = 2**18
+"""Events judged at once: how a file was cut into blocks changes nothing."""
 HELD_EVENTS = 2**20
 """Events that are held back to be sorted."""
-RESET_US = 1_000_000
-"""A fall by more may be a reset of the clock ..."""
-RESET_EVENTS = 100
-"""... if as many events after it lie below the time before it."""
+MOST_STRAYS = 100
+"""More wrong stamps in a row are a clock of their own."""
+LOOK_EVENTS = 2**14
+"""Events among which the clock is sought again after a fall ..."""
+LATEST_US = 1_000_000
+"""... by less than this: those before it are late, and sorted."""
+DISORDER_US = 50_000
+"""Times that step back by less are sorted."""
+LEAP_GAPS = 8
+"""A leap is longer than so many usual gaps between events."""
+TURNS_US = (1 << 31, 1 << 32)
+"""Ranges of clocks that turn over."""
+LONGEST_TURN_US = 60_000_000
+"""Between the last event before a turn and the first after it."""
+LONGEST_PAUSE_US = 86_400_000_000
+"""A few events before or after a longer one, at an end of the recording, are strays."""
+SURELY_APART = 50
+"""A flipped bit is seen if it moves a time so much farther than where it may have been."""
+LEAST_RESTART = 3
+"""So many events from zero on, and in order, are a clock that was set anew near an end."""
 
 
 @dataclass
@@ -38,8 +66,12 @@ class RepairCounts:
     """Events whose time is before that of an earlier one."""
     dropped_late: int = 0
     """Of those, events too late to be sorted, which are dropped."""
+    stray_times: int = 0
+    """Events dropped because their time is none of the recording."""
     clock_resets: int = 0
     """Resets of the clock that were joined."""
+    clock_turns: int = 0
+    """Falls of the clock by its range, that were joined."""
     unreadable_rows: int = 0
     """Rows of a text that are no events, which are dropped."""
     cut_off: str = ""
@@ -56,36 +88,42 @@ def repair_blocks(
 ) -> Iterator[Columns]:
     """Blocks of events that lie on the sensor and in time order; `counts` gets the rest."""
     held: _Columns = {}
-    tail: _Columns = {}
-    latest_us = released_us = -(2**62)
-    added_us = 0
-    for block in itertools.chain(_until_damage(blocks, counts), [None]):
-        coming = tail if block is None else _joined(tail, _on_sensor(block, size, counts))
-        count = len(coming.get("t", ()))
-        # A reset shows in the events after it, so the last ones wait for the next block.
-        ready = count if block is None else max(0, count - RESET_EVENTS)
-        if ready:
-            times, resets = _join_resets(coming["t"], latest_us, added_us)
-            counts.clock_resets += sum(at < ready for at in resets)
-            added_us = int(times[ready - 1]) - int(coming["t"][ready - 1])
-            times = times[:ready]
-            steps = np.maximum.accumulate(np.concatenate([[latest_us], times]))
-            counts.out_of_order += int((times < steps[:-1]).sum())
-            latest_us = int(steps[-1])
-            now = {name: column[:ready] for name, column in coming.items()}
-            held = _joined(held, {**now, "t": times})
-        tail = {name: column[ready:] for name, column in coming.items()}
-        if not held or (not ready and block is not None):
-            continue
+    clock = _Clock(counts)
+    released_us = -(2**62)
+    sound = (_on_sensor(block, size, counts) for block in _until_damage(blocks, counts))
+    for batch, ready, is_last in _batches(sound):
+        times, is_kept = clock.follow(batch["t"].astype(np.int64), ready, is_last=is_last)
+        now = {name: column[:ready][is_kept] for name, column in batch.items()}
+        held = _joined(held, {**now, "t": times[is_kept]})
         order = np.argsort(held["t"], kind="stable")
         held = {name: column[order] for name, column in held.items()}
         late = int(np.searchsorted(held["t"], released_us))
         counts.dropped_late += late
-        ready = len(order) if block is None else max(late, len(order) - HELD_EVENTS)
+        ready = len(order) if is_last else max(late, len(order) - HELD_EVENTS)
         if ready > late:
             yield {name: column[late:ready] for name, column in held.items()}
             released_us = int(held["t"][ready - 1])
         held = {name: column[ready:] for name, column in held.items()}
+
+
+def _batches(blocks: Iterator[_Columns]) -> Iterator[tuple[_Columns, int, bool]]:
+    """Batches of one length with the events that follow, the number without these, is it last."""
+    waiting: list[_Columns] = []
+    count = 0
+    for block in blocks:
+        waiting.append(block)
+        count += len(block["t"])
+        while count >= BATCH_EVENTS + LOOK_EVENTS:
+            whole = _concatenated(waiting)
+            yield (
+                {n: one[: BATCH_EVENTS + LOOK_EVENTS] for n, one in whole.items()},
+                BATCH_EVENTS,
+                False,
+            )
+            waiting = [{name: column[BATCH_EVENTS:] for name, column in whole.items()}]
+            count -= BATCH_EVENTS
+    if count:
+        yield _concatenated(waiting), count, True
 
 
 def _until_damage(blocks: Iterator[Columns], counts: RepairCounts) -> Iterator[Columns]:
@@ -102,35 +140,155 @@ def _on_sensor(block: Columns, size: SensorSize, counts: RepairCounts) -> _Colum
     return {name: np.asarray(column)[inside] for name, column in block.items()}
 
 
-def _join_resets(
-    stored: NDArray[np.generic], latest_us: int, added_us: int
-) -> tuple[NDArray[np.int64], list[int]]:
-    """Times that continue after each reset of the clock, and the numbers of the first after one."""
-    times = stored.astype(np.int64) + added_us
-    resets: list[int] = []
-    start, before = 0, latest_us
-    while True:
-        previous = np.concatenate([[before], times[start:-1]])
-        falls = np.flatnonzero(times[start:] < previous - RESET_US)
-        found = (at for at in falls.tolist() if _stays_below(times[start + at :], previous[at]))
-        reset = next(found, None)
-        if reset is None:
-            return times, resets
-        before = int(previous[reset])
-        start += reset
-        times[start:] += before - int(times[start])
-        resets.append(start)
+class _Clock:
+    """The one clock of a recording, of whose stored times some are strays, resets or turns."""
+
+    def __init__(self, counts: RepairCounts) -> None:
+        self._counts = counts
+        self._kept = self._skipped = self._added_us = 0
+        self._latest_us: int | None = None
+        """Of the stored times since the last reset."""
+        self._reached_us = -(2**62)
+        """Latest time on the clock."""
+
+    def follow(
+        self, stored: _Times, ready: int, *, is_last: bool
+    ) -> tuple[_Times, NDArray[np.bool_]]:
+        """Times of the first events on the clock, [ready], and which of them are kept.
+
+        Args:
+            stored: those of the events that are judged now, and of some that follow.
+            ready: number of events that are judged now.
+            is_last: whether none follow these.
+        """
+        if self._latest_us is None:
+            self._latest_us = int(stored[0])
+        is_kept, added = np.ones(len(stored), bool), np.zeros(len(stored), np.int64)
+        at = self._skipped
+        is_kept[:at], added[0] = False, self._added_us
+        steps = np.abs(np.diff(stored, prepend=self._latest_us))
+        usual_us = int(np.median(steps))
+        for jump in np.flatnonzero(steps > DISORDER_US).tolist():
+            if not at <= jump < ready:
+                continue
+            self._pass(stored[at:jump])
+            future = stored[jump : jump + LOOK_EVENTS]
+            is_end = is_last and len(future) <= MOST_STRAYS
+            past = stored[:jump][is_kept[:jump]] if self._kept < MOST_STRAYS else future
+            if 0 < len(past) < len(future) and _is_false_start(past, future, usual_us):
+                is_kept[:jump] = False
+                self._kept, self._latest_us = 0, int(future[0])
+            before_us = self._added_us
+            at = jump + self._strays(future, usual_us, is_end=is_end)
+            is_kept[jump:at] = False
+            added[jump] += self._added_us - before_us
+        self._pass(stored[at:ready])
+        self._skipped = max(at - ready, 0)
+        times = (stored + np.cumsum(added))[:ready]
+        self._count(times, is_kept[:ready])
+        return times, is_kept[:ready]
+
+    def _pass(self, times: _Times) -> None:
+        """Go on by times that are in line."""
+        if len(times):
+            self._latest_us = max(int(times.max()), self._latest_us or int(times[0]))
+            self._kept += len(times)
+
+    def _strays(self, future: _Times, usual_us: int, *, is_end: bool) -> int:
+        """Number of strays after which the clock goes on; a reset or turn before them is joined."""
+        latest_us = self._latest_us or 0
+        leap_us = max(DISORDER_US, LEAP_GAPS * usual_us)
+        step_us = int(future[0]) - latest_us
+        if -DISORDER_US <= step_us <= leap_us:
+            return 0
+        if step_us > 0:
+            found = _strays_above(future, latest_us, leap_us)
+            is_apart = is_end and not found and _is_apart(future, latest_us, usual_us)
+            return len(future) if is_apart else found
+        found = _strays_below(future, latest_us, leap_us)
+        if found or _is_late(future, latest_us):
+            return found
+        turn_us = next((t for t in TURNS_US if 0 <= step_us + t <= LONGEST_TURN_US), 0)
+        if is_end and not turn_us and not _restarts(future):
+            return len(future)
+        self._added_us += turn_us or -step_us
+        self._latest_us = int(future[0])
+        self._counts.clock_turns += turn_us > 0
+        self._counts.clock_resets += turn_us == 0
+        return 0
+
+    def _count(self, times: _Times, is_kept: NDArray[np.bool_]) -> None:
+        kept = times[is_kept]
+        reached = np.maximum.accumulate(np.concatenate([[self._reached_us], kept]))
+        self._counts.stray_times += len(times) - len(kept)
+        self._counts.out_of_order += int((kept < reached[:-1]).sum())
+        self._reached_us = int(reached[-1])
 
 
-def _stays_below(times: NDArray[np.int64], limit_us: int) -> bool:
-    following = times[:RESET_EVENTS]
-    return len(following) == RESET_EVENTS and bool((following < limit_us).all())
+def _strays_above(future: _Times, latest_us: int, leap_us: int) -> int:
+    """Number of times before those that are back at the clock; 0: the leap is a pause."""
+    window = future[: MOST_STRAYS + 1]
+    away = np.minimum.accumulate(np.abs(window - latest_us))
+    is_back = (window[1:] >= latest_us - DISORDER_US) & (window[1:] - latest_us < away[:-1] // 2)
+    if not is_back.any():
+        return 0
+    found = int(is_back.argmax()) + 1
+    rest, level_us = future[found : found + MOST_STRAYS], int(window[:found].min())
+    # After a pause, a few strays may lie before it.
+    lower = _strays_below(rest, level_us, leap_us)
+    return 0 if 0 < lower < found and 2 * np.count_nonzero(rest >= level_us) > len(rest) else found
+
+
+def _strays_below(future: _Times, latest_us: int, leap_us: int) -> int:
+    """Number of times before a leap back to the clock; 0: it stays low."""
+    window, fall_us = future[: MOST_STRAYS + 1], latest_us - int(future[0])
+    is_back = window[1:] >= latest_us - min(DISORDER_US, fall_us // 4)
+    is_back &= np.diff(window) > min(leap_us, fall_us // 2)
+    return int(is_back.argmax()) + 1 if is_back.any() else 0
+
+
+def _is_late(future: _Times, latest_us: int) -> bool:
+    """Whether many events come late: the clock leaps back to just where it was."""
+    fall_us = latest_us - int(future[0])
+    is_back = np.abs(future[1:] - latest_us) <= min(DISORDER_US, fall_us // 4)
+    return fall_us <= LATEST_US and bool((is_back & (np.diff(future) > fall_us // 2)).any())
+
+
+def _is_false_start(past: _Times, future: _Times, usual_us: int) -> bool:
+    """Whether the few times before a jump are strays, and the recording begins after it."""
+    first_us, before_us = int(future[0]), int(past.max())
+    if abs(first_us - before_us) <= DISORDER_US:
+        return False
+    if first_us > before_us:
+        is_apart = before_us < 0 <= first_us or _is_apart(past, first_us, usual_us)
+        return is_apart and not _strays_above(future, before_us, DISORDER_US)
+    if _strays_below(future, before_us, DISORDER_US):
+        return False
+    return not (_restarts(past) and _restarts(future[:MOST_STRAYS]))
+
+
+def _is_apart(few: _Times, other_us: int, usual_us: int) -> bool:
+    """Whether days, or a flipped bit each, are between a few times and the clock beside them."""
+    apart_us, near_us = int(np.abs(few - other_us).min()), (len(few) + LEAP_GAPS) * usual_us
+    flipped = few[:, None] ^ (1 << np.arange(62))
+    is_bit = (np.abs(flipped - other_us) <= near_us).any(axis=1).all()
+    return apart_us > LONGEST_PAUSE_US or bool(is_bit and apart_us > SURELY_APART * near_us)
+
+
+def _restarts(times: _Times) -> bool:
+    """Whether times are those of a clock that was set to zero."""
+    is_from_zero = 0 <= int(times[0]) < DISORDER_US
+    return len(times) >= LEAST_RESTART and is_from_zero and bool(times[-1] > times[0])
 
 
 def _joined(first: _Columns, second: _Columns) -> _Columns:
-    if not first:
-        return second
-    return {name: np.concatenate([first[name], second[name]]) for name in first}
+    return _concatenated([first, second]) if first else second
+
+
+def _concatenated(parts: list[_Columns]) -> _Columns:
+    if len(parts) == 1:
+        return parts[0]
+    return {name: np.concatenate([one[name] for one in parts]) for name in parts[0]}
 
 
 def valid_events(block: Columns, size: SensorSize, last_us: int) -> int:

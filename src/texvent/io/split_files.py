@@ -20,6 +20,8 @@ from texvent.video import MICROSECONDS
 TIMES, LABELS = "timestamps.txt", "labels.csv"
 """Files beside the events: the times between the intervals, or what each file shows."""
 MAX_BYTES = 64 * 2**20
+MAX_NAME = 60
+"""Characters of a folder's name: 240 bytes at most."""
 NAMES = {
     "label": ("label", "class", "action", "name"),
     "start": ("start",),
@@ -54,7 +56,11 @@ def read_intervals(path: Path) -> list[Interval]:
         raise InputError(f"no such file: {path}; give a text of times or a table of labels")
     text = path.read_bytes()[:MAX_BYTES].decode("utf-8-sig", errors="replace")
     lines = [line for line in text.splitlines() if line.strip() and not line.startswith("#")]
-    rows = [re.split(r"[,;\s]+", line.strip()) for line in lines]
+    delimiter = next((one for one in ",;\t" if lines and one in lines[0]), " ")
+    table = csv.reader((line.strip() for line in lines), delimiter=delimiter, skipinitialspace=True)
+    rows = [[word.strip() for word in row] for row in table]
+    if delimiter == " ":
+        rows = [[word for word in row if word] for row in rows]
     names = rows[0] if rows and not any(_is_number(word) for word in rows[0]) else None
     rows = rows[1:] if names is not None else rows
     if not rows:
@@ -72,12 +78,34 @@ def read_intervals(path: Path) -> list[Interval]:
     )
     labels = [row[places["label"]] for row in rows]
     for start_us, stop_us, label in zip(starts, stops, labels, strict=True):
-        if stop_us <= start_us or not re.fullmatch(r"[\w-]+", label):
+        if stop_us <= start_us or not re.search(r"\w", label):
             raise FileFormatError(
                 f"{path}: row {shown(label)}, {start_us}, {stop_us} µs: the stop must come after "
-                "the start, and a label is letters, digits, - and _"
+                "the start, and a label has a letter or a digit"
             )
+    _refuse_same_folders(path, labels)
     return [Interval(*row) for row in zip(starts, stops, labels, strict=True)]
+
+
+def folder_of(label: str) -> str:
+    """Name of the folder of a label: its letters and digits, - and _; others become _."""
+    return re.sub(r"[^\w-]", "_", label)[:MAX_NAME]
+
+
+def _refuse_same_folders(path: Path, labels: Sequence[str]) -> None:
+    """Refuse labels whose folders would have one name, also where case does not count.
+
+    Raises:
+        FileFormatError: there are some.
+    """
+    first: dict[str, str] = {}
+    for label in labels:
+        other = first.setdefault(folder_of(label).casefold(), label)
+        if other != label:
+            raise FileFormatError(
+                f"{path}: the labels {shown(other)} and {shown(label)} would have one folder, "
+                f"{shown(folder_of(label))}; rename one of them"
+            )
 
 
 def _label_places(names: Sequence[str] | None, row: Sequence[str]) -> dict[str, int] | None:
@@ -161,7 +189,7 @@ def write_split(
     with atomic_folder(folder, overwrite=overwrite, is_own=is_own) as part:
         for number, parts in split(events, intervals):
             label = intervals[number].label
-            place = part if label is None else part / label
+            place = part if label is None else part / folder_of(label)
             place.mkdir(exist_ok=True)
             cut = EventStream.concat([EventStream.empty(events.size), *parts])
             save(
@@ -170,14 +198,14 @@ def write_split(
             count += len(cut)
         if intervals[0].label is None:
             times = [intervals[0].start_us, *(one.stop_us for one in intervals)]
-            lines = [f"{t // MICROSECONDS}.{t % MICROSECONDS:06d}\n" for t in times]
+            lines = [f"{Decimal(t).scaleb(-6):f}\n" for t in times]
             (part / TIMES).write_text("".join(lines), encoding="utf-8")
         else:
             with (part / LABELS).open("w", encoding="utf-8", newline="") as file:
                 table = csv.writer(file)
                 table.writerow(["file", "label", "start_us", "stop_us"])
                 for number, one in enumerate(intervals):
-                    name = f"{one.label}/{_name(number, extension)}"
+                    name = f"{folder_of(one.label or '')}/{_name(number, extension)}"
                     table.writerow([name, one.label, one.start_us, one.stop_us])
     return count
 

@@ -19,12 +19,16 @@ from texvent.errors import FileFormatError, InputError, shown
 from texvent.events import COLUMN_TYPES, ID_COLUMNS
 from texvent.io.block_codec import TimedRows
 from texvent.io.block_writer import Columns
+from texvent.io.polarity import CODES, PolarityCode
 from texvent.io.reading import (
     ReadOptions,
     TimeUnit,
     UnknownLayoutError,
+    check_precision,
     check_rate,
     guess_unit,
+    sample_of,
+    stated_or_given,
     to_microseconds,
     unit_in_name,
 )
@@ -36,7 +40,7 @@ SPELLINGS = {
     "t": ("t", "ts", "timestamp", "timestamps", "time", "times", "stamp"),
     "x": ("x", "xs", "x_pos"),
     "y": ("y", "ys", "y_pos"),
-    "p": ("p", "ps", "pol", "polarity", "polarities"),
+    "p": ("p", "ps", "pol", "polarity", "polarities", "on", "is_on", "polarity_on"),
 }
 """Column → its names, in lower case, without `events_` before and a unit after them."""
 PAIRS = ("xy", "xys")
@@ -45,6 +49,8 @@ ORDERS = ("txyp", "xytp", "xypt")
 """Orders in which programs write rows of four numbers."""
 V2E, V2E_TYPE = "txyp", np.dtype("<u4")
 """Order and type of v2e's rows."""
+MORE_KINDS = {"t": "mM", "p": "SU"}
+"""Column → kinds of NumPy that it may have besides numbers: spans and dates, words."""
 SAMPLE_ROWS = 4096
 TABLE_OPTIONS = ("time_unit", "columns", "stream")
 """Options of reading that files of named columns take."""
@@ -94,7 +100,7 @@ def _fits(rows: NDArray[Any], order: str, size: SensorSize | None) -> bool:
         for values, limit in zip((x, y), limits, strict=True)
     )
     polarities = set(np.unique(p).tolist())
-    signs = polarities <= {0, 1} or polarities <= {-1, 1}
+    signs = any(polarities <= {*code} for code in CODES)
     return pixels and signs and bool((np.diff(t) >= 0).all())
 
 
@@ -106,15 +112,15 @@ class Column(NamedTuple):
     part: int | str | None = None
     """Number of the column in an array [n, k], or field of records; None: the array alone."""
 
-    def is_numeric(self, array: Array) -> bool:
-        """Whether an array has numbers at this place."""
+    def is_numeric(self, array: Array, more: str = "") -> bool:
+        """Whether an array has numbers at this place, or values of `more` kinds of NumPy."""
         shape, dtype = array.shape, array.dtype
         if isinstance(self.part, int):
             return len(shape) == 2 and self.part < shape[1] and dtype.kind in "biuf"
         if len(shape) != 1 and shape[1:] != (1,):
             return False
         kind = dtype if self.part is None else (dtype.fields or {}).get(self.part, (None,))[0]
-        return kind is not None and kind.kind in "biuf"
+        return kind is not None and kind.kind in "biuf" + more
 
     def of(self, rows: NDArray[Any]) -> NDArray[Any]:
         """The column of some rows, [n]."""
@@ -148,11 +154,11 @@ class EventTable:
         Raises:
             FileFormatError: one is missing, or shapes or types are wrong.
         """
-        for column in self.columns.values():
+        for name, column in self.columns.items():
             array = arrays.get(column.array)
             if array is None:
                 raise FileFormatError(f"{path} has no {column.array!r}")
-            if not column.is_numeric(array):
+            if not column.is_numeric(array, MORE_KINDS.get(name, "")):
                 raise FileFormatError(
                     f"{path}: {column.array} is {shown(array.dtype)} of shape "
                     f"{shown(array.shape)}; it must hold numbers, one row per event"
@@ -167,7 +173,7 @@ class EventTable:
         arrays: Mapping[str, Array],
         options: ReadOptions,
         *,
-        offset_us: int = 0,
+        offset: NDArray[Any] | None = None,
         block: int,
     ) -> TimedRows:
         """The events of checked arrays.
@@ -176,34 +182,43 @@ class EventTable:
             path: the file, for messages.
             arrays: name → array.
             options: the unit of time, where the file does not state it.
-            offset_us: added to all times, µs.
+            offset: added to all times, in their unit; [1].
             block: events of a packet.
 
         Raises:
-            FileFormatError: the times cannot be meant in the unit that they seem to have.
+            FileFormatError: the times cannot be meant in the unit that they seem to have, or the
+                polarities are of no code.
         """
-        place = self.columns["t"]
-        in_time = arrays[place.array]
+        in_time, in_p = (arrays[self.columns[name].array] for name in "tp")
+        of_time, of_p = self.columns["t"].of, self.columns["p"].of
         count = in_time.shape[0]
-        known = options.time_unit or self.unit
-        unit = known or guess_unit(place.of(np.asarray(in_time[:SAMPLE_ROWS])))
-
-        def in_us(stored: NDArray[Any]) -> NDArray[np.int64]:
-            times_us = to_microseconds(path, place.of(stored), unit)
-            return times_us + offset_us if offset_us else times_us
+        known = stated_or_given(path, self.unit, options)
+        unit = known or guess_unit(of_time(sample_of(in_time, count)))
+        offset_us = 0 if offset is None else int(to_microseconds(path, offset, unit)[0])
+        code = PolarityCode(path, of_p(sample_of(in_p, count)))
+        own = dict(self.extra)
+        if "label" in own and not (sample_of(arrays[own["label"]], count) <= 1).all():
+            del own["label"]  # classes of another program
 
         def times(start: int, stop: int) -> NDArray[np.int64]:
             return in_us(np.asarray(in_time[start:stop]))
 
+        def in_us(stored: NDArray[Any]) -> NDArray[np.int64]:
+            found = to_microseconds(path, of_time(stored), unit, is_guessed=known is None)
+            return found + offset_us if offset_us else found
+
         def read(start: int, stop: int) -> Columns:
             parts = {name: np.asarray(arrays[name][start:stop]) for name in self.arrays}
-            pixels = {
-                name: whole_numbers(path, self.columns[name].of(parts[self.columns[name].array]))
-                for name in "xyp"
+            stored = {
+                name: self.columns[name].of(parts[self.columns[name].array]) for name in "xyp"
             }
-            extra = {name: parts[array] for name, array in self.extra.items()}
-            return {**pixels, **extra, "t": in_us(parts[place.array])}
+            pixels = {name: whole_numbers(path, stored[name]) for name in "xy"}
+            extra = {name: parts[array] for name, array in own.items()}
+            t = in_us(parts[self.columns["t"].array])
+            return {**pixels, **extra, "p": code.binary(stored["p"]), "t": t}
 
+        if count:
+            check_precision(path, of_time(np.asarray(in_time[count - 1 : count])), unit)
         if known is None and count:
             check_rate(path, count, (int(times(0, 1)[0]), int(times(count - 1, count)[0])), unit)
         return TimedRows(count, lambda index: int(times(index, index + 1)[0]), read, block)
@@ -248,7 +263,7 @@ def _in_group(group: str, members: Mapping[str, Array]) -> list[EventTable]:
             unit = spelled(named["t"])[1]
             tables.append(EventTable(f"{prefix}{leaf}", columns, unit))
     leaves: dict[str | None, str] = {}
-    for leaf, array in members.items():
+    for leaf, array in sorted(members.items(), key=lambda one: len(one[0])):  # t before time
         column = spelled(leaf)[0]
         if column is not None and array.shape and not array.dtype.names:
             leaves.setdefault(column, leaf)
@@ -266,11 +281,17 @@ def _optional_columns(members: Mapping[str, Array]) -> tuple[str, ...]:
     """Names of the columns besides x, y, t, p that a group has.
 
     Arrays of other programs may have the name of our ids: they count only if they have their type.
+    A label that is not one number per event is the class of the whole sample.
     """
+    counts = [
+        one.shape[0] for leaf, one in members.items() if spelled(leaf)[0] == "t" and one.shape
+    ]
     has_ids = all(
         name in members and members[name].dtype == COLUMN_TYPES[name] for name in ID_COLUMNS
     )
-    label = ("label",) if "label" in members else ()
+    found = members.get("label")
+    is_whole = found is not None and found.dtype.kind in "biu"
+    label = ("label",) if is_whole and members["label"].shape == tuple(counts[:1]) else ()
     return (*label, *(ID_COLUMNS if has_ids else ()))
 
 
@@ -294,7 +315,8 @@ def _rows_of_four(
             rows, default = flat[name][:SAMPLE_ROWS], V2E if flat[name].dtype == V2E_TYPE else None
             order = options.order or certain_order(path, rows, options.size, default)
             columns = {column: Column(name, order.index(column)) for column in "xytp"}
-            tables.append(EventTable(name, columns))
+            unit: TimeUnit | None = "us" if default else None
+            tables.append(EventTable(name, columns, unit))
     return tables
 
 

@@ -7,8 +7,8 @@ line, times in whole µs, polarity 0/1.
 
 Read is every dialect of these, whatever the extension: separated by spaces, tabs, commas or
 semicolons; comment lines; a first line of the sensor's size; a line that names the columns, with a
-unit or without; polarity as 0/1, -1/+1 or true/false; columns in any order that the names or the
-values make certain. Times with decimals are seconds, whole ones µs.
+unit or without; polarity in numbers or words (`polarity.py`); columns in any order that the names
+or the values make certain. Times with decimals are seconds, whole ones µs.
 
 The rows hold neither the sensor size nor how the events were made, so texvent writes both beside
 the file, in `NAME.txt.json`. Any other file needs the size from the caller; it is never guessed
@@ -20,10 +20,12 @@ Speed and High Dynamic Range Video with an Event Camera, 2019.
 
 from __future__ import annotations
 
+import codecs
 import io
 import re
 import zipfile
-from collections.abc import Callable, Iterator, Mapping
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, replace
 from decimal import Decimal, InvalidOperation
@@ -34,17 +36,21 @@ from typing import Any, BinaryIO, ClassVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, shown, warn
 from texvent.io.block_codec import BlockCodec, FileContents, write_records
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
-from texvent.io.input_checks import ZIP_DAMAGE, check_zip, reporting_damage
+from texvent.io.compressed import DAMAGE, unpacker_of
+from texvent.io.input_checks import ZIP_DAMAGE, begins_with, check_zip, reporting_damage
 from texvent.io.metadata import read_sidecar
+from texvent.io.polarity import WORDS, PolarityCode
 from texvent.io.reading import (
     MICROSECONDS,
     PER_SECOND,
     ReadOptions,
     TimeUnit,
     check_rate,
+    refuse_fractions,
+    stated_or_given,
     unit_in_name,
 )
 from texvent.io.tables import certain_order, find_columns, whole_numbers
@@ -57,8 +63,8 @@ STOP_US = 1 << 63
 """Exclusive upper limit of event times, µs."""
 EXACT = 2**52
 """Below this float64 keeps a whole number, and a time in seconds its µs if it is 2^20 smaller."""
-BOOLEANS = ((b"True", b"1"), (b"true", b"1"), (b"TRUE", b"1"), (b"False", b"0"), (b"false", b"0"),
-            (b"FALSE", b"0"))  # fmt: skip
+WORD = re.compile(rb"(?<![^\s,;])([a-z]+|[+-])(?![^\s,;])", re.IGNORECASE)
+"""A value that may be a word of polarity."""
 SIZE_LINE = rb"\s*(\d{1,9})\s+(\d{1,9})\s*"
 COMMENTS = ("#", "%", "//")
 
@@ -134,14 +140,15 @@ class Dialect:
     size: tuple[int, int] | None
     """Sensor size of a first line `width height`."""
     has_words: bool
-    """Whether values are written as true and false."""
+    """Whether polarity is written in words."""
+    code: PolarityCode
 
     @property
     def rows(self) -> str:
         """Expected form of a row, for messages."""
         names = {place: name for name, place in self.places.items()}
         order = (self.delimiter or " ").join(names.get(at, "_") for at in range(self.width))
-        return f"rows of {self.width} numbers `{order}`, t in {self.unit}, polarity 0/1 or -1/+1"
+        return f"rows of {self.width} numbers `{order}`, t in {self.unit}, polarity such as 0/1"
 
     def parse(self, path: Path, block: bytes) -> Columns:
         """Columns of a block of rows.
@@ -149,9 +156,7 @@ class Dialect:
         Raises:
             FileFormatError: a row is of another form.
         """
-        for word, digit in BOOLEANS if self.has_words else ():
-            block = block.replace(word, digit)
-        block = _without_comments(block)
+        block = _plain_values(_without_comments(block), has_words=self.has_words)
         parse = partial(parse_table, block, path, rows=self.rows, delimiter=self.delimiter)
         table = parse(comments=None)
         if table.size == 0:
@@ -159,11 +164,14 @@ class Dialect:
         if table.shape[1] != self.width:
             raise FileFormatError(f"{path} has rows of {table.shape[1]} values, not {self.rows}")
         values = {name: table[:, place] for name, place in self.places.items()}
-        whole = {name: whole_numbers(path, values[name]) for name in values if name != "t"}
+        whole = {name: whole_numbers(path, values[name]) for name in values if name not in "tp"}
+        whole["p"] = self.code.binary(values["p"])
         seconds = np.abs(values["t"]) / PER_SECOND[self.unit]
         if not (seconds <= STOP_US / MICROSECONDS).all():
             raise FileFormatError(f"{path} holds times that are no numbers of {self.unit}")
         scale = MICROSECONDS / PER_SECOND[self.unit]
+        if not self.is_stated and scale == 1:
+            refuse_fractions(path, values["t"])
         if (np.abs(values["t"]) < EXACT / max(1, scale)).all():
             rounded = np.floor if scale < 1 else np.rint
             return {**whole, "t": rounded(values["t"] * scale).astype(np.int64)}
@@ -189,7 +197,7 @@ class Dialect:
             return self.parse(path, b"\n".join(sound))
 
     def _is_row(self, row: bytes) -> bool:
-        words = [word.strip() for word in row.decode("latin-1").split(self.delimiter)]
+        words = _words(row.decode("latin-1"), self.delimiter)
         return len(words) == self.width and all(map(_is_value, words))
 
 
@@ -198,7 +206,9 @@ def _exact_us(word: str, *, unit: TimeUnit) -> int:
     return int(value) if unit == "ns" else round(value)
 
 
-def find_dialect(path: Path, sample: bytes, options: ReadOptions, default: str) -> Dialect:
+def find_dialect(
+    path: Path, sample: bytes, options: ReadOptions, default: str, later: Sequence[bytes] = ()
+) -> Dialect:
     """The dialect of a text.
 
     Args:
@@ -206,6 +216,7 @@ def find_dialect(path: Path, sample: bytes, options: ReadOptions, default: str) 
         sample: its beginning, which ends with a whole line.
         options: unit and columns, where the text does not say them.
         default: order of unnamed columns where several are possible.
+        later: more samples, from its middle and end, which begin and end somewhere.
 
     Raises:
         InputError: the order of the columns is not certain.
@@ -221,28 +232,31 @@ def find_dialect(path: Path, sample: bytes, options: ReadOptions, default: str) 
     if match is not None:
         size = int(match[1]), int(match[2])
         start, at = start + len(lines[at]) + 1, at + 1
-    line = lines[at].decode("latin-1") if at < len(lines) else ""
-    delimiter = next((one for one in ",;" if one in line), None)
-    words = [word.strip().strip('"') for word in (line.split(delimiter))]
-    names = None if any(map(_is_value, words)) or not line.strip() else words
+    line = lines[at].decode("utf-8", errors="replace") if at < len(lines) else ""
+    delimiter = next((one for one in ";," if one in line), None)
+    words = _words(line, delimiter)
+    names = None if any(map(_is_number, words)) or not line.strip() else words
     if names is not None:
         start, at = start + len(lines[at]) + 1, at + 1
-    rows = [one.decode("latin-1") for one in lines[at : at + SAMPLE_ROWS] if one.strip()]
-    rows = [one for one in rows if not one.lstrip().startswith(COMMENTS)]
-    first = [word.strip() for word in rows[0].split(delimiter)] if rows else words
-    places = _places(path, rows, delimiter, names, options, size, default)
-    time = [one.split(delimiter)[places["t"]] for one in rows if len(one.split(delimiter)) > 3]
-    is_whole = bool(time) and all(re.fullmatch(r"\s*[-+]?\d+\s*", word) for word in time)
-    stated = options.time_unit or (unit_in_name(names[places["t"]])[1] if names else None)
+    text = b"\n".join([*lines[at : at + SAMPLE_ROWS], *(one[one.find(b"\n") :] for one in later)])
+    rows = _sound_rows(path, text, delimiter, None if names is None else len(names))
+    places = _places(path, rows, names, options, size, default)
+    times, polarities = (
+        [row[places[name]] for row in rows if len(row) > places[name]] for name in "tp"
+    )
+    named = unit_in_name(names[places["t"]])[1] if names else None
+    stated = stated_or_given(path, named, options)
+    _check_digits(path, times, stated or "us")
     return Dialect(
         delimiter,
-        len(names or first),
+        len(names or (rows[0] if rows else words)),
         places,
-        stated or ("us" if is_whole else "s"),
+        stated or ("us" if times and all(map(_is_whole, times)) else "s"),
         stated is not None,
         start,
         size,
-        any(word.lower() in ("true", "false") for word in first),
+        any(word.lower() in WORDS for word in polarities),
+        PolarityCode(path, np.array(polarities, dtype=str)),
     )
 
 
@@ -261,16 +275,91 @@ def _is_comment(line: bytes) -> bool:
 
 
 def _is_value(word: str) -> bool:
+    return _is_number(word) or word.lower() in WORDS
+
+
+def _is_number(word: str) -> bool:
     try:
         return Decimal(word).is_finite()
     except InvalidOperation:
-        return word.lower() in ("true", "false")
+        return False
+
+
+def _is_whole(word: str) -> bool:
+    """Whether a time is a whole number: 0.000 is one of seconds, 1.6e9 one of µs."""
+    if not _is_number(word) or ("." in word and "e" not in word.lower()):
+        return False
+    return Decimal(word) == Decimal(word).to_integral_value()
+
+
+def _words(line: str, delimiter: str | None) -> list[str]:
+    return [word.strip().strip("\"'").strip() for word in line.split(delimiter)]
+
+
+def _plain_values(text: bytes, *, has_words: bool) -> bytes:
+    """Rows of numbers without quotes, with words of polarity as numbers."""
+    text = text.replace(b'"', b"").replace(b"'", b"") if b'"' in text or b"'" in text else text
+    if not has_words:
+        return text
+    found = partial(_number_of, default=b"nan")
+    return WORD.sub(found, text)
+
+
+def _number_of(match: re.Match[bytes], default: bytes) -> bytes:
+    number = WORDS.get(match[1].decode().lower())
+    return default if number is None else b"%d" % number
+
+
+def _as_number(word: str) -> float:
+    return float(WORDS.get(word.lower(), "nan")) if not _is_number(word) else float(word)
+
+
+def _sound_rows(
+    path: Path, text: bytes, delimiter: str | None, width: int | None
+) -> list[list[str]]:
+    """Values of the rows of a sample that are like most; others are damage, found when read.
+
+    Args:
+        path: the file, for messages.
+        text: the sample.
+        delimiter: between values.
+        width: values per row, where known.
+
+    Raises:
+        FileFormatError: numbers are written with commas in them.
+    """
+    lines = _without_comments(text).decode("latin-1").split("\n")
+    rows = [_words(line, delimiter) for line in lines if line.strip()]
+    with_comma = next((word for row in rows for word in row if "," in word), None)
+    if delimiter == ";" and with_comma is not None:
+        raise FileFormatError(
+            f"{path} writes numbers with commas ({shown(with_comma)}); write them with points, and "
+            "without separators of thousands"
+        )
+    sound = [row for row in rows if all(map(_is_value, row))]
+    widths = Counter(map(len, sound)).most_common(1)
+    usual = width or (widths[0][0] if widths else 0)
+    return [row for row in sound if len(row) == usual] or rows[:1]
+
+
+def _check_digits(path: Path, times: list[str], unit: TimeUnit) -> None:
+    """Warn of times such as 1.6e+09 whose digits do not reach the µs."""
+    for word in times:
+        digits, _, power = word.lower().partition("e")
+        if power and _is_number(word):
+            decimals = len(digits.partition(".")[2])
+            step_us = Decimal(10) ** (int(power) - decimals) * MICROSECONDS / PER_SECOND[unit]
+            if 1 < step_us < STOP_US and Decimal(digits):
+                warn(
+                    f"{path}: its times, such as {shown(word)}, have steps of {step_us:g} µs; "
+                    "write all their digits"
+                )
+                return
 
 
 def _places(
     path: Path,
-    rows: list[str],
-    delimiter: str | None,
+    rows: list[list[str]],
     names: list[str] | None,
     options: ReadOptions,
     size: tuple[int, int] | None,
@@ -288,18 +377,28 @@ def _places(
         raise FileFormatError(f"{path} does not name its columns; give their order (t,x,y,p)")
     order = options.order
     if order is None:
-        sample = "\n".join(rows).encode("latin-1")
-        for word, digit in BOOLEANS:
-            sample = sample.replace(word, digit)
-        table = parse_table(sample, path, delimiter=delimiter, comments=None)
-        if table.size and table.shape[1] != 4:
+        table = np.array([[_as_number(word) for word in row] for row in rows])
+        if table.size and (table.ndim != 2 or table.shape[1] != 4):
             raise FileFormatError(
-                f"{path} has rows of {table.shape[1]} values without names; name the columns "
+                f"{path} has rows of {len(rows[0])} values without names; name the columns "
                 "(--columns t,x,y,p,_ in the order of the file)"
             )
         known = options.size or (None if size is None else SensorSize(*size))
         order = tuple(certain_order(path, table, known, default)) if table.size else tuple(default)
     return {name: order.index(name) for name in (*"txyp", "label") if name in order}
+
+
+def _later_samples(file: BinaryIO) -> list[bytes]:
+    """Texts of the middle and of the end of a file; none where one can only read on."""
+    if not isinstance(file, io.BufferedReader):
+        return []
+    length = file.seek(0, io.SEEK_END)
+    found = []
+    for start in (length // 2, length - SAMPLE_BYTES // 4):
+        file.seek(max(start, SAMPLE_BYTES))
+        text = file.read(SAMPLE_BYTES // 4)
+        found.append(text[: text.rfind(b"\n") + 1])
+    return found
 
 
 class TextCodec(BlockCodec):
@@ -317,14 +416,22 @@ class TextCodec(BlockCodec):
         size, metadata = read_sidecar(path)
         with self.open_text(path) as file:
             sample = file.read(SAMPLE_BYTES)
+            later = _later_samples(file) if len(sample) == SAMPLE_BYTES else []
+        if sample[:2] in (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE):
+            raise FileFormatError(f"{path} is text of UTF-16; save it as UTF-8")
         if b"\0" in sample:
-            raise FileFormatError(f"{path} is not a text of events; it holds binary data")
+            hint = f"; unpack it (unzip {path.name})" if begins_with(path, b"PK") else ""
+            raise FileFormatError(f"{path} is not a text of events; it holds binary data{hint}")
+        if b"\r" in sample and b"\n" not in sample:
+            raise FileFormatError(
+                f"{path} ends its lines by CR alone; rewrite them: tr '\\r' '\\n' < {path.name}"
+            )
         if len(sample) == SAMPLE_BYTES:
             sample = sample[: sample.rfind(b"\n") + 1] or sample
         sized = (
             options if options.size or size is None else replace(options, size=SensorSize(*size))
         )
-        dialect = find_dialect(path, sample, sized, self.default)
+        dialect = find_dialect(path, sample, sized, self.default, later)
         left_out: list[int] = []
         parse = dialect.parse
         if options.repair:
@@ -332,24 +439,35 @@ class TextCodec(BlockCodec):
         blocks = partial(self._read, path, dialect, parse)
         return FileContents(size or dialect.size, metadata, blocks, left_out=left_out)
 
-    def open_text(self, path: Path) -> AbstractContextManager[BinaryIO]:
-        """The text, open to read."""
-        return path.open("rb")
+    @contextmanager
+    def open_text(self, path: Path) -> Iterator[BinaryIO]:
+        """The text, open to read; of a compressed file unpacked on the way."""
+        unpacker = unpacker_of(path)
+        if unpacker is None:
+            with path.open("rb") as file:
+                yield file
+            return
+        with reporting_damage(path, "a compressed text", DAMAGE), unpacker(path) as unpacked:
+            yield unpacked
 
     def _read(
         self, path: Path, dialect: Dialect, parse: Callable[[Path, bytes], Columns]
     ) -> Iterator[Columns]:
-        first_us = count = 0
+        first_us = last_us = count = 0
         with self.open_text(path) as file:
             file.read(dialect.start)
             for block in read_text_blocks(file):
                 columns = parse(path, block)
                 times = columns["t"]
-                if not dialect.is_stated and len(times):
+                if len(times):
                     first_us = int(times[0]) if count == 0 else first_us
+                    last_us = int(times[-1])
                     count += len(times)
-                    check_rate(path, count, (first_us, int(times[-1])), dialect.unit)
+                    if not dialect.is_stated:
+                        check_rate(path, count, (first_us, last_us), dialect.unit, is_all=False)
                 yield columns
+        if not dialect.is_stated and count:
+            check_rate(path, count, (first_us, last_us), dialect.unit)
 
 
 class EcdCodec(TextCodec):

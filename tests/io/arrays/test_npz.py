@@ -27,7 +27,7 @@ def test_plain_numpy_finds_the_columns(tmp_path: Path) -> None:
 def test_pickled_objects_are_refused_because_they_could_run_code(tmp_path: Path) -> None:
     path = tmp_path / "events.npz"
     np.savez(path, x=np.array([{}], dtype=object), y=[0], t=[0], p=[0])
-    with pytest.raises(FileFormatError, match="damaged or not a NumPy archive"):
+    with pytest.raises(FileFormatError, match=r"x is dtype\('O'\).*must hold numbers"):
         load(path, size=(4, 4))
 
 

@@ -71,10 +71,10 @@ def test_a_file_without_a_last_newline_is_whole(tmp_path: Path) -> None:
     ("text", "message"),
     [
         ("0.1 1 1\n", "rows of 3 values without names"),
-        ("0.1 1 1 on\n", "not text rows"),
-        ("0.1 1 1 1\n0.2 1\n", "not text rows"),
+        ("0.1 1 1 maybe\n", "polarity holds 'maybe'"),
+        ("0.1 1 1 1\n0.2 1\n", "not rows of 4 numbers.*--repair"),
         ("nan 1 1 1\n", "no numbers of s"),
-        ("1e30 1 1 1\n", "no numbers of s"),
+        ("1e30 1 1 1\n", "no numbers of us"),
         ("9223372036854.775808 1 1 1\n", "not rows of 4 numbers"),
         ("0.1 1.5 1 1\n", "not whole numbers"),
         ("0.1 4 1 1\n", "x runs from 4 to 4"),

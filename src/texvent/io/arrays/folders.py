@@ -29,7 +29,7 @@ from typing import Any, ClassVar
 
 from texvent.errors import FileFormatError, shown
 from texvent.io.arrays.npy_file import StoredArray
-from texvent.io.arrays.npz import read_arrays
+from texvent.io.arrays.npz import open_arrays
 from texvent.io.block_codec import BlockReader, FileContents, already_open, contents_of_rows
 from texvent.io.block_writer import Columns
 from texvent.io.metadata import metadata_from_json, parse_sidecar
@@ -119,7 +119,7 @@ def _is_empty_recording(path: Path) -> bool:
 
 def _read_blocks(path: Path) -> Iterator[Columns]:
     for file in _numbered(path):
-        arrays = read_arrays(file)
+        arrays = open_arrays(file)
         if "t" in arrays and arrays["t"].dtype.kind not in "iu":
             raise FileFormatError(
                 f"{file}: t is {arrays['t'].dtype}; ESIM writes whole nanoseconds"

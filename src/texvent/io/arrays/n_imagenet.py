@@ -24,6 +24,7 @@ from texvent.io.arrays.npz import NpzCodec, array_names
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.files import load
 from texvent.io.metadata import metadata_to_json
+from texvent.io.reading import TimeUnit
 from texvent.sensor import SensorSize
 
 ARRAY = "event_data"
@@ -37,6 +38,7 @@ class NImageNetCodec(NpzCodec):
 
     name: ClassVar[str] = "n-imagenet"
     limits: ClassVar[FormatLimits] = FormatLimits("N-ImageNet npz", 1 << 16, 1 << 63)
+    unit: ClassVar[TimeUnit | None] = "us"
 
     def recognises(self, path: Path) -> bool:
         """True if it is an archive with an array event_data."""

@@ -9,7 +9,7 @@ import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any, BinaryIO
+from typing import IO, Any
 
 import numpy as np
 from numpy.lib import format as npy_format
@@ -71,7 +71,7 @@ class StoredArray:
     def __init__(self, path: Path) -> None:
         self.path = path
         with reporting_damage(path, "a NumPy array", NPY_DAMAGE), path.open("rb") as file:
-            shape, self._is_fortran, self.dtype = _read_header(file)
+            shape, self._is_fortran, self.dtype = read_header(file)
             self._start = file.tell()
             stored = os.fstat(file.fileno()).st_size - self._start
         self.shape: tuple[int, ...] = shape
@@ -126,8 +126,8 @@ class StoredArray:
         return whole
 
 
-def _read_header(file: BinaryIO) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
-    """Shape, whether columns are stored one after another, and type."""
+def read_header(file: IO[bytes]) -> tuple[tuple[int, ...], bool, np.dtype[Any]]:
+    """Shape, whether columns are stored one after another, and type of an open .npy file."""
     version = npy_format.read_magic(file)
     with warnings.catch_warnings():
         # Files of Python 2 are read all the same.

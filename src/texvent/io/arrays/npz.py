@@ -15,7 +15,7 @@ from __future__ import annotations
 import tokenize
 import zipfile
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -26,7 +26,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown, warn
 from texvent.events import COLUMN_TYPES
-from texvent.io.arrays.npy_file import StoredArray
+from texvent.io.arrays.npy_file import StoredArray, read_header
 from texvent.io.block_codec import (
     BlockCodec,
     BlockReader,
@@ -52,6 +52,8 @@ from texvent.sensor import SensorSize
 BLOCK_EVENTS = 2**18
 FIXED_POINT = 32
 """Steps of a pixel in the coordinates of BS-ERGB."""
+FAR_BEYOND = 4
+"""So many times the sensor's size is no sensor given wrongly."""
 
 NPZ_DAMAGE = (
     *ZIP_DAMAGE,
@@ -76,15 +78,17 @@ class NpzCodec(BlockCodec):
     )
 
     takes: ClassVar[tuple[str, ...]] = TABLE_OPTIONS
+    unit: ClassVar[TimeUnit | None] = None
+    """Unit of time where the file states none."""
 
     def recognises(self, path: Path) -> bool:
         """True if it is a zip archive of arrays."""
         return begins_with(path, b"PK") and bool(array_names(path))
 
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
-        """The archive's arrays, all in memory."""
-        arrays = read_arrays(path)
-        unit = stated_unit(path, arrays.get("timestamp_scale_ms"))
+        """The archive's arrays of events, in memory."""
+        arrays = open_arrays(path)
+        unit = stated_unit(path, arrays.get("timestamp_scale_ms")) or self.unit
         return stored_contents(path, arrays, options, unit=unit)
 
     @contextmanager
@@ -105,26 +109,64 @@ class NpzCodec(BlockCodec):
             np.savez(file, **arrays)
 
 
-def read_arrays(path: Path) -> dict[str, Any]:
-    """Every array of the archive; pickled objects are refused, since they could run code.
+class ArchivedArray:
+    """An array of an archive, whose values are read when they are asked for.
+
+    So arrays that hold Python objects, which could run code, or that are large do no harm where
+    they are not needed.
+    """
+
+    def __init__(self, path: Path, name: str) -> None:
+        self._path, self._name = path, name
+        self._values: NDArray[Any] | None = None
+        with (
+            self._reporting_damage(),
+            zipfile.ZipFile(path) as archive,
+            archive.open(f"{name}.npy") as file,
+        ):
+            self.shape, _, self.dtype = read_header(file)
+
+    def __getitem__(self, rows: slice) -> NDArray[Any]:
+        """The rows of a slice."""
+        return self.__array__()[rows]
+
+    def __array__(self, *how: Any, **more: Any) -> NDArray[Any]:
+        """All values.
+
+        Raises:
+            FileFormatError: they are damaged, or Python objects.
+        """
+        if self._values is None:
+            with self._reporting_damage(), self._path.open("rb") as file:
+                self._values = _checked(np.load(file)[self._name], self._name, self._path)
+        return np.asarray(self._values, *how, **more)
+
+    def _reporting_damage(self) -> AbstractContextManager[None]:
+        return reporting_damage(self._path, "a NumPy archive", NPZ_DAMAGE)
+
+
+def open_arrays(path: Path) -> dict[str, ArchivedArray]:
+    """Every array of the archive, unread.
 
     Raises:
         FileFormatError: the archive is damaged, no archive, or would fill the memory.
     """
     # NumPy takes anything else for a pickle, and advises to load it "unsafely".
-    if not begins_with(path, b"PK") and not begins_with(path, b"\x93NUMPY"):
+    if begins_with(path, b"\x93NUMPY"):
+        raise FileFormatError(f"{path} holds a single NumPy array, not an archive")
+    if not begins_with(path, b"PK"):
         raise FileFormatError(
             f"{path} is not a NumPy archive: it does not begin as a zip file does"
         )
-    # Opened here, because np.load leaves a damaged file open.
-    with reporting_damage(path, "a NumPy archive", NPZ_DAMAGE), path.open("rb") as file:
-        archive = np.load(file, allow_pickle=False)
-        if not isinstance(archive, np.lib.npyio.NpzFile):
-            raise FileFormatError(f"{path} holds a single NumPy array, not an archive")
-        with archive:
-            with zipfile.ZipFile(path) as contents:
-                check_zip(path, contents)
-            return {name: _checked(archive[name], name, path) for name in archive.files}
+    with reporting_damage(path, "a NumPy archive", NPZ_DAMAGE), zipfile.ZipFile(path) as archive:
+        check_zip(path, archive)
+        names = archive.namelist()
+    return {name[:-4]: ArchivedArray(path, name[:-4]) for name in names if name.endswith(".npy")}
+
+
+def read_arrays(path: Path) -> dict[str, NDArray[Any]]:
+    """Every array of the archive; errors as of `open_arrays` and of reading each."""
+    return {name: np.asarray(one) for name, one in open_arrays(path).items()}
 
 
 def _checked(member: Any, name: str, path: Path) -> NDArray[Any]:
@@ -165,12 +207,13 @@ def stored_contents(
         size = _read_whole(path, arrays["width"]), _read_whole(path, arrays["height"])
     metadata: dict[str, Any] = {}
     if "texvent" in arrays:
-        metadata = metadata_from_json(path, str(arrays["texvent"]))
+        metadata = metadata_from_json(path, str(np.asarray(arrays["texvent"])))
     tables = find_tables(path, arrays, options)
     table = tables[choose(path, [one.name for one in tables], options.stream)]
     table = replace(table, unit=table.unit or unit)
     table.check(path, arrays)
-    rows = table.rows(path, arrays, options, block=BLOCK_EVENTS)
+    used = {name: np.asarray(arrays[name]) for name in table.arrays}
+    rows = table.rows(path, used, options, block=BLOCK_EVENTS)
     return FileContents(size, metadata, partial(_one_block, path, rows, options.size))
 
 
@@ -179,9 +222,9 @@ def _one_block(path: Path, rows: TimedRows, size: SensorSize | None) -> Iterator
     columns = rows.read(0, rows.count)
     if size is not None and rows.count:
         largest = [int(columns[name].max()) for name in "xy"]
-        is_beyond = any(one >= limit for one, limit in zip(largest, size, strict=True))
-        if is_beyond and all(
-            one // FIXED_POINT < limit for one, limit in zip(largest, size, strict=True)
+        if all(
+            limit * FAR_BEYOND <= one < limit * FIXED_POINT
+            for one, limit in zip(largest, size, strict=True)
         ):
             warn(
                 f"{path} holds coordinates up to {largest[0]}, {largest[1]} on a sensor of {size}; "
@@ -191,7 +234,8 @@ def _one_block(path: Path, rows: TimedRows, size: SensorSize | None) -> Iterator
     yield columns
 
 
-def _read_whole(path: Path, value: NDArray[Any]) -> int:
+def _read_whole(path: Path, stored: Any) -> int:
+    value = np.asarray(stored)
     if value.size != 1 or value.dtype.kind not in "iu":
         raise FileFormatError(
             f"{path}: width and height must be whole numbers; one is {shown(value)}"

@@ -1,6 +1,6 @@
 """Parquet, which is read: columns in any order under the names that CSV files have.
 
-Times are µs, unless a name states their unit. The schema's metadata may hold width, height and
+Times without a unit are judged as those of arrays. The schema's metadata may hold width, height and
 texvent (all metadata as JSON). Needs pyarrow: the extra `parquet`.
 """
 
@@ -12,14 +12,24 @@ from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
+from numpy.typing import NDArray
+
 from texvent._require import require
 from texvent.errors import FileFormatError
 from texvent.io.block_codec import BlockReader, FileContents
 from texvent.io.block_writer import Columns
 from texvent.io.input_checks import begins_with, reporting_damage
 from texvent.io.metadata import metadata_from_json
-from texvent.io.reading import ReadOptions, TimeUnit, to_microseconds
-from texvent.io.tables import find_columns, spelled
+from texvent.io.polarity import PolarityCode
+from texvent.io.reading import (
+    ReadOptions,
+    check_precision,
+    check_rate,
+    guess_unit,
+    stated_or_given,
+    to_microseconds,
+)
+from texvent.io.tables import find_columns, spelled, whole_numbers
 
 PACKET_EVENTS = 2**18
 EXTRA = "parquet"
@@ -50,7 +60,7 @@ class ParquetCodec(BlockReader):
         metadata: dict[str, Any] = {}
         if b"texvent" in facts:
             metadata = metadata_from_json(path, facts[b"texvent"])
-        return FileContents(size, metadata, partial(_read_blocks, path, order, options.time_unit))
+        return FileContents(size, metadata, partial(_read_blocks, path, order, options))
 
 
 @contextmanager
@@ -66,14 +76,32 @@ def _open_table(path: Path) -> Iterator[Any]:
         yield table
 
 
-def _read_blocks(
-    path: Path, order: Mapping[str, str], time_unit: TimeUnit | None
-) -> Iterator[Columns]:
-    unit = time_unit or spelled(order["t"])[1] or "us"
+def _read_blocks(path: Path, order: Mapping[str, str], options: ReadOptions) -> Iterator[Columns]:
+    known = stated_or_given(path, spelled(order["t"])[1], options)
     with _open_table(path) as table:
+        ends = {name: _ends(table, column) for name, column in order.items() if name in "tp"}
+        unit = known or guess_unit(ends["t"])
+        in_us = partial(to_microseconds, path, unit=unit, is_guessed=known is None)
+        code = PolarityCode(path, ends["p"])
+        check_precision(path, ends["t"][-1:], unit)
+        if known is None and len(ends["t"]):
+            first_us, last_us = in_us(ends["t"])[[0, -1]].tolist()
+            check_rate(path, table.metadata.num_rows, (first_us, last_us), unit)
         for batch in table.iter_batches(PACKET_EVENTS, columns=list(order.values())):
-            columns = {
-                name: batch.column(column).to_numpy(zero_copy_only=False)
-                for name, column in order.items()
-            }
-            yield {**columns, "t": to_microseconds(path, columns["t"], unit)}
+            stored = {name: _values(batch, column) for name, column in order.items()}
+            pixels = {name: whole_numbers(path, stored[name]) for name in "xy"}
+            yield {**pixels, "p": code.binary(stored["p"]), "t": in_us(stored["t"])}
+
+
+def _values(batch: Any, column: str) -> NDArray[Any]:
+    values: NDArray[Any] = batch[column].to_numpy(zero_copy_only=False)
+    return values
+
+
+def _ends(table: Any, column: str) -> NDArray[Any]:
+    """Values of the first, middle and last group of rows."""
+    last = table.num_row_groups - 1
+    groups = sorted({0, max(last // 2, 0), max(last, 0)})
+    parts = table.read_row_groups(groups if last >= 0 else [], columns=[column])
+    found: NDArray[Any] = parts[column].to_numpy()
+    return found

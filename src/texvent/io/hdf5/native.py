@@ -42,7 +42,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError, shown
+from texvent.errors import FileFormatError, InputError, shown
 from texvent.events import COLUMN_TYPES, OPTIONAL_COLUMNS
 from texvent.io.block_codec import BlockCodec, FileContents, TimedRows, contents_of_rows
 from texvent.io.block_writer import BlockWriter, Columns, FileTarget, FormatLimits, WriteBlock
@@ -76,7 +76,7 @@ COLUMN_FORMATS: Mapping[str, str] = {"x": "<u2", "y": "<u2", "t": "<i8", "p": "|
 MOST_ARRAYS = 10_000
 """A file with more data sets is no recording."""
 OFFSET = "t_offset"
-"""Name of a single value, µs, that is added to the times of its group."""
+"""Name of a single value that is added to the times of its group."""
 RESERVED = ("width", "height", "timestamp_scale_ms", "texvent")
 
 
@@ -180,7 +180,7 @@ class Hdf5Codec(BlockCodec):
         try:
             with open_hdf5(path) as file:
                 return "CD/events" not in file
-        except FileFormatError:
+        except InputError:  # damaged, or open elsewhere
             return True
 
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:
@@ -243,6 +243,8 @@ def _find_table(file: Any, path: Path, options: ReadOptions) -> tuple[EventTable
     attributes = arrays[table.columns["t"].array].attrs
     unit = table.unit or stated_unit(path, file.attrs.get("timestamp_scale_ms"))
     unit = unit or unit_in_words(attributes.get("unit", attributes.get("units")))
+    if unit is None and any("ms_to_idx" in group for group in _groups_of(file, table)):
+        unit = "us"  # DSEC's
     return replace(table, unit=unit), used
 
 
@@ -261,23 +263,22 @@ def _open_rows(path: Path, options: ReadOptions) -> Iterator[TimedRows]:
     """Not by ms_to_idx: files of others lack it or have it in other units."""
     with open_hdf5(path) as file:
         table, arrays = _find_table(file, path, options)
-        offset_us = next(
-            (_time_offset(one, path) for one in _groups_of(file, table) if OFFSET in one), 0
-        )
-        yield table.rows(path, arrays, options, offset_us=offset_us, block=PACKET_EVENTS)
+        groups = (one for one in _groups_of(file, table) if OFFSET in one)
+        offset = next((_time_offset(one, path) for one in groups), None)
+        yield table.rows(path, arrays, options, offset=offset, block=PACKET_EVENTS)
 
 
-def _time_offset(group: Any, path: Path) -> int:
-    """Time that is added to those of a group, µs."""
+def _time_offset(group: Any, path: Path) -> NDArray[np.int64]:
+    """Time that is added to those of a group, in their unit, [1]."""
     value = group[OFFSET]
     if value.size != 1 or value.dtype.kind not in "iu":
         raise FileFormatError(f"{path}: {OFFSET} must be one whole number; it is {shown(value)}")
-    offset_us = int(np.asarray(value[()]).reshape(-1)[0])
-    if OFFSET in group.attrs and _whole_attribute(group, OFFSET) != offset_us:
+    offset = np.asarray(value[()]).reshape(-1).astype(np.int64)
+    if OFFSET in group.attrs and _whole_attribute(group, OFFSET) != offset[0]:
         raise FileFormatError(
-            f"{path} is damaged: {OFFSET} is {offset_us}, written as {shown(group.attrs[OFFSET])}"
+            f"{path} is damaged: {OFFSET} is {offset[0]}, written as {shown(group.attrs[OFFSET])}"
         )
-    return offset_us
+    return offset
 
 
 def stored_size(node: Any) -> tuple[int, int] | None:

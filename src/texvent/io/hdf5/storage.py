@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent._require import require
-from texvent.errors import FileFormatError, MissingDependencyError
+from texvent.errors import FileFormatError, InputError, MissingDependencyError
 from texvent.io.block_writer import BlockWriter, WriteBlock
 from texvent.io.input_checks import reporting_damage
 from texvent.runtime.interrupts import delay_interrupts
@@ -40,12 +40,22 @@ def open_hdf5(path: Path) -> Iterator[Any]:
 
     Raises:
         FileFormatError: the file is damaged.
+        InputError: another program writes it.
     """
-    with (
-        reporting_damage(path, "an HDF5 event file", HDF5_DAMAGE),
-        h5py.File(path, "r") as file,
-    ):
+    with reporting_damage(path, "an HDF5 event file", HDF5_DAMAGE), _opened(path) as file:
         yield file
+
+
+def _opened(path: Path) -> Any:
+    try:
+        return h5py.File(path, "r")
+    except OSError as error:
+        if "lock file" not in str(error):
+            raise
+        raise InputError(
+            f"{path} is open in another program, which may be writing it; close it there (if none "
+            "has it open, the file system gives no locks: set HDF5_USE_FILE_LOCKING=FALSE)"
+        ) from error
 
 
 def check_claims(dataset: Any, path: Path) -> None:

@@ -37,7 +37,7 @@ import h5py
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, InputError
 from texvent.events import COLUMN_TYPES
 from texvent.io.block_codec import BlockReader, FileContents, TimedRows, contents_of_rows
 from texvent.io.block_writer import Columns
@@ -178,7 +178,7 @@ class EcfHdf5Codec(BlockReader):
         try:
             with open_hdf5(path) as file:
                 return "CD/events" in file
-        except FileFormatError:
+        except InputError:  # damaged, or open elsewhere
             return False
 
     def inspect(self, path: Path, options: ReadOptions) -> FileContents:

@@ -1,0 +1,288 @@
+"""Units of time, polarity and labels of named columns are judged alike in every format of them."""
+
+from __future__ import annotations
+
+import itertools
+import warnings
+from collections.abc import Iterable, Mapping
+from pathlib import Path
+from typing import Any
+
+import h5py
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from texvent.errors import FileFormatError, TexventError, TexventWarning
+from texvent.events import EventStream
+from texvent.io.files import load
+from texvent.sensor import SensorSize
+
+SIZE = SensorSize(240, 180)
+COUNT = 6000
+RNG = np.random.default_rng(0)
+X, Y, P = (RNG.integers(0, limit, COUNT) for limit in (240, 180, 2))
+T = np.sort(RNG.integers(1000, 8_000_000, COUNT)) // 1000 * 1000
+
+
+def pairs(*choices: Iterable[Any]) -> list[tuple[Any, ...]]:
+    return list(itertools.product(*choices))
+
+
+KINDS = ("npz", "npy", "records.npy", "h5", "csv", "txt")
+
+
+@pytest.fixture(autouse=True)
+def own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(tmp_path)
+
+
+def written(kind: str, **changed: Any) -> Path:
+    """A file of the columns, of which some are changed."""
+    columns: dict[str, NDArray[Any]] = {"t": T, "x": X, "y": Y, "p": P, **changed}
+    path = Path(f"e.{kind}")
+    if kind == "npz":
+        np.savez(path, **columns)
+    elif kind == "npy":
+        np.save(path, np.stack([columns[name] for name in "txyp"], axis=1))
+    elif kind == "records.npy":
+        records = np.zeros(len(columns["t"]), [(name, one.dtype) for name, one in columns.items()])
+        for name, one in columns.items():
+            records[name] = one
+        np.save(path, records)
+    elif kind == "h5":
+        with h5py.File(path, "w") as file:
+            for name, one in columns.items():
+                file[f"events/{name}"] = one
+    else:
+        mark = "," if kind == "csv" else " "
+        rows = zip(*(one.tolist() for one in columns.values()), strict=True)
+        path.write_text("\n".join(mark.join(map(str, row)) for row in [columns, *rows]) + "\n")
+    return path
+
+
+def found(path: Path, **options: Any) -> tuple[EventStream | str, list[str]]:
+    """The events or the error of a file, and the warnings."""
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", TexventWarning)
+        try:
+            events: EventStream | str = load(path, size=SIZE, **options)
+        except TexventError as error:
+            events = str(error)
+    return events, [str(one.message) for one in caught]
+
+
+def is_true(events: EventStream | str, times: NDArray[Any] = T) -> bool:
+    return not isinstance(events, str) and all(
+        np.array_equal(column, true)
+        for column, true in zip(
+            (events.t, events.x, events.y, events.p), (times, X, Y, P), strict=True
+        )
+    )
+
+
+ZEROS = np.where(np.arange(COUNT) < 5000, 0, T)
+TIMES: Mapping[str, tuple[NDArray[Any], NDArray[np.int64]]] = {
+    "µs": (T, T),
+    "s": (T / 1e6, T),
+    "s that begin with one zero": (
+        np.where(np.arange(COUNT) < 1, 0, T) / 1e6,
+        T * (np.arange(COUNT) > 0),
+    ),
+    "s that begin with many zeros": (ZEROS / 1e6, ZEROS),
+    "µs as float": (T.astype(float), T),
+    "µs since 1970": (T + 17 * 10**14, T + 17 * 10**14),
+    "s since 1970": (T / 1e6 + 17 * 10**8, T + 17 * 10**14),
+}
+
+
+@pytest.mark.parametrize(("kind", "times"), pairs(KINDS, TIMES))
+def test_the_whole_file_says_the_unit(kind: str, times: str) -> None:
+    stored, true = TIMES[times]
+    if kind in ("txt", "csv") and times == "µs as float":
+        stored = T  # as a text, 1000.0 is of s
+    events, said = found(written(kind, t=stored))
+    assert is_true(events, true), events
+    assert said == []
+
+
+DOUBTED: Mapping[str, tuple[NDArray[Any], str]] = {
+    "ms": (T // 1000, "ms"),
+    "s": (T // 1_000_000, "s"),
+    "ms since 1970": (T // 1000 + 17 * 10**11, "ms"),
+    "ms as float": (T / 1000 + 0.5, "ms"),
+    "ns": (T * 1000, "ns"),
+    "ns since 1970": ((T + 17 * 10**14) * 1000, "ns"),
+}
+
+
+@pytest.mark.parametrize(("kind", "times"), pairs(KINDS, DOUBTED))
+def test_a_doubtful_unit_is_said_with_the_likely_one(kind: str, times: str) -> None:
+    stored, unit = DOUBTED[times]
+    if kind == "npy" and times == "ns since 1970":
+        stored = stored.astype(np.int64)
+    path = written(kind, t=stored)
+    events, said = found(path)
+    assert f"--time-unit {unit}" in (events if isinstance(events, str) else " ".join(said))
+    given, said = found(path, time_unit=unit)
+    assert isinstance(given, EventStream)
+    assert said == []
+
+
+def test_short_and_small_recordings_are_not_doubted() -> None:
+    few = {"t": T[:50] // 1000, "x": X[:50], "y": Y[:50], "p": P[:50]}
+    for columns in (few, {"t": np.arange(COUNT) * 16, "x": X, "y": Y, "p": P}):
+        for kind in KINDS:
+            assert found(written(kind, **columns))[1] == []
+
+
+def test_a_unit_given_against_the_stated_one_is_said() -> None:
+    path = Path("e.npz")
+    np.savez(path, t_us=T, x=X, y=Y, p=P)
+    assert found(path, time_unit="us")[1] == []
+    assert "states its times in us; they are read as ms" in found(path, time_unit="ms")[1][0]
+
+
+@pytest.mark.parametrize(("kind", "unit"), pairs(("npz", "npy"), (1e6, 1.0)))
+def test_times_that_have_lost_the_microseconds_are_said(kind: str, unit: float) -> None:
+    late = (T / unit * 4).astype(np.float32)
+    path = written(kind, t=late) if kind == "npz" else Path("e.npy")
+    if kind == "npy":
+        np.save(path, np.stack([late, X, Y, P], axis=1).astype(np.float32))
+    assert "float32, which at the end keeps steps of" in found(path)[1][0]
+
+
+def test_digits_that_a_text_leaves_out_are_said() -> None:
+    Path("e.txt").write_text("".join(f"{t + 16 * 10**8:g} 1 1 1\n" for t in T))
+    assert "write all their digits" in found(Path("e.txt"))[1][0]
+    np.savetxt("e.txt", np.stack([T, X, Y, P], axis=1))
+    events, said = found(Path("e.txt"))
+    assert is_true(events)
+    assert said == []
+
+
+def test_numbers_with_fractions_far_behind_whole_ones_are_refused() -> None:
+    times = np.arange(40_000) * 20.0
+    times[12_345] += 0.5
+    zeros = np.zeros(40_000, int)
+    for kind in ("npz", "h5"):
+        events, _ = found(written(kind, t=times, x=zeros, y=zeros, p=zeros))
+        assert "some have fractions; give time_unit" in str(events)
+
+
+@pytest.mark.parametrize("dtype", ["M8[us]", "m8[us]", "m8[ns]", ">i8", "<f8", "<u4"])
+def test_times_of_every_type_are_read(dtype: str) -> None:
+    stored = T.astype("m8[us]").astype(dtype) if dtype == "m8[ns]" else T.astype(dtype)
+    assert is_true(found(written("npz", t=stored))[0])
+
+
+CODES: Mapping[str, tuple[Any, Any]] = {
+    **{"0/1": (0, 1), "-1/+1": (-1, 1), "0/255": (0, 255), "1/2": (1, 2)},
+    **{"booleans": (False, True), "floats": (-1.0, 1.0)},
+}
+WORDS = {"ON": ("OFF", "ON"), "on": ("off", "on"), "+": ("-", "+"), "true": ("False", "True")}
+
+
+def polarities(off: Any, on: Any) -> NDArray[Any]:
+    return np.where(P == 1, on, off)
+
+
+@pytest.mark.parametrize(
+    ("kind", "code"),
+    [
+        *itertools.product(KINDS, CODES),
+        *itertools.product(("npz", "records.npy", "csv", "txt"), WORDS),
+    ],
+)
+def test_polarity_is_read_in_every_code(kind: str, code: str) -> None:
+    events, said = found(written(kind, p=polarities(*{**CODES, **WORDS}[code])))
+    assert is_true(events), events
+    assert ["read as OFF and ON" in one for one in said] == [True] * (code == "1/2")
+
+
+@pytest.mark.parametrize(("kind", "code"), pairs(KINDS, [(0, 2), (2, 2), (255, 255), (-1, 0)]))
+def test_polarity_that_can_mean_two_things_is_refused(kind: str, code: tuple[int, int]) -> None:
+    options = {"columns": "t,x,y,p"} if kind == "npy" else {}
+    events, _ = found(written(kind, p=polarities(*code)), **options)
+    assert "it must be 0/1, -1/+1, 0/255, 1/2" in str(events)
+
+
+def test_a_code_that_shows_late_does_not_change_earlier_events() -> None:
+    p = np.ones(40_000, int)
+    p[12_345] = 2
+    zeros = np.zeros(40_000, int)
+    events, _ = found(written("h5", t=np.arange(40_000) * 20, x=zeros, y=zeros, p=p))
+    assert "polarity holds 1, 2" in str(events)
+
+
+@pytest.mark.parametrize("name", ["on", "is_on", "polarity_on"])
+def test_on_is_a_name_of_polarity(name: str) -> None:
+    records = np.zeros(COUNT, [("t", "<u8"), ("x", "<u2"), ("y", "<u2"), (name, "?")])
+    for field, column in zip(("t", "x", "y", name), (T, X, Y, P), strict=True):
+        records[field] = column
+    np.save("e.npy", records)
+    assert is_true(found(Path("e.npy"))[0])
+    np.savez("e.npz", **{"t": T, "x": X, "y": Y, name: P == 1})
+    assert is_true(found(Path("e.npz"))[0])
+    rows = zip(T, X, Y, P == 1, strict=True)
+    Path("e.csv").write_text(
+        f"t,x,y,{name}\n" + "".join(f"{t},{x},{y},{p}\n" for t, x, y, p in rows)
+    )
+    assert is_true(found(Path("e.csv"))[0])
+
+
+@pytest.mark.parametrize("label", [7, "cat", [7], np.full(COUNT, 7), np.arange(3)])
+def test_a_label_of_the_sample_is_no_column(label: Any) -> None:
+    events, _ = found(written("npz", label=np.array(label)))
+    assert is_true(events)
+    assert isinstance(events, EventStream)
+    assert events.label is None
+
+
+def test_arrays_of_python_objects_are_read_by_nobody() -> None:
+    assert is_true(found(written("npz", meta=np.array({"a": 1})))[0])
+    events, _ = found(written("npz", x=X.astype(object)))
+    assert "x is dtype('O')" in str(events)
+
+
+def test_coordinates_beyond_a_sensor_given_wrongly_are_not_divided() -> None:
+    for changed in ({"x": X + 1}, {"x": Y, "y": X}):
+        assert " runs from " in str(found(written("npz", **changed))[0])
+    assert "x runs from" in str(load_error(written("npz"), size=SensorSize(180, 240)))
+
+
+def load_error(path: Path, **options: Any) -> FileFormatError:
+    with pytest.raises(FileFormatError) as caught:
+        load(path, **options)
+    return caught.value
+
+
+def test_an_offset_is_in_the_unit_of_the_times() -> None:
+    for times, offset in ((T, 5_000_000), (T / 1e6, 5)):
+        path = written("h5", t=times)
+        with h5py.File(path, "r+") as file:
+            file["events/t_offset"] = offset
+        assert is_true(found(path)[0], T + 5_000_000)
+
+
+TEXTS = [
+    ("decimal commas", "t;x;y;p\n0,5;1;1;1\n", "writes numbers with commas"),
+    ("thousands", "t;x;y;p\n1,500;1;1;1\n", "writes numbers with commas"),
+    ("UTF-16", "t,x,y,p\n1,1,1,1\n", "is text of UTF-16"),
+    ("CR", "t,x,y,p\r1,1,1,1\r2,1,1,1\r", "ends its lines by CR alone"),
+    ("twice", "t,x,y,p,t\n1,1,1,1,1\n", "has 2 columns 't'"),
+]
+
+
+@pytest.mark.parametrize(("name", "text", "message"), TEXTS)
+def test_texts_that_mean_something_else_are_named(name: str, text: str, message: str) -> None:
+    Path("e.csv").write_bytes(text.encode("utf-16" if name == "UTF-16" else "utf-8"))
+    assert message in str(found(Path("e.csv"))[0])
+
+
+def test_quotes_an_index_and_names_of_any_order_are_read() -> None:
+    rows = list(zip(range(COUNT), P, T, Y, X, strict=True))
+    Path("e.csv").write_text(
+        '"","p","t","y","x"\n' + "".join('"{}","{}","{}","{}","{}"\n'.format(*row) for row in rows)
+    )
+    assert is_true(found(Path("e.csv"))[0])
