@@ -7,6 +7,7 @@ and returns a writer.
 from __future__ import annotations
 
 import itertools
+import os
 from abc import ABC, abstractmethod
 from bisect import bisect_left
 from collections.abc import Callable, Iterator, Mapping
@@ -14,7 +15,7 @@ from contextlib import AbstractContextManager, contextmanager, nullcontext
 from dataclasses import dataclass, field, replace
 from functools import partial
 from pathlib import Path
-from typing import Any, ClassVar, TypeAlias
+from typing import Any, BinaryIO, ClassVar, TypeAlias
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -42,6 +43,7 @@ from texvent.sensor import SensorSize
 
 BLOCK_BYTES = 2**21
 """Bytes read at once from files of fixed records."""
+SHORTER = "became shorter while it was read; read it again"
 
 
 @dataclass(frozen=True)
@@ -280,24 +282,62 @@ def write_records(
         yield lambda columns: file.write(encode(columns))
 
 
+def read_bytes(path: Path, start: int, block_bytes: int) -> Iterator[bytes]:
+    """The bytes of a file from `start` to where it ends when this begins, a block at a time.
+
+    Raises:
+        FileFormatError: the file becomes shorter meanwhile.
+    """
+    with path.open("rb") as file:
+        left = os.fstat(file.fileno()).st_size - start
+        file.seek(start)
+        while left > 0:
+            yield read_whole(path, file, min(left, block_bytes))
+            left -= block_bytes
+
+
+def read_whole(path: Path, file: BinaryIO, count: int) -> bytes:
+    """The next bytes of an open file, which has had so many.
+
+    Raises:
+        FileFormatError: it has no more.
+    """
+    data = file.read(count)
+    if len(data) < count:
+        raise FileFormatError(f"{path} {SHORTER}")
+    return data
+
+
+@contextmanager
+def open_complete(path: Path) -> Iterator[BinaryIO]:
+    """A file to read to its end.
+
+    Raises:
+        FileFormatError: at the end of the block: the file became shorter meanwhile.
+    """
+    with path.open("rb") as file:
+        length = os.fstat(file.fileno()).st_size
+        yield file
+        if os.fstat(file.fileno()).st_size < length:
+            raise FileFormatError(f"{path} {SHORTER}")
+
+
 def read_records(path: Path, start: int, record_bytes: int) -> Iterator[bytes]:
     """The bytes of whole records, from `start` on, a block at a time.
 
     Raises:
-        FileFormatError: the file ends inside a record.
+        FileFormatError: the file ends inside a record, or becomes shorter meanwhile.
     """
-    block_bytes = BLOCK_BYTES // record_bytes * record_bytes
-    with path.open("rb") as file:
-        file.seek(start)
-        while block := file.read(block_bytes):
-            rest = len(block) % record_bytes
-            if rest:
-                if len(block) > rest:
-                    yield block[:-rest]
-                raise FileFormatError(
-                    f"{path} ends inside a record of {record_bytes} bytes; the file was cut off"
-                )
+    for block in read_bytes(path, start, BLOCK_BYTES // record_bytes * record_bytes):
+        rest = len(block) % record_bytes
+        if not rest:
             yield block
+            continue
+        if len(block) > rest:
+            yield block[:-rest]
+        raise FileFormatError(
+            f"{path} ends inside a record of {record_bytes} bytes; the file was cut off"
+        )
 
 
 @dataclass(frozen=True)

@@ -35,7 +35,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
-from texvent.io.block_codec import BlockCodec, FileContents, write_records
+from texvent.io.block_codec import BlockCodec, FileContents, open_complete, write_records
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import ZIP_DAMAGE, check_zip, reporting_damage
 from texvent.io.metadata import read_sidecar
@@ -334,7 +334,7 @@ class TextCodec(BlockCodec):
 
     def open_text(self, path: Path) -> AbstractContextManager[BinaryIO]:
         """The text, open to read."""
-        return path.open("rb")
+        return open_complete(path)
 
     def _read(
         self, path: Path, dialect: Dialect, parse: Callable[[Path, bytes], Columns]
