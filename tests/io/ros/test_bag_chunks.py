@@ -9,7 +9,7 @@ import pytest
 
 from texvent.errors import FileFormatError
 from texvent.io.files import load, save
-from texvent.io.ros import messages as bag_chunks
+from texvent.io.ros import bag_bounds as bag_chunks
 from texvent.sensor import SensorSize
 
 from ..format_cases import random_events
