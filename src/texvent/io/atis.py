@@ -35,7 +35,6 @@ import numpy as np
 
 from texvent.errors import FileFormatError, InputError
 from texvent.io.block_codec import (
-    BLOCK_BYTES,
     BlockCodec,
     BlockReader,
     FileContents,
@@ -167,7 +166,7 @@ def _read_stream(path: Path, top: int) -> Iterator[Columns]:
 
     rest = b""
     now = 0
-    for block in read_bytes(path, HEADER_BYTES, BLOCK_BYTES):
+    for block in read_bytes(path, HEADER_BYTES):
         data = np.frombuffer(rest + block, dtype=np.uint8)
         room = len(data) // EVENT_BYTES
         x, p = np.empty(room, dtype=np.uint16), np.empty(room, dtype=np.uint8)

@@ -43,6 +43,7 @@ from texvent.sensor import SensorSize
 
 BLOCK_BYTES = 2**21
 """Bytes read at once from files of fixed records."""
+SECTOR_BYTES = 512
 SHORTER = "became shorter while it was read; read it again"
 
 
@@ -282,18 +283,45 @@ def write_records(
         yield lambda columns: file.write(encode(columns))
 
 
-def read_bytes(path: Path, start: int, block_bytes: int) -> Iterator[bytes]:
+def read_bytes(
+    path: Path, start: int, unit: int = 1, *, has_zeros: bool = False
+) -> Iterator[bytes]:
     """The bytes of a file from `start` to where it ends when this begins, a block at a time.
 
+    Args:
+        path: the file.
+        start: first byte.
+        unit: a block is a multiple of so many bytes.
+        has_zeros: whether zeros may be no events, so that a part of zeros does no harm.
+
     Raises:
-        FileFormatError: the file becomes shorter meanwhile.
+        FileFormatError: the file becomes shorter meanwhile, or a part of it is zeros.
     """
+    block_bytes = BLOCK_BYTES // unit * unit
     with path.open("rb") as file:
-        left = os.fstat(file.fileno()).st_size - start
+        stop = os.fstat(file.fileno()).st_size
         file.seek(start)
-        while left > 0:
-            yield read_whole(path, file, min(left, block_bytes))
-            left -= block_bytes
+        for place in range(start, stop, block_bytes):
+            block = read_whole(path, file, min(stop - place, block_bytes))
+            zeros = [] if has_zeros else zero_sectors(block)
+            if zeros:
+                sound = len(block[: zeros[0] * SECTOR_BYTES].rstrip(b"\0"))
+                sound += -sound % unit
+                if sound:
+                    yield block[:sound]
+                raise FileFormatError(
+                    f"{path} holds zeros instead of events from byte {place + sound} on; a part of "
+                    "it was lost"
+                )
+            yield block
+
+
+def zero_sectors(block: bytes) -> list[int]:
+    """Numbers of the sectors of a block that hold zeros alone, as a disk leaves them."""
+    whole = len(block) // SECTOR_BYTES
+    words = np.frombuffer(block, np.uint64, whole * SECTOR_BYTES // 8)
+    found: list[int] = np.flatnonzero(~words.reshape(whole, SECTOR_BYTES // 8).any(axis=1)).tolist()
+    return found
 
 
 def read_whole(path: Path, file: BinaryIO, count: int) -> bytes:
@@ -322,13 +350,15 @@ def open_complete(path: Path) -> Iterator[BinaryIO]:
             raise FileFormatError(f"{path} {SHORTER}")
 
 
-def read_records(path: Path, start: int, record_bytes: int) -> Iterator[bytes]:
-    """The bytes of whole records, from `start` on, a block at a time.
+def read_records(
+    path: Path, start: int, record_bytes: int, *, has_zeros: bool = False
+) -> Iterator[bytes]:
+    """The bytes of whole records, from `start` on, a block at a time; else as `read_bytes`.
 
     Raises:
-        FileFormatError: the file ends inside a record, or becomes shorter meanwhile.
+        FileFormatError: the file ends inside a record, becomes shorter meanwhile, or holds zeros.
     """
-    for block in read_bytes(path, start, BLOCK_BYTES // record_bytes * record_bytes):
+    for block in read_bytes(path, start, record_bytes, has_zeros=has_zeros):
         rest = len(block) % record_bytes
         if not rest:
             yield block

@@ -342,6 +342,4 @@ def _read_imu(path: Path, header: AedatHeader) -> Iterator[Columns]:
     if lost:
         warn(f"{path}: left out {lost:,} values of an IMU that make no sample")
     if count and None in stated.values():
-        warn(
-            f"{path} does not state the full scales of its IMU; taken are {g} g and {deg_s} °/s"
-        )
+        warn(f"{path} does not state the full scales of its IMU; taken are {g} g and {deg_s} °/s")

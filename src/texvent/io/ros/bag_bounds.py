@@ -1,9 +1,9 @@
 """Bags made to fill memory or disk: rosbags unpacks them without a bound, so they are checked here.
 
-    ROS 1            chunks, bz2 or lz4
-    MCAP             chunks, lz4 or Zstandard
-    folders, ROS 2   metadata.yaml; files or messages, Zstandard
-    .db3             SQLite, which computes generated columns, views and virtual tables
+ROS 1            chunks, bz2 or lz4
+MCAP             chunks, lz4 or Zstandard
+folders, ROS 2   metadata.yaml; files or messages, Zstandard
+.db3             SQLite, which computes generated columns, views and virtual tables
 """
 
 from __future__ import annotations
