@@ -109,7 +109,7 @@ def davis_layout(size: SensorSize, *, is_labelled: bool = False) -> AddressLayou
 
     def decode(address: Addresses) -> dict[str, Addresses]:
         x, y = size.width - 1 - (address >> 12 & 1023), size.height - 1 - (address >> 22 & 511)
-        label = {"label": (address >> 10 & 1).astype(np.uint8)} if is_labelled else {}
+        label = {"label": address >> 10 & 1} if is_labelled else {}
         return {"x": x, "y": y, "p": address >> 11 & 1, **label}
 
     if is_labelled:

@@ -28,7 +28,7 @@ from typing import BinaryIO, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from texvent.errors import FileFormatError
+from texvent.errors import FileFormatError, shown
 from texvent.io.aedat.header import AedatHeader, read_aedat_header
 from texvent.io.block_codec import BlockReader, FileContents, read_whole
 from texvent.io.block_writer import Columns, SideData
@@ -38,6 +38,8 @@ from texvent.sensor import SENSORS
 
 AEDAT3_MAGIC = "#!AER-DAT3.1"
 AEDAT3_END = "#!END-HEADER"
+PLAIN = "RAW"
+"""Format of packets that are not compressed."""
 
 EVENT = np.dtype([("place", "<u4"), ("t", "<u4")])
 SPECIAL_TYPE, POLARITY_TYPE, IMU_TYPE = 0, 1, 3
@@ -73,6 +75,9 @@ class Aedat3Codec(BlockReader):
         header = read_aedat_header(path, [AEDAT3_MAGIC], AEDAT3_END)
         if header.lines[-1] != AEDAT3_END:
             raise FileFormatError(f"{path}: its header does not end with {AEDAT3_END}")
+        stored = header.value("Format") or PLAIN
+        if stored != PLAIN:
+            raise FileFormatError(f"{path} is AEDAT3.1 of the format {shown(stored)}, not {PLAIN}")
         size, metadata = _stored_size(path, header), header.metadata(path)
         return FileContents(size, metadata, partial(_read_events, path, header.length))
 
@@ -102,12 +107,13 @@ def _stored_size(path: Path, header: AedatHeader) -> tuple[int, int] | None:
 def _read_packets(path: Path, start: int, kind: int) -> Iterator[tuple[NDArray[np.void], int]]:
     """The events of each packet of a type, and how often its clock has turned."""
     dtype = PACKETS[kind]
+    sources: set[int] = set()
     with path.open("rb") as file:
         left = os.fstat(file.fileno()).st_size - start
         file.seek(start)
         while left > 0:
             head = _read_head(file, path, left)
-            found, _, event_bytes, time_offset, turns, _, count, _ = head
+            found, source, event_bytes, time_offset, turns, _, count, _ = head
             left -= _HEAD.size + event_bytes * count
             if found != kind:
                 file.seek(event_bytes * count, os.SEEK_CUR)
@@ -116,6 +122,12 @@ def _read_packets(path: Path, start: int, kind: int) -> Iterator[tuple[NDArray[n
                 raise FileFormatError(
                     f"{path} holds a packet of events of {event_bytes} bytes, not "
                     f"{dtype.itemsize}; it is damaged"
+                )
+            sources |= {source} if kind == POLARITY_TYPE else set()
+            if len(sources) > 1:
+                raise FileFormatError(
+                    f"{path} holds events of several cameras (sources {sorted(sources)}), which "
+                    "texvent does not tell apart"
                 )
             events = np.frombuffer(read_whole(path, file, event_bytes * count), dtype=dtype)
             yield events[(events["place"] & 1) == 1], turns

@@ -126,7 +126,8 @@ def _numbers(form: str, data: NDArray[np.uint8], places: NDArray[np.int64]) -> N
     size = np.dtype(form).itemsize
     if len(places) and (places.min() < 0 or places.max() + size > len(data)):
         raise FileFormatError("an offset points outside of its table")
-    return data[places[:, None] + np.arange(size)].view(form)[:, 0]
+    numbers: NDArray[Any] = data[places[:, None] + np.arange(size)].view(form)
+    return numbers[:, 0]
 
 
 def _number(form: str, data: bytes | memoryview, position: int) -> int:

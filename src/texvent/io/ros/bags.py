@@ -246,7 +246,7 @@ def _open_bag(path: Path) -> Iterator[_Bag]:
     """An open bag; what a damaged one makes rosbags raise is a FileFormatError."""
     version = 1 if path.is_file() and begins_with(path, ROSBAG1_MAGIC) else 2
     package = require(ROSBAG1 if version == 1 else ROSBAG2, extra=EXTRA)
-    damage = (package.ReaderError, *_DAMAGE)
+    damage: tuple[type[Exception], ...] = (package.ReaderError, *_DAMAGE)
     try:
         if version == 1:
             with package.Reader(path) as reader:

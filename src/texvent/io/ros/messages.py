@@ -34,6 +34,7 @@ from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
 from texvent.io.block_writer import Columns
+from texvent.io.clocks import TurningClock
 from texvent.sensor import SensorSize
 
 EVENT_ARRAY = "dvs_msgs/msg/EventArray"
@@ -83,7 +84,7 @@ _RECORD_2 = np.dtype(
 )
 """A record of ROS 2 that begins two bytes after a multiple of four, as all but the first."""
 TIME_BITS = 31
-"""Of libcaer's clock, which turns within a message at most once."""
+"""Of libcaer's clock, whose turns before a message are in its base."""
 _RECORD = np.dtype([("x", "<u2"), ("y", "<u2"), ("s", "<u4"), ("ns", "<u4"), ("p", "u1")])
 
 
@@ -238,9 +239,7 @@ def unpack_mono(message: RawMessage) -> dict[str, NDArray[Any]]:
 def unpack_libcaer(message: RawMessage) -> dict[str, NDArray[Any]]:
     """Columns x, y, t, p of a packet of libcaer's events."""
     words = np.frombuffer(message.payload, [("place", "<u4"), ("t", "<i4")])
-    stored = words["t"].astype(np.int64)
-    turns = np.concatenate([[0], np.cumsum(np.diff(stored) < 0)])[: len(stored)]
-    t = message.time_base_ns // NS + stored + (turns << TIME_BITS)
+    t = message.time_base_ns // NS + TurningClock(TIME_BITS).unroll(words["t"])
     place = words["place"]
     x, y = (place >> 17 & 0x7FFF).astype(np.uint16), (place >> 2 & 0x7FFF).astype(np.uint16)
     return {"x": x, "y": y, "t": t, "p": (place >> 1 & 1).astype(np.uint8)}
