@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import struct
 from collections.abc import Callable
 from pathlib import Path
 
@@ -51,13 +52,24 @@ def dat(times: NDArray[np.int64]) -> tuple[str, bytes]:
     return "e.dat", b"% Height 128\n% Version 2\n% Width 128\n\x0c\x08" + records.tobytes()
 
 
+def aedat3(times: NDArray[np.int64]) -> tuple[str, bytes]:
+    """By a program that does not count the turns."""
+    head = struct.pack("<2h6i", 1, 1, 8, 4, 0, len(times), len(times), len(times))
+    events = b"".join(struct.pack("<2I", 5 << 17 | 5 << 2 | 1, t) for t in times.tolist())
+    return "e.aedat", b"#!AER-DAT3.1\r\n#Size: 128x128\r\n#!END-HEADER\r\n" + head + events
+
+
 def atis(times: NDArray[np.int64]) -> tuple[str, bytes]:
     rows = [bytes([5, 5]) + int(t).to_bytes(3, "big") for t in times]
     return "e.bin", b"".join(rows)
 
 
 @pytest.mark.parametrize(
-    ("write", "bits"), [(aedat2, 32), (aedat2, 31), (aedat1, 32), (dat, 32), (dat, 31), (atis, 23)]
+    ("write", "bits"),
+    [
+        *((aedat2, 32), (aedat2, 31), (aedat1, 32), (aedat3, 31)),
+        *((dat, 32), (dat, 31), (atis, 23)),
+    ],
 )
 def test_no_repair_is_needed_where_a_clock_turns(
     tmp_path: Path, write: Callable[[NDArray[np.int64]], tuple[str, bytes]], bits: int

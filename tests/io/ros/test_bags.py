@@ -115,6 +115,7 @@ def test_arrays_of_both_versions_are_read(
         if version == 2:
             (file,) = path.glob("*.db3")
             assert load(file).equals(EVENTS[:count])
+            assert load(file.rename(tmp_path / f"{count}.dat")).equals(EVENTS[:count])
 
 
 MONO = struct.pack("<2Q", 1 << 63 | 5 << 48 | 3 << 32 | 9, 6 << 48 | 4 << 32 | 10_999)

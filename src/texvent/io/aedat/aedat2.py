@@ -259,10 +259,12 @@ def _find_layout(path: Path, header: AedatHeader, options: ReadOptions) -> Addre
             f"{path} has addresses outside of a sensor of {size}: of the first {len(address):,}, "
             f"{counts}; give the sensor that made it"
         )
-    if wrong.count(0) > 1 and len(layouts[0].events(address)[0]):
-        first, second = (one.name for one, count in zip(layouts, wrong, strict=True) if not count)
+    found = [one for one, count in zip(layouts, wrong, strict=True) if count == min(wrong)]
+    fits = [one for one in found if len(one.events(address)[0])]
+    if len(fits) > 1:
+        first, second = (one.name for one in fits)
         warn(f"{path}: its addresses fit the layouts {first} and {second}; read as {first}")
-    return layouts[wrong.index(min(wrong))]
+    return (fits or found)[0]
 
 
 def _read_timed(path: Path, header: AedatHeader) -> Iterator[tuple[Addresses, NDArray[np.int64]]]:

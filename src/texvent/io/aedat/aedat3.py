@@ -32,6 +32,7 @@ from texvent.errors import FileFormatError, shown
 from texvent.io.aedat.header import AedatHeader, read_aedat_header
 from texvent.io.block_codec import BlockReader, FileContents, read_whole
 from texvent.io.block_writer import Columns, SideData
+from texvent.io.clocks import TurningClock
 from texvent.io.input_checks import begins_with
 from texvent.io.reading import ReadOptions
 from texvent.sensor import SENSORS
@@ -104,9 +105,11 @@ def _stored_size(path: Path, header: AedatHeader) -> tuple[int, int] | None:
     return size.width, size.height
 
 
-def _read_packets(path: Path, start: int, kind: int) -> Iterator[tuple[NDArray[np.void], int]]:
-    """The events of each packet of a type, and how often its clock has turned."""
-    dtype = PACKETS[kind]
+def _read_packets(
+    path: Path, start: int, kind: int
+) -> Iterator[tuple[NDArray[np.void], NDArray[np.int64]]]:
+    """The events of each packet of a type, and their times."""
+    dtype, clock = PACKETS[kind], TurningClock(TIME_BITS)
     sources: set[int] = set()
     with path.open("rb") as file:
         left = os.fstat(file.fileno()).st_size - start
@@ -130,35 +133,35 @@ def _read_packets(path: Path, start: int, kind: int) -> Iterator[tuple[NDArray[n
                     "texvent does not tell apart"
                 )
             events = np.frombuffer(read_whole(path, file, event_bytes * count), dtype=dtype)
-            yield events[(events["place"] & 1) == 1], turns
-
-
-def _times(events: NDArray[np.void], turns: int) -> NDArray[np.int64]:
-    return (events["t"].astype(np.int64) & TIME_MASK) + (turns << TIME_BITS)
+            events = events[(events["place"] & 1) == 1]
+            stored = events["t"].astype(np.int64) & TIME_MASK
+            # Not every program counts the turns.
+            counted = np.maximum(clock.unroll(stored) - stored, turns << TIME_BITS)
+            yield events, stored + counted
 
 
 def _read_events(path: Path, start: int) -> Iterator[Columns]:
-    for events, turns in _read_packets(path, start, POLARITY_TYPE):
+    for events, times in _read_packets(path, start, POLARITY_TYPE):
         place = events["place"]
         yield {
             "x": (place >> 17).astype(np.uint16),
             "y": (place >> 2 & 0x7FFF).astype(np.uint16),
-            "t": _times(events, turns),
+            "t": times,
             "p": (place >> 1 & 1).astype(np.uint8),
         }
 
 
 def _read_special(path: Path, start: int) -> Iterator[Columns]:
-    for events, turns in _read_packets(path, start, SPECIAL_TYPE):
+    for events, times in _read_packets(path, start, SPECIAL_TYPE):
         kinds = events["place"] >> 1 & 127
         is_signal = (kinds >= FIRST_SIGNAL) & (kinds <= LAST_SIGNAL)
-        yield {"t": _times(events[is_signal], turns), "type": kinds[is_signal]}
+        yield {"t": times[is_signal], "type": kinds[is_signal]}
 
 
 def _read_imu(path: Path, start: int) -> Iterator[Columns]:
-    for samples, turns in _read_packets(path, start, IMU_TYPE):
+    for samples, times in _read_packets(path, start, IMU_TYPE):
         yield {
-            "t": _times(samples, turns),
+            "t": times,
             "temperature_c": samples["values"][:, 6],
             **{f"acceleration_{axis}_g": samples["values"][:, at] for at, axis in enumerate("xyz")},
             **{

@@ -68,7 +68,15 @@ def bounded_bag(path: Path, extra: str) -> Iterator[tuple[Path, bool]]:
     """
     if not path.is_dir():
         _check_file(path, extra)
-        yield path, False
+        suffix = ".mcap" if begins_with(path, MCAP_MAGIC) else ".db3"
+        if path.suffix == suffix:
+            yield path, False
+            return
+        # rosbags goes by the extension.
+        with tempfile.TemporaryDirectory() as temporary:
+            named = Path(temporary, f"bag{suffix}")
+            named.symlink_to(path.absolute())
+            yield named, False
         return
     facts = _read_facts(path)
     mode = str(facts.get("compression_mode") or "").lower()
