@@ -12,7 +12,7 @@ them show the image upside down.
 .bin or .bs2, 5 bytes per event:
 
     byte 0  x · byte 1  y · bytes 2..4  p << 23 | t (µs, 23 bits), big-endian
-    y = 240 is no event: from here on 8192 µs are added to all times
+    y = 240 is no event: from here on 8192 µs are added to all times; so is a turn of the 23 bits
 
 So x is below 256, y below 240, and texvent writes times below 2^23 µs (8.39 s); the additions
 are read, not written, because readers disagree about them. The bytes hold no sensor size and
@@ -35,14 +35,15 @@ import numpy as np
 
 from texvent.errors import FileFormatError, InputError
 from texvent.io.block_codec import (
-    BLOCK_BYTES,
     BlockCodec,
     BlockReader,
     FileContents,
+    read_bytes,
     read_records,
     write_records,
 )
 from texvent.io.block_writer import UNLIMITED, Columns, FileTarget, FormatLimits, WriteBlock
+from texvent.io.clocks import TurningClock
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import read_sidecar
 from texvent.io.reading import ReadOptions
@@ -94,13 +95,15 @@ def _encode(columns: Columns) -> bytes:
 
 def _read_blocks(path: Path) -> Iterator[Columns]:
     added_us = 0
+    clock = TurningClock(STOP_US.bit_length() - 1)
     for block in read_records(path, 0, EVENT_BYTES):
         records = np.frombuffer(block, dtype=np.uint8).reshape(-1, EVENT_BYTES)
-        t = (
+        stored = (
             (records[:, 2] & 127).astype(np.int64) << 16
             | records[:, 3].astype(np.int64) << 8
             | records[:, 4]
-        ) + added_us
+        )
+        t = clock.unroll(stored) + added_us
         columns: dict[str, Any] = {"x": records[:, 0], "y": records[:, 1], "p": records[:, 2] >> 7}
         is_overflow = records[:, 1] == OVERFLOW_Y
         if is_overflow.any():
@@ -163,15 +166,13 @@ def _read_stream(path: Path, top: int) -> Iterator[Columns]:
 
     rest = b""
     now = 0
-    with path.open("rb") as file:
-        file.seek(HEADER_BYTES)
-        while block := file.read(BLOCK_BYTES):
-            data = np.frombuffer(rest + block, dtype=np.uint8)
-            room = len(data) // EVENT_BYTES
-            x, p = np.empty(room, dtype=np.uint16), np.empty(room, dtype=np.uint8)
-            y, t = np.empty(room, dtype=np.int64), np.empty(room, dtype=np.int64)
-            count, used, now = decode_events(data, (now, top), (x, y, t, p))
-            rest = data[used:].tobytes()
-            yield {"x": x[:count], "y": y[:count], "t": t[:count], "p": p[:count]}
+    for block in read_bytes(path, HEADER_BYTES):
+        data = np.frombuffer(rest + block, dtype=np.uint8)
+        room = len(data) // EVENT_BYTES
+        x, p = np.empty(room, dtype=np.uint16), np.empty(room, dtype=np.uint8)
+        y, t = np.empty(room, dtype=np.int64), np.empty(room, dtype=np.int64)
+        count, used, now = decode_events(data, (now, top), (x, y, t, p))
+        rest = data[used:].tobytes()
+        yield {"x": x[:count], "y": y[:count], "t": t[:count], "p": p[:count]}
     if rest:
         raise FileFormatError(f"{path} ends inside an event; the file was cut off")

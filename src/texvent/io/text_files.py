@@ -37,7 +37,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown, warn
-from texvent.io.block_codec import BlockCodec, FileContents, write_records
+from texvent.io.block_codec import BlockCodec, FileContents, open_complete, write_records
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.compressed import DAMAGE, unpacker_of
 from texvent.io.input_checks import ZIP_DAMAGE, begins_with, check_zip, reporting_damage
@@ -441,10 +441,10 @@ class TextCodec(BlockCodec):
 
     @contextmanager
     def open_text(self, path: Path) -> Iterator[BinaryIO]:
-        """The text, open to read; of a compressed file unpacked on the way."""
+        """The text, open to read to its end; of a compressed file unpacked on the way."""
         unpacker = unpacker_of(path)
         if unpacker is None:
-            with path.open("rb") as file:
+            with open_complete(path) as file:
                 yield file
             return
         with reporting_damage(path, "a compressed text", DAMAGE), unpacker(path) as unpacked:

@@ -59,8 +59,8 @@ IMU_COLUMNS = (
     *("rotation_x_deg_s", "rotation_y_deg_s", "rotation_z_deg_s"),
 )
 SIDE_TABLES = {
-    "triggers": ("TRIG", [("type", "<b")]),
-    "imu": ("IMUS", [(name, "<f") for name in IMU_COLUMNS]),
+    "triggers": ("TRIG", [("type", "<i1")]),
+    "imu": ("IMUS", [(name, "<f4") for name in IMU_COLUMNS]),
 }
 """Identifier of a packet, and its columns after slot 0, the time."""
 
@@ -137,18 +137,14 @@ class Aedat4Codec(BlockCodec):
 
 def _read_side_data(container: Container, name: str) -> Iterator[Columns]:
     identifier, fields = SIDE_TABLES[name]
+    names, forms = [name for name, _ in fields], ["<i8", *(form for _, form in fields)]
     for stream in container.streams_of(identifier):
         for end, packet in container.read_packets(stream):
             try:
-                tables = list(Table.root(packet, identifier.encode()).tables(0))
-                times = [one.number(0, "<q", 0) for one in tables]
-                columns = {
-                    field: np.array([one.number(slot, form, 0) for one in tables], form)
-                    for slot, (field, form) in enumerate(fields, 1)
-                }
+                for t, *columns in Table.root(packet, identifier.encode()).columns(0, forms):
+                    yield {"t": t, **dict(zip(names, columns, strict=True))}
             except FileFormatError as error:
                 raise FileFormatError(f"{container.path}, before byte {end}: {error}") from error
-            yield {"t": np.array(times, np.int64), **columns}
 
 
 def _read_blocks(container: Container, stream: StreamInfo) -> Iterator[Columns]:

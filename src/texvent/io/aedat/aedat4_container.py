@@ -49,8 +49,8 @@ def _unpacker(code: int) -> Callable[[bytes], bytes]:
     if code in (1, 2):
         return unpack_lz4
     if code in (3, 4):
-        _zstd()
-        return _unpack_zstd
+        load_zstd()
+        return unpack_zstd
     raise FileFormatError(f"its header names compression {code}; AEDAT4 knows 0 to 4")
 
 
@@ -69,8 +69,14 @@ def unpack_lz4(data: bytes) -> bytes:
     return _unpack(lz4.frame.LZ4FrameDecompressor(), data, RuntimeError, "LZ4")
 
 
-def _unpack_zstd(data: bytes) -> bytes:
-    zstd = _zstd()
+def unpack_zstd(data: bytes) -> bytes:
+    """A packet of a Zstandard frame.
+
+    Raises:
+        FileFormatError: it is damaged, cut off or too large.
+        MissingDependencyError: Zstandard is not installed.
+    """
+    zstd = load_zstd()
     return _unpack(zstd.ZstdDecompressor(), data, zstd.ZstdError, "Zstandard")
 
 
@@ -96,7 +102,12 @@ def _unpack(decompressor: Any, data: bytes, failure: type[Exception], name: str)
     return parts[0] if len(parts) == 1 else b"".join(parts)
 
 
-def _zstd() -> ModuleType:
+def load_zstd() -> ModuleType:
+    """The module of Zstandard.
+
+    Raises:
+        MissingDependencyError: it is not installed.
+    """
     try:
         return require("compression.zstd")
     except MissingDependencyError:

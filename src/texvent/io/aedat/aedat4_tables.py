@@ -85,14 +85,49 @@ class Table:
         vector = position + _number("<I", self.data, position)
         return vector + 4, _number("<I", self.data, vector)
 
-    def tables(self, slot: int) -> Iterator[Table]:
-        """The tables of a vector of tables."""
+    def columns(self, slot: int, forms: Sequence[str]) -> Iterator[list[NDArray[Any]]]:
+        """Numbers in the first slots of the tables of a vector, as columns, a part at a time.
+
+        Args:
+            slot: of the vector.
+            forms: type of the number in each slot of its tables, such as `<i8`; 0 where left out.
+        """
         start, count = self.vector(slot)
-        if start + 4 * count > len(self.data):
+        data = np.frombuffer(self.data, np.uint8)
+        if start + 4 * count > len(data):
             raise FileFormatError("a list reaches past the end of its table")
-        for index in range(count):
-            entry = start + 4 * index
-            yield Table(self.data, entry + _number("<I", self.data, entry))
+        for first in range(start, start + 4 * count, 4 * PART_TABLES):
+            entries = np.arange(first, min(first + 4 * PART_TABLES, start + 4 * count), 4)
+            places = entries + _numbers("<u4", data, entries)
+            vtables = places - _numbers("<i4", data, places)
+            sizes = _numbers("<u2", data, vtables)
+            if places.min() < start + 4 * count or sizes.min() < 4:
+                raise FileFormatError("a list holds what is no table")
+            if len(np.unique(places)) < len(places):
+                raise FileFormatError("a list holds the same table twice")
+            columns = []
+            for number, form in enumerate(forms):
+                column = np.zeros(len(places), form)
+                entry = 4 + 2 * number
+                rows = np.flatnonzero(sizes >= entry + 2)
+                offsets = _numbers("<u2", data, vtables[rows] + entry)
+                rows, offsets = rows[offsets > 0], offsets[offsets > 0]
+                column[rows] = _numbers(form, data, places[rows] + offsets)
+                columns.append(column)
+            yield columns
+
+
+PART_TABLES = 1 << 16
+"""Tables that are read at once."""
+
+
+def _numbers(form: str, data: NDArray[np.uint8], places: NDArray[np.int64]) -> NDArray[Any]:
+    """The numbers of a type at each place."""
+    size = np.dtype(form).itemsize
+    if len(places) and (places.min() < 0 or places.max() + size > len(data)):
+        raise FileFormatError("an offset points outside of its table")
+    numbers: NDArray[Any] = data[places[:, None] + np.arange(size)].view(form)
+    return numbers[:, 0]
 
 
 def _number(form: str, data: bytes | memoryview, position: int) -> int:

@@ -18,11 +18,11 @@ from pathlib import Path
 from typing import ClassVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError
 from texvent.io.block_codec import BlockCodec, FileContents, read_records, write_records
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
+from texvent.io.clocks import BITS_OF_32, TurningClock
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
 from texvent.io.reading import ReadOptions
 
@@ -65,30 +65,16 @@ def _encode(columns: Columns) -> memoryview:
 
 
 def _read_blocks(path: Path, start: int) -> Iterator[Columns]:
-    last_us = 0
+    clock = TurningClock(*BITS_OF_32)
     for block in read_records(path, start, EVENT_BYTES):
         records = np.frombuffer(block, dtype="<u4").reshape(-1, 2)
         pixel = records[:, 1]
-        t = _unwrap(records[:, 0].astype(np.int64), last_us)
-        last_us = int(t[-1])
         yield {
             "x": (pixel & PIXEL_MASK).astype(np.uint16),
             "y": (pixel >> PIXEL_BITS & PIXEL_MASK).astype(np.uint16),
-            "t": t,
+            "t": clock.unroll(records[:, 0]),
             "p": (pixel >> 2 * PIXEL_BITS).astype(np.uint8),
         }
-
-
-def _unwrap(times: NDArray[np.int64], last_us: int) -> NDArray[np.int64]:
-    """Times after `last_us`, with a turn added at each fall of more than half a turn."""
-    turns, last = divmod(last_us, TURN_US)
-    falls = times[:-1] - times[1:] > TURN_US // 2
-    if last - int(times[0]) > TURN_US // 2:
-        turns += 1
-    times += turns * TURN_US
-    if falls.any():
-        times[1:] += np.cumsum(falls) * TURN_US
-    return times
 
 
 def _read_header(path: Path) -> TextHeader:

@@ -3,6 +3,9 @@
 A RAW file is a text header (`% format EVT3;height=720;width=1280`, …, `% end`) and words of the
 format it names. Older recordings have only `% evt 3.0` and `% geometry 1280x720`, or no size.
 
+A part of zeros is damage: in EVT2 a zero is an event. Words of other types than the formats have,
+and more than a few events without a time, are counted in a warning.
+
 All three split time into a word TIME_HIGH, sent when it changes, and low bits at each event.
 EVT3 alone is written. OpenEB takes the first TIME_HIGH as the start and subtracts it from every
 time; a file of texvent therefore begins with TIME_HIGH 0, and times stay exact. Reading does not
@@ -23,18 +26,28 @@ from typing import Any, ClassVar, TypeAlias
 
 import numpy as np
 
-from texvent.errors import FileFormatError, shown
+from texvent.errors import FileFormatError, shown, warn
 from texvent.events import COLUMN_TYPES
 from texvent.io.block_codec import (
+    SECTOR_BYTES,
     BlockCodec,
     BlockReader,
     FileContents,
     read_records,
     write_records,
+    zero_sectors,
 )
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, SideData, WriteBlock
 from texvent.io.prophesee.text_header import TextHeader, make_text_header, read_text_header
-from texvent.io.prophesee.triggers import EVT2, EVT3, EVT21, TriggerCoding, Words, read_triggers
+from texvent.io.prophesee.triggers import (
+    EVT2,
+    EVT3,
+    EVT21,
+    TriggerCoding,
+    Words,
+    field_of,
+    read_triggers,
+)
 from texvent.io.reading import ReadOptions
 
 WordKernels: TypeAlias = Any
@@ -48,16 +61,24 @@ class WordDecoder:
     def __init__(self, kernels: WordKernels) -> None:
         self._kernels = kernels
         self._state = np.array(kernels.DECODER_STATE, dtype=np.int64)
+        self.count = self.left_out = 0
+        """Events in all words so far, and those of them that have no time or row."""
 
     def decode(self, words: Words) -> Columns:
         """Columns x, y, t, p of the events in these words."""
         numbers = np.frombuffer(words, self._kernels.WORD)
-        count = self._kernels.count_events(numbers)
-        columns = {name: np.empty(count, dtype=COLUMN_TYPES[name]) for name in "xytp"}
+        room = int(self._kernels.count_events(numbers))
+        columns = {name: np.empty(room, dtype=COLUMN_TYPES[name]) for name in "xytp"}
         count = self._kernels.decode_words(numbers, self._state, tuple(columns.values()))
+        self.count += room
+        self.left_out += room - int(count)
         return {name: column[:count] for name, column in columns.items()}
 
 
+SAMPLE = 16
+"""Of so many words one is looked at for types that the format does not have."""
+FEW_EVENTS, FEW_SHARE = 10, 0.01
+"""Most recordings begin between two times: so many events are left out without a word."""
 MAX_SIDE = 2048
 """Coordinates have 11 bits."""
 INTEGRATOR = "Prophesee"
@@ -75,6 +96,10 @@ class EvtReader(BlockReader):
     """Places of the fields of a trigger."""
     coding: ClassVar[str]
     """Module of the compiled loops; importing it brings Numba."""
+    has_zeros: ClassVar[bool] = True
+    """Whether a word of zeros is no event."""
+    unknown: ClassVar[tuple[int, ...]] = (2, 3, 4, 5, 6, 7, 9, 11, 12, 13)
+    """Types of words that the format does not have."""
 
     def recognises(self, path: Path) -> bool:
         """True if the header names this format."""
@@ -107,10 +132,11 @@ class EvtReader(BlockReader):
 
     def _read_triggers(self, path: Path) -> Iterator[Columns]:
         header = _read_header(path)
-        blocks = read_records(path, header.length, self.word_bytes)
-        return read_triggers(
-            (self.in_order(header, words) for words in blocks), self.trigger_coding
-        )
+        return read_triggers(self._read_words(path, header), self.trigger_coding)
+
+    def _read_words(self, path: Path, header: TextHeader) -> Iterator[Words]:
+        for words in read_records(path, header.length, self.word_bytes, has_zeros=self.has_zeros):
+            yield self.in_order(header, words)
 
     def in_order(self, header: TextHeader, words: bytes) -> Words:
         """The words of a file with this header, as the decoder takes them."""
@@ -119,8 +145,28 @@ class EvtReader(BlockReader):
 
     def _read_blocks(self, path: Path, header: TextHeader) -> Iterator[Columns]:
         decoder = self.make_decoder()
-        for words in read_records(path, header.length, self.word_bytes):
-            yield decoder.decode(self.in_order(header, words))
+        coding = self.trigger_coding
+        zeros = unknown = 0
+        for words in self._read_words(path, header):
+            zeros += len(zero_sectors(bytes(words)))
+            sample = np.frombuffer(words, coding.word)[::SAMPLE]
+            unknown += int(np.isin(field_of(sample, coding.kind), self.unknown).sum())
+            yield decoder.decode(words)
+        if zeros:
+            warn(
+                f"{path} holds {zeros * SECTOR_BYTES:,} bytes of zeros instead of words; a part of "
+                "it was lost"
+            )
+        if unknown:
+            warn(
+                f"{path} holds {unknown:,} words of types that {self.title} does not have, among "
+                f"every {SAMPLE}th; it may be damaged"
+            )
+        if decoder.left_out > max(FEW_EVENTS, FEW_SHARE * decoder.count):
+            warn(
+                f"{path}: left out {decoder.left_out:,} of {decoder.count:,} events, before which "
+                "there is no time or row"
+            )
 
 
 def _read_header(path: Path) -> TextHeader:
@@ -142,6 +188,7 @@ class Evt2Codec(EvtReader):
     name: ClassVar[str] = "evt2"
     title: ClassVar[str] = "EVT2"
     word_bytes: ClassVar[int] = 4
+    has_zeros: ClassVar[bool] = False
     trigger_coding: ClassVar[TriggerCoding] = EVT2
     coding: ClassVar[str] = "evt2_coding"
 
@@ -182,6 +229,7 @@ class Evt3Codec(EvtReader, BlockCodec):
     name: ClassVar[str] = "evt3"
     title: ClassVar[str] = "EVT3"
     word_bytes: ClassVar[int] = 2
+    unknown: ClassVar[tuple[int, ...]] = (9, 11, 12, 13)
     trigger_coding: ClassVar[TriggerCoding] = EVT3
     coding: ClassVar[str] = "evt3_coding"
     limits: ClassVar[FormatLimits] = FormatLimits("EVT3", MAX_SIDE, 1 << 42)

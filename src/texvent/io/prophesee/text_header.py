@@ -40,7 +40,8 @@ CHIPS: Mapping[str, tuple[int, int]] = {
 }
 """Chip in the name of a plug-in or sensor, or generation of the sensor → its size."""
 METADATA = "texvent"
-_CONTROL = re.compile(rb"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+CONTROL = re.compile(rb"[\x00-\x08\x0b\x0c\x0e-\x1f]")
+"""Bytes that no line of a header has."""
 
 
 @dataclass(frozen=True)
@@ -117,7 +118,7 @@ def read_text_header(file: BinaryIO, path: Path) -> TextHeader:
         if line == b"%":
             raise FileFormatError(f"{path} ends inside its header; the file was cut off")
         # Without `% end` the data may begin with the same two bytes by chance.
-        if not line.startswith(b"% ") or _CONTROL.search(line[:64]):
+        if not line.startswith(b"% ") or CONTROL.search(line[:64]):
             file.seek(start)
             return TextHeader(fields, start, False)
         if start + len(line) > MAX_HEADER_BYTES:

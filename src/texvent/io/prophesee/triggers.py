@@ -54,33 +54,34 @@ def read_triggers(blocks: Iterable[Words], coding: TriggerCoding) -> Iterator[Co
     turns, high, low = 0, -1, 0
     for block in blocks:
         words = np.frombuffer(block, coding.word)
-        kinds = _field(words, coding.kind)
+        kinds = field_of(words, coding.kind)
         chosen = np.isin(kinds, (TIME_LOW, TIME_HIGH, TRIGGER))
         words, kinds = words[chosen], kinds[chosen]
-        highs = np.where(kinds == TIME_HIGH, _field(words, coding.high), -1)
+        highs = np.where(kinds == TIME_HIGH, field_of(words, coding.high), -1)
         highs = _forward(highs, high)
         before = np.concatenate([[high], highs[:-1]])
         wraps = (before - highs) >= 1 << (coding.high[1] - 1)
         turn = turns + np.cumsum(wraps)
         if coding.low is None:
             # A new high time means its first µs until its low bits follow.
-            lows = np.where(kinds == TIME_LOW, _field(words, coding.high), -1)
+            lows = np.where(kinds == TIME_LOW, field_of(words, coding.high), -1)
             lows = np.where((kinds == TIME_HIGH) & (highs != before), 0, lows)
             lows = _forward(lows, low)
         else:
-            lows = _field(words, coding.low)
+            lows = field_of(words, coding.low)
         here = (kinds == TRIGGER) & (highs >= 0)
         time = (turn << coding.high[1] | highs) << coding.low_bits | lows
         yield {
             "t": time[here],
-            "channel": _field(words, coding.channel)[here],
-            "value": _field(words, coding.value)[here],
+            "channel": field_of(words, coding.channel)[here],
+            "value": field_of(words, coding.value)[here],
         }
         if len(words):
             turns, high, low = int(turn[-1]), int(highs[-1]), int(lows[-1])
 
 
-def _field(words: NDArray[np.unsignedinteger], place: tuple[int, int]) -> Fields:
+def field_of(words: NDArray[np.unsignedinteger], place: tuple[int, int]) -> Fields:
+    """A field of words by its place: lowest bit, number of bits."""
     shift, bits = place
     return (words >> words.dtype.type(shift)).astype(np.int64) & ((1 << bits) - 1)
 

@@ -1,8 +1,9 @@
 """ROS bags: ROS 1 (.bag) and ROS 2 (.mcap, .db3, folders of them).
 
-Read are messages of dvs_msgs/EventArray, prophesee_event_msgs/EventArray, and
-event_camera_msgs/EventPacket encoded as evt3, mono or libcaer, on the one topic that has them, or
-the one that is chosen; messages without events say the size too.
+Read are EventArray of dvs_msgs, prophesee_event_msgs and dv_ros_msgs, and EventPacket of
+event_camera_msgs (EventArray of event_array_msgs) encoded as evt3, mono, libcaer or libcaer_cmp, on
+the one topic that has them, or the one that is chosen. Messages without events say the size too;
+one that says 0x0 says none.
 
 Written are rosbag1 with dvs_msgs/EventArray and MCAP with EventPacket of EVT3 words, on
 `/dvs/events`, one message per 10 ms; and on `/texvent` one std_msgs/String with size and metadata
@@ -15,21 +16,32 @@ Needs rosbags: the extra `bags`. A bag whose recorder crashed has no index and i
 
 from __future__ import annotations
 
+import itertools
 import struct
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
+from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
 from texvent._require import require
 from texvent.errors import FileFormatError, InputError, MissingDependencyError, one_line
+from texvent.io.aedat.aedat4_container import unpack_zstd
 from texvent.io.block_codec import BlockCodec, BlockReader, FileContents
 from texvent.io.block_writer import Columns, FileTarget, FormatLimits, WriteBlock
 from texvent.io.input_checks import begins_with
 from texvent.io.metadata import parse_sidecar, sidecar_text
 from texvent.io.prophesee.evt import Evt3Codec
 from texvent.io.reading import ReadOptions, choose
+from texvent.io.ros.bag_bounds import (
+    FOLDER_FACTS,
+    MCAP_MAGIC,
+    SQLITE_MAGIC,
+    bound_chunks,
+    bounded_bag,
+    check_total,
+)
 from texvent.io.ros.bag_writer import (
     EXTRA,
     FACTS_TOPIC,
@@ -41,17 +53,18 @@ from texvent.io.ros.bag_writer import (
 )
 from texvent.io.ros.messages import (
     EVENT_MESSAGES,
-    bound_chunks,
+    RawMessage,
     open_message,
     unpack_libcaer,
+    unpack_libcaer_cmp,
     unpack_mono,
     unpack_records,
 )
+from texvent.sensor import SensorSize
 
 TOPIC = "/dvs/events"
 ROSBAG1_MAGIC = b"#ROSBAG V"
-ROSBAG2_MAGICS = (b"\x89MCAP", b"SQLite format 3")
-FOLDER_FACTS = "metadata.yaml"
+ROSBAG2_MAGICS = (MCAP_MAGIC, SQLITE_MAGIC)
 TEXT_START = {1: 4, 2: 8}
 """Version of ROS → bytes before the text in a std_msgs/String."""
 
@@ -65,14 +78,15 @@ class BagReader(BlockReader):
         """Size and metadata from the message of texvent, else the size of the first events."""
         size: tuple[int, int] | None = None
         metadata: dict[str, Any] = {}
-        with _open_bag(path) as (bag, version):
-            facts = _first_message(bag, [one for one in bag.connections if _is_facts(one)])
-            if facts is not None:
-                text = facts[TEXT_START[version] :].rstrip(b"\0")
+        with _open_bag(path) as bag:
+            connections = bag.reader.connections
+            facts = bag.messages([one for one in connections if _is_facts(one)])
+            for _, data in itertools.islice(facts, 1):
+                text = data[TEXT_START[bag.version] :].rstrip(b"\0")
                 size, metadata = parse_sidecar(path, text)
-            topics = _event_topics(bag)
+            topics = _event_topics(connections)
             if not topics:
-                kinds = sorted({one.msgtype for one in bag.connections})
+                kinds = sorted({one.msgtype for one in connections})
                 raise FileFormatError(
                     f"{path} holds no messages of events ({', '.join(EVENT_MESSAGES)}); it has "
                     f"{', '.join(kinds) or 'none'}"
@@ -80,11 +94,8 @@ class BagReader(BlockReader):
             names = list(topics)
             chosen = names[choose(path, names, options.stream)]
             if size is None:
-                kind = topics[chosen][0].msgtype
-                data = _first_message(bag, topics[chosen])
-                if data is None:
-                    raise FileFormatError(f"{path}: {chosen} has no message")
-                size = open_message(kind, data, version).size
+                sizes = [one.size for one in itertools.islice(_sized(bag, topics[chosen]), 1)]
+                size = sizes[0] if sizes else None
         return FileContents(size, metadata, partial(_read_blocks, path, chosen))
 
 
@@ -92,10 +103,10 @@ def _is_facts(connection: Any) -> bool:
     return bool(connection.msgtype == STRING and connection.topic == FACTS_TOPIC)
 
 
-def _event_topics(bag: Any) -> dict[str, list[Any]]:
+def _event_topics(connections: Iterable[Any]) -> dict[str, list[Any]]:
     """Topics with messages of events → their connections."""
     topics: dict[str, list[Any]] = {}
-    for one in bag.connections:
+    for one in connections:
         if one.msgtype in EVENT_MESSAGES:
             topics.setdefault(one.topic, []).append(one)
     return topics
@@ -168,11 +179,35 @@ class McapCodec(BagCodec):
         return any(begins_with(path, magic) for magic in ROSBAG2_MAGICS)
 
 
+def _opened(bag: _Bag, connections: list[Any]) -> Iterator[RawMessage]:
+    for connection, data in bag.messages(connections):
+        yield open_message(connection.msgtype, data, bag.version)
+
+
+def _sized(bag: _Bag, connections: list[Any]) -> Iterator[RawMessage]:
+    """Messages that say the size of the sensor.
+
+    Raises:
+        FileFormatError: there is no message at all.
+    """
+    messages = _opened(bag, connections)
+    first = next(messages, None)
+    if first is None:
+        raise FileFormatError(f"{bag.path}: {connections[0].topic} has no message")
+    return (one for one in itertools.chain([first], messages) if any(one.size))
+
+
 def _read_blocks(path: Path, topic: str) -> Iterator[Columns]:
     decoder = None
-    with _open_bag(path) as (bag, version):
-        for connection, _, data in bag.messages(_event_topics(bag)[topic]):
-            message = open_message(connection.msgtype, data, version)
+    with _open_bag(path) as bag:
+        size: SensorSize | None = None
+        for message in _opened(bag, _event_topics(bag.reader.connections)[topic]):
+            if any(message.size):
+                size = size or message.size
+                if message.size != size:
+                    raise FileFormatError(
+                        f"{path}: the sensor of {topic} changes from {size} to {message.size}"
+                    )
             if message.encoding == "evt3":
                 decoder = decoder or Evt3Codec().make_decoder()
                 yield decoder.decode(message.payload)
@@ -185,24 +220,52 @@ UNPACK = {
     "records-2": unpack_records,
     "mono": unpack_mono,
     "libcaer": unpack_libcaer,
+    "libcaer_cmp": unpack_libcaer_cmp,
 }
 
 
+@dataclass(frozen=True)
+class _Bag:
+    """An open bag."""
+
+    path: Path
+    reader: Any
+    version: int
+    """Of ROS."""
+    is_packed: bool = False
+    """Whether each message is a Zstandard frame."""
+
+    def messages(self, connections: list[Any]) -> Iterator[tuple[Any, bytes]]:
+        """The messages of some connections, by the time at which they were recorded."""
+        for connection, _, data in self.reader.messages(connections) if connections else ():
+            yield connection, unpack_zstd(data) if self.is_packed else data
+
+
 @contextmanager
-def _open_bag(path: Path) -> Iterator[tuple[Any, int]]:
-    """A reader and the version of ROS; what a damaged bag makes it raise is a FileFormatError."""
+def _open_bag(path: Path) -> Iterator[_Bag]:
+    """An open bag; what a damaged one makes rosbags raise is a FileFormatError."""
     version = 1 if path.is_file() and begins_with(path, ROSBAG1_MAGIC) else 2
     package = require(ROSBAG1 if version == 1 else ROSBAG2, extra=EXTRA)
+    damage: tuple[type[Exception], ...] = (package.ReaderError, *_DAMAGE)
     try:
-        with package.Reader(path) as bag:
-            if version == 1:
-                bound_chunks(bag)
-            yield bag, version
+        if version == 1:
+            with package.Reader(path) as reader:
+                bound_chunks(reader)
+                yield _Bag(path, reader, version)
+            return
+        damage = (*damage, require("apsw", extra=EXTRA).Error)
+        with bounded_bag(path, EXTRA) as (bounded, is_packed), package.Reader(bounded) as reader:
+            check_total(reader)
+            if is_packed:
+                # rosbags would unpack messages without a bound.
+                facts = reader.storage.metadata._replace(compression_mode=None)
+                reader.storage.metadata = facts
+            yield _Bag(path, reader, version, is_packed)
     except (InputError, MissingDependencyError) as error:
         if str(path) in str(error) or isinstance(error, MissingDependencyError):
             raise
         raise FileFormatError(f"{path}: {error}") from error
-    except (package.ReaderError, *_DAMAGE) as error:
+    except damage as error:
         raise FileFormatError(f"{path} is damaged or not a bag ({one_line(error)})") from error
 
 
@@ -220,11 +283,3 @@ _DAMAGE = (
     struct.error,
 )
 """rosbags raises any of these on a damaged bag."""
-
-
-def _first_message(bag: Any, connections: list[Any]) -> bytes | None:
-    """The first message of some connections, or None."""
-    for _, _, data in bag.messages(connections) if connections else ():
-        message: bytes = data
-        return message
-    return None

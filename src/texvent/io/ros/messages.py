@@ -1,12 +1,19 @@
 """The ROS messages that hold events, packed and unpacked as whole arrays.
 
-    dvs_msgs/EventArray, prophesee_event_msgs/EventArray: header · u32 height · u32 width · u32 n ·
-        n records: u16 x · u16 y · u32 s · u32 ns · bool polarity
-    event_camera_msgs/EventPacket: header · u32 height · u32 width · u64 seq · u64 time_base ·
-        string encoding · bool is_bigendian · bytes
+    EventArray of dvs_msgs, prophesee_event_msgs and dv_ros_msgs: header · u32 height · u32 width ·
+        u32 n · n records: u16 x · u16 y · u32 s · u32 ns · bool polarity
+    event_camera_msgs/EventPacket and event_array_msgs/EventArray: header · u32 height · u32 width ·
+        u64 seq · u64 time_base · string encoding · bool is_bigendian · bytes
     encodings   evt3: words, whose clock counts ·
                 mono: u64 p<<63 | y<<48 | x<<32 | ns after the base ·
-                libcaer: u32 x<<17 | y<<2 | p<<1, i32 µs after the base
+                libcaer: u32 x<<17 | y<<2 | p<<1, i32 µs after the base ·
+                libcaer_cmp: u16 words, each a change: 15..12 type, 11..0 value
+
+     0 TIME_HIGH    bits 23..12 of the µs after the base · 1 TIME_LOW  bits 11..0
+     2 ADDR_X       column of the events that follow, bits 10..0
+     3 ADDR_Y       one event: polarity bit 11, row bits 10..0
+     4 VECT_BASE_Y  polarity and row of the next vector word
+     5 VECT_8       bit i set: an event at row + i; then row += 8
 
 In ROS 1 fields follow one another, and the header begins with a number; in ROS 2 (CDR) each is
 aligned to its size, so that records take 16 bytes, the first two fewer. Generic (de)serialisers
@@ -18,23 +25,21 @@ event_camera_codecs; OMG, DDS-XTypes (CDR).
 
 from __future__ import annotations
 
-import bz2
 import struct
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
-import lz4.frame
 import numpy as np
 from numpy.typing import NDArray
 
 from texvent.errors import FileFormatError, shown
 from texvent.io.block_writer import Columns
+from texvent.io.clocks import TurningClock
 from texvent.sensor import SensorSize
 
 EVENT_ARRAY = "dvs_msgs/msg/EventArray"
 PROPHESEE_ARRAY = "prophesee_event_msgs/msg/EventArray"
+DV_ARRAY = "dv_ros_msgs/msg/EventArray"
 EVENT_ARRAY_TEXT = """std_msgs/Header header
 uint32 height
 uint32 width
@@ -55,9 +60,12 @@ string encoding
 bool is_bigendian
 uint8[] events
 """
-EVENT_MESSAGES = (EVENT_ARRAY, PROPHESEE_ARRAY, EVENT_PACKET)
+OLD_PACKET = "event_array_msgs/msg/EventArray"
+"""Of the same fields as EventPacket, which it was called before."""
+PACKETS = (EVENT_PACKET, OLD_PACKET)
+EVENT_MESSAGES = (EVENT_ARRAY, PROPHESEE_ARRAY, DV_ARRAY, *PACKETS)
 """Types of messages that hold events."""
-ENCODINGS = {"evt3": 2, "mono": 8, "libcaer": 8}
+ENCODINGS = {"evt3": 2, "mono": 8, "libcaer": 8, "libcaer_cmp": 2}
 """Encoding of a packet → bytes of a word."""
 FRAME = "dvs"
 """Coordinate frame in the messages' headers."""
@@ -76,7 +84,7 @@ _RECORD_2 = np.dtype(
 )
 """A record of ROS 2 that begins two bytes after a multiple of four, as all but the first."""
 TIME_BITS = 31
-"""Of libcaer's clock, which turns within a message at most once."""
+"""Of libcaer's clock, whose turns before a message are in its base."""
 _RECORD = np.dtype([("x", "<u2"), ("y", "<u2"), ("s", "<u4"), ("ns", "<u4"), ("p", "u1")])
 
 
@@ -172,18 +180,23 @@ def open_message(kind: str, data: bytes, version: int) -> RawMessage:
         fields = _Fields(data, version)
         fields.header()
         height, width = fields.number("I"), fields.number("I")
-        if kind != EVENT_PACKET:
+        if kind not in PACKETS:
             return _open_records(fields, SensorSize(width, height), version)
         fields.number("Q")
         time_base_ns = fields.number("Q")
         encoding = fields.text().decode("latin-1")
-        fields.number("B")
+        is_big_endian = fields.number("B")
         count = fields.number("I")
     except struct.error as error:
         raise FileFormatError("a message of events is cut off") from error
     if encoding not in ENCODINGS:
         allowed = ", ".join(ENCODINGS)
-        raise FileFormatError(f"a message is encoded as {shown(encoding)}; texvent reads {allowed}")
+        what = ", which holds external signals and no events" if encoding == "trigger" else ""
+        raise FileFormatError(
+            f"a message is encoded as {shown(encoding)}{what}; texvent reads {allowed}"
+        )
+    if is_big_endian:
+        raise FileFormatError("the events of a message are big-endian; texvent reads little-endian")
     payload = fields.body[fields.place : fields.place + count]
     if len(payload) != count or count % ENCODINGS[encoding]:
         raise FileFormatError(f"a message states {count} bytes of events; it is damaged")
@@ -226,12 +239,49 @@ def unpack_mono(message: RawMessage) -> dict[str, NDArray[Any]]:
 def unpack_libcaer(message: RawMessage) -> dict[str, NDArray[Any]]:
     """Columns x, y, t, p of a packet of libcaer's events."""
     words = np.frombuffer(message.payload, [("place", "<u4"), ("t", "<i4")])
-    stored = words["t"].astype(np.int64)
-    turns = np.concatenate([[0], np.cumsum(np.diff(stored) < 0)])[: len(stored)]
-    t = message.time_base_ns // NS + stored + (turns << TIME_BITS)
+    t = message.time_base_ns // NS + TurningClock(TIME_BITS).unroll(words["t"])
     place = words["place"]
     x, y = (place >> 17 & 0x7FFF).astype(np.uint16), (place >> 2 & 0x7FFF).astype(np.uint16)
     return {"x": x, "y": y, "t": t, "p": (place >> 1 & 1).astype(np.uint8)}
+
+
+TIME_HIGH, TIME_LOW, ADDR_X, ADDR_Y, VECT_BASE_Y, VECT_8 = range(6)
+
+
+def unpack_libcaer_cmp(message: RawMessage) -> dict[str, NDArray[Any]]:
+    """Columns x, y, t, p of a packet of libcaer_cmp's words; each packet begins anew.
+
+    Raises:
+        FileFormatError: a word of another type.
+    """
+    words = np.frombuffer(message.payload, "<u2").astype(np.int64)
+    kinds, values = words >> 12, words & 0xFFF
+    if (kinds > VECT_8).any():
+        raise FileFormatError(f"a message has a word of type {int(kinds.max())} (libcaer_cmp)")
+    bits = (values[:, None] >> np.arange(8) & 1) * (kinds == VECT_8)[:, None]
+    bits[:, 0] |= kinds == ADDR_Y
+    at, row = np.nonzero(bits)
+    column, base, high, low = (
+        _latest(values, kinds == kind, at) for kind in (ADDR_X, VECT_BASE_Y, TIME_HIGH, TIME_LOW)
+    )
+    vectors = np.cumsum(kinds == VECT_8)
+    row += 8 * (vectors[at] - 1 - _latest(vectors, kinds == VECT_BASE_Y, at))
+    is_single = kinds[at] == ADDR_Y
+    place = np.where(is_single, values[at], base)
+    return {
+        "x": column & 0x7FF,
+        "y": (place & 0x7FF) + np.where(is_single, 0, row),
+        "t": message.time_base_ns // NS + (high << 12 | low),
+        "p": place >> 11,
+    }
+
+
+def _latest(
+    values: NDArray[np.int64], is_source: NDArray[np.bool_], at: NDArray[np.intp]
+) -> NDArray[np.int64]:
+    """The values at the last sources up to each place, 0 before the first."""
+    places = np.maximum.accumulate(np.where(is_source, np.arange(len(values)), -1))[at]
+    return np.where(places >= 0, values[places], 0)
 
 
 def pack_event_packet(packet: EventPacket) -> bytes:
@@ -249,30 +299,3 @@ def pack_event_packet(packet: EventPacket) -> bytes:
 def _text(text: bytes) -> bytes:
     """A CDR string: its length, the text, a zero byte."""
     return struct.pack("<I", len(text) + 1) + text + b"\0"
-
-
-MAX_CHUNK_BYTES = 256 * 2**20
-"""ROS writes chunks of less than a megabyte."""
-
-
-def bound_chunks(bag: Any) -> None:
-    """Let rosbags' reader of an open ROS 1 bag unpack no chunk beyond `MAX_CHUNK_BYTES`."""
-    bounded = {
-        bz2.decompress: bz2.BZ2Decompressor,
-        lz4.frame.decompress: lz4.frame.LZ4FrameDecompressor,
-    }
-    for position, chunk in bag.chunks.items():
-        make = bounded.get(chunk.decompressor)
-        if make is not None:
-            bag.chunks[position] = chunk._replace(decompressor=partial(_unpack, make))
-
-
-def _unpack(make: Callable[[], Any], data: bytes) -> bytes:
-    decompressor = make()
-    unpacked: bytes = decompressor.decompress(data, max_length=MAX_CHUNK_BYTES)
-    if not decompressor.eof:
-        raise FileFormatError(
-            f"a chunk ends early or unpacks to more than {MAX_CHUNK_BYTES} bytes; the bag is "
-            "damaged, or made to fill the memory"
-        )
-    return unpacked

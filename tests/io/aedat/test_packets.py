@@ -1,0 +1,70 @@
+"""Packets of AEDAT3.1 and AEDAT4 that are not as they seem."""
+
+from __future__ import annotations
+
+import struct
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from texvent.errors import FileFormatError
+from texvent.io.aedat.aedat4_tables import Table
+from texvent.io.files import load
+
+
+@pytest.mark.parametrize(
+    ("line", "sources", "message"),
+    [
+        (b"#Format: SerializedTS\r\n", (1,), "format 'SerializedTS', not RAW"),
+        (b"", (1, 2), r"events of several cameras \(sources \[1, 2\]\)"),
+    ],
+)
+def test_aedat3_of_two_cameras_or_packed_is_refused(
+    tmp_path: Path, line: bytes, sources: tuple[int, ...], message: str
+) -> None:
+    path = tmp_path / "e.aedat"
+    heads = [struct.pack("<hhiiiiii", 1, source, 8, 4, 0, 1, 1, 1) for source in sources]
+    header = b"#!AER-DAT3.1\r\n" + line + b"#Size: 9x9\r\n#!END-HEADER\r\n"
+    path.write_bytes(header + b"".join(head + struct.pack("<II", 1, 5) for head in heads))
+    with pytest.raises(FileFormatError, match=message):
+        load(path)
+
+
+def packet(count: int, *, is_same: bool = False) -> bytes:
+    """A list of tables of a time (i8) and a type (i1) each, by hand; the type of every third is
+    left out."""
+    full, short = struct.pack("<4H", 8, 13, 4, 12), struct.pack("<3H", 6, 12, 4)
+    head = struct.pack("<II4s3HHiII", 0, 16, b"TRIG", 6, 8, 4, 0, 8, 4, count)
+    start = len(head) + 4 * count
+    tables, offsets = full + short + bytes(2), b""
+    for number in range(count):
+        place = start + len(tables)
+        vtable = start + (0 if number % 3 else len(full))
+        at = start + 16 if is_same else place
+        offsets += struct.pack("<I", at - len(head) - 4 * number)
+        tables += struct.pack("<iqb3x", place - vtable, 1000 * number, number % 5)
+    data = head + offsets + tables
+    return struct.pack("<I", len(data) - 4) + data[4:]
+
+
+@pytest.mark.parametrize("part", [2, 1 << 16])
+def test_lists_of_tables_are_read_a_part_at_a_time(
+    monkeypatch: pytest.MonkeyPatch, part: int
+) -> None:
+    monkeypatch.setattr("texvent.io.aedat.aedat4_tables.PART_TABLES", part)
+    found = list(Table.root(packet(7), b"TRIG").columns(0, ["<i8", "<i1"]))
+    assert np.concatenate([one[0] for one in found]).tolist() == [1000 * at for at in range(7)]
+    assert np.concatenate([one[1] for one in found]).tolist() == [0, 1, 2, 0, 4, 0, 0]
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        (packet(5, is_same=True), "the same table twice"),
+        (packet(5)[:36] + bytes(200), "what is no table"),
+    ],
+)
+def test_a_list_that_grows_from_nothing_is_refused(data: bytes, message: str) -> None:
+    with pytest.raises(FileFormatError, match=message):
+        list(Table.root(struct.pack("<I", len(data) - 4) + data[4:], b"TRIG").columns(0, ["<i8"]))

@@ -1,0 +1,91 @@
+"""Clocks of limited width go on where they turn, in every format that has one."""
+
+from __future__ import annotations
+
+import struct
+from collections.abc import Callable
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from texvent.errors import FileFormatError
+from texvent.io.clocks import TurningClock
+from texvent.io.files import load
+
+
+@given(
+    bits=st.sampled_from([23, 31, 32]),
+    start=st.integers(0, 2**33),
+    steps=st.lists(st.integers(-50, 2**18), min_size=1, max_size=60),
+    cut=st.integers(0, 60),
+)
+def test_times_go_on_through_turns_whatever_the_blocks(
+    bits: int, start: int, steps: list[int], cut: int
+) -> None:
+    times = start + np.cumsum(steps)
+    stored = times % (1 << bits)
+    clock = TurningClock(bits)
+    found = np.concatenate([clock.unroll(stored[:cut]), clock.unroll(stored[cut:])])
+    assert (np.diff(found) == np.diff(times)).all()
+    assert found[0] == stored[0] or steps[0] < 0
+
+
+def aedat2(times: NDArray[np.int64]) -> tuple[str, bytes]:
+    records = np.zeros((len(times), 2), ">u4")
+    records[:, 0], records[:, 1] = 5 << 8, times
+    return "e.aedat", b"#!AER-DAT2.0\r\n# AEChip: DVS128\r\n" + records.tobytes()
+
+
+def aedat1(times: NDArray[np.int64]) -> tuple[str, bytes]:
+    records = np.zeros(len(times), [("place", ">u2"), ("t", ">u4")])
+    records["place"], records["t"] = 5 << 8, times
+    return "e.aedat", b"#!AER-DAT1.0\r\n# AEChip: DVS128\r\n" + records.tobytes()
+
+
+def dat(times: NDArray[np.int64]) -> tuple[str, bytes]:
+    records = np.full((len(times), 2), 5, "<u4")
+    records[:, 0] = times
+    return "e.dat", b"% Height 128\n% Version 2\n% Width 128\n\x0c\x08" + records.tobytes()
+
+
+def aedat3(times: NDArray[np.int64]) -> tuple[str, bytes]:
+    """By a program that does not count the turns."""
+    head = struct.pack("<2h6i", 1, 1, 8, 4, 0, len(times), len(times), len(times))
+    events = b"".join(struct.pack("<2I", 5 << 17 | 5 << 2 | 1, t) for t in times.tolist())
+    return "e.aedat", b"#!AER-DAT3.1\r\n#Size: 128x128\r\n#!END-HEADER\r\n" + head + events
+
+
+def atis(times: NDArray[np.int64]) -> tuple[str, bytes]:
+    rows = [bytes([5, 5]) + int(t).to_bytes(3, "big") for t in times]
+    return "e.bin", b"".join(rows)
+
+
+@pytest.mark.parametrize(
+    ("write", "bits"),
+    [
+        *((aedat2, 32), (aedat2, 31), (aedat1, 32), (aedat3, 31)),
+        *((dat, 32), (dat, 31), (atis, 23)),
+    ],
+)
+def test_no_repair_is_needed_where_a_clock_turns(
+    tmp_path: Path, write: Callable[[NDArray[np.int64]], tuple[str, bytes]], bits: int
+) -> None:
+    times = (1 << bits) - 500_000 + 1000 * np.arange(1000)
+    name, content = write(times % (1 << bits))
+    (tmp_path / name).write_bytes(content)
+    assert load(tmp_path / name, size=(128, 128)).t.tolist() == times.tolist()
+
+
+def test_a_fall_that_is_no_turn_is_a_reset(tmp_path: Path) -> None:
+    after = 10**6 + 1000 * np.arange(500)
+    name, content = dat(np.concatenate([3 * 10**9 + after, after]))
+    path = tmp_path / name
+    path.write_bytes(content)
+    with pytest.raises(FileFormatError, match=r"time decreases after event 499 \(3001499000"):
+        load(path)
+    with pytest.warns(UserWarning, match="clock resets: 1"):
+        assert len(load(path, repair=True)) == 1000
