@@ -24,6 +24,7 @@ from pathlib import Path
 from typing import Any, Self
 
 from texvent.errors import OutputError, shown
+from texvent.runtime.file_locks import hold_lock, is_locked, release
 from texvent.runtime.file_names import IMAGE_EXTENSIONS, VIDEO_EXTENSIONS
 
 DISK_FULL = (errno.ENOSPC, errno.EDQUOT)
@@ -291,10 +292,10 @@ def hidden_file(folder: Path, suffix: str) -> Iterator[Path]:
     part = _new_part(folder, f".part{suffix}")
     lock = None
     try:
-        lock = _lock(os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666))
+        lock = hold_lock(os.open(part, os.O_CREAT | os.O_EXCL | os.O_RDWR, 0o666))
         yield part
     finally:
-        _unlock(lock)
+        release(lock)
         with contextlib.suppress(PermissionError):  # still open, on Windows
             part.unlink(missing_ok=True)
         _own.discard(part)
@@ -313,47 +314,12 @@ def hidden_folder(folder: Path, suffix: str = ".part") -> Iterator[Path]:
     try:
         part.mkdir()
         if CAN_SWEEP:
-            lock = _lock(os.open(part, os.O_RDONLY))
+            lock = hold_lock(os.open(part, os.O_RDONLY))
         yield part
     finally:
-        _unlock(lock)
+        release(lock)
         shutil.rmtree(part, ignore_errors=True)
         _own.discard(part)
-
-
-def _lock(descriptor: int) -> int | None:
-    """Hold a lock on a part until the process ends: another one may see no process of its number.
-
-    Returns:
-        The descriptor; None where the system or the file system knows no locks.
-    """
-    try:
-        import fcntl
-
-        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
-    except (ImportError, OSError):
-        os.close(descriptor)
-        return None
-    return descriptor
-
-
-def _unlock(descriptor: int | None) -> None:
-    if descriptor is not None:
-        os.close(descriptor)
-
-
-def _is_locked(part: Path) -> bool:
-    """True if a process writes a part, wherever it runs."""
-    import fcntl
-
-    descriptor = os.open(part, os.O_RDONLY)
-    try:
-        fcntl.flock(descriptor, fcntl.LOCK_SH | fcntl.LOCK_NB)
-    except BlockingIOError:
-        return True
-    finally:
-        os.close(descriptor)
-    return False
 
 
 def _new_part(folder: Path, suffix: str) -> Path:
@@ -390,7 +356,7 @@ def sweep(folder: Path) -> None:
     with contextlib.suppress(OSError):
         for part in filter(is_hidden_part, folder.iterdir()):
             with contextlib.suppress(OSError):
-                if not part.is_symlink() and _is_dead(part) and not _is_locked(part):
+                if not part.is_symlink() and _is_dead(part) and not is_locked(part):
                     _remove(part)
 
 
