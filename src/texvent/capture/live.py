@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import contextlib
-import re
 import sys
 import time
 from collections.abc import Iterator
@@ -18,7 +17,7 @@ from av.video.stream import VideoStream
 from texvent.capture.frame_source import FrameSource, SourceFacts
 from texvent.capture.frame_times import FrameTimes
 from texvent.capture.video_file import coding_facts, decoded_pixels
-from texvent.errors import InputError
+from texvent.errors import InputError, is_address, without_password
 from texvent.runtime.interrupts import stop_on_interrupt
 from texvent.runtime.read_once import ReadOnce
 from texvent.sensor import checked_size
@@ -118,23 +117,13 @@ class LiveFrames(FrameSource):
             yield from self._container.decode(stream)
 
 
-def without_password(address: str) -> str:
-    """An address that can be shown and stored.
-
-    Example:
-        >>> without_password("rtsp://me:secret@camera/stream")
-        'rtsp://camera/stream'
-    """
-    return re.sub(r"(?<=://)[^/@]*@", "", address)
-
-
 def _open_live(address: str, name: str) -> InputContainer:
     try:
         if address == STANDARD_INPUT:
             return av.open(sys.stdin.buffer, mode="r", options=OPTIONS)
         if address.startswith("/dev/video"):
             return av.open(address, mode="r", format="v4l2", options=OPTIONS)
-        timeout = TIMEOUT_S if "://" in address else None
+        timeout = TIMEOUT_S if is_address(address) else None
         return av.open(address, mode="r", timeout=timeout, options=OPTIONS)
     except (FFmpegError, OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or str(error)
