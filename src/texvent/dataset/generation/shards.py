@@ -79,6 +79,8 @@ class ShardRecord:
     samples: tuple[SampleRecord, ...]
     seconds: float
     """Working time, s."""
+    inputs: Mapping[str, Any] = field(default_factory=dict)
+    """Path of a video or of its labels → its state; see `settings.provenance.describe_state`."""
     versions: Mapping[str, str] = field(default_factory=dict)
     """Package → version, of the process that made it."""
     layout: int = LAYOUT

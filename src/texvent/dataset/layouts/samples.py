@@ -68,7 +68,8 @@ class Samples:
         frames = None
         if self.recipe is not None:
             place_of = Shard(record.variant, record.split, int(record.name.rpartition("-")[2]))
-            frames = partial(clip_frames, self.recipe, self.dataset.folder, place_of, sample.clip)
+            folder = self.dataset.folder
+            frames = partial(clip_frames, self.recipe, folder, place_of, record, sample)
         return LayoutSample(
             key=sample.key,
             split=split,
