@@ -7,7 +7,7 @@ from typing import Any
 
 from texvent._registry import GENERATORS
 from texvent._version import full_version
-from texvent.errors import InputError, few, warn
+from texvent.errors import InputError, shown, warn
 from texvent.generate.protocol import renders_instants
 from texvent.generate.scene_input import stored_subject
 from texvent.scenes.assets.nouns import check_files, files_of
@@ -54,8 +54,8 @@ def render_again(metadata: Mapping[str, Any], *, with_files: bool = False) -> Fr
         files = files_of(subject, getattr(settings.source, "assets", None))
         if files and not with_files:
             warn(
-                f"the scene is not drawn beside the events: it shows {few(files)} of this machine, "
-                "as the event file says; --video files draws it if they are as they were"
+                f"the scene is not drawn beside the events: it shows {shown(files[0])} of this "
+                "machine, as the event file says; --video files draws it if they are as they were"
             )
             return None
         listed = facts.get("files") if isinstance(facts, Mapping) else None

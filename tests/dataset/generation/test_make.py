@@ -23,9 +23,11 @@ from texvent.dataset.generation.recipe import Recipe, load_recipe
 from texvent.dataset.generation.sample import simulate_sample
 from texvent.dataset.generation.shards import FAILED, FILTERED, MADE, read_members, read_record
 from texvent.dataset.reading.stored_dataset import StoredDataset
+from texvent.dataset.reading.stored_events import events_of, npy_column
 from texvent.dataset.specification.reading import specification_from
 from texvent.dataset.specification.specification import Filters
 from texvent.errors import ConfigError, FileFormatError, OutputError, TexventWarning
+from texvent.events import EventStream
 from texvent.generate.procedural import ProceduralVideo
 from texvent.pipeline import text_to_events
 from texvent.settings.resolution import resolve
@@ -285,6 +287,17 @@ def test_stored_videos_serve_every_variant(tmp_path: Path) -> None:
     assert esim.samples[0].clip == record.samples[0].key
     make(recipe_of(**few), tmp_path / "pool", ProcessEngine(2))
     assert digests(tmp_path / "pool") == digests(folder)
+
+
+@pytest.mark.parametrize("start_us", [-5, 0, 2**32 - 10, 2**40])
+@pytest.mark.parametrize("last_us", [20, 2**33])
+def test_events_keep_their_times_wherever_a_clip_begins(start_us: int, last_us: int) -> None:
+    times = [start_us, start_us + 7, start_us + last_us]
+    events = EventStream.from_columns([1, 2, 3], [0] * 3, times, [0, 1, 1], size=(8, 6))
+    clip = sample.SimulatedClip(events, start_us, last_us, 3)
+    members = sample.sample_members(clip, {}, class_number=None, preview=True)
+    columns = {name: npy_column(memoryview(members[f"{name}.npy"])) for name in "xytp"}
+    assert events_of(columns, events.size).t.tolist() == times
 
 
 def test_options_that_would_change_the_video_belong_to_all() -> None:
