@@ -36,7 +36,7 @@ from texvent.capture.frame_times import FrameTimes, listed_times
 from texvent.capture.image_folder import ImageFolder
 from texvent.errors import FileFormatError, one_line, shown
 from texvent.io.arrays.npy_file import StoredArray
-from texvent.io.yaml_text import load_yaml
+from texvent.runtime.yaml_text import load_yaml
 from texvent.sensor import SensorSize, checked_size
 from texvent.video import MICROSECONDS, Frame
 

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from texvent.errors import FileFormatError, InputError, one_line, shown
 from texvent.event_packets import EventPackets
 from texvent.events import EventStream
-from texvent.io.yaml_text import load_yaml
+from texvent.runtime.yaml_text import load_yaml
 from texvent.sensor import SensorSize
 from texvent.transform.packets import map_packets, move_events, note_edit
 

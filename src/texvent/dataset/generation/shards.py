@@ -200,12 +200,12 @@ def _check_kinds(record: type, tables: Mapping[str, Any], names: Sequence[str]) 
 @functools.cache
 def _kinds(record: type) -> dict[str, set[type]]:
     """Field → types that its value may have in JSON."""
-    of_json = {tuple: {list}, Mapping: {dict}, float: {int, float}}
+    of_json: dict[Any, set[type]] = {tuple: {list}, Mapping: {dict}, float: {int, float}}
     kinds: dict[str, set[type]] = {}
     for name, hint in typing.get_type_hints(record).items():
         parts = typing.get_args(hint) if type(hint) is types.UnionType else (hint,)
         origins = [typing.get_origin(one) or one for one in parts]
-        kinds[name] = set().union(*(of_json.get(one, {one}) for one in origins))
+        kinds[name] = {kind for one in origins for kind in of_json.get(one, {one})}
     return kinds
 
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from texvent.errors import InputError
-from texvent.io.yaml_text import load_yaml
+from texvent.runtime.yaml_text import load_yaml
 from texvent.settings.config_files import read_config
 from texvent.transform.undistort import read_calibration
 
