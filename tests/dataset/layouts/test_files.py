@@ -167,7 +167,7 @@ def test_coco_has_an_image_of_every_instant_with_events_behind_it(tmp_path: Path
         tmp_path / "train"
     ).mkdir() is None else None
     LAYOUTS["coco"].finish(
-        tmp_path, [sample, crossing(key="b", boxes=sample.boxes[:0])], ("car", "man")
+        tmp_path, [sample, crossing(key="b", boxes=sample.boxes[:0])], ("car", "man"), False
     )
     found = json.loads((tmp_path / "train/annotations.json").read_text())
     assert found["categories"][1] == {"id": 2, "name": "man", "supercategory": "object"}

@@ -17,6 +17,7 @@ from texvent.dataset.layouts.layout import Layout, LayoutSample
 from texvent.dataset.reading.stored_dataset import StoredDataset, StoredShard
 from texvent.dataset.reading.stored_events import read_events, sample_truth
 from texvent.errors import InputError, shown
+from texvent.runtime.file_names import MAX_NAME_BYTES
 from texvent.sensor import SensorSize
 from texvent.truth.boxes import BOX_RECORD
 
@@ -32,7 +33,7 @@ def folder_name(label: str) -> str:
         'fire_truck_red'
     """
     name = re.sub(r"[^\w.-]+", "_", label).strip("._")
-    if not name:
+    if not name or len(name.encode()) > MAX_NAME_BYTES:
         raise InputError(f"class {shown(label)} cannot name a folder; give it another name")
     return name
 
