@@ -60,8 +60,8 @@ class Clips:
         shards = sum(-(-count // specification.samples_per_shard) for count in self.counts.values())
         if shards > MOST_SHARDS:
             raise ConfigError(
-                f"{shards:,} shards are too many for a folder, at most {MOST_SHARDS:,}; set a larger "
-                "samples_per_shard"
+                f"{shards:,} shards are too many for a folder, which holds {MOST_SHARDS:,}; set a "
+                "larger samples_per_shard"
             )
         for split, share in specification.splits.items():
             if share > 0 and not self._items[split]:
